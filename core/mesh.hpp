@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace plica {
+
+using Point = Eigen::Vector3d;  ///< a point or vector of set-up geometry, always double [m]
+
+/// An axis-aligned box, both ends included.
+struct Box {
+  Point min = Point::Zero();
+  Point max = Point::Zero();
+};
+
+/// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver every tetrahedron
+/// with positive volume (vertex 3 on the side that (1-0)x(2-0) points to) and every vertex used.
+struct TetMesh {
+  std::vector<Point> vertices;            ///< [m]
+  std::vector<std::array<int, 4>> tets;   ///< vertex indices
+  std::vector<int> region;                ///< per tet an index into region_names; empty: one nameless region
+  std::vector<std::string> region_names;  ///< unique
+  std::map<std::string, std::vector<int>> vertex_sets;  ///< named vertices (surface, line and point groups), ascending
+};
+
+/// A triangulated surface, on the host.
+struct TriangleSurface {
+  std::vector<Point> vertices;                ///< [m]
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
+};
+
+/// Six times this is the determinant of the edges from vertex 0. [m^3]
+inline double tet_volume(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return (b - a).cross(c - a).dot(d - a) / 6.0;
+}
+
+/// The smallest box around the points; both ends zero when there is none.
+Box bounding_box(const std::vector<Point>& points);
+
+}  // namespace plica
