@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Kokkos_Core.hpp>
+
+#ifndef PLICA_VECTOR_BYTES
+#define PLICA_VECTOR_BYTES 8
+#endif
+
+namespace plica {
+
+/// Where and in which precision the device side runs: the one template parameter of everything that touches it.
+template <class RealType, class ExecType>
+struct Backend {
+  using Real = RealType;
+  using Exec = ExecType;
+  using Memory = typename Exec::memory_space;
+  static constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
+  /// Elements that one pass of a kernel takes at a time: a vector register's worth on a CPU, one on a GPU.
+  static constexpr int lanes = on_host && PLICA_VECTOR_BYTES > static_cast<int>(sizeof(Real))
+                                   ? PLICA_VECTOR_BYTES / static_cast<int>(sizeof(Real))
+                                   : 1;
+};
+
+/// The backends that are built. Tests and the program walk this list; a new one is one more line.
+#if defined(KOKKOS_ENABLE_SERIAL)
+#define PLICA_FOR_SERIAL(DO) DO(float, Kokkos::Serial) DO(double, Kokkos::Serial)
+#else
+#define PLICA_FOR_SERIAL(DO)
+#endif
+#if defined(KOKKOS_ENABLE_OPENMP)
+#define PLICA_FOR_OPENMP(DO) DO(float, Kokkos::OpenMP) DO(double, Kokkos::OpenMP)
+#else
+#define PLICA_FOR_OPENMP(DO)
+#endif
+#if defined(KOKKOS_ENABLE_CUDA)
+#define PLICA_FOR_CUDA(DO) DO(float, Kokkos::Cuda) DO(double, Kokkos::Cuda)
+#else
+#define PLICA_FOR_CUDA(DO)
+#endif
+#define PLICA_FOR_EACH_BACKEND(DO) PLICA_FOR_SERIAL(DO) PLICA_FOR_OPENMP(DO) PLICA_FOR_CUDA(DO)
+
+/// One value, or one vector, per vertex or point. Vectors lie interleaved (x y z) on every backend.
+template <class B>
+using Scalars = Kokkos::View<typename B::Real*, Kokkos::LayoutRight, typename B::Memory>;
+template <class B>
+using Vectors = Kokkos::View<typename B::Real* [3], Kokkos::LayoutRight, typename B::Memory>;
+template <class B>
+using Indices = Kokkos::View<int*, Kokkos::LayoutRight, typename B::Memory>;
+
+}  // namespace plica

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <plica/core/backend.hpp>
+#include <plica/core/problem.hpp>
+#include <string>
+#include <vector>
+
+namespace plica {
+
+/// A part that a scene may or may not need: in or out, why, and the device memory it takes.
+struct Part {
+  std::string name;
+  bool in = false;
+  std::string reason;
+  std::size_t bytes = 0;
+};
+
+/// What was decided for one level.
+struct LevelReport {
+  int vertices = 0;
+  int tets = 0;
+  double mean_edge = 0;      ///< [m]
+  double mass = 0;           ///< [kg]
+  double critical_step = 0;  ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
+  double element_bound = 0;  ///< the same from the worst single element: on the sure side, without contact [s]
+  double share = 0;          ///< of the macro step
+  int substeps = 0;
+  std::string integrator;
+  bool explicit_integrator = true;
+  int outside_down = 0;     ///< its vertices outside the next finer mesh
+  int outside_up = 0;       ///< the next finer level's vertices outside its mesh
+  double largest_miss = 0;  ///< their largest distance over the local edge length
+};
+
+/// Energies of level 0 [J]; potential: gravity's, zero at the start.
+struct Energies {
+  double kinetic = 0;
+  double elastic = 0;
+  double potential = 0;
+  double contact = 0;
+  double total() const { return kinetic + elastic + potential + contact; }
+};
+
+/// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
+struct Diagnosis {
+  std::string kind;  ///< non_finite | inverted | energy
+  int level = -1;
+  int element = -1;
+  int vertex = -1;
+  std::string region;
+  double J = 0;                      ///< volume ratio of the element
+  double substep_over_critical = 0;  ///< of that level
+  std::string remedy;
+  std::string text() const;  ///< one sentence with all of it
+};
+
+/// A deformable body, meshed at one or several resolutions, in motion. Not copyable; one object must not be used by two
+/// threads at a time. Kokkos must be initialised before and finalised after its life.
+template <class B>
+class Simulation {
+ public:
+  using Exec = typename B::Exec;
+
+  /// Sets everything up. Throws InputError with the values, the choices and the remedy.
+  explicit Simulation(const Problem& problem, const Exec& exec = {});
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// One macro step. Enqueues work; does not wait for it (implicit levels read their residuals on the way).
+  void step();
+
+  /// Why the run must stop, if it must: non-finite values, inverted elements where the material forbids them, more
+  /// energy than was put in. Waits for the enqueued work. Cheap enough to be called after every macro step.
+  std::optional<Diagnosis> diagnosis() const;
+
+  double time() const;                             ///< simulated [s]
+  double macro_step() const;                       ///< [s]
+  long macro_steps() const;                        ///< done
+  const std::vector<LevelReport>& levels() const;  ///< finest first; only those the cycle uses
+  std::vector<Part> parts() const;
+  Energies energies() const;  ///< waits
+  std::map<std::string, double> stages()
+      const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
+  std::map<std::string, long> counters()
+      const;                      ///< force evaluations, solver iterations, misses, switched vertices ...
+  double worst_residual() const;  ///< largest relative residual an implicit solve ended with
+
+  /// Level 0's (or another level's) fields as the device holds them, [vertices][3]: displacement from rest [m]
+  /// (including the initial placement) and velocity [m/s]. The views stay valid and are updated in place by step().
+  Vectors<B> displacement(int level = 0) const;
+  Vectors<B> velocity(int level = 0) const;
+
+  /// Host copies; they wait. Positions [m] of a level's vertices, or of the embedded surface's, in input order.
+  std::vector<Point> positions(int level = 0) const;
+  std::vector<Point> velocities(int level = 0) const;
+  std::vector<Point> surface_positions() const;
+  std::vector<Point> surface_velocities() const;
+
+  /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts it to the others.
+  void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
+
+  /// From now on measure the wall time of each stage (this waits between stages).
+  void time_stages(bool on);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace plica
