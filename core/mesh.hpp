@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <Eigen/Core>
+#include <Eigen/Geometry>  // cross()
 #include <array>
 #include <map>
 #include <string>
