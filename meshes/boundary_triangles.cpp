@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/meshes/boundary_triangles.hpp>
+
+namespace plica {
+
+namespace {
+
+// Outward of a tetrahedron whose vertex 3 lies on the side of (1-0)x(2-0)
+constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+struct Face {
+  std::array<int, 3> key;  // ascending, the same from both sides
+  std::size_t number;      // 4 * tetrahedron + corner across
+};
+
+std::vector<Face> sorted_faces(const TetMesh& mesh) {
+  std::vector<Face> faces;
+  faces.reserve(mesh.tets.size() * 4);
+  for (const auto& tet : mesh.tets)
+    for (const auto& [i, j, k] : outward_faces) {
+      std::array<int, 3> key = {tet[i], tet[j], tet[k]};
+      std::sort(key.begin(), key.end());
+      faces.push_back({key, faces.size()});
+    }
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  return faces;
+}
+
+const Point& vertex(const TriangleSurface& surface, int v) { return surface.vertices[static_cast<std::size_t>(v)]; }
+
+}  // namespace
+
+std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh) {
+  const std::vector<Face> faces = sorted_faces(mesh);
+  std::vector<std::size_t> single;
+  for (std::size_t f = 0; f < faces.size();) {
+    std::size_t end = f + 1;
+    while (end < faces.size() && faces[end].key == faces[f].key) ++end;
+    if (end == f + 1) single.push_back(faces[f].number);
+    f = end;
+  }
+  std::sort(single.begin(), single.end());
+
+  std::vector<std::array<int, 3>> triangles;
+  triangles.reserve(single.size());
+  for (const std::size_t number : single) {
+    const auto& tet = mesh.tets[number / 4];
+    const auto& [i, j, k] = outward_faces[number % 4];
+    triangles.push_back({tet[i], tet[j], tet[k]});
+  }
+  return triangles;
+}
+
+BoundarySurface boundary_surface(const TetMesh& mesh) {
+  BoundarySurface result;
+  result.surface.triangles = boundary_triangles(mesh);
+  std::vector<int> number(mesh.vertices.size(), -1);
+  for (const auto& triangle : result.surface.triangles)
+    for (const int v : triangle) number[static_cast<std::size_t>(v)] = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(result.mesh_vertex.size());
+    result.mesh_vertex.push_back(static_cast<int>(v));
+    result.surface.vertices.push_back(mesh.vertices[v]);
+  }
+  for (auto& triangle : result.surface.triangles)
+    for (int& v : triangle) v = number[static_cast<std::size_t>(v)];
+  return result;
+}
+
+double surface_area(const TriangleSurface& surface) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const Point& p = vertex(surface, a);
+    sum += (vertex(surface, b) - p).cross(vertex(surface, c) - p).norm() / 2.0;
+  }
+  return sum;
+}
+
+double enclosed_volume(const TriangleSurface& surface) {
+  if (surface.vertices.empty()) return 0.0;
+  const Point& origin = surface.vertices.front();  // any point; a near one keeps the terms small
+  double sum = 0.0;
+  for (const auto& [a, b, c] : surface.triangles)
+    sum += tet_volume(origin, vertex(surface, a), vertex(surface, b), vertex(surface, c));
+  return sum;
+}
+
+}  // namespace plica

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <plica/core/error.hpp>
+#include <plica/meshes/checked.hpp>
+#include <plica/meshes/edge_lengths.hpp>
+#include <plica/meshes/tet_locator.hpp>
+#include <unsupported/Eigen/BVH>
+
+namespace plica {
+
+struct TetLocator::Tree : Eigen::KdBVH<double, 3, int> {
+  using KdBVH::KdBVH;
+};
+
+namespace {
+
+using Volume = Eigen::AlignedBox3d;
+
+constexpr double inside_tolerance = 1e-9;  // of an edge
+constexpr double tie_tolerance = 1e-9;     // of the distance
+
+double smallest(const Weights& weights) { return *std::min_element(weights.begin(), weights.end()); }
+
+// Keeps the tetrahedron with the largest smallest weight; done when that is not negative
+struct Containing {
+  const TetMesh& mesh;
+  const Point& p;
+  double depth = -inside_tolerance;
+  Located found = {};
+
+  bool intersectVolume(const Volume& box) const { return box.contains(p); }
+  bool intersectObject(int tet) {
+    const Weights weights = barycentric(p, corners_of(mesh, tet));
+    if (const double d = smallest(weights); d >= depth) depth = d, found = {tet, weights, 0.0};
+    return depth >= 0.0;
+  }
+};
+
+struct Nearest {
+  using Scalar = double;
+  const TetMesh& mesh;
+  const Point& p;
+
+  double minimumOnVolume(const Volume& box) const { return box.squaredExteriorDistance(p); }
+  double minimumOnObject(int tet) const {
+    const auto corners = corners_of(mesh, tet);
+    return (weighted(nearest_inside(p, corners), corners) - p).squaredNorm();
+  }
+};
+
+// Among all within `reach`, the one extrapolated least
+struct LeastExtrapolated {
+  Nearest nearest;
+  double reach;
+  double depth = -std::numeric_limits<double>::infinity();
+  Located found = {};
+
+  bool intersectVolume(const Volume& box) const { return nearest.minimumOnVolume(box) <= reach; }
+  bool intersectObject(int tet) {
+    const double d = nearest.minimumOnObject(tet);
+    if (d > reach) return false;
+    const Weights weights = barycentric(nearest.p, corners_of(nearest.mesh, tet));
+    const double own = smallest(weights);
+    if (own > depth || (own == depth && tet < found.tet)) depth = own, found = {tet, weights, std::sqrt(d)};
+    return false;
+  }
+};
+
+}  // namespace
+
+TetLocator::TetLocator(const TetMesh& mesh) : mesh_(&mesh) {
+  if (mesh.tets.empty()) throw InputError("the mesh has no tetrahedron to locate points in");
+  std::vector<int> tets(mesh.tets.size());
+  std::iota(tets.begin(), tets.end(), 0);
+  std::vector<Volume> boxes;
+  boxes.reserve(tets.size());
+  for (const int tet : tets) {
+    Volume box;
+    for (const Point& corner : corners_of(mesh, tet)) box.extend(corner);
+    const Point margin = Point::Constant(inside_tolerance * box.diagonal().norm());
+    boxes.emplace_back(box.min() - margin, box.max() + margin);
+  }
+  tree_ = std::make_unique<Tree>(tets.begin(), tets.end(), boxes.begin(), boxes.end());
+}
+
+TetLocator::~TetLocator() = default;
+TetLocator::TetLocator(TetLocator&&) noexcept = default;
+TetLocator& TetLocator::operator=(TetLocator&&) noexcept = default;
+
+Located TetLocator::locate(const Point& point) const {
+  checked_point("a point to locate", point);
+  Containing containing{*mesh_, point};
+  Eigen::BVIntersect(*tree_, containing);
+  if (containing.found.tet >= 0) return containing.found;
+
+  Nearest nearest{*mesh_, point};
+  const double squared_distance = Eigen::BVMinimize(*tree_, nearest);
+  LeastExtrapolated choice{nearest, squared_distance * (1.0 + tie_tolerance)};
+  Eigen::BVIntersect(*tree_, choice);
+  Located& found = choice.found;
+  if (found.tet < 0 || !std::isfinite(found.distance))
+    throw InputError("a point is too far from the mesh to be located");
+  if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet)) found.distance = 0.0;
+  return found;
+}
+
+}  // namespace plica
