@@ -20,6 +20,7 @@ using Volume = Eigen::AlignedBox3d;
 
 constexpr double inside_tolerance = 1e-9;  // of an edge
 constexpr double tie_tolerance = 1e-9;     // of the distance
+constexpr double farthest = 1e100;         // products of distances still fit a double
 
 double smallest(const Weights& weights) { return *std::min_element(weights.begin(), weights.end()); }
 
@@ -91,6 +92,7 @@ TetLocator& TetLocator::operator=(TetLocator&&) noexcept = default;
 
 Located TetLocator::locate(const Point& point) const {
   checked_point("a point to locate", point);
+  if (point.lpNorm<Eigen::Infinity>() > farthest) throw InputError("a point is more than 1e100 m away from the origin");
   Containing containing{*mesh_, point};
   Eigen::BVIntersect(*tree_, containing);
   if (containing.found.tet >= 0) return containing.found;
@@ -100,8 +102,6 @@ Located TetLocator::locate(const Point& point) const {
   LeastExtrapolated choice{nearest, squared_distance * (1.0 + tie_tolerance)};
   Eigen::BVIntersect(*tree_, choice);
   Located& found = choice.found;
-  if (found.tet < 0 || !std::isfinite(found.distance))
-    throw InputError("a point is too far from the mesh to be located");
   if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet)) found.distance = 0.0;
   return found;
 }

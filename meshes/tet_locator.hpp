@@ -26,7 +26,7 @@ class TetLocator {
   TetLocator(TetLocator&&) noexcept;
   TetLocator& operator=(TetLocator&&) noexcept;
 
-  /// InputError for a point that is not finite, or too far off to square the distance.
+  /// InputError for a point that is not finite, or beyond 1e100 m.
   Located locate(const Point& point) const;
 
   const TetMesh& mesh() const { return *mesh_; }
