@@ -39,6 +39,12 @@ struct Backend {
 #endif
 #define PLICA_FOR_EACH_BACKEND(DO) PLICA_FOR_SERIAL(DO) PLICA_FOR_OPENMP(DO) PLICA_FOR_CUDA(DO)
 
+/// Threads of a team: one on a CPU, where teams run side by side, `on_device` on a GPU.
+template <class B>
+constexpr int team_size(int on_device) {
+  return B::on_host ? 1 : on_device;
+}
+
 /// One value, or one vector, per vertex or point. Vectors lie interleaved (x y z) on every backend.
 template <class B>
 using Scalars = Kokkos::View<typename B::Real*, Kokkos::LayoutRight, typename B::Memory>;

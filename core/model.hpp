@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/patches.hpp>
+#include <string>
+
+namespace plica {
+
+/// What stays constant on one level.
+template <class B>
+struct Model {
+  int vertices = 0;
+  int tets = 0;
+  std::string material;
+  Patches<B> patches;
+  Scalars<B> mass;          ///< lumped [kg], > 0
+  Scalars<B> inverse_mass;  ///< [1/kg]; 0: the vertex's motion is given, forces do not move it
+};
+
+/// Displacement from rest u [m] and velocity v [m/s], each [vertices][3].
+template <class B>
+struct State {
+  Vectors<B> u;
+  Vectors<B> v;
+
+  State() = default;
+  State(const std::string& name, int vertices)
+      : u("plica::" + name + ".u", vertices), v("plica::" + name + ".v", vertices) {}
+
+  /// Takes the other's values, in the order of `exec`.
+  void copy(const typename B::Exec& exec, const State& from) const {
+    Kokkos::deep_copy(exec, u, from.u);
+    Kokkos::deep_copy(exec, v, from.v);
+  }
+};
+
+}  // namespace plica

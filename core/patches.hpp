@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <plica/core/backend.hpp>
+
+namespace plica {
+
+/// The tetrahedra of one mesh, cut into patches of neighbours small enough that their vertices and element forces stay
+/// in the nearest memory (first-level cache, a GPU's shared memory). Only sums per patch vertex leave it, and they are
+/// added up in a fixed order: the same bits for any number of threads.
+///
+/// * patch p: packs [first_pack(p), first_pack(p+1)) of `lanes` elements each, the last one padded with volume 0;
+///   vertices [first_vertex(p), first_vertex(p+1)) of `vertex`: which mesh vertices it touches
+/// * pack q: corner(q, c, l) is which of its patch's vertices corner c of element l is; shape(q, 0..8, l) the inverse of the
+///   edge matrix with columns X1-X0, X2-X0, X3-X0, row by row [1/m]; shape(q, 9, l) the volume [m^3]
+/// * patch vertex i: slots [first_slot(i), first_slot(i+1)) of `slot`: where its share stands among the element forces
+/// * mesh vertex a: copies [first_copy(a), first_copy(a+1)) of `copy`: its patch vertices
+template <class B>
+struct Patches {
+  using Real = typename B::Real;
+  using Memory = typename B::Memory;
+  static constexpr int lanes = B::lanes;
+  static constexpr int capacity = 256;         ///< elements of a patch, at most
+  static constexpr int vertex_capacity = 160;  ///< vertices of a patch, at most: 31 kB with two fields in double
+  template <class T>
+  using Array = Kokkos::View<T, Kokkos::LayoutRight, Memory>;
+
+  int count = 0;
+  int vertices = 0;  ///< of the mesh
+  int packs = 0;
+  Indices<B> first_pack;    ///< [count + 1]
+  Indices<B> first_vertex;  ///< [count + 1]
+  Indices<B> vertex;        ///< [patch vertices]
+  Array<std::uint16_t* [4][lanes]> corner;
+  Array<Real* [10][lanes]> shape;
+  Array<Real* [2]> lame;       ///< [count] lambda, mu [Pa]: a patch never spans two regions
+  Indices<B> first_slot;       ///< [patch vertices + 1]
+  Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
+  Indices<B> first_copy;       ///< [vertices + 1]
+  Indices<B> copy;             ///< [patch vertices]
+  Indices<B> element;          ///< [packs * lanes] the mesh's tetrahedron, -1: padding
+};
+
+}  // namespace plica

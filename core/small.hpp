@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/pack.hpp>
+
+// Vectors and 3x3 matrices for device code, on plain numbers or packs.
+namespace plica {
+
+template <class T>
+struct Vec3 {
+  T a[3] = {T(0), T(0), T(0)};
+
+  KOKKOS_INLINE_FUNCTION T& operator[](int i) { return a[i]; }
+  KOKKOS_INLINE_FUNCTION const T& operator[](int i) const { return a[i]; }
+  friend KOKKOS_INLINE_FUNCTION Vec3 operator+(const Vec3& x, const Vec3& y) {
+    return {x[0] + y[0], x[1] + y[1], x[2] + y[2]};
+  }
+  friend KOKKOS_INLINE_FUNCTION Vec3 operator-(const Vec3& x, const Vec3& y) {
+    return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+  }
+  friend KOKKOS_INLINE_FUNCTION Vec3 operator*(const T& s, const Vec3& x) { return {s * x[0], s * x[1], s * x[2]}; }
+  KOKKOS_INLINE_FUNCTION Vec3& operator+=(const Vec3& y) { return *this = *this + y; }
+  KOKKOS_INLINE_FUNCTION Vec3& operator-=(const Vec3& y) { return *this = *this - y; }
+};
+
+template <class T>
+KOKKOS_INLINE_FUNCTION T dot(const Vec3<T>& x, const Vec3<T>& y) {
+  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION Vec3<T> cross(const Vec3<T>& x, const Vec3<T>& y) {
+  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+}
+
+template <class T>
+struct Mat3 {
+  Vec3<T> row[3];
+
+  KOKKOS_INLINE_FUNCTION Vec3<T>& operator[](int i) { return row[i]; }
+  KOKKOS_INLINE_FUNCTION const Vec3<T>& operator[](int i) const { return row[i]; }
+  friend KOKKOS_INLINE_FUNCTION Mat3 operator+(const Mat3& A, const Mat3& B) {
+    return {A[0] + B[0], A[1] + B[1], A[2] + B[2]};
+  }
+  friend KOKKOS_INLINE_FUNCTION Mat3 operator-(const Mat3& A, const Mat3& B) {
+    return {A[0] - B[0], A[1] - B[1], A[2] - B[2]};
+  }
+  friend KOKKOS_INLINE_FUNCTION Mat3 operator*(const T& s, const Mat3& A) { return {s * A[0], s * A[1], s * A[2]}; }
+  static KOKKOS_INLINE_FUNCTION Mat3 identity() { return diagonal(T(1)); }
+  static KOKKOS_INLINE_FUNCTION Mat3 diagonal(const T& s) {
+    return {Vec3<T>{s, T(0), T(0)}, Vec3<T>{T(0), s, T(0)}, Vec3<T>{T(0), T(0), s}};
+  }
+};
+
+template <class T>
+KOKKOS_INLINE_FUNCTION Vec3<T> operator*(const Mat3<T>& A, const Vec3<T>& x) {
+  return {dot(A[0], x), dot(A[1], x), dot(A[2], x)};
+}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> transpose(const Mat3<T>& A) {
+  return {Vec3<T>{A[0][0], A[1][0], A[2][0]}, Vec3<T>{A[0][1], A[1][1], A[2][1]}, Vec3<T>{A[0][2], A[1][2], A[2][2]}};
+}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> operator*(const Mat3<T>& A, const Mat3<T>& B) {
+  Mat3<T> C;
+  for (int i = 0; i < 3; ++i) C[i] = A[i][0] * B[0] + A[i][1] * B[1] + A[i][2] * B[2];
+  return C;
+}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION T trace(const Mat3<T>& A) {
+  return A[0][0] + A[1][1] + A[2][2];
+}
+
+/// A : B, the sum of the products of their entries
+template <class T>
+KOKKOS_INLINE_FUNCTION T inner(const Mat3<T>& A, const Mat3<T>& B) {
+  return dot(A[0], B[0]) + dot(A[1], B[1]) + dot(A[2], B[2]);
+}
+
+/// det(A) A^-T, smooth in A also where det A = 0
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> cofactor(const Mat3<T>& A) {
+  return {cross(A[1], A[2]), cross(A[2], A[0]), cross(A[0], A[1])};
+}
+
+/// the derivative of cofactor(A) in direction dA
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> cofactor_change(const Mat3<T>& A, const Mat3<T>& dA) {
+  return {cross(dA[1], A[2]) + cross(A[1], dA[2]), cross(dA[2], A[0]) + cross(A[2], dA[0]),
+          cross(dA[0], A[1]) + cross(A[0], dA[1])};
+}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION T determinant(const Mat3<T>& A) {
+  return dot(A[0], cross(A[1], A[2]));
+}
+
+}  // namespace plica

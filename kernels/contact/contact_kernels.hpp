@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/core/surface.hpp>
+#include <plica/kernels/contact/penalty.hpp>
+
+namespace plica {
+
+/// Position and velocity of surface point p, from a level's state.
+template <class B>
+KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u, const Vectors<B>& v, int p,
+                                          Vec3<typename B::Real>& x, Vec3<typename B::Real>& speed) {
+  for (int k = 0; k < 3; ++k) {
+    x[k] = s.rest(p, k), speed[k] = 0;
+    for (int c = 0; c < 4; ++c) {
+      const int a = s.embedding.source(p, c);
+      x[k] += s.embedding.weight(p, c) * u(a, k);
+      speed[k] += s.embedding.weight(p, c) * v(a, k);
+    }
+  }
+}
+
+/// Forces of one obstacle on the surface points [N], set (`first` obstacle) or added. With Tangent also each point's symmetric
+/// 3x3 block h^2 k n n + h d n n + h drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz: the coupling of friction to
+/// the normal force is left out, which keeps the matrix symmetric.
+template <class B, class Shape, bool Tangent>
+struct ObstacleContact {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> u, v;
+  Shape shape;
+  Vec3<Real> offset, velocity;  ///< of the obstacle at the time of the state
+  PenaltyLaw<Real> law;
+  Real ahead, h;
+  bool first;
+  Vectors<B> force;
+  Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    Vec3<Real> x, speed;
+    surface_point(surface, u, v, p, x, speed);
+    const PointContact<Real> c = penalty_contact(law, shape(x - offset), speed - velocity, ahead);
+    for (int k = 0; k < 3; ++k) force(p, k) = (first ? Real(0) : force(p, k)) + c.force[k];
+    if constexpr (Tangent) {
+      const Real along = c.active ? h * (h * law.stiffness + law.damping) : Real(0),
+                 across = c.active ? h * c.drag : Real(0);
+      constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+      for (int k = 0; k < 6; ++k) {
+        const int i = row[k], j = column[k];
+        const Real nn = c.normal[i] * c.normal[j], ss = c.slip[i] * c.slip[j];
+        block(p, k) = (first ? Real(0) : block(p, k)) + along * nn + across * ((i == j ? Real(1) : Real(0)) - nn - ss);
+      }
+    }
+  }
+};
+
+/// f += transpose of the embedding times the point forces, each vertex adding its points in order.
+template <class B>
+struct ScatterToVertices {
+  EmbeddedSurface<B> surface;
+  Vectors<B> force;  ///< [points][3]
+  Vectors<B> f;      ///< [vertices][3]
+  typename B::Real scale;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const int a = surface.vertex(i);
+    Vec3<typename B::Real> sum;
+    for (int s = surface.first(i); s < surface.first(i + 1); ++s)
+      for (int k = 0; k < 3; ++k) sum[k] += surface.weight(s) * force(surface.point(s), k);
+    for (int k = 0; k < 3; ++k) f(a, k) += scale * sum[k];
+  }
+};
+
+/// y_p = block_p * (sum of weight * x), the tangent's point part of a product; without blocks a plain scalar times it.
+template <class B>
+struct PointProduct {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> x;
+  Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
+  Vectors<B> y;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    Vec3<Real> s;
+    for (int c = 0; c < 4; ++c)
+      for (int k = 0; k < 3; ++k) s[k] += surface.embedding.weight(p, c) * x(surface.embedding.source(p, c), k);
+    y(p, 0) = block(p, 0) * s[0] + block(p, 3) * s[1] + block(p, 4) * s[2];
+    y(p, 1) = block(p, 3) * s[0] + block(p, 1) * s[1] + block(p, 5) * s[2];
+    y(p, 2) = block(p, 4) * s[0] + block(p, 5) * s[1] + block(p, 2) * s[2];
+  }
+};
+
+/// Adds the point blocks' share to the vertices' own 3x3 blocks, [vertices][6] as above.
+template <class B>
+struct AddPointBlocks {
+  using Real = typename B::Real;
+  using Blocks = Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory>;
+  EmbeddedSurface<B> surface;
+  Blocks block, diagonal;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const int a = surface.vertex(i);
+    for (int s = surface.first(i); s < surface.first(i + 1); ++s)
+      for (int k = 0; k < 6; ++k) diagonal(a, k) += surface.weight(s) * surface.weight(s) * block(surface.point(s), k);
+  }
+};
+
+/// Potential energy of the penalties of one obstacle, as a field of the points [J].
+template <class B, class Shape>
+struct ContactEnergy {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> u, v;
+  Shape shape;
+  Vec3<Real> offset;
+  Real stiffness;
+
+  KOKKOS_INLINE_FUNCTION double operator()(int p) const {
+    Vec3<Real> x, speed;
+    surface_point(surface, u, v, p, x, speed);
+    const Real penetration = max(-shape(x - offset).distance, Real(0));
+    return 0.5 * static_cast<double>(stiffness * penetration * penetration);
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/patch_kernel.hpp>
+
+namespace plica {
+
+/// Elastic energy [J], as a vertex field that adds up to it: a quarter of each element's energy per corner, in the x
+/// component. It shares the force's path and so its order of summation.
+template <class B, class Material>
+struct ElasticEnergy {
+  static constexpr int fields = 1;
+  Vectors<B> field[1];
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4], int,
+                                         int) const {
+    const T quarter = T(0.25f) * shape.volume * Material::energy(Mat3<T>::identity() + G[0], shape.lame);
+    for (int c = 0; c < 4; ++c) corner[c] = {quarter, T(0), T(0)};
+  }
+};
+
+template <class B, class Material>
+void elastic_energy(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
+                    const Vectors<B>& partial) {
+  launch_patches<B>(exec, "plica::elastic_energy", patches, ElasticEnergy<B, Material>{{u}}, partial);
+}
+
+}  // namespace plica

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/core/small.hpp>
+
+namespace plica {
+
+/// f_a = m_a g + sum of the vertex's copies in the patches, in their order [N]. 24 s bytes per vertex written and, with
+/// about 2.4 copies, 10 + 7 s read (s = sizeof(Real)).
+template <class B>
+struct GatherForces {
+  using Real = typename B::Real;
+  Patches<B> patches;
+  Vectors<B> partial;
+  Scalars<B> mass;
+  Vec3<Real> gravity;  ///< [m/s^2]
+  Vectors<B> f;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    Vec3<Real> sum = mass(a) * gravity;
+    for (int s = patches.first_copy(a); s < patches.first_copy(a + 1); ++s) {
+      const int i = patches.copy(s);
+      for (int k = 0; k < 3; ++k) sum[k] += partial(i, k);
+    }
+    for (int k = 0; k < 3; ++k) f(a, k) = sum[k];
+  }
+};
+
+template <class B>
+void gather_forces(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& partial,
+                   const Vec3<typename B::Real>& gravity, const Vectors<B>& f) {
+  Kokkos::parallel_for("plica::gather_forces", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
+                       GatherForces<B>{model.patches, partial, model.mass, gravity, f});
+}
+
+}  // namespace plica

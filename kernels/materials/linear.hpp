@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/materials/material.hpp>
+
+namespace plica {
+
+/// Psi = mu e:e + lambda/2 tr(e)^2 with the small strain e = (F + F^T)/2 - I. Not for rotations: turned by theta about
+/// z, the unstrained body feels sigma_xx = 2 (mu + lambda) (cos theta - 1).
+struct Linear {
+  static constexpr const char* name = "linear";
+  static constexpr const char* summary = "Hooke's law; small displacements and rotations only";
+  static constexpr bool rotation_invariant = false;
+  static constexpr bool survives_inversion = true;
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> hooke(const Mat3<T>& G, const Lame<T>& c) {  // of a gradient G
+    return c.mu * (G + transpose(G)) + Mat3<T>::diagonal(c.lambda * trace(G));
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const Lame<T>& c) {
+    const Mat3<T> G = F - Mat3<T>::identity();
+    return T(0.5f) * inner(G, hooke(G, c));
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress(const Mat3<T>& F, const Lame<T>& c) {
+    return hooke(F - Mat3<T>::identity(), c);
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>&, const Mat3<T>& dF, const Lame<T>& c) {
+    return hooke(dF, c);
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/functions.hpp>
+#include <plica/core/small.hpp>
+
+// A material is a struct of pointwise functions of the deformation gradient F = dx/dX, on T = a number or a pack:
+//   energy(F, c)              energy density per rest volume [J/m^3]
+//   stress(F, c)              first Piola-Kirchhoff stress P = d energy/dF [Pa]
+//   stress_change(F, dF, c)   dP/dF : dF [Pa], symmetric as a bilinear form
+// with the constants c [Pa], and says of itself:
+//   name, summary             what a scene calls it; one line for lists
+//   rotation_invariant        a rotated state has the same energy
+//   survives_inversion        finite and meaningful for det F <= 0; where false, such an element ends the run
+namespace plica {
+
+/// Lame's constants [Pa]: lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)).
+template <class T>
+struct Lame {
+  T lambda;
+  T mu;
+};
+
+inline Lame<double> lame_constants(double young_modulus, double poisson_ratio) {
+  return {young_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio)),
+          young_modulus / (2 * (1 + poisson_ratio))};
+}
+
+}  // namespace plica

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/materials/material.hpp>
+
+namespace plica {
+
+/// Psi = mu E:E + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I)/2; P = F S, S = 2 mu E + lambda tr(E) I.
+/// Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 6.28. Softens in compression and has no barrier
+/// against inversion.
+struct StVenantKirchhoff {
+  static constexpr const char* name = "st_venant_kirchhoff";
+  static constexpr const char* summary = "linear in Green's strain; large rotations, moderate strains";
+  static constexpr bool rotation_invariant = true;
+  static constexpr bool survives_inversion = true;
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> strain(const Mat3<T>& F) {
+    return T(0.5f) * (transpose(F) * F - Mat3<T>::identity());
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> second_stress(const Mat3<T>& E, const Lame<T>& c) {
+    return (c.mu + c.mu) * E + Mat3<T>::diagonal(c.lambda * trace(E));
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const Lame<T>& c) {
+    const Mat3<T> E = strain(F);
+    return c.mu * inner(E, E) + T(0.5f) * c.lambda * trace(E) * trace(E);
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress(const Mat3<T>& F, const Lame<T>& c) {
+    return F * second_stress(strain(F), c);
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
+    const Mat3<T> G = transpose(F) * dF;
+    const Mat3<T> dE = T(0.5f) * (G + transpose(G));
+    return dF * second_stress(strain(F), c) + F * second_stress(dE, c);
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/patches.hpp>
+#include <plica/core/small.hpp>
+#include <plica/kernels/materials/material.hpp>
+
+namespace plica {
+
+/// What an integrand is given of the elements of one pack.
+template <class T>
+struct ElementShape {
+  Vec3<T> gradient[3];  ///< of the shape functions of corners 1, 2, 3 [1/m]; corner 0's is minus their sum
+  T volume;             ///< [m^3]
+  Lame<T> lame;         ///< [Pa]
+};
+
+/// Runs an integrand over all elements and adds its corner vectors up per patch vertex, one team per patch:
+/// 1. the patch's vertex fields into scratch, 2. the corner vectors of its elements into scratch, 3. their sums per
+/// patch vertex into `partial`. An integrand has
+///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
+///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
+/// with G the gradients of the fields. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
+/// 8 (slots), and per patch vertex 4 + 3 s fields + 3 s.
+template <class B, class Integrand>
+struct PatchKernel {
+  using Real = typename B::Real;
+  using Policy = Kokkos::TeamPolicy<typename B::Exec>;
+  using Member = typename Policy::member_type;
+  static constexpr int lanes = B::lanes;
+  static constexpr int fields = Integrand::fields;
+  static constexpr int force_slots = (Patches<B>::capacity + lanes - 1) / lanes * 12 * lanes;
+  static constexpr std::size_t scratch_bytes =
+      (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * 3 * fields) * sizeof(Real);
+  using T = typename PackOf<Real, lanes>::type;
+
+  Patches<B> patches;
+  Integrand integrand;
+  Vectors<B> partial;  ///< [patch vertices][3]
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int p = team.league_rank();
+    const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
+    const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
+    Real* const forces = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes, 64));
+    Real* const local = forces + force_slots;
+
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
+      const int a = patches.vertex(first_vertex + i);
+      for (int f = 0; f < fields; ++f)
+        for (int k = 0; k < 3; ++k) local[(i * fields + f) * 3 + k] = integrand.field[f](a, k);
+    });
+    team.team_barrier();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
+                         [&](int q) { element(p, first_pack + q, local, forces + q * 12 * lanes); });
+    team.team_barrier();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
+      Real x = 0, y = 0, z = 0;
+      for (int s = patches.first_slot(first_vertex + i); s < patches.first_slot(first_vertex + i + 1); ++s) {
+        const Real* f = forces + patches.slot(s);
+        x += f[0], y += f[lanes], z += f[2 * lanes];
+      }
+      partial(first_vertex + i, 0) = x, partial(first_vertex + i, 1) = y, partial(first_vertex + i, 2) = z;
+    });
+  }
+
+  KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
+    ElementShape<T> shape;
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(&patches.shape(pack, 3 * c + k, 0));
+    shape.volume = load(&patches.shape(pack, 9, 0));
+    shape.lame = {T(patches.lame(patch, 0)), T(patches.lame(patch, 1))};
+    Mat3<T> G[fields];
+    for (int f = 0; f < fields; ++f) {
+      Vec3<T> u[4];
+      for (int l = 0; l < lanes; ++l)
+        for (int c = 0; c < 4; ++c) {
+          const Real* x = local + (patches.corner(pack, c, l) * fields + f) * 3;
+          for (int k = 0; k < 3; ++k) set_lane(u[c][k], l, x[k]);
+        }
+      const Vec3<T> d[3] = {u[1] - u[0], u[2] - u[0], u[3] - u[0]};
+      for (int r = 0; r < 3; ++r)
+        G[f][r] = d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
+    }
+    Vec3<T> corner[4];
+    integrand(G, shape, corner, patch, pack);
+    for (int c = 0; c < 4; ++c)
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < lanes; ++l) forces[(c * 3 + k) * lanes + l] = lane(corner[c][k], l);
+  }
+
+  static KOKKOS_INLINE_FUNCTION T load(const Real* p) {
+    T r;
+    for (int l = 0; l < lanes; ++l) set_lane(r, l, p[l]);
+    return r;
+  }
+};
+
+/// Corner vectors of a stress: minus volume * P * gradient, balanced.
+template <class T>
+KOKKOS_INLINE_FUNCTION void stress_to_corners(const Mat3<T>& P, const ElementShape<T>& shape, Vec3<T> (&corner)[4]) {
+  const T minus_volume = -shape.volume;
+  for (int c = 0; c < 3; ++c) corner[c + 1] = minus_volume * (P * shape.gradient[c]);
+  corner[0] = T(-1) * (corner[1] + corner[2] + corner[3]);
+}
+
+template <class B, class Integrand>
+void launch_patches(const typename B::Exec& exec, const char* label, const Patches<B>& patches,
+                    const Integrand& integrand, const Vectors<B>& partial) {
+  using Kernel = PatchKernel<B, Integrand>;
+  if (patches.count == 0) return;
+  typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
+  Kokkos::parallel_for(label, policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes + 64)),
+                       Kernel{patches, integrand, partial});
+}
+
+}  // namespace plica

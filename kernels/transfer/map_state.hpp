@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/core/small.hpp>
+#include <plica/core/transfer.hpp>
+
+namespace plica {
+
+/// What a level hands to its neighbour, of one field (displacements or velocities) at one target vertex.
+template <class Real>
+struct Mapped {
+  Vec3<Real> state;      ///< sum of weight * the source's values
+  Vec3<Real> variation;  ///< the target's base + sum of weight * the source's change
+};
+
+/// The three ways to take it; both fields of a vertex switch together. Pure functions of the displacements.
+struct MapState {
+  static constexpr bool needs_variation = false, needs_state = true;
+  template <class Real>
+  static KOKKOS_INLINE_FUNCTION bool take_state(const Mapped<Real>&, Real) {
+    return true;
+  }
+};
+struct MapVariation {
+  static constexpr bool needs_variation = true, needs_state = false;
+  template <class Real>
+  static KOKKOS_INLINE_FUNCTION bool take_state(const Mapped<Real>&, Real) {
+    return false;
+  }
+};
+/// State where the levels have drifted apart by more than `limit` (epsilon * local edge length), variation elsewhere. The
+/// paper leaves the criterion to its reference [6]; this one is ours.
+struct MapSwitched {
+  static constexpr bool needs_variation = true, needs_state = true;
+  template <class Real>
+  static KOKKOS_INLINE_FUNCTION bool take_state(const Mapped<Real>& u, Real limit) {
+    const Vec3<Real> d = u.state - u.variation;
+    return dot(d, d) > limit * limit;
+  }
+};
+
+/// One row per target vertex: to = W from (state), or base + W (from - from_start) (variation). `to` and `base` may be the
+/// same. Per row 16 + 4 s bytes, and 6 s in and 6 s out per field set.
+template <class B, class Rule>
+struct MapFields {
+  using Real = typename B::Real;
+  Transfer<B> transfer;
+  State<B> from, from_start, base, to;
+  Scalars<B> limit;  ///< [target vertices] m; empty unless switched
+
+  KOKKOS_INLINE_FUNCTION Mapped<Real> at(const Vectors<B>& x, const Vectors<B>& x0, const Vectors<B>& b,
+                                         int row) const {
+    const int a = transfer.target(row);
+    Mapped<Real> m;
+    for (int k = 0; k < 3; ++k) {
+      Real end = 0, change = 0;
+      for (int c = 0; c < 4; ++c) {
+        const int s = transfer.source(row, c);
+        const Real w = transfer.weight(row, c), value = x(s, k);
+        end += w * value;
+        if constexpr (Rule::needs_variation) change += w * (value - x0(s, k));
+      }
+      m.state[k] = end;
+      if constexpr (Rule::needs_variation) m.variation[k] = b(a, k) + change;
+    }
+    return m;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(int row) const {
+    const int a = transfer.target(row);
+    const Mapped<Real> u = at(from.u, from_start.u, base.u, row), v = at(from.v, from_start.v, base.v, row);
+    Real bound = 0;
+    if constexpr (Rule::needs_state && Rule::needs_variation) bound = limit(a);
+    const bool state = Rule::take_state(u, bound);
+    for (int k = 0; k < 3; ++k) {
+      to.u(a, k) = state ? u.state[k] : u.variation[k];
+      to.v(a, k) = state ? v.state[k] : v.variation[k];
+    }
+  }
+};
+
+template <class B, class Rule>
+void map_fields(const typename B::Exec& exec, const char* label, const Transfer<B>& transfer, const State<B>& from,
+                const State<B>& from_start, const State<B>& base, const State<B>& to, const Scalars<B>& limit) {
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, transfer.rows),
+                       MapFields<B, Rule>{transfer, from, from_start, base, to, limit});
+}
+
+}  // namespace plica
