@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <plica/drivers/app/scene/load_scene.hpp>
+
+namespace plica::app {
+namespace {
+
+void check_lengths(const IntegrationOptions& integration, std::size_t levels, const Tree& tree) {
+  const auto check = [&](const char* key, std::size_t size, bool one_for_all) {
+    if (size == levels || (size == 1 && one_for_all)) return;
+    throw InputError(fmt::format("{}: expected {}{} ({} in body.levels), got a list of {}", key,
+                                 one_for_all ? "one for all or " : "", "one for each level", levels, size),
+                     place_of(tree, key));
+  };
+  check("integration.integrator", integration.integrator.size(), true);
+  check("integration.substeps", integration.substeps.size(), true);
+  if (integration.distribution == "custom") check("integration.distribution", integration.shares.size(), false);
+}
+
+void check_shares(const IntegrationOptions& integration, const Tree& tree) {
+  if (integration.distribution != "custom") return;
+  const double sum = std::accumulate(integration.shares.begin(), integration.shares.end(), 0.0);
+  if (std::abs(sum - 1) > 1e-12)
+    throw InputError(fmt::format("integration.distribution: the shares must add up to 1, got {:.15g}", sum),
+                     place_of(tree, "integration.distribution"));
+}
+
+void check_contact(const Scene& scene, const Tree& tree) {
+  const ContactOptions& contact = scene.problem.contact;
+  if (!contact.obstacles.empty() && !scene.surface)
+    throw InputError("contact.obstacles: the body has no surface to touch them; give body.surface",
+                     place_of(tree, "contact.obstacles"));
+  for (std::size_t i = 0; i < contact.obstacles.size(); ++i) {
+    const std::string path = fmt::format("contact.obstacles.{}", i);
+    if (const auto* bowl = std::get_if<BowlOptions>(&contact.obstacles[i].shape); bowl && bowl->rim > bowl->radius)
+      throw InputError(
+          fmt::format("{}.bowl.rim: expected at most the radius ({:g} m), got {:g} m", path, bowl->radius, bowl->rim),
+          place_of(tree, path + ".bowl.rim"));
+    if (const auto* plane = std::get_if<PlaneOptions>(&contact.obstacles[i].shape); plane && plane->normal.isZero(0))
+      throw InputError(path + ".plane.normal: expected a direction, got [0, 0, 0]",
+                       place_of(tree, path + ".plane.normal"));
+  }
+}
+
+void check_box(const Selection& selection, const std::string& path, const Tree& tree) {
+  if (selection.box && (selection.box->min.array() > selection.box->max.array()).any())
+    throw InputError(path + ".box: min is above max", place_of(tree, path + ".box"));
+}
+
+void check_body(const Scene& scene, const Tree& tree) {
+  const Body& body = scene.problem.body;
+  for (std::size_t i = 0; i < body.fixed.size(); ++i) check_box(body.fixed[i], fmt::format("body.fixed.{}", i), tree);
+  for (std::size_t i = 0; i < body.prescribed.size(); ++i)
+    check_box(body.prescribed[i].where, fmt::format("body.prescribed.{}", i), tree);
+  for (std::size_t i = 0; i < scene.levels.size(); ++i)
+    if (scene.levels[i].file.empty() && scene.levels[i].scale != 1)
+      throw InputError(fmt::format("body.levels.{}.scale: only a file has one", i),
+                       place_of(tree, fmt::format("body.levels.{}.scale", i)));
+  if (scene.surface && !scene.surface->sphere && !scene.surface->boundary)
+    throw InputError("body.surface.boundary: expected true, got 'false'; leave body.surface out to have none",
+                     place_of(tree, "body.surface.boundary"));
+}
+
+}  // namespace
+
+void check_scene(const Scene& scene, const Tree& tree) {
+  check_body(scene, tree);
+  check_lengths(scene.problem.integration, scene.levels.size(), tree);
+  check_shares(scene.problem.integration, tree);
+  check_contact(scene, tree);
+}
+
+}  // namespace plica::app

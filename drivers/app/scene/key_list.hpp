@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+namespace plica::app {
+
+/// One key of a scene as `plica list keys` prints it. Lists stand as "levels[]", names of one's own as "<name>".
+struct KeyInfo {
+  std::string path;
+  std::string expects;
+  std::string otherwise;  ///< what holds when it is left out: "required", "one of these" or the default
+  std::string help;
+};
+
+/// Every key, in the order of the tables.
+const std::vector<KeyInfo>& scene_keys();
+
+}  // namespace plica::app

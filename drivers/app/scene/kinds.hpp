@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <limits>
+#include <optional>
+#include <plica/core/mesh.hpp>
+#include <plica/drivers/app/scene/tree.hpp>
+#include <plica/drivers/app/scene/units.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <string>
+#include <vector>
+
+/// The kinds of value a scene's keys take. Each knows how to read one, how to say what is expected, and how to show one
+/// as it would be written: the parser, the messages and `plica list keys` all ask the same object.
+namespace plica::app {
+
+/// A name or feature that the interface has and this build has not.
+class NotInThisBuild : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// A value to be read and the path that led to it.
+struct Value {
+  const Tree& tree;
+  std::string path;
+
+  [[noreturn]] void mismatch(const std::string& expected, const std::string& remark = {}) const;
+  [[noreturn]] void error(const std::string& message) const;
+  const std::string& scalar(const std::string& expected) const;  ///< its text; an error when it is no scalar
+  const std::vector<Tree>& list(const std::string& expected, std::size_t size = 0) const;  ///< size 0: any
+  Value item(std::size_t index) const;
+};
+
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+  bool max_excluded = false;
+  bool contains(double value) const;
+  std::string text(const std::string& unit = {}) const;  ///< "> 0", "in [0, 0.5)"; empty when all values are in it
+};
+inline constexpr Range any_value{};
+inline constexpr Range positive{.min = 0, .min_excluded = true};
+inline constexpr Range not_negative{.min = 0};
+
+/// A number with a unit.
+struct Quantity {
+  Dimension dimension;
+  Range range = any_value;
+  void read(const Value& value, double& target) const;
+  void read(const Value& value, double& target, const std::string& expected) const;
+  std::string expects() const;
+  std::string shown(double value) const;
+};
+
+/// A quantity or `auto`.
+struct AutoQuantity {
+  Quantity quantity;
+  void read(const Value& value, std::optional<double>& target) const;
+  std::string expects() const { return quantity.expects() + ", or auto"; }
+  std::string shown(const std::optional<double>& value) const { return value ? quantity.shown(*value) : "auto"; }
+};
+
+/// Three quantities of one dimension.
+struct Vector {
+  Dimension dimension;
+  Range range = any_value;
+  void read(const Value& value, Point& target) const;
+  std::string expects() const;
+  std::string shown(const Point& value) const;
+};
+
+/// A whole number.
+struct Count {
+  int min = 0;
+  void read(const Value& value, int& target) const;
+  std::string expects() const { return "a whole number >= " + std::to_string(min); }
+  std::string shown(int value) const { return std::to_string(value); }
+};
+
+/// Three whole numbers.
+struct Counts {
+  int min = 0;
+  void read(const Value& value, std::array<int, 3>& target) const;
+  std::string expects() const { return "a list of 3 whole numbers >= " + std::to_string(min); }
+  std::string shown(const std::array<int, 3>& value) const;
+};
+
+/// true or false.
+struct Flag {
+  void read(const Value& value, bool& target) const;
+  std::string expects() const { return "true or false"; }
+  std::string shown(bool value) const { return value ? "true" : "false"; }
+};
+
+/// Any words.
+struct Text {
+  void read(const Value& value, std::string& target) const;
+  std::string expects() const { return "text"; }
+  std::string shown(const std::string& value) const { return value; }
+};
+
+/// One of a family's names.
+struct Name {
+  const char* family;                     ///< "material"
+  std::vector<Choice> (*choices)();       ///< what there is
+  std::vector<std::string> planned = {};  ///< what there will be
+  void read(const Value& value, std::string& target) const;
+  std::string expects() const;
+  std::string shown(const std::string& value) const { return value; }
+};
+
+/// One name for all levels, or one for each.
+struct NamePerLevel {
+  Name name;
+  void read(const Value& value, std::vector<std::string>& target) const;
+  std::string expects() const { return name.expects() + "; or a list of them, finest level first"; }
+  std::string shown(const std::vector<std::string>& value) const;
+};
+
+/// One count for all levels, or one for each; `auto` is 0.
+struct AutoCountPerLevel {
+  void read(const Value& value, std::vector<int>& target) const;
+  std::string expects() const { return "a whole number >= 1, or auto; or a list of them, finest level first"; }
+  std::string shown(const std::vector<int>& value) const;
+};
+
+/// A rule by name, or the shares themselves.
+struct Shares {
+  struct Target {
+    std::string& rule;
+    std::vector<double>& shares;
+  };
+  Name name;
+  void read(const Value& value, const Target& target) const;
+  std::string expects() const { return name.expects() + "; or a list of shares, finest level first"; }
+  std::string shown(const Target& value) const { return value.rule; }
+};
+
+}  // namespace plica::app

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <filesystem>
+#include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/app/scene/tree.hpp>
+
+namespace plica::app {
+
+/// "key.path=value", given on the command line as `label` shows.
+struct Override {
+  std::string assignment;
+  std::string label;
+};
+
+/// A scene, read, checked, with its meshes built: ready for Simulation. InputError with file and line otherwise.
+Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// Its three parts. What the keys say, each within its range:
+Scene read_scene(const Tree& tree);
+/// what they say together; InputError for contradictions.
+void check_scene(const Scene& scene, const Tree& tree);
+/// The meshes and the embedded surface, and the names of groups and regions checked against them.
+void build_meshes(Scene& scene, const Tree& tree);
+
+}  // namespace plica::app

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <optional>
+#include <plica/core/problem.hpp>
+#include <string>
+#include <vector>
+
+/// What a scene file says. The physics is the library's Problem; here is what only files have: how its meshes come
+/// about, how long it runs and what it writes.
+namespace plica::app {
+
+struct BoxRecipe {
+  Point size = Point::Ones();            ///< [m] > 0
+  std::array<int, 3> cells = {1, 1, 1};  ///< >= 1
+  Point origin = Point::Zero();          ///< its lowest corner [m]
+};
+
+struct BallRecipe {
+  double radius = 1;             ///< [m] > 0
+  int cells = 1;                 ///< across the diameter
+  Point centre = Point::Zero();  ///< [m]
+};
+
+/// Stands on its base and rises along z.
+struct CylinderRecipe {
+  double radius = 1;           ///< [m] > 0
+  double length = 1;           ///< [m] > 0
+  int across = 1;              ///< cells across the diameter
+  int along = 1;               ///< cells along the axis
+  Point base = Point::Zero();  ///< centre of the lower disc [m]
+};
+
+/// One of them, or a file.
+struct LevelRecipe {
+  std::optional<BoxRecipe> box;
+  std::optional<BallRecipe> ball;
+  std::optional<CylinderRecipe> cylinder;
+  std::string file;  ///< relative to the scene
+  double scale = 1;  ///< metres per unit of the file > 0
+};
+
+struct BallSurfaceRecipe {
+  double radius = 1;            ///< [m] > 0
+  int subdivisions = 3;         ///< of an icosahedron: 12, 42, 162, 642 ... points
+  std::optional<Point> centre;  ///< none: the centre of level 0's bounding box [m]
+};
+
+/// One of them.
+struct SurfaceRecipe {
+  std::optional<BallSurfaceRecipe> sphere;
+  bool boundary = false;  ///< the boundary of level 0
+};
+
+struct OutputOptions {
+  std::optional<double> every;  ///< simulated time between frames [s] > 0; none: a sixtieth of the duration
+  bool volume = false;          ///< level 0's tetrahedra as well
+  std::string format = "vtu";
+};
+
+struct Scene {
+  std::string file;
+  std::string name;     ///< none given: the file's
+  double duration = 0;  ///< [s] > 0
+  Problem problem;      ///< complete once its meshes are built
+  std::vector<LevelRecipe> levels;
+  std::optional<SurfaceRecipe> surface;
+  OutputOptions output;
+};
+
+}  // namespace plica::app

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <plica/core/error.hpp>
+#include <plica/drivers/app/scene/units.hpp>
+#include <stdexcept>
+#include <vector>
+
+namespace plica::app {
+namespace {
+
+struct Named {
+  Dimension dimension;
+  const char* name;
+  const char* plural;
+  const char* unit;
+};
+constexpr std::array named_dimensions = {Named{number, "a number", "numbers", ""},
+                                         Named{length, "a length", "lengths", "m"},
+                                         Named{duration, "a time", "times", "s"},
+                                         Named{rate, "a rate", "rates", "1/s"},
+                                         Named{velocity, "a velocity", "velocities", "m/s"},
+                                         Named{acceleration, "an acceleration", "accelerations", "m/s^2"},
+                                         Named{angular_velocity, "an angular velocity", "angular velocities", "rad/s"},
+                                         Named{pressure, "a pressure", "pressures", "Pa"},
+                                         Named{density, "a density", "densities", "kg/m^3"},
+                                         Named{{.angle = 1}, "an angle", "angles", "rad"},
+                                         Named{{.mass = 1}, "a mass", "masses", "kg"},
+                                         Named{{.length = 2}, "an area", "areas", "m^2"},
+                                         Named{{.length = 3}, "a volume", "volumes", "m^3"},
+                                         Named{{.mass = 1, .length = 1, .time = -2}, "a force", "forces", "N"},
+                                         Named{{.mass = 1, .length = 2, .time = -2}, "an energy", "energies", "J"}};
+
+const Named* find_name(const Dimension& dimension) {
+  for (const Named& named : named_dimensions)
+    if (named.dimension == dimension) return &named;
+  return nullptr;
+}
+
+struct Unit {
+  const char* symbol;
+  double factor;
+  Dimension dimension;
+  bool prefixed;  // may follow k, m, ...
+};
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::array units = {Unit{"m", 1, length, true},
+                              Unit{"g", 1e-3, {.mass = 1}, true},
+                              Unit{"s", 1, duration, true},
+                              Unit{"Pa", 1, pressure, true},
+                              Unit{"N", 1, {.mass = 1, .length = 1, .time = -2}, true},
+                              Unit{"J", 1, {.mass = 1, .length = 2, .time = -2}, true},
+                              Unit{"Hz", 1, rate, true},
+                              Unit{"rad", 1, {.angle = 1}, false},
+                              Unit{"deg", degree, {.angle = 1}, false},
+                              Unit{"min", 60, duration, false},
+                              Unit{"bar", 1e5, pressure, true},
+                              Unit{"mmHg", 133.322387415, pressure, false},
+                              Unit{"%", 1e-2, number, false},
+                              Unit{"1", 1, number, false}};
+
+struct Prefix {
+  const char* symbol;
+  double factor;
+};
+constexpr std::array prefixes = {Prefix{"n", 1e-9}, Prefix{"u", 1e-6}, Prefix{"µ", 1e-6},
+                                 Prefix{"m", 1e-3}, Prefix{"c", 1e-2}, Prefix{"d", 1e-1},
+                                 Prefix{"k", 1e3},  Prefix{"M", 1e6},  Prefix{"G", 1e9}};
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == text.npos ? std::string_view{} : text.substr(first, last - first + 1);
+}
+
+[[noreturn]] void unknown_unit(std::string_view symbol) {
+  static const std::vector<std::string> common = {"m",   "cm",  "mm",  "um", "s",  "ms",  "g",   "kg",  "N", "Pa",
+                                                  "kPa", "MPa", "GPa", "J",  "Hz", "rad", "deg", "min", "%"};
+  const std::string near = nearest_name(symbol, common);
+  throw std::invalid_argument("unknown unit '" + std::string(symbol) + "'" +
+                              (near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
+Measured unit_named(std::string_view symbol) {
+  for (const Unit& unit : units)
+    if (symbol == unit.symbol) return {unit.factor, unit.dimension};
+  for (const Prefix& prefix : prefixes)
+    for (const Unit& unit : units)
+      if (unit.prefixed && symbol.starts_with(prefix.symbol) &&
+          symbol.substr(std::string_view(prefix.symbol).size()) == unit.symbol)
+        return {prefix.factor * unit.factor, unit.dimension};
+  unknown_unit(symbol);
+}
+
+// One factor of a product, with its exponent: "m^3", "s2", "kPa"
+void multiply(Measured& product, std::string_view factor, int sign) {
+  const auto end = std::min(factor.find('^'), factor.find_first_of("0123456789", 1));
+  const Measured unit = unit_named(trimmed(factor.substr(0, end)));
+  int exponent = 1;
+  if (end < factor.size()) {
+    const std::string_view digits = factor.substr(end + (factor[end] == '^' ? 1 : 0));
+    const auto [rest, error] = std::from_chars(digits.begin(), digits.end(), exponent);
+    if (error != std::errc{} || rest != digits.end() || std::abs(exponent) > 9)
+      throw std::invalid_argument("cannot read the exponent in '" + std::string(factor) + "'");
+  }
+  exponent *= sign;
+  product.value *= std::pow(unit.value, exponent);
+  Dimension& d = *product.dimension;
+  d.mass += exponent * unit.dimension->mass, d.length += exponent * unit.dimension->length;
+  d.time += exponent * unit.dimension->time, d.angle += exponent * unit.dimension->angle;
+}
+
+Measured unit_product(std::string_view text) {
+  Measured product{1, number};
+  int sign = 1;
+  if (text.starts_with('/')) sign = -1, text.remove_prefix(1);
+  while (true) {
+    const auto end = text.find_first_of("*/");
+    const std::string_view factor = trimmed(text.substr(0, end));
+    if (factor.empty()) throw std::invalid_argument("a unit is missing beside '*' or '/'");
+    multiply(product, factor, sign);
+    if (end == text.npos) return product;
+    sign = text[end] == '/' ? -1 : 1;
+    text.remove_prefix(end + 1);
+  }
+}
+
+// How many characters of the text, from its start, make up a number; 0: none do
+std::size_t number_prefix(std::string_view text, double& value) {
+  const std::size_t sign = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
+  const auto [rest, error] = std::from_chars(text.begin() + sign, text.end(), value);
+  const bool finite = error == std::errc{} && std::isfinite(value);
+  return finite ? static_cast<std::size_t>(rest - text.begin()) : 0;
+}
+
+}  // namespace
+
+std::string unit_of(const Dimension& dimension) {
+  if (const Named* named = find_name(dimension)) return named->unit;
+  std::string text;
+  const auto add = [&text](const char* symbol, int exponent) {
+    if (exponent == 0) return;
+    text += (text.empty() ? "" : " ") + std::string(symbol);
+    if (exponent != 1) text += "^" + std::to_string(exponent);
+  };
+  add("kg", dimension.mass), add("m", dimension.length), add("s", dimension.time), add("rad", dimension.angle);
+  return text;
+}
+
+std::string name_of(const Dimension& dimension) {
+  const Named* named = find_name(dimension);
+  return named != nullptr ? named->name : "a quantity in " + unit_of(dimension);
+}
+
+std::string plural_of(const Dimension& dimension) {
+  const Named* named = find_name(dimension);
+  return named != nullptr ? named->plural : "quantities in " + unit_of(dimension);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const std::size_t length_read = number_prefix(text, value);
+  return length_read > 0 && length_read == text.size() ? std::optional(value) : std::nullopt;
+}
+
+Measured measure(std::string_view text) {
+  text = trimmed(text);
+  double value = 0;
+  const std::size_t length_read = number_prefix(text, value);
+  if (length_read == 0) throw std::invalid_argument("not a number");
+  const std::string_view unit = trimmed(text.substr(length_read));
+  if (unit.empty()) return {value, std::nullopt};
+  const Measured product = unit_product(unit);
+  return {value * product.value, product.dimension};
+}
+
+}  // namespace plica::app
