@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# How our own code is compiled. All of it is private to this build, but for the vector width: that is part of the types in
+# the headers, so whoever links the library is told.
+include(CheckCXXCompilerFlag)
+include(CheckCXXSourceCompiles)
+
+add_library(plica_options INTERFACE)
+
+# Sums keep their order and NaN stays NaN (no -ffast-math); nobody reads errno or traps.
+target_compile_options(plica_options INTERFACE -fno-math-errno -fno-trapping-math)
+
+# nvcc hands the host compiler generated code, on which warnings say nothing about ours.
+if(NOT Kokkos_ENABLE_CUDA)
+  target_compile_options(plica_options INTERFACE -Wall -Wextra -Wshadow -Wconversion)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(plica_options INTERFACE -Wno-restrict) # false positives on "text" + std::string
+  endif()
+  if(PLICA_WARNINGS_AS_ERRORS)
+    target_compile_options(plica_options INTERFACE -Werror)
+  endif()
+endif()
+
+set(native)
+if(PLICA_NATIVE)
+  check_cxx_compiler_flag(-march=native PLICA_HAS_MARCH_NATIVE)
+  if(PLICA_HAS_MARCH_NATIVE)
+    set(native -march=native)
+    target_compile_options(plica_options INTERFACE ${native})
+    # Eigen's alignments grow with -march. Here they stay those of a program built without, so that its objects can
+    # pass between this library and any other; what Eigen does for us is set-up, not worth vector instructions.
+    target_compile_definitions(plica_options INTERFACE
+      EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+  endif()
+endif()
+
+# Bytes of a vector register under these flags and Kokkos's own; on a GPU a thread works on one number.
+if(Kokkos_ENABLE_CUDA OR Kokkos_ENABLE_HIP OR Kokkos_ENABLE_SYCL)
+  set(PLICA_VECTOR_BYTES 8)
+else()
+  set(CMAKE_REQUIRED_FLAGS ${native})
+  set(CMAKE_REQUIRED_LIBRARIES Kokkos::kokkos)
+  set(PLICA_VECTOR_BYTES 16)
+  foreach(width 32:AVX2 64:AVX512F)
+    string(REGEX MATCH "(.*):(.*)" _ ${width})
+    set(has PLICA_HAS_${CMAKE_MATCH_2}_NATIVE_${PLICA_NATIVE})
+    check_cxx_source_compiles("#ifndef __${CMAKE_MATCH_2}__\n#error\n#endif\nint main() {}" ${has})
+    if(${has})
+      set(PLICA_VECTOR_BYTES ${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  unset(CMAKE_REQUIRED_FLAGS)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+  if(PLICA_VECTOR_BYTES EQUAL 64)
+    target_compile_options(plica_options INTERFACE -mprefer-vector-width=512)
+  endif()
+endif()
