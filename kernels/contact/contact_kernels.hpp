@@ -3,6 +3,7 @@
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
 #include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/reduce.hpp>
 
 namespace plica {
 
@@ -60,18 +61,17 @@ struct ScatterToVertices {
   EmbeddedSurface<B> surface;
   Vectors<B> force;  ///< [points][3]
   Vectors<B> f;      ///< [vertices][3]
-  typename B::Real scale;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(i);
     Vec3<typename B::Real> sum;
     for (int s = surface.first(i); s < surface.first(i + 1); ++s)
       for (int k = 0; k < 3; ++k) sum[k] += surface.weight(s) * force(surface.point(s), k);
-    for (int k = 0; k < 3; ++k) f(a, k) += scale * sum[k];
+    for (int k = 0; k < 3; ++k) f(a, k) += sum[k];
   }
 };
 
-/// y_p = block_p * (sum of weight * x), the tangent's point part of a product; without blocks a plain scalar times it.
+/// y_p = block_p * (sum of weight * x), the point part of a product with the tangent.
 template <class B>
 struct PointProduct {
   using Real = typename B::Real;
@@ -115,11 +115,11 @@ struct ContactEnergy {
   Vec3<Real> offset;
   Real stiffness;
 
-  KOKKOS_INLINE_FUNCTION double operator()(int p) const {
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
     const Real penetration = max(-shape(x - offset).distance, Real(0));
-    return 0.5 * static_cast<double>(stiffness * penetration * penetration);
+    return {{0.5 * static_cast<double>(stiffness * penetration * penetration)}};
   }
 };
 

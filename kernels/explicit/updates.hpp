@@ -65,15 +65,19 @@ struct RungeKuttaStage {
   }
 };
 
-/// Velocities of vertices whose motion is given, [m/s]; between calls they move with it like any other.
+/// Vertices whose motion is given: u = velocity * time, v = velocity. Within a sub-step they move like any other.
 template <class B>
-struct PrescribeVelocity {
+struct PrescribeMotion {
   Indices<B> vertex;
-  Vectors<B> velocity;  ///< [listed vertices][3]
-  Vectors<B> v;
+  Vectors<B> velocity;  ///< [listed vertices][3] m/s
+  State<B> state;
+  typename B::Real time;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) v(vertex(i), k) = velocity(i, k);
+    for (int k = 0; k < 3; ++k) {
+      state.u(vertex(i), k) = time * velocity(i, k);
+      state.v(vertex(i), k) = velocity(i, k);
+    }
   }
 };
 

@@ -5,8 +5,8 @@
 #include <plica/kernels/reduce.hpp>
 
 // The vector work of preconditioned conjugate gradients, fused so that every vector is read once per step of the iteration
-// (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1). Scalars stay on the device: scalar(0) = p.q, scalar(1) = r.z,
-// scalar(2) = the last iteration's r.z.
+// (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1). Scalars stay on the device: scalar(0) = p.q; scalar(1) and
+// scalar(2) = r.z of this and the last iteration, in turns: `last` says which is the older.
 namespace plica {
 
 template <class B>
@@ -23,7 +23,7 @@ struct CgVectors {
         p("plica::cg.p", n),
         q("plica::cg.q", n),
         preconditioner("plica::cg.preconditioner", n),
-        scalar("plica::cg.scalar", 4) {}
+        scalar("plica::cg.scalar", 3) {}
 
   KOKKOS_INLINE_FUNCTION double precondition(int a) const {  // z = D r at one vertex, and r.z
     const auto& d = preconditioner;
@@ -60,10 +60,11 @@ struct CgCurvature {
 template <class B>
 struct CgAdvance {
   CgVectors<B> c;
+  int last;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     using Real = typename B::Real;
     const double pq = c.scalar(0);
-    const Real alpha = static_cast<Real>(pq > 0 ? c.scalar(2) / pq : 0.0);
+    const Real alpha = static_cast<Real>(pq > 0 ? c.scalar(last) / pq : 0.0);
     for (int k = 0; k < 3; ++k) c.x(a, k) += alpha * c.p(a, k), c.r(a, k) -= alpha * c.q(a, k);
     return {{c.precondition(a)}};
   }
@@ -73,9 +74,10 @@ struct CgAdvance {
 template <class B>
 struct CgDirection {
   CgVectors<B> c;
+  int last;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     using Real = typename B::Real;
-    const Real beta = static_cast<Real>(c.scalar(2) > 0 ? c.scalar(1) / c.scalar(2) : 0.0);
+    const Real beta = static_cast<Real>(c.scalar(last) > 0 ? c.scalar(3 - last) / c.scalar(last) : 0.0);
     for (int k = 0; k < 3; ++k) c.p(a, k) = c.z(a, k) + beta * c.p(a, k);
   }
 };

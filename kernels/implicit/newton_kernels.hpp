@@ -4,32 +4,32 @@
 #include <plica/core/small.hpp>
 
 // Vertex kernels of implicit Euler. The unknown is the change dv of the end velocity v* at which the forces were linearised:
-//   A dv = M (v0 - v*) + h (f* - c M v*) + h dK (u0 + h v* - u*),   A = (1 + h c) M + h^2 K* + contact blocks
-// with dK = -K*; u* = u0 in the first iteration, u0 + h v* later. Rows of vertices whose motion is given are zero in the
+//   A dv = M (v0 - v*) + h (f* - c M v*) - h K* (u0 + h v* - u*),   A = (1 + h c) M + h^2 K* + contact blocks
+// In the first iteration u* = u0 and v* = v0, which leaves -h^2 K* v0 of the last term; later u* = u0 + h v* and nothing. Rows of vertices whose motion is given are zero in the
 // preconditioner, which keeps every search direction zero there.
 namespace plica {
 
 template <class B>
 using Blocks = Kokkos::View<typename B::Real* [6], Kokkos::LayoutRight, typename B::Memory>;
 
-/// b = M (v0 - v*) + h (f* - c M v*) + h * sum of the copies of a tangent product in `partial` (none where `use_partial` is not)
+/// b, with the copies of -K* v0 in `partial` where it is the first iteration
 template <class B>
 struct NewtonRightSide {
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> v0, v, f, partial, b;
   Real h, damping;
-  bool use_partial;
+  bool first;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real m = model.mass(a);
     Vec3<Real> sum;
-    if (use_partial)
+    if (first)
       for (int s = model.patches.first_copy(a); s < model.patches.first_copy(a + 1); ++s)
         for (int k = 0; k < 3; ++k) sum[k] += partial(model.patches.copy(s), k);
     for (int k = 0; k < 3; ++k)
       b(a, k) = model.inverse_mass(a) > 0
-                    ? m * (v0(a, k) - v(a, k)) + h * (f(a, k) - damping * m * v(a, k)) + h * sum[k]
+                    ? m * (v0(a, k) - v(a, k)) + h * (f(a, k) - damping * m * v(a, k)) + h * h * sum[k]
                     : Real(0);
   }
 };

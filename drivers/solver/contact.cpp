@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <plica/drivers/solver/contact.hpp>
+#include <plica/kernels/contact/contact_kernels.hpp>
+
+namespace plica {
+
+namespace {
+
+template <class Real>
+Vec3<Real> vec(const Point& p) {
+  return {static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])};
+}
+
+template <class Real>
+Plane::Shape<Real> device_shape(const PlaneOptions& o) {
+  return {vec<Real>(o.point), vec<Real>(o.normal.normalized())};
+}
+template <class Real>
+Sphere::Shape<Real> device_shape(const SphereOptions& o) {
+  return {vec<Real>(o.centre), static_cast<Real>(o.radius)};
+}
+template <class Real>
+Bowl::Shape<Real> device_shape(const BowlOptions& o) {
+  const double rim = o.rim > 0 ? o.rim : o.radius;
+  return {vec<Real>(o.centre), static_cast<Real>(o.radius), static_cast<Real>(rim - o.radius)};
+}
+
+template <class B, class Shape>
+class ObstacleOf final : public Obstacle<B> {
+  using Real = typename B::Real;
+  using Exec = typename B::Exec;
+  Shape shape_;
+  Point velocity_;
+  PenaltyLaw<Real> law_;
+
+  template <bool Tangent>
+  void launch(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double h,
+              double ahead, bool first, const ContactPoints<B>& points) const {
+    Kokkos::parallel_for("plica::contact_forces", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
+                         ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, vec<Real>(time * velocity_),
+                                                            vec<Real>(velocity_), law_, static_cast<Real>(ahead),
+                                                            static_cast<Real>(h), first, points.force, points.block});
+  }
+
+ public:
+  ObstacleOf(const Shape& shape, const Point& velocity, const PenaltyLaw<Real>& law)
+      : shape_(shape), velocity_(velocity), law_(law) {}
+
+  void forces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
+              const ContactPoints<B>& points) const override {
+    launch<false>(exec, surface, s, time, 0, 0, first, points);
+  }
+  void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double h,
+                 double ahead, bool first, const ContactPoints<B>& points) const override {
+    launch<true>(exec, surface, s, time, h, ahead, first, points);
+  }
+  void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
+              const BlockSums<B>& blocks, const Kokkos::View<double*, typename B::Memory>& result) const override {
+    reduce<B, 1>(exec, "plica::contact_energy", surface.points,
+                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, vec<Real>(time * velocity_), law_.stiffness},
+                 blocks, result);
+  }
+};
+
+}  // namespace
+
+template <class B>
+Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area,
+                    double edge)
+    : points_(points) {
+  const double per_point = area / points;
+  stiffness_ = options.stiffness_scale * material.young_modulus * per_point / edge;
+  const double critical = std::sqrt(stiffness_ * material.density * per_point * edge);  // 2 * 0.5 * sqrt(k m)
+  const double normal = options.damping_scale * critical, tangential = options.tangential_damping_scale * critical;
+  damping_ = normal;
+  for (const ObstacleOptions& o : options.obstacles) {
+    if (o.friction) damping_ = std::max(damping_, tangential);
+    const PenaltyLaw<Real> law{static_cast<Real>(stiffness_), static_cast<Real>(normal),
+                               static_cast<Real>(o.friction ? tangential : 0),
+                               static_cast<Real>(o.friction.value_or(0))};
+    std::visit(
+        [&](const auto& shape) {
+          using Shape = decltype(device_shape<Real>(shape));
+          obstacles_.push_back(std::make_unique<ObstacleOf<B, Shape>>(device_shape<Real>(shape), o.velocity, law));
+        },
+        o.shape);
+  }
+}
+
+template <class B>
+ContactPoints<B> Contact<B>::make_points(bool implicit) const {
+  ContactPoints<B> points{Vectors<B>("plica::contact.force", points_), {}};
+  if (implicit) points.block = Blocks<B>("plica::contact.block", points_);
+  return points;
+}
+
+template <class B>
+void scatter(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const Vectors<B>& force,
+             const Vectors<B>& f) {
+  Kokkos::parallel_for("plica::contact_scatter", Kokkos::RangePolicy<typename B::Exec>(exec, 0, surface.touched),
+                       ScatterToVertices<B>{surface, force, f});
+}
+
+template <class B>
+void Contact<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+                            const ContactPoints<B>& points, const Vectors<B>& f) const {
+  for (std::size_t i = 0; i < obstacles_.size(); ++i)
+    obstacles_[i]->forces(exec, level.surface, s, time, i == 0, points);
+  scatter<B>(exec, level.surface, points.force, f);
+}
+
+template <class B>
+void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& s, double time, double h,
+                           double ahead, const ContactPoints<B>& points, const Vectors<B>& f) const {
+  for (std::size_t i = 0; i < obstacles_.size(); ++i)
+    obstacles_[i]->linearise(exec, level.surface, s, time, h, ahead, i == 0, points);
+  scatter<B>(exec, level.surface, points.force, f);
+}
+
+template <class B>
+void Contact<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p,
+                             const ContactPoints<B>& points, const Vectors<B>& q) const {
+  Kokkos::parallel_for("plica::contact_product", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.points),
+                       PointProduct<B>{level.surface, p, points.block, points.force});
+  scatter<B>(exec, level.surface, points.force, q);
+}
+
+template <class B>
+void Contact<B>::add_diagonal(const Exec& exec, const Level<B>& level, const ContactPoints<B>& points,
+                              const Blocks<B>& diagonal) const {
+  Kokkos::parallel_for("plica::contact_diagonal", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
+                       AddPointBlocks<B>{level.surface, points.block, diagonal});
+}
+
+template <class B>
+double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, const BlockSums<B>& blocks) const {
+  const Kokkos::View<double*, typename B::Memory> result("plica::contact_energy", 1);
+  double total = 0;
+  for (const auto& obstacle : obstacles_) {
+    obstacle->energy(exec, level.surface, level.state, time, blocks, result);
+    exec.fence();
+    total += Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result)(0);
+  }
+  return total;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class Contact<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

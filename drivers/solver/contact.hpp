@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <plica/core/level.hpp>
+#include <plica/core/problem.hpp>
+#include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/implicit/newton_kernels.hpp>
+#include <plica/kernels/reduce.hpp>
+#include <vector>
+
+namespace plica {
+
+/// Contact's work arrays for one level's surface points.
+template <class B>
+struct ContactPoints {
+  Vectors<B> force;  ///< [points][3] N
+  Blocks<B> block;   ///< [points][6] kg, on implicit levels only
+};
+
+/// One obstacle: launches the kernels of its shape.
+template <class B>
+class Obstacle {
+ public:
+  using Exec = typename B::Exec;
+  virtual ~Obstacle() = default;
+  /// Sets (first) or adds its forces on the surface points of the state at `time`.
+  virtual void forces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, bool first,
+                      const ContactPoints<B>&) const = 0;
+  /// The same with the blocks of an implicit step h; contact is predicted `ahead` of the state [s].
+  virtual void linearise(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double h, double ahead,
+                         bool first, const ContactPoints<B>&) const = 0;
+  /// Energy stored in its penalties [J], into result(0).
+  virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const BlockSums<B>&,
+                      const Kokkos::View<double*, typename B::Memory>& result) const = 0;
+};
+
+/// Penalty contact between a level's embedded surface and all obstacles.
+template <class B>
+class Contact {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+
+  /// `area` of the whole surface [m^2], `edge` the finest level's mean edge [m]: see ContactOptions for the law.
+  Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area, double edge);
+
+  ContactPoints<B> make_points(bool implicit) const;
+  /// f += the contact forces of a state
+  void add_forces(const Exec&, const Level<B>&, const State<B>&, double time, const ContactPoints<B>&,
+                  const Vectors<B>& f) const;
+  void linearise(const Exec&, const Level<B>&, const State<B>&, double time, double h, double ahead,
+                 const ContactPoints<B>&, const Vectors<B>& f) const;
+  /// q += W^T block W p, and diagonal += its vertex blocks
+  void add_product(const Exec&, const Level<B>&, const Vectors<B>& p, const ContactPoints<B>&,
+                   const Vectors<B>& q) const;
+  void add_diagonal(const Exec&, const Level<B>&, const ContactPoints<B>&, const Blocks<B>& diagonal) const;
+  double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
+
+  double stiffness() const { return stiffness_; }  ///< of a point [N/m]
+  double damping() const { return damping_; }      ///< the larger of its coefficients [N s/m]
+
+ private:
+  int points_;
+  double stiffness_, damping_;
+  std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
+};
+
+}  // namespace plica

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/hierarchy.hpp>
+
+namespace plica {
+
+/// How the levels take a macro step together. A cycle allocates on the levels what it needs and nothing else.
+template <class B>
+class Cycle {
+ public:
+  virtual ~Cycle() = default;
+  /// Makes the coarser levels' states follow level 0's, which was just set.
+  virtual void begin(Hierarchy<B>& hierarchy) = 0;
+  /// From `time` over `t` [s].
+  virtual void step(Hierarchy<B>& hierarchy, double time, double t) = 0;
+};
+
+/// Level i's own part of a macro step, from `time` [s]; returns the time it ends at.
+template <class B>
+double integrate(Hierarchy<B>& hierarchy, int i, double time, double t) {
+  HierarchyLevel<B>& part = hierarchy[i];
+  Level<B>& level = part.level;
+  const double span = part.share * t;
+  hierarchy.clock.time("integrate", i, [&] {
+    if (level.prescribed.count > 0)
+      update_vertices<B>(hierarchy.exec(), "plica::prescribe", level.prescribed.count,
+                         PrescribeMotion<B>{level.prescribed.vertex, level.prescribed.velocity, level.state,
+                                            static_cast<typename B::Real>(time)});
+    part.integrator->advance(hierarchy.exec(), level, *part.forces, time, span / part.substeps, part.substeps);
+  });
+  return time + span;
+}
+
+}  // namespace plica

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/kernels/elastic/elastic_energy.hpp>
+#include <plica/kernels/elastic/elastic_force.hpp>
+#include <plica/kernels/elastic/elastic_tangent.hpp>
+#include <plica/kernels/materials/list.hpp>
+
+namespace plica {
+
+namespace {
+
+template <class B, class Material>
+class ElasticityOf final : public Elasticity<B> {
+  using Exec = typename B::Exec;
+
+ public:
+  bool survives_inversion() const override { return Material::survives_inversion; }
+  void force(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const ElementFlags<B>& flags,
+             int evaluation, const Vectors<B>& partial) const override {
+    elastic_force<B, Material>(exec, patches, u, flags, evaluation, partial);
+  }
+  void tangent(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p,
+               const Vectors<B>& partial) const override {
+    elastic_tangent<B, Material>(exec, patches, u, p, partial);
+  }
+  void diagonal(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction,
+                const Vectors<B>& partial) const override {
+    elastic_diagonal<B, Material>(exec, patches, u, direction, partial);
+  }
+  void energy(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
+              const Vectors<B>& partial) const override {
+    elastic_energy<B, Material>(exec, patches, u, partial);
+  }
+};
+
+}  // namespace
+
+template <class B>
+std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material) {
+  std::unique_ptr<Elasticity<B>> made;
+  Materials::visit(material, [&](auto m) { made = std::make_unique<ElasticityOf<B, decltype(m)>>(); });
+  if (!made) throw InputError(unknown_name("material", material, names(materials())));
+  return made;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) \
+  template std::unique_ptr<Elasticity<Backend<Real, Exec>>> make_elasticity<Backend<Real, Exec>>(std::string_view);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <plica/core/element_flags.hpp>
+#include <plica/core/patches.hpp>
+#include <string_view>
+
+namespace plica {
+
+/// The element kernels of one material, chosen by name at set-up. Each writes its sums per patch vertex into `partial`.
+template <class B>
+class Elasticity {
+ public:
+  using Exec = typename B::Exec;
+  virtual ~Elasticity() = default;
+  virtual bool survives_inversion() const = 0;
+  virtual void force(const Exec&, const Patches<B>&, const Vectors<B>& u, const ElementFlags<B>&, int evaluation,
+                     const Vectors<B>& partial) const = 0;
+  virtual void tangent(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& p,
+                       const Vectors<B>& partial) const = 0;
+  virtual void diagonal(const Exec&, const Patches<B>&, const Vectors<B>& u, int direction,
+                        const Vectors<B>& partial) const = 0;
+  virtual void energy(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& partial) const = 0;
+};
+
+/// Throws InputError for a name that is not in kernels/materials/list.hpp.
+template <class B>
+std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material);
+
+}  // namespace plica

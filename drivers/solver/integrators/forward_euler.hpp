@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+
+namespace plica {
+
+/// Forward Euler: first order. |1 + h s|^2 = 1 - h c + h^2 w^2: an undamped mode grows at every step, one with mass damping
+/// c is stable for h < c / w^2.
+struct ForwardEuler {
+  static constexpr const char* name = "euler";
+  static constexpr const char* summary = "explicit, order 1; undamped it grows at every step";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{0.0, true};
+
+  template <class B>
+  class Step final : public Integrator<B> {
+   public:
+    Step(const Level<B>&, const IntegratorOptions& options) : damping_(options.mass_damping) {}
+
+    void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
+                 int steps) override {
+      using Real = typename B::Real;
+      const ForwardEulerUpdate<B> update{
+          level.model.inverse_mass,   level.f, level.state.u, level.state.v, static_cast<Real>(h),
+          static_cast<Real>(damping_)};
+      for (int s = 0; s < steps; ++s) {
+        forces.evaluate(level, level.state, time + s * h, level.f);
+        update_vertices<B>(exec, "plica::euler", level.model.vertices, update);
+      }
+    }
+
+   private:
+    double damping_;
+  };
+};
+
+}  // namespace plica

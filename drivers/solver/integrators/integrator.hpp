@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <plica/core/level.hpp>
+#include <plica/core/problem.hpp>
+#include <plica/drivers/solver/level_forces.hpp>
+
+namespace plica {
+
+/// What an integrator is given at set-up.
+struct IntegratorOptions {
+  double mass_damping = 0;  ///< [1/s]
+  ImplicitOptions implicit;
+};
+
+/// One level's ODE solver.
+template <class B>
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// Takes the level's state through `steps` steps of h from `time` [s]. Contact is found anew in every step.
+  virtual void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
+                       int steps) = 0;
+  virtual std::map<std::string, long> counters() const { return {}; }
+  /// The largest relative residual a linear solve ended with; 0 where there are none.
+  virtual double worst_residual() const { return 0; }
+};
+
+/// The stability limit of an integrator on u'' = -K u - D u' (K and D per mass): the largest h with
+/// lambda_max(h^2 K + h radius D) <= radius^2. For symplectic Euler, whose limit is h^2 w^2 + 2 h c <= 4, that is exact; for a
+/// Runge-Kutta method it keeps all h s within `radius`. Implicit: infinite; forward Euler: see forward_euler.hpp.
+struct StabilityLimit {
+  double radius;               ///< 0: none of this kind
+  bool needs_damping = false;  ///< grows at every step without mass damping c; with it h <= c / w^2
+};
+
+}  // namespace plica

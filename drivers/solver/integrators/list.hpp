@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/type_list.hpp>
+#include <plica/drivers/solver/integrators/forward_euler.hpp>
+#include <plica/drivers/solver/integrators/implicit_euler.hpp>
+#include <plica/drivers/solver/integrators/rk4.hpp>
+#include <plica/drivers/solver/integrators/symplectic_euler.hpp>
+
+namespace plica {
+
+/// Every integrator there is. One more: its file above, its name here.
+using Integrators = TypeList<SymplecticEuler, ForwardEuler, Rk4, ImplicitEuler>;
+
+}  // namespace plica

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+
+namespace plica {
+
+/// Semi-implicit Euler: first order, symplectic, one force per step; stable for h < 2/w.
+struct SymplecticEuler {
+  static constexpr const char* name = "symplectic_euler";
+  static constexpr const char* summary = "explicit, order 1, symplectic; h < 2/w";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{2.0};
+
+  template <class B>
+  class Step final : public Integrator<B> {
+   public:
+    Step(const Level<B>&, const IntegratorOptions& options) : damping_(options.mass_damping) {}
+
+    void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
+                 int steps) override {
+      using Real = typename B::Real;
+      const SymplecticEulerUpdate<B> update{level.model.inverse_mass,
+                                            level.f,
+                                            level.state.u,
+                                            level.state.v,
+                                            static_cast<Real>(h),
+                                            static_cast<Real>(1 / (1 + h * damping_))};
+      for (int s = 0; s < steps; ++s) {
+        forces.evaluate(level, level.state, time + s * h, level.f);
+        update_vertices<B>(exec, "plica::symplectic_euler", level.model.vertices, update);
+      }
+    }
+
+   private:
+    double damping_;
+  };
+};
+
+}  // namespace plica

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/level_forces.hpp>
+#include <plica/kernels/elastic/gather_forces.hpp>
+
+namespace plica {
+
+template <class B>
+LevelForces<B>::LevelForces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
+                            std::shared_ptr<const Contact<B>> contact, bool implicit, StageClock<B>* clock, int level)
+    : elasticity_(std::move(elasticity)), contact_(std::move(contact)), clock_(clock), level_(level) {
+  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
+  if (contact_) points_ = contact_->make_points(implicit);
+}
+
+template <class B>
+void LevelForces<B>::elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f) {
+  ++evaluations_;
+  clock_->time("force", level_, [&] {
+    elasticity_->force(clock_->exec(), level.model.patches, state.u, level.flags, ++evaluation_, level.partial);
+    gather_forces<B>(clock_->exec(), level.model, level.partial, gravity_, f);
+  });
+}
+
+template <class B>
+void LevelForces<B>::evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f) {
+  elastic_and_gravity(level, state, f);
+  if (contact_)
+    clock_->time("contact", level_, [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
+}
+
+template <class B>
+void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
+                               const Vectors<B>& f) {
+  elastic_and_gravity(level, state, f);
+  if (contact_)
+    clock_->time("contact", level_,
+                 [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
+}
+
+template <class B>
+void LevelForces<B>::tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const {
+  elasticity_->tangent(clock_->exec(), level.model.patches, state.u, p, level.partial);
+}
+
+template <class B>
+void LevelForces<B>::product(const Level<B>& level, const State<B>& state, const Vectors<B>& p, double h,
+                             double inertia, const Vectors<B>& q) const {
+  using Real = typename B::Real;
+  const auto& exec = clock_->exec();
+  tangent(level, state, p);
+  Kokkos::parallel_for("plica::newton_product", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
+                       NewtonProduct<B>{level.model.patches, level.model.mass, p, level.partial, q,
+                                        static_cast<Real>(inertia), static_cast<Real>(h * h)});
+  if (contact_) contact_->add_product(exec, level, p, points_, q);
+}
+
+template <class B>
+void LevelForces<B>::preconditioner(const Level<B>& level, const State<B>& state, double h, double inertia,
+                                    const Blocks<B>& blocks) const {
+  using Real = typename B::Real;
+  const auto& exec = clock_->exec();
+  for (int direction = 0; direction < 3; ++direction) {
+    elasticity_->diagonal(exec, level.model.patches, state.u, direction, level.partial);
+    Kokkos::parallel_for("plica::newton_diagonal", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
+                         DiagonalColumn<B>{level.model.patches, level.model.mass, level.partial, blocks,
+                                           static_cast<Real>(inertia), static_cast<Real>(h * h), direction});
+  }
+  if (contact_) contact_->add_diagonal(exec, level, points_, blocks);
+  Kokkos::parallel_for("plica::invert_blocks", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
+                       InvertBlocks<B>{level.model, blocks, static_cast<Real>(inertia)});
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class LevelForces<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <memory>
+#include <plica/core/level.hpp>
+#include <plica/core/small.hpp>
+#include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/stage_clock.hpp>
+
+namespace plica {
+
+/// All forces on one level: internal, gravity, contact. What the scene does not have is not there.
+template <class B>
+class LevelForces {
+ public:
+  using Exec = typename B::Exec;
+
+  LevelForces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
+              std::shared_ptr<const Contact<B>> contact, bool implicit, StageClock<B>* clock, int level);
+
+  /// f = the forces of a state of this level at a time [s].
+  void evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f);
+
+  /// Linearises about a state for an implicit step h: f as above with contact predicted `ahead` [s].
+  void linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
+                 const Vectors<B>& f);
+  /// q = ((1 + h c) M + h^2 K + contact) p at the linearised state, inertia = 1 + h c.
+  void product(const Level<B>& level, const State<B>& state, const Vectors<B>& p, double h, double inertia,
+               const Vectors<B>& q) const;
+  /// The inverses of that matrix's vertex blocks, [vertices][6] xx yy zz xy xz yz.
+  void preconditioner(const Level<B>& level, const State<B>& state, double h, double inertia,
+                      const Blocks<B>& blocks) const;
+  /// level.partial = the copies of -K p at a state
+  void tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const;
+
+  const Elasticity<B>& elasticity() const { return *elasticity_; }
+  const Contact<B>* contact() const { return contact_.get(); }
+  const ContactPoints<B>& points() const { return points_; }
+  long evaluations() const { return evaluations_; }
+  /// Evaluations are numbered from 1 in each macro step, for the element flags.
+  void begin_macro_step() { evaluation_ = 0; }
+
+ private:
+  std::shared_ptr<const Elasticity<B>> elasticity_;
+  Vec3<typename B::Real> gravity_;
+  std::shared_ptr<const Contact<B>> contact_;
+  ContactPoints<B> points_;
+  StageClock<B>* clock_;
+  int level_;
+  long evaluations_ = 0;
+  int evaluation_ = 0;
+
+  void elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f);
+};
+
+}  // namespace plica
