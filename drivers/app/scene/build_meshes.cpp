@@ -17,7 +17,7 @@ TetMesh from_file(const LevelRecipe& recipe, const Scene& scene, const Where& wh
   const std::filesystem::path file = std::filesystem::path(scene.file).parent_path() / recipe.file;
   if (!std::filesystem::exists(file))
     throw InputError("there is no mesh file '" + file.string() + "' (its name is relative to the scene)", where);
-  TetMesh mesh = read_mesh(file.string()).mesh;
+  TetMesh mesh = read_mesh(file);
   for (Point& vertex : mesh.vertices) vertex *= recipe.scale;
   return mesh;
 }

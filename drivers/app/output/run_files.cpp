@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+
+namespace plica::app {
+namespace {
+
+std::vector<Point> differences(const std::vector<Point>& a, const std::vector<Point>& b) {
+  std::vector<Point> result(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] - b[i];
+  return result;
+}
+
+std::vector<Point> gathered(const std::vector<Point>& values, const std::vector<int>& indices) {
+  std::vector<Point> result;
+  result.reserve(indices.size());
+  for (const int i : indices) result.push_back(values[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+template <std::size_t N>
+std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
+  std::vector<int> result;
+  result.reserve(N * cells.size());
+  for (const auto& cell : cells) result.insert(result.end(), cell.begin(), cell.end());
+  return result;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder)
+    : finest_(scene.problem.body.levels.front()),
+      surface_frames_(folder, "surface", "frames.pvd"),
+      history_(folder / "history.csv", vertex_masses(scene.problem.body)) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / "summary.json", ignored);
+  Frames volume(folder, "volume", "volume.pvd");
+  if (scene.output.volume) volume_frames_ = std::move(volume);
+  if (scene.problem.body.surface) {
+    skin_ = *scene.problem.body.surface;
+  } else {
+    BoundarySurface boundary = boundary_surface(finest_);
+    skin_ = std::move(boundary.surface);
+    skin_vertex_ = std::move(boundary.mesh_vertex);
+  }
+}
+
+void RunFiles::write(const Snapshot& snapshot) {
+  write_surface(snapshot);
+  if (volume_frames_) write_volume(snapshot);
+  history_.write(snapshot);
+  last_time_ = snapshot.time;
+}
+
+void RunFiles::write_surface(const Snapshot& snapshot) {
+  const bool embedded = skin_vertex_.empty();
+  VtuGrid grid;
+  grid.time = snapshot.time;
+  grid.points = embedded ? snapshot.surface : gathered(snapshot.positions, skin_vertex_);
+  grid.connectivity = flat(skin_.triangles);
+  grid.point_fields = {
+      {"displacement", differences(grid.points, skin_.vertices)},
+      {"velocity", embedded ? snapshot.surface_velocities : gathered(snapshot.velocities, skin_vertex_)}};
+  surface_frames_.write(grid);
+}
+
+void RunFiles::write_volume(const Snapshot& snapshot) {
+  VtuGrid grid;
+  grid.time = snapshot.time;
+  grid.points = snapshot.positions;
+  grid.connectivity = flat(finest_.tets);
+  grid.vertices_per_cell = 4;
+  grid.point_fields = {{"displacement", differences(snapshot.positions, finest_.vertices)},
+                       {"velocity", snapshot.velocities}};
+  if (!finest_.region.empty()) grid.cell_fields = {{"region", finest_.region}};
+  volume_frames_->write(grid);
+}
+
+}  // namespace plica::app
