@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <numeric>
+#include <plica/meshes/connectivity.hpp>
+#include <unsupported/Eigen/BVH>
+
+namespace plica {
+
+namespace {
+
+using Volume = Eigen::AlignedBox3d;
+
+// The lowest vertex known to be of the same part, paths halved on the way
+int root(std::vector<int>& parent, int v) {
+  const auto at = [&](int i) -> int& { return parent[static_cast<std::size_t>(i)]; };
+  while (at(v) != v) v = at(v) = at(at(v));
+  return v;
+}
+
+struct LowerTwin {
+  const std::vector<Point>& points;
+  int self;
+  double tolerance;
+  bool found = false;
+
+  bool intersectVolume(const Volume& box) const {
+    return box.squaredExteriorDistance(points[static_cast<std::size_t>(self)]) <= tolerance * tolerance;
+  }
+  bool intersectObject(int other) {
+    const Point& p = points[static_cast<std::size_t>(self)];
+    found = other < self && (points[static_cast<std::size_t>(other)] - p).norm() <= tolerance;
+    return found;
+  }
+};
+
+}  // namespace
+
+int count_parts(const TetMesh& mesh) {
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& tet : mesh.tets)
+    for (std::size_t k = 1; k < 4; ++k) {
+      const int a = root(parent, tet[0]), b = root(parent, tet[k]);
+      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  std::vector<int> roots;
+  for (const auto& tet : mesh.tets) roots.push_back(root(parent, tet[0]));
+  std::sort(roots.begin(), roots.end());
+  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+}
+
+int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
+  std::vector<int> vertices(mesh.vertices.size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  std::vector<Volume> boxes;
+  for (const Point& p : mesh.vertices) boxes.emplace_back(p, p);
+  const Eigen::KdBVH<double, 3, int> tree(vertices.begin(), vertices.end(), boxes.begin(), boxes.end());
+  int count = 0;
+  for (const int v : vertices) {
+    LowerTwin twin{mesh.vertices, v, tolerance};
+    Eigen::BVIntersect(tree, twin);
+    count += twin.found ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace plica

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/mesh.hpp>
+
+namespace plica {
+
+/// The number of parts of a mesh that share no vertex; vertices of no tetrahedron do not count.
+int count_parts(const TetMesh& mesh);
+
+/// The number of vertices within `tolerance` [m], above zero, of one with a lower number. Two meshes glued together
+/// without merging their common vertices show up here: they come apart when simulated.
+int count_duplicate_vertices(const TetMesh& mesh, double tolerance);
+
+}  // namespace plica

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <plica/meshes/barycentric.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/connectivity.hpp>
+#include <plica/meshes/edge_lengths.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+#include <utility>
+
+namespace plica {
+
+namespace {
+
+constexpr std::size_t worst_count = 10;
+constexpr double duplicate_tolerance = 1e-9;  // of the mean edge
+
+// The angles between the faces at the six edges [degree], from the outward area vectors of the faces across each corner
+std::array<double, 6> dihedral_angles(const std::array<Point, 4>& areas) {
+  std::array<double, 6> angles;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const double between = std::atan2(areas[i].cross(areas[j]).norm(), areas[i].dot(areas[j]));
+      angles[n++] = 180.0 - between * 180.0 / std::numbers::pi;
+    }
+  return angles;
+}
+
+// Outward, as long as the area of the face across corner k
+std::array<Point, 4> face_areas(const std::array<Point, 4>& c) {
+  const auto area = [&](const Point& p, const Point& q, const Point& r) -> Point { return (q - p).cross(r - p) / 2.0; };
+  return {area(c[1], c[2], c[3]), area(c[0], c[3], c[2]), area(c[0], c[1], c[3]), area(c[0], c[2], c[1])};
+}
+
+struct Shape {
+  TetShape summary;
+  std::array<double, 6> angles;
+};
+
+Shape shape_of(const TetMesh& mesh, int tet) {
+  const auto corners = corners_of(mesh, tet);
+  const auto areas = face_areas(corners);
+  double longest = 0.0, largest_face = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    largest_face = std::max(largest_face, areas[i].norm());
+    for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, (corners[j] - corners[i]).norm());
+  }
+  Shape shape = {{}, dihedral_angles(areas)};
+  TetShape& s = shape.summary;
+  s.tet = tet;
+  s.volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
+  s.height_ratio = longest * largest_face / (3.0 * s.volume);  // the smallest height stands on the largest face
+  const auto [least, most] = std::minmax_element(shape.angles.begin(), shape.angles.end());
+  s.smallest_angle = *least, s.largest_angle = *most;
+  s.centroid = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
+  return shape;
+}
+
+// Gathers a Range one value at a time
+class Extent {
+ public:
+  void add(double value) {
+    min_ = std::min(min_, value), max_ = std::max(max_, value);
+    sum_ += value, ++count_;
+  }
+  Range range() const { return count_ == 0 ? Range{} : Range{min_, sum_ / static_cast<double>(count_), max_}; }
+
+ private:
+  double min_ = std::numeric_limits<double>::infinity(), max_ = -min_, sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+Range edge_range(const TetMesh& mesh) {
+  Extent extent;
+  const auto at = [&](int v) -> const Point& { return mesh.vertices[static_cast<std::size_t>(v)]; };
+  for (const auto& [a, b] : mesh_edges(mesh)) extent.add((at(b) - at(a)).norm());
+  return extent.range();
+}
+
+bool worse(const TetShape& a, const TetShape& b) {
+  return a.height_ratio != b.height_ratio ? a.height_ratio > b.height_ratio : a.tet < b.tet;
+}
+
+void keep_if_among_worst(const TetShape& shape, std::vector<TetShape>& worst) {
+  if (worst.size() == worst_count && !worse(shape, worst.back())) return;
+  worst.insert(std::upper_bound(worst.begin(), worst.end(), shape, worse), shape);
+  if (worst.size() > worst_count) worst.pop_back();
+}
+
+void measure_tets(const TetMesh& mesh, MeshQuality& quality) {
+  for (const std::string& name : mesh.region_names) quality.regions.push_back({name});
+  if (mesh.region.empty()) quality.regions.assign(1, {});
+  Extent ratios, angles;
+  for (int t = 0; t < quality.tets; ++t) {
+    const Shape shape = shape_of(mesh, t);
+    ratios.add(shape.summary.height_ratio);
+    quality.height_ratio_counts.add(shape.summary.height_ratio);
+    for (const double angle : shape.angles) angles.add(angle), quality.dihedral_angle_counts.add(angle);
+    quality.volume += shape.summary.volume;
+    const int region = mesh.region.empty() ? 0 : mesh.region[static_cast<std::size_t>(t)];
+    RegionSize& size = quality.regions[static_cast<std::size_t>(region)];
+    size.volume += shape.summary.volume, ++size.tets;
+    keep_if_among_worst(shape.summary, quality.worst);
+  }
+  quality.height_ratios = ratios.range();
+  quality.dihedral_angles = angles.range();
+}
+
+}  // namespace
+
+Histogram::Histogram(std::vector<double> interval_bounds)
+    : bounds(std::move(interval_bounds)), counts(bounds.size() - 1, 0) {}
+
+void Histogram::add(double value) {
+  const auto above = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, value);
+  ++counts[static_cast<std::size_t>(above - bounds.begin() - 1)];
+}
+
+TetShape tet_shape(const TetMesh& mesh, int tet) { return shape_of(mesh, tet).summary; }
+
+MeshQuality mesh_quality(const TetMesh& mesh) {
+  MeshQuality quality;
+  quality.vertices = static_cast<int>(mesh.vertices.size());
+  quality.tets = static_cast<int>(mesh.tets.size());
+  const TriangleSurface boundary = boundary_surface(mesh).surface;
+  quality.boundary_triangles = static_cast<int>(boundary.triangles.size());
+  quality.boundary_area = surface_area(boundary);
+  quality.box = bounding_box(mesh.vertices);
+  quality.edges = edge_range(mesh);
+  quality.parts = count_parts(mesh);
+  quality.duplicate_vertices = count_duplicate_vertices(mesh, duplicate_tolerance * quality.edges.mean);
+  measure_tets(mesh, quality);
+  return quality;
+}
+
+}  // namespace plica

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <filesystem>
+#include <plica/core/mesh.hpp>
+#include <plica/meshes/mesh_report.hpp>
+
+namespace plica {
+
+/// Reads a tetrahedral mesh in the format its extension names (see list.hpp), in any case of letters.
+/// @param report  takes what was mended and left out, when given
+/// @throw InputError for an unknown extension, and whatever the reader refuses
+TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report = nullptr);
+
+}  // namespace plica

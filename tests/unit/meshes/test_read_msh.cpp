@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/meshes/mesh_quality.hpp>
+#include <plica/meshes/read_mesh.hpp>
+
+#include "msh_text.hpp"
+
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+void expect_same(const TetMesh& a, const TetMesh& b) {
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.tets, b.tets);
+  EXPECT_EQ(a.region, b.region);
+  EXPECT_EQ(a.region_names, b.region_names);
+  EXPECT_EQ(a.vertex_sets, b.vertex_sets);
+}
+
+TEST(ReadMsh, TakesVerticesTetrahedraRegionsAndSets) {
+  MeshReport report;
+  const TetMesh mesh = read_text(two_tets, &report);
+  ASSERT_EQ(mesh.vertices.size(), 5u);
+  EXPECT_EQ(mesh.vertices[4], Point(1, 1, 1));
+  EXPECT_EQ(mesh.tets, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(mesh.region, (std::vector<int>{0, 1}));
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"tissue", "large tumour"}));
+  EXPECT_EQ(mesh.vertex_sets, (std::map<std::string, std::vector<int>>{{"base", {0, 1, 2}}}));
+  EXPECT_EQ(report.format, "Gmsh MSH 2.2 ASCII");
+  EXPECT_EQ(report.flipped, 0);
+  EXPECT_EQ(report.unreferenced, 0);
+  EXPECT_EQ(report.vertex_tags, (std::vector<std::int64_t>{1, 2, 3, 10, 11}));
+  EXPECT_EQ(report.tet_tags, (std::vector<std::int64_t>{7, 8}));
+  EXPECT_EQ(report.other_elements, (std::map<std::string, int>{{"triangle", 1}}));
+}
+
+TEST(ReadMsh, CarriageReturnsTabsAndPlusSignsMakeNoDifference) {
+  std::string windows;
+  for (const char c : two_tets) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  expect_same(read_text(windows), read_text(two_tets));
+  expect_same(read_text(with(two_tets, "2 1 0 0", "\t2  +1.0e0\t0 0 ")), read_text(two_tets));
+}
+
+TEST(ReadMsh, SectionsMayComeInAnotherOrder) {
+  const std::size_t names = two_tets.find("$PhysicalNames"), nodes = two_tets.find("$Nodes");
+  expect_same(read_text(two_tets.substr(0, names) + two_tets.substr(nodes) + two_tets.substr(names, nodes - names)),
+              read_text(two_tets));
+}
+
+TEST(ReadMsh, TurnsInsideOutTetrahedra) {
+  MeshReport report;
+  const TetMesh mesh = read_text(with(two_tets, "1 1 1 2 3 10", "1 1 2 1 3 10"), &report);
+  EXPECT_EQ(report.flipped, 1);
+  const auto& [a, b, c, d] = mesh.tets[0];
+  const auto at = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
+  EXPECT_DOUBLE_EQ(tet_volume(at(a), at(b), at(c), at(d)), 1.0 / 6.0);
+}
+
+TEST(ReadMsh, DropsUnreferencedVerticesAlsoFromSets) {
+  MeshReport report;
+  std::string text = with(two_tets, "$Nodes\n5\n1 0 0 0", "$Nodes\n7\n40 5 5 5\n1 0 0 0\n41 6 6 6");
+  text = with(text, "$Elements\n3", "$Elements\n4\n5 2 2 4 1 1 40 41");
+  const TetMesh mesh = read_text(text, &report);
+  EXPECT_EQ(report.unreferenced, 2);
+  EXPECT_EQ(report.vertex_tags, (std::vector<std::int64_t>{1, 2, 3, 10, 11}));
+  expect_same(mesh, read_text(two_tets));
+}
+
+TEST(ReadMsh, NamelessGroupsAreNamedAfterTheirTag) {
+  std::string text = with(two_tets, "3\n2 4 \"base\"\n3 1 \"tissue\"\n", "1\n");
+  TetMesh mesh = read_text(text);
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"physical_1", "large tumour"}));
+  EXPECT_TRUE(mesh.vertex_sets.contains("physical_4"));
+  mesh = read_text(with(text, "large tumour", "physical_1"));
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"physical_1"}));
+  EXPECT_EQ(mesh.region, (std::vector<int>{0, 0}));
+}
+
+TEST(ReadMsh, WithoutGroupsThereIsOneNamelessRegion) {
+  std::string text = with(with(two_tets, "7 4 2 1 1", "7 4 2 0 1"), "6 2 2 4 1", "6 2 0");
+  EXPECT_EQ(read_text(text).region_names, (std::vector<std::string>{"physical_0", "large tumour"}));
+  text = with(text, "8 4 2 2 2", "8 4 0");
+  const TetMesh mesh = read_text(text);
+  EXPECT_TRUE(mesh.region.empty());
+  EXPECT_TRUE(mesh.region_names.empty());
+  EXPECT_TRUE(mesh.vertex_sets.empty());
+}
+
+TEST(ReadMsh, SetsOfOneNameAreOneSetAndMinusSignsAreOrientations) {
+  const std::string text = with(with(two_tets, "$PhysicalNames\n3", "$PhysicalNames\n4\n0 9 \"base\""), "$Elements\n3",
+                                "$Elements\n5\n1 15 2 9 1 11\n2 1 2 -9 1 10 11");
+  const TetMesh mesh = read_text(text);
+  EXPECT_EQ(mesh.vertex_sets.at("base"), (std::vector<int>{0, 1, 2, 4}));
+  EXPECT_EQ(mesh.vertex_sets.at("physical_9"), (std::vector<int>{3, 4}));
+}
+
+TEST(ReadMsh, SkipsSectionsForOtherUses) {
+  MeshReport report;
+  const std::string comment = "$Comments\nfree text 1 2 nan\n$Nodes\n$EndComments\n";
+  const TetMesh mesh =
+      read_text(with(two_tets, "$Nodes", comment + "$Nodes") + "$NodeData\n1\n$EndNodeData\n", &report);
+  expect_same(mesh, read_text(two_tets));
+  EXPECT_EQ(report.skipped_sections, (std::vector<std::string>{"$Comments", "$NodeData"}));
+}
+
+// Cut anywhere, a file is refused, unless only the last line feed is missing
+TEST(ReadMsh, CutAtAnyByteIsRefused) {
+  const TetMesh whole = read_text(two_tets);
+  for (std::size_t bytes = 0; bytes < two_tets.size(); ++bytes) {
+    if (bytes + 1 == two_tets.size()) {
+      expect_same(read_text(two_tets.substr(0, bytes)), whole);
+      continue;
+    }
+    EXPECT_THROW(read_text(two_tets.substr(0, bytes)), InputError) << bytes;
+  }
+}
+
+// Any byte may turn into any of these: an error or a mesh, but no crash, and never an unsound mesh
+TEST(ReadMsh, AnyByteChangedIsRefusedOrSound) {
+  for (std::size_t at = 0; at < two_tets.size(); ++at)
+    for (const char c : {' ', '\n', '9', '-', '$', '"', 'e', '\0', '\xff'}) {
+      std::string text = two_tets;
+      text[at] = c;
+      try {
+        const TetMesh mesh = read_text(text);
+        EXPECT_GT(mesh_quality(mesh).volume, 0.0);
+      } catch (const InputError&) {
+      }
+    }
+}
+
+TEST(ReadMesh, ChoosesTheFormatByExtension) {
+  const TemporaryFile file(two_tets, ".MSH");
+  expect_same(read_mesh(file.path()), read_text(two_tets));
+  try {
+    read_mesh("liver.mshh");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "liver.mshh: unknown mesh file extension 'mshh'; did you mean 'msh'? (choices: msh)");
+  }
+  EXPECT_THROW(read_mesh("no_extension"), InputError);
+}
+
+TEST(ReadMesh, MissingFilesAndFoldersAreNamed) {
+  try {
+    read_mesh("no/such/file.msh");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "no/such/file.msh: cannot be opened");
+  }
+  EXPECT_THROW(read_msh(testing::TempDir()), InputError);
+}
+
+}  // namespace
