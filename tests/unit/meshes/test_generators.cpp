@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+#include <plica/core/error.hpp>
+#include <plica/meshes/ball_mesh.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/box_mesh.hpp>
+#include <plica/meshes/cylinder_mesh.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+#include <plica/meshes/sphere_surface.hpp>
+#include <set>
+
+namespace {
+
+using namespace plica;
+
+constexpr double pi = std::numbers::pi;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+constexpr int huge = std::numeric_limits<int>::max();
+
+// What every generated mesh owes: positive volumes, all vertices used, one part, a boundary that encloses the volume
+MeshQuality expect_sound(const TetMesh& mesh) {
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const auto& tet : mesh.tets)
+    for (const int v : tet) used[static_cast<std::size_t>(v)] = 1;
+  EXPECT_EQ(std::count(used.begin(), used.end(), 1), static_cast<std::ptrdiff_t>(used.size()));
+  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) EXPECT_GT(tet_shape(mesh, t).volume, 0.0);
+  MeshQuality quality = mesh_quality(mesh);
+  EXPECT_EQ(quality.parts, 1);
+  EXPECT_EQ(quality.duplicate_vertices, 0);
+  EXPECT_NEAR(enclosed_volume(boundary_surface(mesh).surface) / quality.volume, 1.0, 1e-12);
+  return quality;
+}
+
+TEST(BoxMesh, CountsVolumeAndEnds) {
+  const Box box{{-1, 0.1, 3}, {0.3, 0.7, 3.9}};
+  const TetMesh mesh = box_mesh(box, {3, 4, 5});
+  EXPECT_EQ(mesh.vertices.size(), 4u * 5 * 6);
+  EXPECT_EQ(mesh.tets.size(), 6u * 3 * 4 * 5);
+  const MeshQuality quality = expect_sound(mesh);
+  EXPECT_NEAR(quality.volume, 1.3 * 0.6 * 0.9, 1e-14);
+  EXPECT_EQ(quality.box.min, box.min);
+  EXPECT_EQ(quality.box.max, box.max);
+  EXPECT_EQ(quality.boundary_triangles, 2 * 2 * (3 * 4 + 4 * 5 + 5 * 3));
+}
+
+TEST(BoxMesh, EveryCellIsCutAroundTheSameDiagonal) {
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {2, 2, 2}}, {2, 2, 2});
+  for (const auto& tet : mesh.tets) {
+    bool diagonal = false;
+    for (const int a : tet)
+      for (const int b : tet)
+        diagonal |=
+            mesh.vertices[static_cast<std::size_t>(b)] - mesh.vertices[static_cast<std::size_t>(a)] == Point(1, 1, 1);
+    EXPECT_TRUE(diagonal);
+  }
+  // The order is part of what runs are compared by
+  EXPECT_EQ(mesh.vertices[1], Point(1, 0, 0));
+  EXPECT_EQ(mesh.vertices[3], Point(0, 1, 0));
+  EXPECT_EQ(mesh.vertices[9], Point(0, 0, 1));
+  EXPECT_EQ(mesh.tets[0], (std::array<int, 4>{0, 1, 4, 13}));
+  EXPECT_EQ(mesh.tets[1], (std::array<int, 4>{0, 1, 13, 10}));
+}
+
+TEST(BoxMesh, OneCell) { EXPECT_NEAR(expect_sound(box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1})).volume, 1.0, 1e-15); }
+
+TEST(BoxMesh, RefusesBadSizes) {
+  const auto refused = [](const Box& box, const std::array<int, 3>& cells, const std::string& part) {
+    try {
+      box_mesh(box, cells);
+      ADD_FAILURE() << part;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  };
+  refused({{0, 0, 0}, {1, 0, 1}}, {1, 1, 1}, "along y is 0");
+  refused({{0, 0, 0}, {1, 1, -1}}, {1, 1, 1}, "along z is -1");
+  refused({{0, nan, 0}, {1, 1, 1}}, {1, 1, 1}, "0, nan, 0");
+  refused({{0, 0, 0}, {1, 1, inf}}, {1, 1, 1}, "1, 1, inf");
+  refused({{0, 0, 0}, {1, 1, 1}}, {1, 0, 1}, "is 0; it must be 1 or more");
+  refused({{0, 0, 0}, {1, 1, 1}}, {1, 1, -5}, "is -5");
+  refused({{0, 0, 0}, {1, 1, 1}}, {1000, 1000, 1000}, "tetrahedra is 6000000000");
+  refused({{0, 0, 0}, {1, 1, 1}}, {huge, huge, huge}, "below 2^31");
+}
+
+TEST(BallMesh, IsSoundAtAnyResolution) {
+  for (const int n : {1, 2, 3, 4, 5, 8, 9, 16}) {
+    const TetMesh mesh = ball_mesh({1, 2, 3}, 0.5, n);
+    EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1)));
+    EXPECT_EQ(mesh.tets.size(), static_cast<std::size_t>(6 * n * n * n));
+    const MeshQuality quality = expect_sound(mesh);
+    EXPECT_LT(quality.height_ratios.max, 3.2) << n;  // a cube's is 2.45
+    const auto boundary = boundary_surface(mesh).surface;
+    for (const Point& p : boundary.vertices) EXPECT_NEAR((p - Point(1, 2, 3)).norm(), 0.5, 1e-14);
+  }
+}
+
+TEST(BallMesh, VolumeConvergesWithTheSquareOfTheCells) {
+  const double exact = 4.0 / 3.0 * pi;
+  const double coarse = 1.0 - mesh_quality(ball_mesh({0, 0, 0}, 1.0, 6)).volume / exact;
+  const double fine = 1.0 - mesh_quality(ball_mesh({0, 0, 0}, 1.0, 12)).volume / exact;
+  EXPECT_GT(fine, 0.0);
+  EXPECT_LT(fine, 0.01);
+  EXPECT_NEAR(coarse / fine, 4.0, 0.2);
+}
+
+TEST(CylinderMesh, IsSoundAtAnyResolution) {
+  for (const int n : {1, 2, 3, 4, 7, 12}) {
+    const TetMesh mesh = cylinder_mesh({1, 2, 3}, 0.5, 1.5, n, n + 1);
+    EXPECT_EQ(mesh.tets.size(), static_cast<std::size_t>(6 * n * n * (n + 1)));
+    const MeshQuality quality = expect_sound(mesh);
+    EXPECT_LT(quality.height_ratios.max, 4.5) << n;
+    EXPECT_LT(quality.volume, pi * 0.25 * 1.5);
+    EXPECT_DOUBLE_EQ(quality.box.min.z(), 3.0);
+    EXPECT_DOUBLE_EQ(quality.box.max.z(), 4.5);
+  }
+  EXPECT_NEAR(mesh_quality(cylinder_mesh({0, 0, 0}, 1, 1, 20, 4)).volume, pi, 0.01);
+}
+
+TEST(BallAndCylinderMesh, RefuseBadSizes) {
+  EXPECT_THROW(ball_mesh({0, 0, nan}, 1.0, 4), InputError);
+  EXPECT_THROW(ball_mesh({0, 0, 0}, 0.0, 4), InputError);
+  EXPECT_THROW(ball_mesh({0, 0, 0}, inf, 4), InputError);
+  EXPECT_THROW(ball_mesh({0, 0, 0}, 1.0, 0), InputError);
+  EXPECT_THROW(ball_mesh({0, 0, 0}, 1.0, huge), InputError);
+  EXPECT_THROW(cylinder_mesh({0, inf, 0}, 1.0, 1.0, 4, 4), InputError);
+  EXPECT_THROW(cylinder_mesh({0, 0, 0}, -1.0, 1.0, 4, 4), InputError);
+  EXPECT_THROW(cylinder_mesh({0, 0, 0}, 1.0, nan, 4, 4), InputError);
+  EXPECT_THROW(cylinder_mesh({0, 0, 0}, 1.0, 1.0, 4, 0), InputError);
+  EXPECT_THROW(cylinder_mesh({0, 0, 0}, 1.0, 1.0, huge, huge), InputError);
+}
+
+TEST(SphereSurface, CountsRadiusOrientationAndClosure) {
+  const Point centre(1, -2, 3);
+  std::size_t quads = 1;
+  for (int s = 0; s <= 4; ++s, quads *= 4) {
+    const TriangleSurface surface = sphere_surface(centre, 0.05, s);
+    EXPECT_EQ(surface.vertices.size(), 10 * quads + 2);
+    EXPECT_EQ(surface.triangles.size(), 20 * quads);
+    for (const Point& p : surface.vertices) EXPECT_NEAR((p - centre).norm(), 0.05, 1e-15);
+    std::set<std::array<int, 2>> directed;
+    for (const auto& [a, b, c] : surface.triangles) {
+      const auto at = [&](int v) { return surface.vertices[static_cast<std::size_t>(v)]; };
+      EXPECT_GT(tet_volume(centre, at(a), at(b), at(c)), 0.0);
+      directed.insert({{a, b}, {b, c}, {c, a}});
+    }
+    EXPECT_EQ(directed.size(), 60 * quads);  // each edge once each way
+    for (const auto& [a, b] : directed) EXPECT_TRUE(directed.contains({b, a}));
+  }
+  const TriangleSurface fine = sphere_surface(centre, 2.0, 5);
+  EXPECT_NEAR(surface_area(fine), 16.0 * pi, 0.05);
+  EXPECT_NEAR(enclosed_volume(fine), 32.0 / 3.0 * pi, 0.05);
+}
+
+TEST(SphereSurface, RefusesBadSizes) {
+  EXPECT_EQ(sphere_surface({0, 0, 0}, 1.0, 3).vertices.size(), 642u);
+  EXPECT_THROW(sphere_surface({nan, 0, 0}, 1.0, 3), InputError);
+  EXPECT_THROW(sphere_surface({0, 0, 0}, -1.0, 3), InputError);
+  EXPECT_THROW(sphere_surface({0, 0, 0}, 1.0, -1), InputError);
+  EXPECT_THROW(sphere_surface({0, 0, 0}, 1.0, 14), InputError);
+  EXPECT_THROW(sphere_surface({0, 0, 0}, 1.0, huge), InputError);
+}
+
+}  // namespace
