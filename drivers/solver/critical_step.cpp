@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <plica/drivers/solver/critical_step.hpp>
+#include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/spectrum/scaled_operator.hpp>
+
+namespace plica {
+
+namespace {
+
+/// The Lanczos iteration's vectors and its products.
+template <class B>
+class Lanczos {
+  using Real = typename B::Real;
+  using Exec = typename B::Exec;
+
+ public:
+  Lanczos(const Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity, const Vectors<B>& u,
+          double stiffness)
+      : exec_(exec),
+        level_(level),
+        elasticity_(elasticity),
+        u_(u),
+        stiffness_(stiffness),
+        n_(level.model.vertices),
+        v_("plica::lanczos.v", n_),
+        w_("plica::lanczos.w", n_),
+        before_("plica::lanczos.before", n_),
+        p_("plica::lanczos.p", n_),
+        blocks_(n_),
+        result_("plica::lanczos.result", 1) {
+    if (stiffness > 0) {
+      contact_ = Vectors<B>("plica::lanczos.contact", n_);
+      points_ = Vectors<B>("plica::lanczos.points", level.surface.points);
+    }
+  }
+
+  double largest() {
+    const double size = std::sqrt(sum("plica::lanczos_start", FillFromHash<B>{level_.model.inverse_mass, w_}));
+    if (!(size > 0)) return 0;
+    double beta = 0, scale = 1 / size, value = 0;
+    std::vector<double> alphas, betas;
+    for (int k = 0; k < 150; ++k) {
+      each("plica::lanczos_shift", LanczosShift<B>{v_, w_, before_, static_cast<Real>(scale)});
+      const double alpha = product(beta);
+      beta = std::sqrt(sum("plica::lanczos_orthogonalise", LanczosOrthogonalise<B>{v_, w_, static_cast<Real>(alpha)}));
+      alphas.push_back(alpha);
+      const bool last = !(beta > 1e-12 * std::abs(alpha));
+      if (k % 5 == 4 || last) {
+        double residual = 0;
+        value = top(alphas, betas, beta, residual);
+        if (residual < 1e-3 * value || last) return value + residual;
+      }
+      betas.push_back(beta);
+      scale = 1 / beta;
+    }
+    return value * 1.02;
+  }
+
+ private:
+  const Exec& exec_;
+  const Level<B>& level_;
+  const Elasticity<B>& elasticity_;
+  const Vectors<B>& u_;
+  double stiffness_;
+  int n_;
+  Vectors<B> v_, w_, before_, p_, contact_, points_;
+  BlockSums<B> blocks_;
+  Kokkos::View<double*, typename B::Memory> result_;
+
+  template <class Work>
+  void each(const char* label, const Work& work) {
+    update_vertices<B>(exec_, label, n_, work);
+  }
+  template <class Term>
+  double sum(const char* label, const Term& term) {
+    reduce<B, 1>(exec_, label, n_, term, blocks_, result_);
+    exec_.fence("plica::lanczos");
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result_)(0);
+  }
+
+  /// w = M^-1/2 (K + contact) M^-1/2 v - beta before; v.w
+  double product(double beta) {
+    each("plica::lanczos_scale", ScaleByMass<B>{level_.model.inverse_mass, v_, p_, Real(1)});
+    elasticity_.tangent(exec_, level_.model.patches, u_, p_, level_.partial);
+    if (stiffness_ > 0) {
+      Kokkos::deep_copy(exec_, contact_, Real(0));
+      update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.points,
+                         PointStiffness<B>{level_.surface, p_, points_, static_cast<Real>(stiffness_)});
+      update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.touched,
+                         ScatterToVertices<B>{level_.surface, points_, contact_});
+    }
+    return sum("plica::lanczos_product", LanczosProduct<B>{level_.model, level_.partial, contact_, v_, before_, w_,
+                                                           static_cast<Real>(beta), stiffness_ > 0});
+  }
+
+  /// The largest eigenvalue of the tridiagonal matrix, and how far it can be from one of the operator's.
+  static double top(const std::vector<double>& alphas, const std::vector<double>& betas, double beta,
+                    double& residual) {
+    const Eigen::VectorXd diagonal =
+        Eigen::Map<const Eigen::VectorXd>(alphas.data(), static_cast<Eigen::Index>(alphas.size()));
+    const Eigen::VectorXd beside =
+        Eigen::Map<const Eigen::VectorXd>(betas.data(), static_cast<Eigen::Index>(betas.size()));
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(diagonal, beside);
+    const Eigen::Index last = diagonal.size() - 1;
+    residual = beta * std::abs(solver.eigenvectors()(last, last));
+    return solver.eigenvalues()(last);
+  }
+};
+
+}  // namespace
+
+template <class B>
+double largest_eigenvalue(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
+                          const Vectors<B>& u, double point_stiffness) {
+  return Lanczos<B>(exec, level, elasticity, u, point_stiffness).largest();
+}
+
+template <class B>
+double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
+                     const Vectors<B>& u, const StabilityLimit& limit, const PointContactLimit& contact,
+                     double mass_damping) {
+  const auto frequency = [&](double stiffness) {
+    return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, stiffness));
+  };
+  double w = frequency(contact.stiffness);
+  if (!(w > 0)) return std::numeric_limits<double>::infinity();
+  if (limit.needs_damping) return mass_damping / (w * w);
+  if (limit.radius <= 0) return std::numeric_limits<double>::infinity();
+  // damping acts like the stiffness radius D / h: iterate on h, which shrinks towards its fixed point in alternating steps
+  double h = limit.radius / w;
+  for (int i = 0; i < 8 && contact.damping > 0; ++i) {
+    const double next = limit.radius / frequency(contact.stiffness + limit.radius * contact.damping / h);
+    const bool close = std::abs(next - h) < 1e-3 * h;
+    h = std::min(h, 0.5 * (h + next));
+    if (close) return std::min(h, next);
+  }
+  return h;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                     \
+  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const Level<Backend<Real, Exec>>&, \
+                                                          const Elasticity<Backend<Real, Exec>>&,         \
+                                                          const Vectors<Backend<Real, Exec>>&, double);   \
+  template double critical_step<Backend<Real, Exec>>(                                                     \
+      const Exec&, const Level<Backend<Real, Exec>>&, const Elasticity<Backend<Real, Exec>>&,             \
+      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const PointContactLimit&, double);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

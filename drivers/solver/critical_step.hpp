@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/level.hpp>
+#include <plica/drivers/solver/integrators/integrator.hpp>
+
+namespace plica {
+
+/// Contact as it enters a stability limit: every surface point active, in every direction.
+struct PointContactLimit {
+  double stiffness = 0;  ///< [N/m]
+  double damping = 0;    ///< [N s/m]
+};
+
+/// w_max^2 of M^-1 (K + point_stiffness W^T W) at the state u [1/s^2], by the Lanczos iteration (Golub & Van Loan, 10.1) to a
+/// relative residual of 1e-3, which is added: on the sure side. It converges where the power iteration still crawls.
+template <class B>
+double largest_eigenvalue(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
+                          const Vectors<B>& u, double point_stiffness);
+
+/// The largest stable step of an explicit integrator at the state u [s], see StabilityLimit; infinite for a free rigid level.
+template <class B>
+double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
+                     const Vectors<B>& u, const StabilityLimit& limit, const PointContactLimit& contact,
+                     double mass_damping);
+
+}  // namespace plica

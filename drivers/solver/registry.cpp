@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/cycles/list.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/distributions.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/kernels/materials/list.hpp>
+
+namespace plica {
+
+namespace {
+
+template <class List>
+std::vector<Choice> choices() {
+  std::vector<Choice> list;
+  List::for_each([&](auto member) { list.push_back({decltype(member)::name, decltype(member)::summary}); });
+  return list;
+}
+
+}  // namespace
+
+std::vector<Choice> materials() { return choices<Materials>(); }
+std::vector<Choice> integrators() { return choices<Integrators>(); }
+std::vector<Choice> cycles() { return choices<Cycles>(); }
+std::vector<Choice> obstacle_shapes() { return choices<ObstacleShapes>(); }
+
+std::vector<Choice> distributions() {
+  std::vector<Choice> list = choices<Distributions>();
+  list.push_back({"custom", "a list of shares, finest first, that sum to 1"});
+  return list;
+}
+
+std::vector<Choice> linear_solvers() {
+  return {{"conjugate_gradients", "matrix-free, preconditioned by the vertices' own 3x3 blocks"}};
+}
+
+std::vector<std::string> names(const std::vector<Choice>& choices) {
+  std::vector<std::string> list;
+  for (const Choice& choice : choices) list.push_back(choice.name);
+  return list;
+}
+
+}  // namespace plica

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/level.hpp>
+#include <plica/core/problem.hpp>
+#include <plica/kernels/materials/material.hpp>
+#include <vector>
+
+namespace plica {
+
+/// What a level's set-up works out on the host and other parts of the set-up need too.
+struct LevelConstants {
+  std::vector<Lame<double>> lame;       ///< per region [Pa]; one entry where the mesh names none
+  std::vector<double> density;          ///< per region [kg/m^3]
+  std::vector<double> mass;             ///< per vertex [kg], a quarter of each of its tetrahedra
+  std::vector<char> constrained;        ///< per vertex: its motion is given
+  std::vector<int> prescribed_vertex;   ///< those of them that move
+  std::vector<Point> prescribed_speed;  ///< [m/s]
+};
+
+/// `mesh` at rest, before it is placed. Throws InputError where a selection chooses nothing on this level.
+LevelConstants level_constants(const Body& body, const TetMesh& mesh, int level);
+
+/// Model, state and work arrays of a level; `centre` is the point its angular velocity is about. No transfers, no surface.
+template <class B>
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants, const Point& centre);
+
+}  // namespace plica

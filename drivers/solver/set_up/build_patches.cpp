@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <plica/drivers/solver/set_up/build_patches.hpp>
+#include <plica/drivers/solver/set_up/element_clusters.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <utility>
+
+namespace plica {
+
+namespace {
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The host's copy of Patches, filled patch by patch.
+template <class B>
+class PatchBuilder {
+  using Real = typename B::Real;
+  static constexpr int W = B::lanes;
+  template <class T>
+  using Lanes = std::array<T, at(W)>;
+
+ public:
+  PatchBuilder(const TetMesh& mesh, const std::vector<Lame<double>>& lame)
+      : mesh_(mesh), lame_(lame), local_(mesh.vertices.size(), -1), copies_(mesh.vertices.size()) {}
+
+  void add(const std::vector<int>& elements) {
+    const std::size_t v0 = vertex_.size(), q0 = shape_.size();
+    add_vertices(elements);
+    const std::size_t packs = (elements.size() + W - 1) / W;
+    corner_.resize(q0 + packs), shape_.resize(q0 + packs), element_.resize((q0 + packs) * W, -1);
+    std::vector<std::vector<std::uint16_t>> slots(vertex_.size() - v0);
+    for (std::size_t i = 0; i < elements.size(); ++i) add_element(elements[i], i / W, i % W, q0, slots);
+    for (const auto& of_vertex : slots) {
+      slot_.insert(slot_.end(), of_vertex.begin(), of_vertex.end());
+      first_slot_.push_back(static_cast<int>(slot_.size()));
+    }
+    first_pack_.push_back(static_cast<int>(shape_.size()));
+    first_vertex_.push_back(static_cast<int>(vertex_.size()));
+    const int region = mesh_.region.empty() ? 0 : mesh_.region[at(elements.front())];
+    device_lame_.push_back({static_cast<Real>(lame_[at(region)].lambda), static_cast<Real>(lame_[at(region)].mu)});
+    for (std::size_t i = v0; i < vertex_.size(); ++i) local_[at(vertex_[i])] = -1;
+  }
+
+  Patches<B> finish() {
+    Patches<B> p;
+    p.count = static_cast<int>(device_lame_.size());
+    p.vertices = static_cast<int>(mesh_.vertices.size());
+    p.packs = static_cast<int>(shape_.size());
+    p.first_pack = to_device<Indices<B>>("patches.first_pack", first_pack_);
+    p.first_vertex = to_device<Indices<B>>("patches.first_vertex", first_vertex_);
+    p.vertex = to_device<Indices<B>>("patches.vertex", vertex_);
+    p.corner = to_device<decltype(p.corner)>("patches.corner", corner_);
+    p.shape = to_device<decltype(p.shape)>("patches.shape", shape_);
+    p.lame = to_device<decltype(p.lame)>("patches.lame", device_lame_);
+    p.first_slot = to_device<Indices<B>>("patches.first_slot", first_slot_);
+    p.slot = to_device<decltype(p.slot)>("patches.slot", slot_);
+    p.element = to_device<Indices<B>>("patches.element", element_);
+    std::vector<int> first_copy{0}, copy;
+    for (const auto& of_vertex : copies_) {
+      copy.insert(copy.end(), of_vertex.begin(), of_vertex.end());
+      first_copy.push_back(static_cast<int>(copy.size()));
+    }
+    p.first_copy = to_device<Indices<B>>("patches.first_copy", first_copy);
+    p.copy = to_device<Indices<B>>("patches.copy", copy);
+    return p;
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const std::vector<Lame<double>>& lame_;
+  std::vector<int> local_;  // a mesh vertex's place in the patch being added
+  std::vector<std::vector<int>> copies_;
+  std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_slot_{0}, element_;
+  std::vector<std::array<Lanes<std::uint16_t>, 4>> corner_;
+  std::vector<std::array<Lanes<Real>, 10>> shape_;
+  std::vector<std::array<Real, 2>> device_lame_;
+  std::vector<std::uint16_t> slot_;
+
+  void add_vertices(const std::vector<int>& elements) {
+    const std::size_t v0 = vertex_.size();
+    for (int e : elements)
+      for (int v : mesh_.tets[at(e)])
+        if (std::exchange(local_[at(v)], 0) < 0) vertex_.push_back(v);
+    std::sort(vertex_.begin() + static_cast<std::ptrdiff_t>(v0), vertex_.end());
+    for (std::size_t i = v0; i < vertex_.size(); ++i) {
+      local_[at(vertex_[i])] = static_cast<int>(i - v0);
+      copies_[at(vertex_[i])].push_back(static_cast<int>(i));
+    }
+  }
+
+  void add_element(int e, std::size_t pack, std::size_t lane, std::size_t q0,
+                   std::vector<std::vector<std::uint16_t>>& slots) {
+    const auto& t = mesh_.tets[at(e)];
+    Eigen::Matrix3d edges;
+    for (int c = 0; c < 3; ++c) edges.col(c) = mesh_.vertices[at(t[at(c + 1)])] - mesh_.vertices[at(t[0])];
+    const Eigen::Matrix3d inverse = edges.inverse();
+    auto& shape = shape_[q0 + pack];
+    for (int k = 0; k < 9; ++k) shape[at(k)][lane] = static_cast<Real>(inverse(k / 3, k % 3));
+    shape[9][lane] = static_cast<Real>(edges.determinant() / 6);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const int v = local_[at(t[c])];
+      corner_[q0 + pack][c][lane] = static_cast<std::uint16_t>(v);
+      slots[at(v)].push_back(static_cast<std::uint16_t>((pack * 4 + c) * 3 * W + lane));
+    }
+    element_[(q0 + pack) * W + lane] = e;
+  }
+};
+
+}  // namespace
+
+template <class B>
+Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& lame) {
+  PatchBuilder<B> builder(mesh, lame);
+  for (const auto& cluster : element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity))
+    builder.add(cluster);
+  return builder.finish();
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                      \
+  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>(const TetMesh&, \
+                                                                           const std::vector<Lame<double>>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

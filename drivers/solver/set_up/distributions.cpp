@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/distributions.hpp>
+
+namespace plica {
+
+namespace {
+
+std::vector<double> custom_shares(const std::vector<double>& shares, std::size_t levels) {
+  if (shares.size() != levels)
+    throw InputError("distribution: " + std::to_string(shares.size()) + " shares for " + std::to_string(levels) +
+                     " levels; expected one each, finest first");
+  for (double w : shares)
+    if (!(w > 0)) throw InputError("distribution: a share is " + std::to_string(w) + "; expected each above 0");
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  if (!(std::abs(sum - 1) <= 1e-12)) {
+    char text[96];
+    std::snprintf(text, sizeof text, "distribution: the shares sum to %.15g; expected 1", sum);
+    throw InputError(text);
+  }
+  return shares;
+}
+
+}  // namespace
+
+std::vector<double> make_shares(const IntegrationOptions& options, const LevelFacts& facts) {
+  const std::size_t levels = facts.tets.size();
+  std::vector<double> w;
+  if (options.distribution == "custom") {
+    w = custom_shares(options.shares, levels);
+  } else {
+    const bool known = Distributions::visit(options.distribution, [&](auto d) { w = decltype(d)::weights(facts); });
+    if (!known) throw InputError(unknown_name("distribution", options.distribution, names(distributions())));
+    const double sum = std::accumulate(w.begin(), w.end(), 0.0);
+    for (double& share : w) share /= sum;
+  }
+  if (levels == 1) return {1.0};
+  double moved = 0;
+  for (std::size_t i = 0; i + 1 < levels; ++i) {
+    moved += options.shift_to_coarsest * w[i];
+    w[i] *= 1 - options.shift_to_coarsest;
+  }
+  w.back() += moved;
+  return w;
+}
+
+}  // namespace plica
