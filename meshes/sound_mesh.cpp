@@ -97,12 +97,14 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
   keys.reserve(mesh.tets.size());
   for (const auto& tet : mesh.tets) keys.emplace_back(sorted(tet), keys.size());
   std::sort(keys.begin(), keys.end());
-  const auto repeat =
-      std::adjacent_find(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
-  if (repeat == keys.end()) return;
-  const RawTet &first = raw.tets[repeat->second], &again = raw.tets[std::next(repeat)->second];
-  refuse(raw, again.line, "tetrahedron ", again.tag, " repeats tetrahedron ", first.tag, " on line ", first.line,
-         " (nodes ", nodes(first), "); an element belongs in one group of volumes only");
+  std::size_t first = 0, again = keys.size();  // the first repeat in the file
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    if (keys[k].first == keys[k - 1].first && keys[k].second < again)
+      first = keys[k - 1].second, again = keys[k].second;
+  if (again == keys.size()) return;
+  const RawTet &one = raw.tets[first], &other = raw.tets[again];
+  refuse(raw, other.line, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " on line ", one.line,
+         " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
 }
 
 void add_sets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh) {
