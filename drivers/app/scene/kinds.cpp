@@ -26,11 +26,11 @@ const std::vector<Tree>& Value::list(const std::string& expected, std::size_t si
 
 Value Value::item(std::size_t index) const { return {tree.items[index], fmt::format("{}.{}", path, index)}; }
 
-bool Range::contains(double value) const {
+bool Bounds::contains(double value) const {
   return (min_excluded ? value > min : value >= min) && (max_excluded ? value < max : value <= max);
 }
 
-std::string Range::text(const std::string& unit) const {
+std::string Bounds::text(const std::string& unit) const {
   const std::string space = unit.empty() ? "" : " ";
   if (max < std::numeric_limits<double>::infinity())
     return fmt::format("in {}{:g}, {:g}{}{}{}", min_excluded ? "(" : "[", min, max, max_excluded ? ")" : "]", space,
@@ -42,7 +42,7 @@ std::string Range::text(const std::string& unit) const {
 
 namespace {
 
-std::string in_words(const Dimension& dimension, const Range& range) {
+std::string in_words(const Dimension& dimension, const Bounds& range) {
   const std::string unit = unit_of(dimension), bounds = range.text(unit);
   return (unit.empty() ? "" : " (" + unit + ")") + (bounds.empty() ? "" : " " + bounds);
 }

@@ -32,7 +32,7 @@ struct Value {
   Value item(std::size_t index) const;
 };
 
-struct Range {
+struct Bounds {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool min_excluded = false;
@@ -40,14 +40,14 @@ struct Range {
   bool contains(double value) const;
   std::string text(const std::string& unit = {}) const;  ///< "> 0", "in [0, 0.5)"; empty when all values are in it
 };
-inline constexpr Range any_value{};
-inline constexpr Range positive{.min = 0, .min_excluded = true};
-inline constexpr Range not_negative{.min = 0};
+inline constexpr Bounds any_value{};
+inline constexpr Bounds positive{.min = 0, .min_excluded = true};
+inline constexpr Bounds not_negative{.min = 0};
 
 /// A number with a unit.
 struct Quantity {
   Dimension dimension;
-  Range range = any_value;
+  Bounds range = any_value;
   void read(const Value& value, double& target) const;
   void read(const Value& value, double& target, const std::string& expected) const;
   std::string expects() const;
@@ -65,7 +65,7 @@ struct AutoQuantity {
 /// Three quantities of one dimension.
 struct Vector {
   Dimension dimension;
-  Range range = any_value;
+  Bounds range = any_value;
   void read(const Value& value, Point& target) const;
   std::string expects() const;
   std::string shown(const Point& value) const;

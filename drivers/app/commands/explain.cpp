@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/commands/explain.hpp>
+#include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/plan.hpp>
+
+namespace plica::app {
+namespace {
+
+template <class B>
+Plan plan_of(const Simulation<B>& simulation, const Machine& machine) {
+  return {simulation.macro_step(), machine.backend,     machine.threads,
+          machine.precision,       simulation.levels(), simulation.parts()};
+}
+
+}  // namespace
+
+ExitStatus explain(const SceneArguments& arguments) {
+  with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine& machine, double) {
+    const Plan plan = plan_of(simulation, machine);
+    std::cout << (arguments.json ? plan_json(scene, plan) : plan_text(scene, plan));
+  });
+  return ExitStatus::done;
+}
+
+ExitStatus check(const SceneArguments& arguments) {
+  try {
+    with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine&, double) {
+      if (arguments.json)
+        std::cout << nlohmann::ordered_json{{"scene", scene.file}, {"sound", true}, {"error", nullptr}}.dump(2) << "\n";
+      else
+        std::cout << fmt::format("{}: sound, {} level{}\n", scene.file, simulation.levels().size(),
+                                 simulation.levels().size() == 1 ? "" : "s");
+    });
+  } catch (const InputError& error) {
+    if (arguments.json)
+      std::cout << nlohmann::ordered_json{{"scene", arguments.scene.string()},
+                                          {"sound", false},
+                                          {"error", error.what()}}
+                       .dump(2)
+                << "\n";
+    throw;
+  }
+  return ExitStatus::done;
+}
+
+}  // namespace plica::app

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <plica/core/error.hpp>
+#include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/key_list.hpp>
+#include <plica/drivers/solver/registry.hpp>
+
+namespace plica::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Family {
+  const char* name;
+  const char* summary;
+  std::vector<Choice> (*choices)();
+};
+constexpr Family families[] = {{"materials", "constitutive laws", materials},
+                               {"integrators", "how a level is stepped in time", integrators},
+                               {"cycles", "how the levels take a macro step together", cycles},
+                               {"distributions", "how they share its time", distributions},
+                               {"shapes", "what a body can touch", obstacle_shapes},
+                               {"solvers", "of the implicit levels' linear systems", linear_solvers}};
+
+void list_choices(const std::vector<Choice>& choices, bool json) {
+  std::vector<std::vector<std::string>> rows;
+  Json array = Json::array();
+  for (const Choice& choice : choices) {
+    rows.push_back({choice.name, choice.summary});
+    array.push_back({{"name", choice.name}, {"summary", choice.summary}});
+  }
+  std::cout << (json ? array.dump(2) + "\n" : text_table(rows, "<<", ""));
+}
+
+// A key per paragraph: the path, what it may be, what it means
+void list_keys(bool json) {
+  Json array = Json::array();
+  std::string text;
+  for (const KeyInfo& key : scene_keys()) {
+    array.push_back({{"key", key.path}, {"expects", key.expects}, {"otherwise", key.otherwise}, {"help", key.help}});
+    const bool has_default = !key.otherwise.empty() && key.otherwise != "required" && key.otherwise != "one of these";
+    const std::string otherwise = key.otherwise.empty() ? "" : (has_default ? "; default " : "; ") + key.otherwise;
+    text += key.path + "\n" + wrapped(key.expects + otherwise, 96, "    ") + wrapped(key.help, 96, "    ");
+  }
+  std::cout << (json ? array.dump(2) + "\n" : text);
+}
+
+}  // namespace
+
+std::string families_text() {
+  std::vector<std::vector<std::string>> rows;
+  for (const Family& family : families) rows.push_back({family.name, family.summary});
+  rows.push_back({"keys", "everything that a scene can say"});
+  return text_table(rows, "<<");
+}
+
+ExitStatus list(const std::string& name, bool json) {
+  std::vector<std::string> known = {"keys"};
+  for (const Family& family : families) {
+    known.emplace_back(family.name);
+    if (name == family.name) return list_choices(family.choices(), json), ExitStatus::done;
+  }
+  if (name != "keys") throw InputError(unknown_name("list", name, known));
+  list_keys(json);
+  return ExitStatus::done;
+}
+
+}  // namespace plica::app

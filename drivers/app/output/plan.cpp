@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+
+namespace plica::app {
+namespace {
+
+long step_count(const Scene& scene, const Plan& plan) {
+  return std::lround(std::ceil(scene.duration / plan.macro_step - 1e-9));
+}
+
+std::string head_text(const Scene& scene, const Plan& plan) {
+  const MaterialOptions& m = scene.problem.body.material;
+  const IntegrationOptions& i = scene.problem.integration;
+  const std::string shift =
+      i.shift_to_coarsest > 0 ? fmt::format(", {:g} of each to the coarsest", i.shift_to_coarsest) : "";
+  return fmt::format("{} ({})\n", scene.name, scene.file) +
+         text_table({{"time", fmt::format("{:g} s in {} macro steps of {}", scene.duration, step_count(scene, plan),
+                                          in_units(plan.macro_step, "s"))},
+                     {"cycle", fmt::format("{}, {} shares{}", i.cycle, i.distribution, shift)},
+                     {"material", fmt::format("{}, E {}, nu {:g}, {}", m.model, in_units(m.young_modulus, "Pa"),
+                                              m.poisson_ratio, fmt::format("{:g} kg/m^3", m.density))},
+                     {"machine", fmt::format("{} on {}, {} thread{}", plan.precision, plan.backend, plan.threads,
+                                             plan.threads == 1 ? "" : "s")}},
+                    "<<");
+}
+
+// Two tables: what a level is, then what it does in a macro step
+std::string levels_text(const Plan& plan) {
+  std::vector<std::vector<std::string>> meshes = {
+      {"level", "vertices", "tetrahedra", "mean edge", "mass", "critical step", "element bound"}};
+  std::vector<std::vector<std::string>> steps = {
+      {"level", "share", "takes", "sub-steps", "of", "over critical", "integrator"}};
+  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
+    const LevelReport& level = plan.levels[i];
+    const double time = level.share * plan.macro_step, substep = time / level.substeps;
+    meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets),
+                      in_units(level.mean_edge, "m"), in_units(level.mass, "kg"), in_units(level.critical_step, "s"),
+                      in_units(level.element_bound, "s")});
+    steps.push_back({std::to_string(i), fmt::format("{:.4f}", level.share), in_units(time, "s"),
+                     std::to_string(level.substeps), in_units(substep, "s"),
+                     fmt::format("{:.2f}", substep / level.critical_step),
+                     level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
+  }
+  return "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + "\nA macro step, coarsest level first\n" +
+         text_table(steps, ">>>>>><");
+}
+
+std::string transfers_text(const Plan& plan) {
+  if (plan.levels.size() < 2) return {};
+  std::vector<std::vector<std::string>> rows = {
+      {"levels", "coarse vertices outside", "fine vertices outside", "largest miss / edge"}};
+  for (std::size_t i = 1; i < plan.levels.size(); ++i) {
+    const LevelReport& level = plan.levels[i];
+    rows.push_back({fmt::format("{} - {}", i - 1, i), std::to_string(level.outside_down),
+                    std::to_string(level.outside_up), fmt::format("{:.2g}", level.largest_miss)});
+  }
+  return "\nBetween the levels\n" + text_table(rows, ">>>>");
+}
+
+std::string parts_text(const Plan& plan) {
+  std::vector<std::vector<std::string>> rows;
+  std::size_t bytes = 0;
+  for (const Part& part : plan.parts) {
+    rows.push_back({part.in ? "in" : "out", part.name, part.in ? in_bytes(part.bytes) : "", part.reason});
+    bytes += part.bytes;
+  }
+  return fmt::format("\nParts, {} on the device\n", in_bytes(bytes)) + text_table(rows, "<<><");
+}
+
+}  // namespace
+
+std::string plan_text(const Scene& scene, const Plan& plan) {
+  return head_text(scene, plan) + levels_text(plan) + transfers_text(plan) + parts_text(plan);
+}
+
+std::string plan_json(const Scene& scene, const Plan& plan) {
+  using Json = nlohmann::ordered_json;
+  Json parts = Json::array();
+  for (const Part& part : plan.parts)
+    parts.push_back({{"name", part.name}, {"in", part.in}, {"reason", part.reason}, {"bytes", part.bytes}});
+  const Json json = {{"name", scene.name},
+                     {"scene", scene.file},
+                     {"duration", scene.duration},
+                     {"macro_step", plan.macro_step},
+                     {"macro_steps", step_count(scene, plan)},
+                     {"cycle", scene.problem.integration.cycle},
+                     {"precision", plan.precision},
+                     {"backend", plan.backend},
+                     {"threads", plan.threads},
+                     {"levels", levels_json(plan.levels)},
+                     {"parts", parts}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace plica::app

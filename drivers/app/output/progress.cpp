@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <plica/drivers/app/output/progress.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+
+namespace plica::app {
+namespace {
+
+std::string in_clock(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const long whole = static_cast<long>(seconds + 0.5);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace
+
+std::string progress_line(double time, double duration, long steps, double wall_time, int width) {
+  const double done = std::clamp(time / duration, 0.0, 1.0);
+  const std::string before = fmt::format("{:.3g} / {:.3g} s ", time, duration);
+  const std::string after = fmt::format(" {:3.0f} %  {:.3g} steps/s  {:.2f} x real time  {} left", 100 * done,
+                                        static_cast<double>(steps) / wall_time, time / wall_time,
+                                        done > 0 ? in_clock(wall_time * (1 - done) / done) : "?");
+  const int room = width - static_cast<int>(before.size() + after.size()) - 3;
+  if (room < 5) return (before + after).substr(0, static_cast<std::size_t>(std::max(0, width - 1)));
+  const std::size_t size = static_cast<std::size_t>(std::min(room, 40));
+  const std::size_t filled = static_cast<std::size_t>(done * static_cast<double>(size));
+  return before + "[" + std::string(filled, '#') + std::string(size - filled, '.') + "]" + after;
+}
+
+Progress::Progress(double duration, bool quiet) : on_(!quiet && on_terminal()), duration_(duration) {}
+
+Progress::~Progress() {
+  if (on_) std::cerr << "\r\033[K" << std::flush;  // the summary takes its place
+}
+
+void Progress::update(double time, long steps) {
+  const Clock::time_point now = Clock::now();
+  if (!on_ || now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  const double wall_time = std::chrono::duration<double>(now - start_).count();
+  std::cerr << "\r\033[K" << coloured(progress_line(time, duration_, steps, wall_time, terminal_width()), Colour::cyan)
+            << std::flush;
+}
+
+}  // namespace plica::app

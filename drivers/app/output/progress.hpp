@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <chrono>
+#include <string>
+
+namespace plica::app {
+
+/// A line on the terminal that tells how far a run is; nothing where there is no terminal, or where told to be quiet.
+class Progress {
+ public:
+  Progress(double duration, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// After a macro step; draws ten times a second at most.
+  void update(double time, long steps);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool on_;
+  double duration_;
+  Clock::time_point start_ = Clock::now(), drawn_{};
+};
+
+/// The line: "0.62 / 3.00 s [#####....]  21 %  812 steps/s  1.58 x real time  1.5 s left".
+std::string progress_line(double time, double duration, long steps, double wall_time, int width);
+
+}  // namespace plica::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/version.hpp>
+
+namespace plica::app {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json point(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+Json shape_json(const PlaneOptions& plane) {
+  return {{"plane", {{"point", point(plane.point)}, {"normal", point(plane.normal)}}}};
+}
+Json shape_json(const SphereOptions& sphere) {
+  return {{"sphere", {{"centre", point(sphere.centre)}, {"radius", sphere.radius}}}};
+}
+Json shape_json(const BowlOptions& bowl) {
+  return {{"bowl",
+           {{"centre", point(bowl.centre)}, {"radius", bowl.radius}, {"rim", bowl.rim > 0 ? bowl.rim : bowl.radius}}}};
+}
+
+// As the scene names them, so that a picture can show what was hit
+Json obstacles_json(const std::vector<ObstacleOptions>& obstacles) {
+  Json list = Json::array();
+  for (const ObstacleOptions& obstacle : obstacles) {
+    Json entry = std::visit([](const auto& shape) { return shape_json(shape); }, obstacle.shape);
+    entry["friction"] = obstacle.friction.value_or(0);
+    entry["velocity"] = point(obstacle.velocity);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json diagnosis_json(const std::optional<Diagnosis>& diagnosis) {
+  if (!diagnosis) return nullptr;
+  const auto index = [](int i) { return i < 0 ? Json(nullptr) : Json(i); };
+  return {{"kind", diagnosis->kind},
+          {"level", index(diagnosis->level)},
+          {"element", index(diagnosis->element)},
+          {"vertex", index(diagnosis->vertex)},
+          {"region", diagnosis->region},
+          {"J", diagnosis->J},
+          {"substep_over_critical", diagnosis->substep_over_critical},
+          {"remedy", diagnosis->remedy}};
+}
+
+}  // namespace
+
+Json levels_json(const std::vector<LevelReport>& levels) {
+  Json list = Json::array();
+  for (const LevelReport& level : levels)
+    list.push_back({{"vertices", level.vertices},
+                    {"tets", level.tets},
+                    {"mean_edge", level.mean_edge},
+                    {"mass", level.mass},
+                    {"critical_step", level.critical_step},
+                    {"element_bound", level.element_bound},
+                    {"share", level.share},
+                    {"substeps", level.substeps},
+                    {"integrator", level.integrator},
+                    {"outside_down", level.outside_down},
+                    {"outside_up", level.outside_up},
+                    {"largest_miss", level.largest_miss}});
+  return list;
+}
+
+std::string summary_json(const Scene& scene, const Summary& s, const std::vector<std::string>& words) {
+  const Json json = {{"name", scene.name},
+                     {"scene", scene.file},
+                     {"arguments", words},
+                     {"version", version()},
+                     {"git_revision", git_revision()},
+                     {"compiler", compiler()},
+                     {"status", s.status},
+                     {"simulated_time", s.simulated_time},
+                     {"macro_step", s.macro_step},
+                     {"macro_steps", s.macro_steps},
+                     {"wall_time", s.wall_time},
+                     {"setup_time", s.setup_time},
+                     {"peak_memory", s.peak_memory},
+                     {"frames", s.frames},
+                     {"precision", s.precision},
+                     {"backend", s.backend},
+                     {"threads", s.threads},
+                     {"cycle", s.cycle},
+                     {"levels", levels_json(s.levels)},
+                     {"stages", s.stages},
+                     {"counters", s.counters},
+                     {"residual", s.residual},
+                     {"last_good_time", s.simulated_time},
+                     {"diagnosis", diagnosis_json(s.diagnosis)},
+                     {"obstacles", obstacles_json(scene.problem.contact.obstacles)}};
+  return json.dump(2) + "\n";
+}
+
+std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {
+  const double wall = s.wall_time;
+  std::string speed;
+  if (s.macro_steps > 0)
+    speed = fmt::format(" ({:.2f} x real time, {:.3g} steps/s)", s.simulated_time / wall,
+                        static_cast<double>(s.macro_steps) / wall);
+  const std::string beyond = s.status == "completed" && s.simulated_time > scene.duration * (1 + 1e-9)
+                                 ? fmt::format(", the first whole number of steps that covers {:g} s", scene.duration)
+                                 : "";
+  return fmt::format("{}: {}\n", scene.name, s.status) +
+         text_table(
+             {{"simulated", fmt::format("{:.5g} s in {} macro steps of {}{}", s.simulated_time, s.macro_steps,
+                                        in_units(s.macro_step, "s"), beyond)},
+              {"stepping", in_units(wall, "s") + speed},
+              {"set-up", fmt::format("{}, peak memory {}", in_units(s.setup_time, "s"), in_bytes(s.peak_memory))},
+              {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({} frames)", folder, s.frames)}},
+             "<<");
+}
+
+}  // namespace plica::app

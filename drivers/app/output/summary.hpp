@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/solver/simulation.hpp>
+#include <string>
+#include <vector>
+
+namespace plica::app {
+
+/// A run as summary.json tells it. Times in s, memory in bytes.
+struct Summary {
+  std::string status;
+  double simulated_time = 0, macro_step = 0;
+  long macro_steps = 0;
+  double wall_time = 0, setup_time = 0;
+  std::size_t peak_memory = 0, frames = 0;
+  std::string precision, backend;
+  int threads = 0;
+  std::string cycle;
+  std::vector<LevelReport> levels;
+  std::map<std::string, double> stages;
+  std::map<std::string, long> counters;
+  double residual = 0;  ///< the worst an implicit solve ended with
+  std::optional<Diagnosis> diagnosis;
+};
+
+/// summary.json; `words` is the command line.
+std::string summary_json(const Scene& scene, const Summary& summary, const std::vector<std::string>& words);
+
+/// The same in a few lines for people.
+std::string summary_text(const Scene& scene, const Summary& summary, const std::string& folder);
+
+/// The levels as summary.json and `plica explain --json` print them.
+nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels);
+
+}  // namespace plica::app

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <plica/drivers/app/commands/explain.hpp>
+#include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/app/commands/mesh_info.hpp>
+#include <plica/drivers/app/commands/run.hpp>
+#include <plica/drivers/app/commands/version.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/program.hpp>
+#include <plica/drivers/app/scene/kinds.hpp>
+
+namespace plica::app {
+namespace {
+
+constexpr const char* planned_commands[] = {"study", "stability", "verify"};
+
+// The command line, and what it asks for. CLI11 fills the members while it parses.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.require_subcommand(1);
+    app_.set_version_flag("--version", version_text);
+    app_.footer(
+        "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the standard error.\n"
+        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 4 not in this build, 130 interrupted.");
+    add_run();
+    add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); });
+    add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
+    add_mesh();
+    add_list();
+    for (const char* name : planned_commands) {
+      CLI::App* command = add(name, "not in this build", [name] {
+        throw NotInThisBuild("plica " + std::string(name) + " is not in this build");
+        return ExitStatus::not_in_build;
+      });
+      command->allow_extras();
+    }
+  }
+
+  /// Throws CLI::ParseError for what it cannot read, --help and --version.
+  ExitStatus execute(std::vector<std::string> words) {
+    arguments_.words = words;
+    const auto is_kokkos = [](const std::string& word) { return word.starts_with("--kokkos-"); };
+    std::copy_if(words.begin() + 1, words.end(), std::back_inserter(arguments_.kokkos.pass_through), is_kokkos);
+    std::erase_if(words, is_kokkos);
+    check_command(words);
+    app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
+    for (const std::string& set : sets_) arguments_.overrides.push_back({set, "--set " + set});
+    if (!duration_.empty()) arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
+    return action_();
+  }
+
+  /// Prints help, the version, or what was wrong.
+  ExitStatus explain_error(const CLI::ParseError& error) {
+    return app_.exit(error, std::cout, std::cerr) == 0 ? ExitStatus::done : ExitStatus::bad_input;
+  }
+
+ private:
+  CLI::App* add(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
+    CLI::App* command = app_.add_subcommand(name, help);
+    command->callback([this, action] { action_ = action; });
+    return command;
+  }
+
+  void check_command(const std::vector<std::string>& words) const {
+    if (words.size() < 2 || words[1].starts_with('-')) return;
+    std::vector<std::string> known;
+    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; }))
+      known.push_back(command->get_name());
+    if (std::ranges::find(known, words[1]) == known.end()) throw InputError(unknown_name("command", words[1], known));
+  }
+
+  CLI::App* add_scene_command(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
+    CLI::App* command = add(name, help, std::move(action));
+    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")->required();
+    command->add_option("--set", sets_, "KEY.PATH=VALUE, instead of what the scene says; repeatable")
+        ->allow_extra_args(false)
+        ->take_all();
+    command->add_option("--duration", duration_, "simulated time, such as 0.2s, instead of the scene's");
+    command->add_option("--precision", arguments_.precision, "float or double")
+        ->check(CLI::IsMember({"float", "double"}));
+    command->add_option("--threads", arguments_.kokkos.threads, "threads to use")->check(CLI::PositiveNumber);
+    if (name != "run") command->add_flag("--json", arguments_.json, "print JSON");
+    return command;
+  }
+
+  void add_run() {
+    CLI::App* command =
+        add_scene_command("run", "simulate the scene and write its files", [this] { return run(arguments_); });
+    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)");
+    command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
+    command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
+  }
+
+  void add_mesh() {
+    CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files");
+    mesh->require_subcommand(1);
+    CLI::App* info = mesh->add_subcommand("info", "what a mesh file holds and how well its tetrahedra are shaped");
+    info->add_option("FILE", mesh_file_, "the mesh")->required();
+    info->add_flag("--json", arguments_.json, "print JSON");
+    info->callback([this] { action_ = [this] { return mesh_info(mesh_file_, arguments_.json); }; });
+  }
+
+  void add_list() {
+    CLI::App* command = add("list", "list what scenes can choose from", [this] { return list_or_families(); });
+    command->add_option("FAMILY", family_, "what to list");
+    command->add_flag("--json", arguments_.json, "print JSON");
+    command->footer("FAMILY is one of\n" + families_text());
+  }
+
+  ExitStatus list_or_families() {
+    if (!family_.empty()) return list(family_, arguments_.json);
+    std::cout << families_text();
+    return ExitStatus::done;
+  }
+
+  CLI::App app_{"plica: multigrid in time for deformable tissue", "plica"};
+  RunArguments arguments_;
+  std::vector<std::string> sets_;
+  std::string duration_, family_, mesh_file_;
+  std::function<ExitStatus()> action_;
+};
+
+ExitStatus failed(const std::string& text, ExitStatus status) {
+  message(coloured("error: ", Colour::red) + text);
+  return status;
+}
+
+ExitStatus guarded(const std::vector<std::string>& words) {
+  CommandLine command_line;
+  try {
+    return command_line.execute(words);
+  } catch (const CLI::ParseError& error) {
+    return command_line.explain_error(error);
+  } catch (const NotInThisBuild& error) {
+    return failed(error.what(), ExitStatus::not_in_build);
+  } catch (const InputError& error) {
+    return failed(error.what(), ExitStatus::bad_input);
+  } catch (const std::exception& error) {
+    return failed(error.what(), ExitStatus::failed);
+  }
+}
+
+}  // namespace
+
+int program(int argc, char** argv) { return static_cast<int>(guarded({argv, argv + argc})); }
+
+}  // namespace plica::app
