@@ -73,9 +73,13 @@ class Simulation {
   /// One macro step. Enqueues work; does not wait for it (implicit levels read their residuals on the way).
   void step();
 
-  /// Why the run must stop, if it must: non-finite values, inverted elements where the material forbids them, more
-  /// energy than was put in. Waits for the enqueued work. Cheap enough to be called after every macro step.
-  std::optional<Diagnosis> diagnosis() const;
+  /// Why the run must stop, if it must: non-finite values, inverted elements where the material forbids them, more kinetic
+  /// energy than was put in. Waits for the enqueued work. Cheap enough to be called after every macro step; states that
+  /// pass are kept from time to time.
+  std::optional<Diagnosis> check();
+
+  /// Takes all levels and the time back to the last state that was kept.
+  void return_to_last_good();
 
   double time() const;                             ///< simulated [s]
   double macro_step() const;                       ///< [s]
@@ -89,8 +93,8 @@ class Simulation {
       const;                      ///< force evaluations, solver iterations, misses, switched vertices ...
   double worst_residual() const;  ///< largest relative residual an implicit solve ended with
 
-  /// Level 0's (or another level's) fields as the device holds them, [vertices][3]: displacement from rest [m]
-  /// (including the initial placement) and velocity [m/s]. The views stay valid and are updated in place by step().
+  /// A level's fields as the device holds them, [vertices][3]: displacement from the placed rest mesh [m] and velocity
+  /// [m/s]. step() updates them in place.
   Vectors<B> displacement(int level = 0) const;
   Vectors<B> velocity(int level = 0) const;
 
@@ -107,8 +111,8 @@ class Simulation {
   void time_stages(bool on);
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
 };
 
 }  // namespace plica

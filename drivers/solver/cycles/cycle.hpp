@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/hierarchy.hpp>
+#include <plica/kernels/explicit/updates.hpp>
 
 namespace plica {
 

@@ -42,6 +42,9 @@ struct ImplicitEuler {
               {"cg_misses", misses_},
               {"cg_indefinite", indefinite_}};
     }
+    std::size_t bytes() const override {  // two states' worth of vectors at the start, five and the blocks in the solve
+      return (6 + 15 + 6) * sizeof(typename B::Real) * at_start_.u.extent(0);
+    }
     double worst_residual() const override { return worst_; }
 
    private:

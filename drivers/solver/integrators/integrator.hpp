@@ -22,6 +22,8 @@ class Integrator {
   virtual void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
                        int steps) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }
+  /// Device memory of its own.
+  virtual std::size_t bytes() const { return 0; }
   /// The largest relative residual a linear solve ended with; 0 where there are none.
   virtual double worst_residual() const { return 0; }
 };

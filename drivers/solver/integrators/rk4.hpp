@@ -42,6 +42,8 @@ struct Rk4 {
       }
     }
 
+    std::size_t bytes() const override { return 3 * 6 * sizeof(typename B::Real) * start_.u.extent(0); }
+
    private:
     double damping_;
     State<B> start_, stage_, sum_;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdio>
+#include <plica/drivers/solver/diagnose.hpp>
+
+namespace plica {
+
+namespace {
+
+bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+Eigen::Matrix3d edges(const TetMesh& mesh, const std::array<int, 4>& t, const std::vector<Point>* moved) {
+  const auto at = [&](std::size_t k) {
+    const auto v = static_cast<std::size_t>(t[k]);
+    return moved ? Point(mesh.vertices[v] + (*moved)[v]) : mesh.vertices[v];
+  };
+  Eigen::Matrix3d m;
+  for (int c = 0; c < 3; ++c) m.col(c) = at(static_cast<std::size_t>(c + 1)) - at(0);
+  return m;
+}
+
+/// Fills in what follows from level and element.
+template <class B>
+void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
+  const auto i = static_cast<std::size_t>(d.level);
+  const LevelReport& report = built.reports[i];
+  const TetMesh& mesh = built.meshes[i];
+  if (d.element >= 0 && !mesh.region.empty())
+    d.region = mesh.region_names[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(d.element)])];
+  if (report.critical_step > 0 && std::isfinite(report.critical_step))
+    d.substep_over_critical = report.share * built.macro_step / report.substeps / report.critical_step;
+  if (report.explicit_integrator && d.substep_over_critical > 1)
+    d.remedy = "a macro_step or sub-steps within the critical step of that level";
+  else if (built.reports.size() > 1)
+    d.remedy =
+        "another macro_step (a cycle adds some error every time: a smaller one can be worse), sub-steps, or cycle: "
+        "single to"
+        " compare with";
+  else if (report.explicit_integrator)
+    d.remedy = "a smaller macro_step: the critical step is that of the body at rest, and large strain stiffens it";
+  else
+    d.remedy = "a smaller macro_step, or integration.implicit.newton_iterations above 1";
+  if (d.kind == "inverted") d.remedy += "; or a material that survives inversion (corotational, st_venant_kirchhoff)";
+}
+
+}  // namespace
+
+std::string Diagnosis::text() const {
+  char text[600];
+  const char* what = kind == "inverted" ? "an element turned inside out"
+                     : kind == "energy" ? "the body has more kinetic energy than was put in"
+                                        : "a value is not finite";
+  int n = std::snprintf(text, sizeof text, "%s: level %d", what, level);
+  const auto add = [&](const char* format, auto value) {
+    n += std::snprintf(text + n, sizeof text - static_cast<std::size_t>(n), format, value);
+  };
+  if (element >= 0) add(", element %d", element);
+  if (!region.empty()) add(" (region %s)", region.c_str());
+  if (element >= 0) add(" with J = %.3g", J);
+  if (vertex >= 0) add(", vertex %d", vertex);
+  if (substep_over_critical > 0) add("; sub-step %.3g times its critical step at rest", substep_over_critical);
+  if (!remedy.empty()) add("; try %s", remedy.c_str());
+  return text;
+}
+
+WorstElement worst_element(const TetMesh& mesh, const std::vector<Point>& displacement) {
+  WorstElement worst;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    const double J =
+        edges(mesh, mesh.tets[e], &displacement).determinant() / edges(mesh, mesh.tets[e], nullptr).determinant();
+    if (std::isfinite(J) && (worst.element < 0 || J < worst.J)) worst = {static_cast<int>(e), J};
+  }
+  return worst;
+}
+
+template <class B>
+std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field) {
+  const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
+  Kokkos::deep_copy(exec, host, field);
+  exec.fence("plica::to_host");
+  std::vector<Point> points(field.extent(0));
+  for (std::size_t a = 0; a < points.size(); ++a)
+    for (int k = 0; k < 3; ++k) points[a][k] = static_cast<double>(host(a, static_cast<std::size_t>(k)));
+  return points;
+}
+
+template <class B>
+std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
+  for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // the order in which levels act
+    const Level<B>& level = (*built.hierarchy)[i].level;
+    if (level.flags.evaluation.extent(0) == 0) continue;
+    const auto copy = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+    if (copy(level.flags.raised)() == 0) continue;
+    const auto evaluation = copy(level.flags.evaluation), element = copy(level.flags.element),
+               map = copy(level.model.patches.element);
+    const auto J = copy(level.flags.J);
+    int worst = -1;
+    for (int p = 0; p < level.model.patches.count; ++p)
+      if (evaluation(p) > 0 &&
+          (worst < 0 || evaluation(p) < evaluation(worst) || (evaluation(p) == evaluation(worst) && J(p) < J(worst))))
+        worst = p;
+    if (worst < 0) continue;
+    Diagnosis d;
+    d.kind = std::isfinite(J(worst)) ? "inverted" : "non_finite";
+    d.level = i, d.element = map(element(worst)), d.J = std::isfinite(J(worst)) ? static_cast<double>(J(worst)) : 0.0;
+    complete(d, built);
+    return d;
+  }
+  return {};
+}
+
+template <class B>
+Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built, const std::vector<State<B>>& kept) {
+  Diagnosis d;
+  d.kind = kind, d.level = 0;
+  for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0; --i) {
+    const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].level.state.u);
+    const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !finite(p); });
+    if (bad != u.end()) d.level = i, d.vertex = static_cast<int>(bad - u.begin());
+  }
+  const auto i = static_cast<std::size_t>(d.level);
+  const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].level.state.u : kept[i].u;
+  const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
+  d.element = worst.element, d.J = worst.J;
+  complete(d, built);
+  return d;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                               \
+  template std::vector<Point> to_host<Backend<Real, Exec>>(const Exec&, const Vectors<Backend<Real, Exec>>&);       \
+  template std::optional<Diagnosis> find_inverted<Backend<Real, Exec>>(const BuiltHierarchy<Backend<Real, Exec>>&); \
+  template Diagnosis locate_failure<Backend<Real, Exec>>(                                                           \
+      const std::string&, const BuiltHierarchy<Backend<Real, Exec>>&, const std::vector<State<Backend<Real, Exec>>>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

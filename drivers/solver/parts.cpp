@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/parts.hpp>
+
+namespace plica {
+
+namespace {
+
+template <class... Views>
+std::size_t bytes(const Views&... views) {
+  return ((views.span() * sizeof(*views.data())) + ... + 0);
+}
+template <class B>
+std::size_t bytes_of(const Transfer<B>& t) {
+  return bytes(t.target, t.source, t.weight);
+}
+template <class B>
+std::size_t bytes_of(const State<B>& s) {
+  return bytes(s.u, s.v);
+}
+template <class B>
+std::size_t bytes_of(const Patches<B>& p) {
+  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.lame, p.first_slot, p.slot, p.first_copy,
+               p.copy, p.element);
+}
+template <class B>
+std::size_t bytes_of(const EmbeddedSurface<B>& s) {
+  return bytes(s.rest, s.vertex, s.first, s.point, s.weight) + bytes_of(s.embedding);
+}
+
+}  // namespace
+
+template <class B>
+std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built) {
+  const auto sum = [&](auto of_level) {
+    std::size_t total = 0;
+    for (const auto& part : built.hierarchy->levels) total += of_level(part);
+    return total;
+  };
+  using L = HierarchyLevel<B>;
+  std::vector<Part> parts;
+  const auto add = [&](const std::string& name, bool in, const std::string& yes, const std::string& no,
+                       std::size_t size) {
+    parts.push_back({name, in, in ? yes : no, size});
+  };
+  const auto levels = built.hierarchy->levels.size();
+  const auto& body = problem.body;
+  bool implicit = false, friction = false;
+  for (const LevelReport& r : built.reports) implicit = implicit || !r.explicit_integrator;
+  for (const ObstacleOptions& o : problem.contact.obstacles) friction = friction || o.friction.has_value();
+  const bool contact = !problem.contact.obstacles.empty();
+  const std::size_t variations = sum([](const L& l) { return bytes_of(l.level.start) + bytes_of(l.level.previous); });
+  const std::size_t limits = sum([](const L& l) { return bytes(l.level.drift_limit); });
+  const std::size_t flags =
+      sum([](const L& l) { return bytes(l.level.flags.evaluation, l.level.flags.element, l.level.flags.J); });
+
+  add("elastic elements", true, body.material.model, "",
+      sum([](const L& l) { return bytes_of(l.level.model.patches) + bytes(l.level.partial); }));
+  add("state, mass and force", true, std::to_string(levels) + (levels > 1 ? " levels" : " level"), "",
+      sum([](const L& l) {
+        return bytes_of(l.level.state) + bytes(l.level.model.mass, l.level.model.inverse_mass, l.level.f);
+      }));
+  add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
+  add("mass damping", body.damping.mass > 0, "body.damping.mass", "zero", 0);
+  add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
+  add("prescribed motion", !body.prescribed.empty(), "body.prescribed", "none asked for",
+      sum([](const L& l) { return bytes(l.level.prescribed.vertex, l.level.prescribed.velocity); }));
+  add("transfers", levels > 1, "cycle " + problem.integration.cycle,
+      levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level",
+      sum([](const L& l) { return bytes_of(l.level.from_finer) + bytes_of(l.level.to_finer); }));
+  add("variation mapping", variations > 0, "cycle " + problem.integration.cycle,
+      "not in cycle " + problem.integration.cycle, variations);
+  add("switched mapping", limits > 0, "switch_threshold", "not in cycle " + problem.integration.cycle, limits);
+  add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
+      sum([](const L& l) { return bytes_of(l.level.surface); }));
+  add("contact", contact, std::to_string(problem.contact.obstacles.size()) + " obstacle(s)", "no obstacle",
+      sum([](const L& l) { return bytes(l.forces->points().force, l.forces->points().block); }));
+  add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
+  add("implicit solver", implicit, "an implicit level", "every level is explicit",
+      sum([](const L& l) { return l.integrator->bytes(); }));
+  add("inversion flags", flags > 0, body.material.model + " does not survive inversion",
+      body.material.model + " survives inversion", flags);
+  return parts;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                        \
+  template std::vector<Part> list_parts<Backend<Real, Exec>>(const Problem&, \
+                                                             const BuiltHierarchy<Backend<Real, Exec>>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

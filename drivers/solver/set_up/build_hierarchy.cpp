@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <numeric>
+#include <plica/drivers/solver/critical_step.hpp>
+#include <plica/drivers/solver/cycles/list.hpp>
+#include <plica/drivers/solver/element_bound.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/drivers/solver/set_up/build_surface.hpp>
+#include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/edge_lengths.hpp>
+
+namespace plica {
+
+namespace {
+
+Outside outside_rule(const std::string& name) {
+  return name == "clamp" ? Outside::clamp : name == "extrapolate" ? Outside::extrapolate : Outside::keep;
+}
+
+/// The set-up in progress: host data that several of its steps need.
+template <class B>
+class HierarchyBuilder {
+  using Exec = typename B::Exec;
+
+ public:
+  HierarchyBuilder(const Problem& problem, const Exec& exec) : problem_(problem), built_{} {
+    built_.hierarchy = std::make_unique<Hierarchy<B>>(exec);
+    Cycles::visit(problem.integration.cycle, [&](auto cycle) {
+      levels_ = decltype(cycle)::uses_coarse_levels ? problem.body.levels.size() : 1;
+      switched_ = decltype(cycle)::switched && levels_ > 1;
+    });
+  }
+
+  BuiltHierarchy<B> build() {
+    place_meshes();
+    for (std::size_t i = 0; i < levels_; ++i) add_level(i);
+    for (std::size_t i = 1; i < levels_; ++i) connect(i);
+    add_contact();
+    plan();
+    Cycles::visit(problem_.integration.cycle, [&](auto cycle) {
+      using Of = typename decltype(cycle)::template Of<B>;
+      built_.cycle = std::make_unique<Of>(*built_.hierarchy);
+    });
+    built_.cycle->begin(*built_.hierarchy);
+    return std::move(built_);
+  }
+
+ private:
+  const Problem& problem_;
+  BuiltHierarchy<B> built_;
+  std::size_t levels_ = 1;
+  bool switched_ = false;
+  Point centre_ = Point::Zero();
+  TriangleSurface surface_;  // placed
+  std::vector<LevelConstants> constants_;
+  std::vector<std::unique_ptr<TetLocator>> locators_;
+  std::shared_ptr<const Elasticity<B>> elasticity_;
+  std::shared_ptr<const Contact<B>> contact_;
+
+  const std::string& integrator_of(std::size_t i) const {
+    const auto& all = problem_.integration.integrator;
+    return all.size() == 1 ? all.front() : all[i];
+  }
+
+  void place_meshes() {
+    const Body& body = problem_.body;
+    const Box box = bounding_box(body.levels.front().vertices);
+    const Point middle = 0.5 * (box.min + box.max);
+    centre_ = body.initial.position.value_or(middle);
+    for (std::size_t i = 0; i < levels_; ++i) {
+      constants_.push_back(level_constants(body, body.levels[i], static_cast<int>(i)));
+      built_.meshes.push_back(body.levels[i]);
+      for (Point& p : built_.meshes.back().vertices) p += centre_ - middle;
+    }
+    for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<TetLocator>(mesh));
+    if (body.surface) surface_ = *body.surface;
+    for (Point& p : surface_.vertices) p += centre_ - middle;
+  }
+
+  void add_level(std::size_t i) {
+    const TetMesh& mesh = built_.meshes[i];
+    auto& part = built_.hierarchy->levels.emplace_back();
+    part.level = build_level<B>(problem_.body, mesh, constants_[i], centre_);
+    LevelReport& report = built_.reports.emplace_back();
+    report.vertices = part.level.model.vertices, report.tets = part.level.model.tets;
+    report.mean_edge = mean_edge_length(mesh);
+    report.mass = std::accumulate(constants_[i].mass.begin(), constants_[i].mass.end(), 0.0);
+    report.element_bound = element_bound(mesh, constants_[i].lame, constants_[i].density);
+    report.integrator = integrator_of(i);
+    if (switched_) {
+      std::vector<typename B::Real> limit;
+      for (double edge : local_edge_lengths(mesh))
+        limit.push_back(static_cast<typename B::Real>(problem_.integration.switch_threshold * edge));
+      part.level.drift_limit = to_device<Scalars<B>>("drift_limit", limit);
+    }
+    // the finest level carries the surface for whoever looks at it; the others only where it touches something
+    if (problem_.body.surface && (i == 0 || !problem_.contact.obstacles.empty()))
+      part.level.surface = build_surface<B>(surface_, embed(surface_.vertices, *locators_[i], Outside::clamp));
+  }
+
+  void connect(std::size_t i) {
+    const Outside rule = outside_rule(problem_.integration.outside);
+    Level<B>& level = built_.hierarchy->levels[i].level;
+    const Embedding down = embed(built_.meshes[i].vertices, *locators_[i - 1], rule);
+    const Embedding up = embed(built_.meshes[i - 1].vertices, *locators_[i], rule);
+    level.from_finer = build_transfer<B>("restriction", down, constants_[i].constrained);
+    level.to_finer = build_transfer<B>("interpolation", up, constants_[i - 1].constrained);
+    LevelReport& report = built_.reports[i];
+    report.outside_down = down.misses, report.outside_up = up.misses;
+    report.largest_miss = std::max(down.largest_distance_over_edge, up.largest_distance_over_edge);
+  }
+
+  void add_contact() {
+    const Problem& p = problem_;
+    elasticity_ = make_elasticity<B>(p.body.material.model);
+    if (!p.contact.obstacles.empty())
+      contact_ =
+          std::make_shared<const Contact<B>>(p.contact, p.body.material, static_cast<int>(surface_.vertices.size()),
+                                             surface_area(surface_), built_.reports.front().mean_edge);
+  }
+
+  /// Limits, shares and sub-steps, then the integrators that go with them.
+  void plan() {
+    Hierarchy<B>& h = *built_.hierarchy;
+    const double damping = problem_.body.damping.mass;
+    const PointContactLimit touching =
+        contact_ ? PointContactLimit{contact_->stiffness(), contact_->damping()} : PointContactLimit{};
+    std::vector<LevelLimits> limits;
+    for (std::size_t i = 0; i < levels_; ++i) {
+      LevelReport& report = built_.reports[i];
+      Level<B>& level = h.levels[i].level;
+      Integrators::visit(report.integrator, [&](auto integrator) {
+        using Kind = decltype(integrator);
+        report.explicit_integrator = Kind::is_explicit;
+        report.critical_step =
+            critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
+                             Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching, damping);
+        h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
+            level, IntegratorOptions{damping, problem_.integration.implicit});
+      });
+      limits.push_back({report.tets, report.integrator, report.explicit_integrator, report.critical_step});
+      h.levels[i].forces = std::make_unique<LevelForces<B>>(elasticity_, problem_.gravity, contact_,
+                                                            !report.explicit_integrator, &h.clock, static_cast<int>(i));
+    }
+    const StepPlan steps = plan_steps(problem_.integration, limits);
+    built_.macro_step = steps.macro_step;
+    for (std::size_t i = 0; i < levels_; ++i) {
+      h.levels[i].share = built_.reports[i].share = steps.share[i];
+      h.levels[i].substeps = built_.reports[i].substeps = steps.substeps[i];
+    }
+  }
+};
+
+}  // namespace
+
+template <class B>
+BuiltHierarchy<B> build_hierarchy(const Problem& problem, const typename B::Exec& exec) {
+  return HierarchyBuilder<B>(problem, exec).build();
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) \
+  template BuiltHierarchy<Backend<Real, Exec>> build_hierarchy<Backend<Real, Exec>>(const Problem&, const Exec&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
+
+namespace plica {
+
+namespace {
+
+void expect(bool good, const std::string& option, double value, const std::string& expectation) {
+  if (good) return;
+  char number[40];
+  std::snprintf(number, sizeof number, "%.9g", value);
+  throw InputError(option + " is " + number + "; expected " + expectation);
+}
+void positive(const std::string& option, double v, const std::string& unit) {
+  expect(v > 0 && std::isfinite(v), option, v, "a number above 0" + unit);
+}
+void not_negative(const std::string& option, double v, const std::string& unit) {
+  expect(v >= 0 && std::isfinite(v), option, v, "0 or more" + unit);
+}
+void finite(const std::string& option, const Point& p) {
+  for (int k = 0; k < 3; ++k) expect(std::isfinite(p[k]), option, p[k], "finite numbers");
+}
+void known(const std::string& kind, const std::string& name, const std::vector<Choice>& choices) {
+  const auto all = names(choices);
+  if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError(unknown_name(kind, name, all));
+}
+
+void check_constants(const std::string& at, double young, double poisson, double density) {
+  positive(at + "young_modulus", young, " Pa");
+  expect(poisson >= 0 && poisson < 0.5, at + "poisson_ratio", poisson, "0 or more and below 0.5");
+  positive(at + "density", density, " kg/m^3");
+}
+
+void check_body(const Body& body) {
+  if (body.levels.empty()) throw InputError("body.levels is empty; expected at least one mesh, finest first");
+  for (std::size_t i = 0; i < body.levels.size(); ++i)
+    if (body.levels[i].tets.empty())
+      throw InputError("body.levels: level " + std::to_string(i) + " has no tetrahedron");
+  known("material", body.material.model, materials());
+  const MaterialOptions& m = body.material;
+  check_constants("body.material.", m.young_modulus, m.poisson_ratio, m.density);
+  for (const auto& [name, region] : body.regions) {
+    const auto& all = body.levels.front().region_names;
+    if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError(unknown_name("region", name, all));
+    check_constants("body.regions." + name + ".", region.young_modulus.value_or(m.young_modulus),
+                    region.poisson_ratio.value_or(m.poisson_ratio), region.density.value_or(m.density));
+  }
+  not_negative("body.damping.mass", body.damping.mass, " 1/s");
+  if (body.initial.position) finite("body.initial.position", *body.initial.position);
+  finite("body.initial.velocity", body.initial.velocity);
+  finite("body.initial.angular_velocity", body.initial.angular_velocity);
+  for (const PrescribedMotion& motion : body.prescribed) finite("body.prescribed.velocity", motion.velocity);
+}
+
+void check_lengths(const IntegrationOptions& o, std::size_t levels) {
+  const auto check = [&](const std::string& option, std::size_t size) {
+    if (size != 1 && size != levels)
+      throw InputError(option + " has " + std::to_string(size) + " entries for " + std::to_string(levels) +
+                       " levels; expected one for all, or one each, finest first");
+  };
+  check("integration.integrator", o.integrator.size());
+  check("integration.substeps", o.substeps.size());
+}
+
+void check_integration(const IntegrationOptions& o, std::size_t levels) {
+  known("cycle", o.cycle, cycles());
+  known("distribution", o.distribution, distributions());
+  for (const std::string& name : o.integrator) known("integrator", name, integrators());
+  check_lengths(o, levels);
+  if (o.macro_step) positive("integration.macro_step", *o.macro_step, " s");
+  expect(o.shift_to_coarsest >= 0 && o.shift_to_coarsest < 1, "integration.shift_to_coarsest", o.shift_to_coarsest,
+         "0 or more and below 1");
+  for (int n : o.substeps) expect(n >= 0, "integration.substeps", n, "auto, or a number from 1");
+  expect(o.safety > 0 && o.safety <= 1, "integration.safety", o.safety, "above 0, at most 1");
+  positive("integration.switch_threshold", o.switch_threshold, "");
+  known("treatment of outside vertices", o.outside, {{"clamp", ""}, {"extrapolate", ""}, {"keep", ""}});
+  const ImplicitOptions& i = o.implicit;
+  expect(i.relative_residual > 0 && i.relative_residual < 1, "integration.implicit.relative_residual",
+         i.relative_residual, "above 0 and below 1");
+  expect(i.iterations >= 0, "integration.implicit.iterations", i.iterations, "0 or more");
+  expect(i.max_iterations >= 1, "integration.implicit.max_iterations", i.max_iterations, "1 or more");
+  expect(i.newton_iterations >= 1, "integration.implicit.newton_iterations", i.newton_iterations, "1 or more");
+  positive("integration.implicit.newton_tolerance", i.newton_tolerance, "");
+}
+
+struct CheckShape {
+  void operator()(const PlaneOptions& o) const {
+    finite("contact plane point", o.point);
+    positive("length of a contact plane's normal", o.normal.norm(), "");
+  }
+  void operator()(const SphereOptions& o) const {
+    finite("contact sphere centre", o.centre);
+    positive("contact sphere radius", o.radius, " m");
+  }
+  void operator()(const BowlOptions& o) const {
+    finite("contact bowl centre", o.centre);
+    positive("contact bowl radius", o.radius, " m");
+    expect(o.rim >= 0 && o.rim <= o.radius, "contact bowl rim", o.rim,
+           "a height above the lowest point from 0 to the radius");
+  }
+};
+
+void check_contact(const Problem& problem) {
+  const ContactOptions& c = problem.contact;
+  if (!c.obstacles.empty() && !problem.body.surface)
+    throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
+  for (const ObstacleOptions& o : c.obstacles) {
+    std::visit(CheckShape{}, o.shape);
+    if (o.friction) not_negative("contact friction", *o.friction, "");
+    finite("contact obstacle velocity", o.velocity);
+  }
+  positive("contact.stiffness_scale", c.stiffness_scale, "");
+  not_negative("contact.damping_scale", c.damping_scale, "");
+  not_negative("contact.tangential_damping_scale", c.tangential_damping_scale, "");
+}
+
+}  // namespace
+
+void validate(const Problem& problem) {
+  check_body(problem.body);
+  finite("gravity", problem.gravity);
+  check_integration(problem.integration, problem.body.levels.size());
+  check_contact(problem);
+}
+
+}  // namespace plica
