@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/meshes/checked.hpp>
@@ -39,32 +40,39 @@ struct Containing {
   }
 };
 
+double squared_distance(const Point& p, const TetMesh& mesh, int tet) {
+  const auto corners = corners_of(mesh, tet);
+  return (weighted(nearest_inside(p, corners), corners) - p).squaredNorm();
+}
+
 struct Nearest {
   using Scalar = double;
   const TetMesh& mesh;
   const Point& p;
+  int tet = -1;
+  double least = std::numeric_limits<double>::infinity();
 
   double minimumOnVolume(const Volume& box) const { return box.squaredExteriorDistance(p); }
-  double minimumOnObject(int tet) const {
-    const auto corners = corners_of(mesh, tet);
-    return (weighted(nearest_inside(p, corners), corners) - p).squaredNorm();
+  double minimumOnObject(int candidate) {
+    const double d = squared_distance(p, mesh, candidate);
+    if (d < least) least = d, tet = candidate;
+    return d;
   }
 };
 
-// Among all within `reach`, the one extrapolated least
+// Among all as near as the nearest, the one extrapolated least
 struct LeastExtrapolated {
-  Nearest nearest;
+  const TetMesh& mesh;
+  const Point& p;
   double reach;
-  double depth = -std::numeric_limits<double>::infinity();
-  Located found = {};
+  Located found;
 
-  bool intersectVolume(const Volume& box) const { return nearest.minimumOnVolume(box) <= reach; }
+  bool intersectVolume(const Volume& box) const { return box.squaredExteriorDistance(p) <= reach; }
   bool intersectObject(int tet) {
-    const double d = nearest.minimumOnObject(tet);
-    if (d > reach) return false;
-    const Weights weights = barycentric(nearest.p, corners_of(nearest.mesh, tet));
-    const double own = smallest(weights);
-    if (own > depth || (own == depth && tet < found.tet)) depth = own, found = {tet, weights, std::sqrt(d)};
+    if (squared_distance(p, mesh, tet) > reach) return false;
+    const Weights weights = barycentric(p, corners_of(mesh, tet));
+    const double own = smallest(weights), best = smallest(found.weights);
+    if (own > best || (own == best && tet < found.tet)) found.tet = tet, found.weights = weights;
     return false;
   }
 };
@@ -98,8 +106,9 @@ Located TetLocator::locate(const Point& point) const {
   if (containing.found.tet >= 0) return containing.found;
 
   Nearest nearest{*mesh_, point};
-  const double squared_distance = Eigen::BVMinimize(*tree_, nearest);
-  LeastExtrapolated choice{nearest, squared_distance * (1.0 + tie_tolerance)};
+  Eigen::BVMinimize(*tree_, nearest);
+  LeastExtrapolated choice{*mesh_, point, nearest.least * (1.0 + tie_tolerance), {}};
+  choice.found = {nearest.tet, barycentric(point, corners_of(*mesh_, nearest.tet)), std::sqrt(nearest.least)};
   Eigen::BVIntersect(*tree_, choice);
   Located& found = choice.found;
   if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet)) found.distance = 0.0;
