@@ -33,11 +33,12 @@ class CommandLine {
     add_mesh();
     add_list();
     for (const char* name : planned_commands) {
-      CLI::App* command = add(name, "not in this build", [name] {
+      CLI::App* command = add(name, "", [name] {
         throw NotInThisBuild("plica " + std::string(name) + " is not in this build");
         return ExitStatus::not_in_build;
       });
       command->allow_extras();
+      command->group("Planned");
     }
   }
 
@@ -118,7 +119,7 @@ class CommandLine {
     return ExitStatus::done;
   }
 
-  CLI::App app_{"plica: multigrid in time for deformable tissue", "plica"};
+  CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
   RunArguments arguments_;
   std::vector<std::string> sets_;
   std::string duration_, family_, mesh_file_;

@@ -73,6 +73,7 @@ ExitStatus run(const RunArguments& arguments) {
     Summary summary = summary_of(scene, simulation, machine, end);
     summary.setup_time = set_up_time;
     summary.frames = files.frames();
+    summary.last_good_time = files.last_time();
     write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
     if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
     if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());

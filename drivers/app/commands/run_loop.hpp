@@ -11,32 +11,10 @@ namespace plica::app {
 /// How a run ended.
 struct RunEnd {
   std::string status = "completed";  ///< completed | interrupted | diverged
-  long macro_steps = 0;
-  double time = 0;       ///< of the last good state, which is the last one on disk [s]
-  double wall_time = 0;  ///< of the steps and their checks [s]
+  long macro_steps = 0;              ///< that passed the checks
+  double time = 0;                   ///< after them [s]
+  double wall_time = 0;              ///< of the steps and their checks [s]
   std::optional<Diagnosis> diagnosis;
-};
-
-/// Level 0's state before the step that is being tried.
-template <class B>
-class LastGood {
- public:
-  explicit LastGood(const Simulation<B>& simulation)
-      : displacement_(simulation.displacement()),
-        velocity_(simulation.velocity()),
-        kept_displacement_("plica::last_good_displacement", displacement_.extent(0)),
-        kept_velocity_("plica::last_good_velocity", velocity_.extent(0)) {}
-  void keep() {
-    Kokkos::deep_copy(kept_displacement_, displacement_);
-    Kokkos::deep_copy(kept_velocity_, velocity_);
-  }
-  void restore() {
-    Kokkos::deep_copy(displacement_, kept_displacement_);
-    Kokkos::deep_copy(velocity_, kept_velocity_);
-  }
-
- private:
-  Vectors<B> displacement_, velocity_, kept_displacement_, kept_velocity_;
 };
 
 /// Steps to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. Whole macro steps:
@@ -46,15 +24,13 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, double every, RunFil
   constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
   const double step = simulation.macro_step();
   const long steps = std::lround(std::ceil(duration / step - rounding));
-  LastGood<B> good(simulation);
   RunEnd end;
   files.write(take_snapshot(simulation, 0));
   long next_frame = 1;
   while (end.macro_steps < steps && !interrupted()) {
     const auto start = std::chrono::steady_clock::now();
-    good.keep();
     simulation.step();
-    end.diagnosis = simulation.diagnosis();
+    end.diagnosis = simulation.check();
     end.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (end.diagnosis) break;
     ++end.macro_steps;
@@ -65,9 +41,13 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, double every, RunFil
     }
     progress.update(end.time, end.macro_steps);
   }
-  if (end.diagnosis) good.restore();
+  double last = end.time;
+  if (end.diagnosis) {
+    simulation.return_to_last_good();
+    last = simulation.time();
+  }
   if (end.diagnosis || end.macro_steps < steps) end.status = end.diagnosis ? "diverged" : "interrupted";
-  if (files.last_time() < end.time) files.write(take_snapshot(simulation, end.time));
+  if (files.last_time() < last) files.write(take_snapshot(simulation, last));
   return end;
 }
 

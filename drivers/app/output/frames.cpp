@@ -20,7 +20,7 @@ Frames::Frames(std::filesystem::path folder, std::string name, std::string colle
 void Frames::write(const VtuGrid& grid) {
   const std::string file = fmt::format("frames/{}_{:04}.vtu", name_, entries_);
   write_file(folder_ / file, vtu_text(grid));
-  list_ += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", grid.time, file);
+  list_ += fmt::format("    <DataSet timestep=\"{:.12g}\" part=\"0\" file=\"{}\"/>\n", grid.time, file);
   ++entries_;
   write_file(folder_ / collection_, fmt::format("<?xml version=\"1.0\"?>\n"
                                                 "<VTKFile type=\"Collection\" version=\"1.0\">\n"

@@ -35,7 +35,7 @@ std::string levels_text(const Plan& plan) {
   std::vector<std::vector<std::string>> meshes = {
       {"level", "vertices", "tetrahedra", "mean edge", "mass", "critical step", "element bound"}};
   std::vector<std::vector<std::string>> steps = {
-      {"level", "share", "takes", "sub-steps", "of", "over critical", "integrator"}};
+      {"level", "share", "time", "sub-steps", "of", "of / critical", "integrator"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
     const double time = level.share * plan.macro_step, substep = time / level.substeps;
@@ -47,8 +47,8 @@ std::string levels_text(const Plan& plan) {
                      fmt::format("{:.2f}", substep / level.critical_step),
                      level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
   }
-  return "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + "\nA macro step, coarsest level first\n" +
-         text_table(steps, ">>>>>><");
+  return "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") +
+         "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
 }
 
 std::string transfers_text(const Plan& plan) {

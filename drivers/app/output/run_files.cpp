@@ -5,10 +5,17 @@
 namespace plica::app {
 namespace {
 
-std::vector<Point> differences(const std::vector<Point>& a, const std::vector<Point>& b) {
-  std::vector<Point> result(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) result[i] = a[i] - b[i];
+std::vector<Point> displacements(const std::vector<Point>& positions, const std::vector<Point>& rest,
+                                 const Point& placement) {
+  std::vector<Point> result(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) result[i] = positions[i] - rest[i] - placement;
   return result;
+}
+
+Point placement_of(const Body& body) {
+  if (!body.initial.position) return Point::Zero();
+  const Box box = bounding_box(body.levels.front().vertices);
+  return *body.initial.position - (box.min + box.max) / 2;
 }
 
 std::vector<Point> gathered(const std::vector<Point>& values, const std::vector<int>& indices) {
@@ -30,6 +37,7 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
 
 RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder)
     : finest_(scene.problem.body.levels.front()),
+      placement_(placement_of(scene.problem.body)),
       surface_frames_(folder, "surface", "frames.pvd"),
       history_(folder / "history.csv", vertex_masses(scene.problem.body)) {
   std::error_code ignored;
@@ -59,7 +67,7 @@ void RunFiles::write_surface(const Snapshot& snapshot) {
   grid.points = embedded ? snapshot.surface : gathered(snapshot.positions, skin_vertex_);
   grid.connectivity = flat(skin_.triangles);
   grid.point_fields = {
-      {"displacement", differences(grid.points, skin_.vertices)},
+      {"displacement", displacements(grid.points, skin_.vertices, placement_)},
       {"velocity", embedded ? snapshot.surface_velocities : gathered(snapshot.velocities, skin_vertex_)}};
   surface_frames_.write(grid);
 }
@@ -70,7 +78,7 @@ void RunFiles::write_volume(const Snapshot& snapshot) {
   grid.points = snapshot.positions;
   grid.connectivity = flat(finest_.tets);
   grid.vertices_per_cell = 4;
-  grid.point_fields = {{"displacement", differences(snapshot.positions, finest_.vertices)},
+  grid.point_fields = {{"displacement", displacements(snapshot.positions, finest_.vertices, placement_)},
                        {"velocity", snapshot.velocities}};
   if (!finest_.region.empty()) grid.cell_fields = {{"region", finest_.region}};
   volume_frames_->write(grid);

@@ -19,6 +19,7 @@ class RunFiles {
   void write_volume(const Snapshot& snapshot);
 
   const TetMesh& finest_;
+  Point placement_;               // the body's translation at the start [m]
   TriangleSurface skin_;          // the embedded surface, else the boundary of level 0, at rest
   std::vector<int> skin_vertex_;  // of that boundary: its vertices' numbers in level 0
   Frames surface_frames_;

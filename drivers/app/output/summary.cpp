@@ -93,7 +93,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"stages", s.stages},
                      {"counters", s.counters},
                      {"residual", s.residual},
-                     {"last_good_time", s.simulated_time},
+                     {"last_good_time", s.last_good_time},
                      {"diagnosis", diagnosis_json(s.diagnosis)},
                      {"obstacles", obstacles_json(scene.problem.contact.obstacles)}};
   return json.dump(2) + "\n";
@@ -108,13 +108,16 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
   const std::string beyond = s.status == "completed" && s.simulated_time > scene.duration * (1 + 1e-9)
                                  ? fmt::format(", the first whole number of steps that covers {:g} s", scene.duration)
                                  : "";
+  const std::string last_good =
+      s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time) : std::string{};
   return fmt::format("{}: {}\n", scene.name, s.status) +
          text_table(
              {{"simulated", fmt::format("{:.5g} s in {} macro steps of {}{}", s.simulated_time, s.macro_steps,
                                         in_units(s.macro_step, "s"), beyond)},
               {"stepping", in_units(wall, "s") + speed},
               {"set-up", fmt::format("{}, peak memory {}", in_units(s.setup_time, "s"), in_bytes(s.peak_memory))},
-              {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({} frames)", folder, s.frames)}},
+              {"files",
+               fmt::format("{}: summary.json, history.csv, frames.pvd ({} frames{})", folder, s.frames, last_good)}},
              "<<");
 }
 

@@ -13,7 +13,8 @@ namespace plica::app {
 /// A run as summary.json tells it. Times in s, memory in bytes.
 struct Summary {
   std::string status;
-  double simulated_time = 0, macro_step = 0;
+  double simulated_time = 0, last_good_time = 0;  ///< reached; on disk: another one only after divergence
+  double macro_step = 0;
   long macro_steps = 0;
   double wall_time = 0, setup_time = 0;
   std::size_t peak_memory = 0, frames = 0;
