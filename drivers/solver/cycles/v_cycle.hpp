@@ -19,11 +19,10 @@ class VCycle final : public Cycle<B> {
 
  public:
   explicit VCycle(Hierarchy<B>& h) {
-    if (h.count() == 1) return;
-    for (auto& part : h.levels) {
-      const int n = part.level.model.vertices;
-      if (keeps_start) part.level.start = State<B>("start", n);
-      if (keeps_previous) part.level.previous = State<B>("previous", n);
+    for (int i = 0; i < h.count() && h.count() > 1; ++i) {
+      Level<B>& level = h[i].level;
+      if (keeps_start) level.start = State<B>("start", level.model.vertices);
+      if (keeps_previous && i + 1 < h.count()) level.previous = State<B>("previous", level.model.vertices);
     }
   }
 
@@ -34,7 +33,7 @@ class VCycle final : public Cycle<B> {
         map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].level.state, {}, {},
                                 level.state, {});
       if (keeps_start) level.start.copy(h.exec(), level.state);
-      if (keeps_previous) level.previous.copy(h.exec(), level.state);
+      if (keeps_previous && i + 1 < h.count()) level.previous.copy(h.exec(), level.state);
     }
   }
 
@@ -54,14 +53,15 @@ class VCycle final : public Cycle<B> {
  private:
   static void remember_start(Hierarchy<B>& h, int i) {
     Level<B>& level = h[i].level;
-    if (keeps_previous) std::swap(level.start, level.previous);
+    if (keeps_previous && i + 1 < h.count()) std::swap(level.start, level.previous);
     if (keeps_start) h.clock.time("keep", i, [&] { level.start.copy(h.exec(), level.state); });
   }
 
+  // called before the coarse level's own start is taken anew: it still holds that of the last cycle
   static void restrict_state(Hierarchy<B>& h, int i) {
     const Level<B>&fine = h[i - 1].level, &coarse = h[i].level;
     h.clock.time("restrict", i, [&] {
-      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous, coarse.previous,
+      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous, coarse.start,
                           coarse.state, coarse.drift_limit);
     });
   }
