@@ -13,20 +13,22 @@ std::string placed(const std::string& message, const Where& where) {
   return where.file + (where.line > 0 ? ":" + std::to_string(where.line) : "") + ": " + message;
 }
 
-// Levenshtein's distance, one row of the table at a time
+// Damerau's distance (a swap of neighbours is one edit), two rows of the table back
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
+    row[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substitute = diagonal + (a[i] != b[j] ? 1 : 0);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substitute});
+      row[j + 1] = std::min({last[j + 1] + 1, row[j] + 1, last[j] + (a[i] != b[j] ? 1 : 0)});
+      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
     }
+    before = std::exchange(last, row);
   }
-  return row.back();
+  return last.back();
 }
+
+std::size_t difference(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
 
 }  // namespace
 
@@ -37,7 +39,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   std::size_t distance = std::max<std::size_t>(2, (word.size() + 2) / 3) + 1;
   for (const std::string& choice : choices) {
     const std::size_t d = edit_distance(word, choice);
-    if (d < distance) distance = d, best = choice;
+    const bool nearer = d < distance || (d == distance && !best.empty() &&
+                                         difference(choice.size(), word.size()) < difference(best.size(), word.size()));
+    if (nearer) distance = d, best = choice;
   }
   return best;
 }
