@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of the body among its obstacles: by VTK off-screen where PyVista is there, else by Matplotlib."""
+import subprocess
+import sys
+
+import numpy
+from matplotlib.colors import LinearSegmentedColormap, to_rgba
+
+try:
+    import pyvista
+    from vtkmodules.vtkCommonCore import vtkLogger
+
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # no display is no news
+except ImportError:
+    pyvista = None
+
+BODY_MAP = LinearSegmentedColormap.from_list("deformation", ["#3d8fb3", "#8fcfb0", "#f6d365", "#f08a4b", "#b5233b"])
+OBSTACLE = "#6f8296"
+BACK, FRONT = 0.45, 0.10  # opacity of what is behind the body, and of what is between it and the eye
+# seen from the front, a little from the right and above
+FORWARD = numpy.array([-0.28, 0.88, -0.38]) / numpy.linalg.norm([-0.28, 0.88, -0.38])
+RIGHT = numpy.cross(FORWARD, [0, 0, 1]) / numpy.linalg.norm(numpy.cross(FORWARD, [0, 0, 1]))
+UP = numpy.cross(RIGHT, FORWARD)
+
+
+def patch(function, u, v):
+    """A grid of points function(u, v) as points and triangles."""
+    grid_u, grid_v = numpy.meshgrid(u, v, indexing="ij")
+    points = numpy.stack(function(grid_u, grid_v), axis=-1).reshape(-1, 3)
+    index = numpy.arange(len(u) * len(v)).reshape(len(u), len(v))
+    a, b, c, d = index[:-1, :-1].ravel(), index[1:, :-1].ravel(), index[1:, 1:].ravel(), index[:-1, 1:].ravel()
+    return points, numpy.concatenate([numpy.stack([a, b, c], 1), numpy.stack([a, c, d], 1)])
+
+
+def on_sphere(centre, radius):
+    return lambda polar, around: (
+        centre[0] + radius * numpy.sin(polar) * numpy.cos(around),
+        centre[1] + radius * numpy.sin(polar) * numpy.sin(around),
+        centre[2] - radius * numpy.cos(polar),
+    )
+
+
+def bowl(shape):
+    """The half behind its centre and the half in front, through which one looks in."""
+    steepest = numpy.arccos(1 - shape["rim"] / shape["radius"])
+    polar, facing = numpy.linspace(0, steepest, 40), numpy.arctan2(FORWARD[1], FORWARD[0])
+    half = numpy.linspace(-numpy.pi / 2, numpy.pi / 2, 80)
+    surface = on_sphere(shape["centre"], shape["radius"])
+    return [(*patch(surface, polar, facing + half), BACK), (*patch(surface, polar, facing + half + numpy.pi), FRONT)]
+
+
+def sphere(shape):
+    surface = on_sphere(shape["centre"], shape["radius"])
+    return [(*patch(surface, numpy.linspace(0, numpy.pi, 60), numpy.linspace(0, 2 * numpy.pi, 120)), BACK)]
+
+
+def plane(shape, low, high):
+    """A square of it, wide enough for the body."""
+    normal = numpy.array(shape["normal"]) / numpy.linalg.norm(shape["normal"])
+    along = numpy.cross(normal, [1, 0, 0] if abs(normal[0]) < 0.9 else [0, 1, 0])
+    along /= numpy.linalg.norm(along)
+    across = numpy.cross(normal, along)
+    middle = (low + high) / 2
+    middle = middle - normal * (normal @ (middle - shape["point"]))
+    half = 0.7 * numpy.linalg.norm(high - low)
+    size = numpy.array([-half, half])
+    points = lambda s, t: numpy.moveaxis(middle + s[..., None] * along + t[..., None] * across, -1, 0)
+    return [(*patch(points, size, size), BACK)]
+
+
+def obstacles(run):
+    """Those of the run where they stood at the start, as (points, triangles, opacity)."""
+    low, high = run.points.min(axis=(0, 1)), run.points.max(axis=(0, 1))
+    shapes = []
+    for entry in run.summary.get("obstacles", []):
+        if "bowl" in entry:
+            shapes += bowl(entry["bowl"])
+        elif "sphere" in entry:
+            shapes += sphere(entry["sphere"])
+        elif "plane" in entry:
+            shapes += plane(entry["plane"], low, high)
+    return shapes
+
+
+def normals(points, triangles):
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    normal = numpy.cross(b - a, c - a)
+    return normal / numpy.maximum(numpy.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
+
+
+def cells_facing(points, triangles):
+    return normals(points, triangles) @ FORWARD < 0
+
+
+def vtk_renders():
+    """Tried in another process: without any OpenGL VTK takes the whole interpreter down."""
+    trial = "import pyvista; p = pyvista.Plotter(off_screen=True); p.add_mesh(pyvista.Sphere()); p.screenshot(return_img=True)"
+    return pyvista is not None and subprocess.run([sys.executable, "-c", trial], capture_output=True).returncode == 0
+
+
+class View:
+    """One camera for all pictures of a run: a parallel projection that just holds everything."""
+
+    def __init__(self, run):
+        self.shapes = obstacles(run)
+        body = run.points.reshape(-1, 3)
+        extent = numpy.ptp(body, axis=0).max()
+        seen = [body] + [points for points, *_ in self.shapes if numpy.ptp(points, axis=0).max() < 8 * extent]
+        points = numpy.concatenate(seen)
+        across, height, depth = points @ RIGHT, points @ UP, points @ FORWARD
+        self.half_width, self.half_height = 0.52 * numpy.ptp(across), 0.52 * numpy.ptp(height)
+        middles = [(values.min() + values.max()) / 2 for values in (across, height, depth)]
+        self.focus = middles[0] * RIGHT + middles[1] * UP + middles[2] * FORWARD
+        self.depth = numpy.ptp(depth) + extent
+
+        self.draw = self._by_vtk if vtk_renders() else self._by_matplotlib
+
+    def aspect(self):
+        return self.half_width / self.half_height
+
+    def picture(self, points, triangles, values, largest, height=620):
+        """An image array of the body, coloured by values in [0, largest]."""
+        size = (int(height * self.aspect()), height)
+        return self.draw(points, triangles, values, largest, size)
+
+    def _by_vtk(self, points, triangles, values, largest, size):
+        plotter = pyvista.Plotter(off_screen=True, window_size=size)
+        plotter.background_color = "white"
+        body = pyvista.PolyData.from_regular_faces(points, triangles)
+        plotter.add_mesh(body, scalars=values, cmap=BODY_MAP, clim=(0, largest), show_scalar_bar=False,
+                         smooth_shading=True, split_sharp_edges=True, ambient=0.4, diffuse=0.7, specular=0.12)
+        plotter.add_mesh(body.extract_all_edges(), color="black", opacity=0.12, line_width=1)
+        for shape_points, shape_triangles, opacity in self.shapes:
+            shape = pyvista.PolyData.from_regular_faces(shape_points, shape_triangles)
+            plotter.add_mesh(shape, color=OBSTACLE, opacity=opacity, smooth_shading=True, ambient=0.3, specular=0.1)
+        plotter.camera.parallel_projection = True
+        plotter.camera.focal_point = self.focus
+        plotter.camera.position = self.focus - 2 * self.depth * FORWARD
+        plotter.camera.up = UP
+        plotter.camera.parallel_scale = self.half_height
+        plotter.camera.clipping_range = (0.5 * self.depth, 4 * self.depth)
+        plotter.enable_depth_peeling()
+        plotter.enable_anti_aliasing("ssaa")
+        image = plotter.screenshot(return_img=True)
+        plotter.close()
+        return image
+
+    def _by_matplotlib(self, points, triangles, values, largest, size):
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(size[0] / 100, size[1] / 100), dpi=100)
+        axes = figure.add_axes((0, 0, 1, 1))
+        axes.set(xlim=(-self.half_width, self.half_width), ylim=(-self.half_height, self.half_height))
+        axes.axis("off")
+        for vertices, cells, opacity in self.shapes:
+            if opacity == BACK:
+                self._add_triangles(axes, vertices, cells, to_rgba(OBSTACLE, opacity))
+        facing = cells_facing(points, triangles)  # the others are hidden behind them
+        self._add_triangles(axes, points, triangles[facing], BODY_MAP(values[triangles[facing]].mean(axis=1) / largest))
+        for vertices, cells, opacity in self.shapes:
+            if opacity == FRONT:
+                self._add_triangles(axes, vertices, cells, to_rgba(OBSTACLE, opacity))
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        return numpy.asarray(canvas.buffer_rgba())[..., :3]
+
+    def _add_triangles(self, axes, points, triangles, colours):
+        from matplotlib.collections import PolyCollection
+
+        corners = points[triangles]
+        light = normals(points, triangles) @ (0.8 * UP - 0.6 * FORWARD)
+        shaded = numpy.broadcast_to(colours, (len(triangles), 4)).copy()
+        solid = (shaded[:, 3] == 1).all()
+        shaded[:, :3] *= 0.5 + 0.5 * (0.5 + 0.5 * light if solid else numpy.abs(light))[:, None]
+        order = numpy.argsort(-(corners.mean(axis=1) @ FORWARD))
+        flat = (corners - self.focus) @ numpy.stack([RIGHT, UP], axis=1)
+        # edges close the seams, but would show twice where one looks through
+        axes.add_collection(PolyCollection(flat[order], facecolors=shaded[order],
+                                           edgecolors=shaded[order] if solid else "none", linewidths=0.4))
