@@ -29,8 +29,9 @@ struct PatchKernel {
   static constexpr int lanes = B::lanes;
   static constexpr int fields = Integrand::fields;
   static constexpr int force_slots = (Patches<B>::capacity + lanes - 1) / lanes * 12 * lanes;
-  static constexpr std::size_t scratch_bytes =
-      (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * 3 * fields) * sizeof(Real);
+  static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
+    return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * 3 * fields) * sizeof(Real);
+  }
   using T = typename PackOf<Real, lanes>::type;
 
   Patches<B> patches;
@@ -41,7 +42,7 @@ struct PatchKernel {
     const int p = team.league_rank();
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
-    Real* const forces = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes, 64));
+    Real* const forces = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes(), 64));
     Real* const local = forces + force_slots;
 
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
@@ -109,7 +110,7 @@ void launch_patches(const typename B::Exec& exec, const char* label, const Patch
   using Kernel = PatchKernel<B, Integrand>;
   if (patches.count == 0) return;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
-  Kokkos::parallel_for(label, policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes + 64)),
+  Kokkos::parallel_for(label, policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
                        Kernel{patches, integrand, partial});
 }
 

@@ -44,7 +44,8 @@ struct Simulation<B>::Inside {
   std::vector<State<B>> kept;
   double time = 0, kept_time = 0;
   long steps = 0, kept_steps = 0;
-  bool budget_known;             // nothing from outside but gravity does work
+  bool budget_known;  // nothing from outside but gravity does work
+  double residual = 0, worst_residual = 0;
   double start = 0, put_in = 0;  // energy at the start, the most that was ever there to be had [J]
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
@@ -71,6 +72,9 @@ void Simulation<B>::step() {
   for (auto& part : s.hierarchy().levels) part.forces->begin_macro_step();
   s.built.cycle->step(s.hierarchy(), s.time, s.built.macro_step);
   s.time = static_cast<double>(++s.steps) * s.built.macro_step;
+  s.residual = 0;
+  for (const auto& part : s.hierarchy().levels) s.residual = std::max(s.residual, part.integrator->residual());
+  s.worst_residual = std::max(s.worst_residual, s.residual);
 }
 
 template <class B>
@@ -142,10 +146,12 @@ std::map<std::string, long> Simulation<B>::counters() const {
 }
 
 template <class B>
+double Simulation<B>::residual() const {
+  return inside_->residual;
+}
+template <class B>
 double Simulation<B>::worst_residual() const {
-  double worst = 0;
-  for (const auto& part : inside_->hierarchy().levels) worst = std::max(worst, part.integrator->worst_residual());
-  return worst;
+  return inside_->worst_residual;
 }
 
 template <class B>

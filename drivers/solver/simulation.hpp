@@ -91,7 +91,8 @@ class Simulation {
       const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
   std::map<std::string, long> counters()
       const;                      ///< force evaluations, solver iterations, misses, switched vertices ...
-  double worst_residual() const;  ///< largest relative residual an implicit solve ended with
+  double residual() const;        ///< the largest relative residual an implicit solve of the last macro step ended with
+  double worst_residual() const;  ///< of all macro steps so far
 
   /// A level's fields as the device holds them, [vertices][3]: displacement from the placed rest mesh [m] and velocity
   /// [m/s]. step() updates them in place.

@@ -25,6 +25,7 @@ struct ImplicitEuler {
 
     void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
                  int steps) override {
+      residual_ = 0;
       for (int s = 0; s < steps; ++s) {
         at_start_.copy(exec, level.state);
         double first = 0;
@@ -45,7 +46,7 @@ struct ImplicitEuler {
     std::size_t bytes() const override {  // two states' worth of vectors at the start, five and the blocks in the solve
       return (6 + 15 + 6) * sizeof(typename B::Real) * at_start_.u.extent(0);
     }
-    double worst_residual() const override { return worst_; }
+    double residual() const override { return residual_; }
 
    private:
     IntegratorOptions options_;
@@ -53,7 +54,7 @@ struct ImplicitEuler {
     CgVectors<B> cg_;
     BlockSums<B> blocks_;
     long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0;
-    double worst_ = 0;
+    double residual_ = 0;
 
     /// One Newton iteration; returns |b| in the preconditioner's norm.
     double iterate(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
@@ -81,7 +82,7 @@ struct ImplicitEuler {
     void count(const CgOutcome& out) {
       ++solves_, iterations_ += out.iterations;
       misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
-      worst_ = std::max(worst_, out.relative_residual);
+      residual_ = std::max(residual_, out.relative_residual);
     }
   };
 };

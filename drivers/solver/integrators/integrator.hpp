@@ -24,8 +24,8 @@ class Integrator {
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.
   virtual std::size_t bytes() const { return 0; }
-  /// The largest relative residual a linear solve ended with; 0 where there are none.
-  virtual double worst_residual() const { return 0; }
+  /// The largest relative residual that a linear solve of the last advance() ended with; 0 where there are none.
+  virtual double residual() const { return 0; }
 };
 
 /// The stability limit of an integrator on u'' = -K u - D u' (K and D per mass): the largest h with
