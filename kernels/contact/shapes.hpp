@@ -60,8 +60,9 @@ struct Bowl {
       const Real opening = sqrt(max(radius * radius - top * top, Real(0))), across = sqrt(d[0] * d[0] + d[1] * d[1]);
       // nearest to the rim's circle: above the plane over the solid's side of the opening's cone
       if (above > 0 && across < opening && across * (-top) > -d[2] * opening) {
-        const Real o = across - opening, l = sqrt(o * o + above * above), s = o / (across * l);
+        const Real o = across - opening, l = sqrt(o * o + above * above);
         if (!(across > 0)) return {l, {o / l, Real(0), above / l}};  // on the axis, from any point of the circle
+        const Real s = o / (across * l);
         return {l, {s * d[0], s * d[1], above / l}};
       }
       if (inside >= above && !(r > 0)) return {radius, {Real(0), Real(0), Real(1)}};  // the centre

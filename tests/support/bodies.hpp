@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/problem.hpp>
+#include <plica/meshes/box_mesh.hpp>
+#include <random>
+#include <string>
+
+// Meshes, fields and problems that many tests start from.
+namespace plica::test {
+
+inline std::vector<Point> random_field(std::size_t count, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(-size, size);
+  std::vector<Point> field(count);
+  for (Point& p : field) p = {within(random), within(random), within(random)};
+  return field;
+}
+
+/// Whether a vertex lies on one of the box's faces.
+inline bool on_boundary(const Box& box, const Point& p) {
+  const double slack = 1e-9 * (box.max - box.min).norm();
+  return ((p - box.min).array() < slack).any() || ((box.max - p).array() < slack).any();
+}
+
+/// A box whose inner vertices are moved at random by up to `amount` of a cell: no two elements alike.
+inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, double amount = 0.15, unsigned seed = 7) {
+  TetMesh mesh = box_mesh(box, cells);
+  const auto moves = random_field(mesh.vertices.size(), amount, seed);
+  for (std::size_t a = 0; a < moves.size(); ++a)
+    if (!on_boundary(box, mesh.vertices[a]))
+      for (int k = 0; k < 3; ++k) mesh.vertices[a][k] += moves[a][k] * (box.max - box.min)[k] / cells[std::size_t(k)];
+  return mesh;
+}
+
+/// Divides a mesh into two regions at a plane x = at.
+inline TetMesh with_regions(TetMesh mesh, double at, const std::string& below, const std::string& above) {
+  mesh.region_names = {below, above};
+  mesh.region.clear();
+  for (const auto& t : mesh.tets) {
+    double x = 0;
+    for (int v : t) x += mesh.vertices[static_cast<std::size_t>(v)][0] / 4;
+    mesh.region.push_back(x < at ? 0 : 1);
+  }
+  return mesh;
+}
+
+/// A soft body without loads, of the given resolutions.
+inline Problem body_of(std::vector<TetMesh> levels, const std::string& material = "st_venant_kirchhoff") {
+  Problem p;
+  p.body.levels = std::move(levels);
+  p.body.material = {material, 20e3, 0.35, 1000};
+  return p;
+}
+
+const Box unit_box{{0, 0, 0}, {1, 1, 1}};
+const Box decimetre{{0, 0, 0}, {0.1, 0.1, 0.1}};
+const Box beam_box{{0, 0, 0}, {0.4, 0.1, 0.1}};
+
+inline Problem small_cube(const std::string& material = "st_venant_kirchhoff", int cells = 3) {
+  return body_of({jittered_box(decimetre, {cells, cells, cells})}, material);
+}
+
+/// Two or more levels of one cube, coarser by one cell each.
+inline Problem cube_levels(int levels, int finest, const std::string& cycle) {
+  std::vector<TetMesh> meshes;
+  for (int i = 0; i < levels; ++i) meshes.push_back(jittered_box(decimetre, {finest - i, finest - i, finest - i}));
+  Problem p = body_of(std::move(meshes));
+  p.integration.cycle = cycle;
+  return p;
+}
+
+/// The vertices of the face x = 0.
+inline Selection left_face() { return {Box{{0, -1e3, -1e3}, {0, 1e3, 1e3}}, ""}; }
+
+}  // namespace plica::test

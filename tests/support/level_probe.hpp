@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <Eigen/Dense>
+#include <plica/drivers/solver/diagnose.hpp>
+#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <vector>
+
+namespace plica::test {
+
+/// A host field on the device.
+template <class B>
+Vectors<B> device_field(const std::vector<Point>& field) {
+  Vectors<B> view("test.field", field.size());
+  const auto host = Kokkos::create_mirror_view(view);
+  for (std::size_t a = 0; a < field.size(); ++a)
+    for (int k = 0; k < 3; ++k) host(a, static_cast<std::size_t>(k)) = static_cast<typename B::Real>(field[a][k]);
+  Kokkos::deep_copy(view, host);
+  return view;
+}
+
+/// The levels of a problem with their forces, one product at a time and without any integrator.
+template <class B>
+class LevelProbe {
+ public:
+  explicit LevelProbe(const Problem& problem) : built(build_hierarchy<B>(problem, {})) {}
+  BuiltHierarchy<B> built;
+
+  HierarchyLevel<B>& at(int i) { return (*built.hierarchy)[i]; }
+  std::size_t vertices(int i = 0) { return static_cast<std::size_t>(at(i).level.model.vertices); }
+  std::vector<Point> zero(int i = 0) { return std::vector<Point>(vertices(i), Point::Zero()); }
+
+  std::vector<Point> force(const std::vector<Point>& u, const std::vector<Point>& v, double time = 0, int i = 0) {
+    at(i).forces->evaluate(at(i).level, state(u, v), time, at(i).level.f);
+    return to_host<B>(built.hierarchy->exec(), at(i).level.f);
+  }
+  std::vector<Point> force(const std::vector<Point>& u) {
+    return force(u, std::vector<Point>(u.size(), Point::Zero()));
+  }
+
+  /// K(u) p
+  std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p, int i = 0) {
+    const Vectors<B> q("test.q", p.size());
+    at(i).forces->product(at(i).level, state(u, p), device_field<B>(p), 1, 0, q);
+    return to_host<B>(built.hierarchy->exec(), q);
+  }
+
+  /// [J], a sum of the vertices' shares
+  double elastic_energy(const std::vector<Point>& u) {
+    const Level<B>& level = at(0).level;
+    at(0).forces->elasticity().energy(built.hierarchy->exec(), level.model.patches, device_field<B>(u), level.partial);
+    double sum = 0;
+    for (const Point& share : to_host<B>(built.hierarchy->exec(), level.partial)) sum += share[0];
+    return sum;
+  }
+
+  std::vector<double> mass(int i = 0) { return values(at(i).level.model.mass); }
+  std::vector<double> inverse_mass(int i = 0) { return values(at(i).level.model.inverse_mass); }
+
+  /// The free vertices' degrees of freedom, 3 a + k.
+  std::vector<int> free(int i = 0) {
+    std::vector<int> list;
+    const auto inverse = inverse_mass(i);
+    for (std::size_t a = 0; a < inverse.size(); ++a)
+      for (int k = 0; k < 3 && inverse[a] > 0; ++k) list.push_back(static_cast<int>(3 * a) + k);
+    return list;
+  }
+
+  /// K(u) on all degrees of freedom, a column for each.
+  Eigen::MatrixXd stiffness_matrix(const std::vector<Point>& u, int i = 0) {
+    const auto n = static_cast<Eigen::Index>(3 * u.size());
+    Eigen::MatrixXd K(n, n);
+    std::vector<Point> p(u.size(), Point::Zero());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      p[static_cast<std::size_t>(j / 3)][j % 3] = 1;
+      const auto column = stiffness(u, p, i);
+      p[static_cast<std::size_t>(j / 3)][j % 3] = 0;
+      for (Eigen::Index r = 0; r < n; ++r) K(r, j) = column[static_cast<std::size_t>(r / 3)][r % 3];
+    }
+    return K;
+  }
+
+  /// M^-1/2 A M^-1/2 over the free degrees of freedom: its eigenvalues are the squares of the frequencies [1/s^2].
+  Eigen::MatrixXd scaled_by_mass(const Eigen::MatrixXd& A, int i = 0) {
+    const auto list = free(i);
+    const auto m = mass(i);
+    const auto n = static_cast<Eigen::Index>(list.size());
+    Eigen::MatrixXd S(n, n);
+    for (Eigen::Index r = 0; r < n; ++r)
+      for (Eigen::Index c = 0; c < n; ++c) {
+        const int a = list[static_cast<std::size_t>(r)], b = list[static_cast<std::size_t>(c)];
+        S(r, c) = A(a, b) / std::sqrt(m[static_cast<std::size_t>(a / 3)] * m[static_cast<std::size_t>(b / 3)]);
+      }
+    return 0.5 * (S + S.transpose());
+  }
+
+ private:
+  static State<B> state(const std::vector<Point>& u, const std::vector<Point>& v) {
+    State<B> s;
+    s.u = device_field<B>(u), s.v = device_field<B>(v);
+    return s;
+  }
+  static std::vector<double> values(const Scalars<B>& view) {
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+    std::vector<double> list;
+    for (std::size_t a = 0; a < host.extent(0); ++a) list.push_back(static_cast<double>(host(a)));
+    return list;
+  }
+};
+
+}  // namespace plica::test

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/gradients.hpp"
+#include "support/level_probe.hpp"
+#include "support/tolerance.hpp"
+
+// The element kernels on a whole irregular mesh, in every material.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+template <class Test>
+void for_each_material(const Test& test) {
+  Materials::for_each([&](auto material) {
+    SCOPED_TRACE(decltype(material)::name);
+    test(material);
+  });
+}
+
+std::vector<Point> along(const std::vector<Point>& u, double t, const std::vector<Point>& p) {
+  std::vector<Point> moved = u;
+  for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];
+  return moved;
+}
+
+std::vector<Point> affine(const TetMesh& mesh, const Eigen::Matrix3d& F, const Point& shift) {
+  std::vector<Point> u;
+  for (const Point& X : mesh.vertices) u.push_back(F * X + shift - X);
+  return u;
+}
+
+// a soft material's force on a face of one cell at a strain of one
+double force_size(const Problem& p) { return p.body.material.young_modulus * 0.03 * 0.03; }
+
+TEST(ElasticMesh, ForceIsMinusTheGradientOfTheEnergy) {
+  for_each_material([](auto material) {
+    const Problem problem = small_cube(material.name);
+    LevelProbe<Host> probe(problem);
+    const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
+    const double h = 1e-3,
+                 slope = (probe.elastic_energy(along(u, h, p)) - probe.elastic_energy(along(u, -h, p))) / (2 * h),
+                 half = (probe.elastic_energy(along(u, h / 2, p)) - probe.elastic_energy(along(u, -h / 2, p))) / h;
+    const double work = -dot(probe.force(u), p);
+    EXPECT_NEAR(work, (4 * half - slope) / 3, 1e-6 * std::abs(work));
+  });
+}
+
+TEST(ElasticMesh, TangentIsMinusTheDerivativeOfTheForce) {
+  for_each_material([](auto material) {
+    LevelProbe<Host> probe(small_cube(material.name));
+    const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
+    const auto slope = [&](double h) {
+      auto d = minus(probe.force(along(u, -h, p)), probe.force(along(u, h, p)));
+      for (Point& x : d) x /= 2 * h;
+      return d;
+    };
+    const auto Kp = probe.stiffness(u, p);
+    auto want = slope(1e-3);
+    const auto half = slope(5e-4);
+    for (std::size_t a = 0; a < want.size(); ++a) want[a] = (4 * half[a] - want[a]) / 3;
+    EXPECT_LE(largest_difference(Kp, want), 1e-6 * largest(Kp));
+  });
+}
+
+TEST(ElasticMesh, StiffnessIsSymmetricAndItsBlocksAreThePreconditioners) {
+  for_each_material([](auto material) {
+    const Problem problem = small_cube(material.name, 2);
+    LevelProbe<Host> probe(problem);
+    const auto u = random_field(probe.vertices(), 0.002, 1);
+    const Eigen::MatrixXd K = probe.stiffness_matrix(u);
+    EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(), round_off<Host::Real>(1e3, K.cwiseAbs().maxCoeff()));
+
+    auto& level = probe.at(0).level;
+    State<Host> state;
+    state.u = device_field<Host>(u), state.v = device_field<Host>(probe.zero());
+    const Blocks<Host> blocks("test.blocks", probe.vertices());
+    const double h = 0.01;
+    probe.at(0).forces->preconditioner(level, state, h, 1.5, blocks);
+    const auto m = probe.mass();
+    for (Eigen::Index a = 0; a < static_cast<Eigen::Index>(m.size()); ++a) {
+      const Eigen::Matrix3d A =
+          h * h * K.block<3, 3>(3 * a, 3 * a) + 1.5 * m[static_cast<std::size_t>(a)] * Eigen::Matrix3d::Identity();
+      Eigen::Matrix3d D;
+      const auto d = [&](int k) { return blocks(static_cast<std::size_t>(a), static_cast<std::size_t>(k)); };
+      D << d(0), d(3), d(4), d(3), d(1), d(5), d(4), d(5), d(2);
+      if (A.llt().info() == Eigen::Success) {
+        EXPECT_LE((D * A - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+      }
+    }
+  });
+}
+
+template <class B>
+class ElasticMeshOn : public testing::Test {};
+TYPED_TEST_SUITE(ElasticMeshOn, EachBackend);
+
+TYPED_TEST(ElasticMeshOn, PatchTest) {
+  using Real = typename TypeParam::Real;
+  std::mt19937 random(9);
+  const Eigen::Matrix3d F =
+      random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() * random_rotation(random);
+  for_each_material([&](auto material) {
+    using M = decltype(material);
+    const Problem problem = small_cube(M::name, 4);
+    const TetMesh& mesh = problem.body.levels[0];
+    LevelProbe<TypeParam> probe(problem);
+    const auto f = probe.force(affine(mesh, F, {0.01, 0.02, -0.03}));
+    const auto c = lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    int inner = 0;
+    const double size = eigen(M::stress(mat3<double>(F), c)).norm() * 0.025 * 0.025;
+    for (std::size_t a = 0; a < f.size(); ++a) {
+      moment -= f[a] * mesh.vertices[a].transpose();
+      if (on_boundary(decimetre, mesh.vertices[a])) continue;
+      ++inner;
+      EXPECT_LE(f[a].norm(), round_off<Real>(200, size)) << a;
+    }
+    EXPECT_EQ(inner, 27);
+    // the boundary's forces are those of the stress: sum f X^T = -V P
+    const Eigen::Matrix3d VP = 1e-3 * eigen(M::stress(mat3<double>(F), c));
+    EXPECT_LE((moment - VP).norm(), round_off<Real>(1000, VP.norm()));
+  });
+}
+
+TYPED_TEST(ElasticMeshOn, RigidMotionHasNoForce) {
+  using Real = typename TypeParam::Real;
+  std::mt19937 random(11);
+  for_each_material([&](auto material) {
+    using M = decltype(material);
+    const Problem problem = small_cube(M::name);
+    LevelProbe<TypeParam> probe(problem);
+    const Eigen::Matrix3d R = M::rotation_invariant ? random_rotation(random) : Eigen::Matrix3d::Identity();
+    const auto u = affine(problem.body.levels[0], R, {0.05, -0.02, 0.01});
+    EXPECT_LE(largest(probe.force(u)), round_off<Real>(200, force_size(problem)));
+    EXPECT_NEAR(probe.elastic_energy(u), 0, round_off<Real>(200, 20e3 * 1e-3));
+  });
+}
+
+TEST(ElasticMesh, SmallStrainFeelsARotation) {
+  const Problem problem = small_cube("linear");
+  const TetMesh& mesh = problem.body.levels[0];
+  LevelProbe<Host> probe(problem);
+  const auto c = lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
+  const double angle = 0.4;
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Point::UnitZ()).toRotationMatrix();
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+  const auto f = probe.force(affine(mesh, R, Point::Zero()));
+  for (std::size_t a = 0; a < f.size(); ++a) moment -= f[a] * mesh.vertices[a].transpose() / 1e-3;
+  EXPECT_NEAR(moment(0, 0), 2 * (c.mu + c.lambda) * (std::cos(angle) - 1), round_off<double>(100, c.lambda));
+  EXPECT_NEAR(moment(2, 2), 2 * c.lambda * (std::cos(angle) - 1), round_off<double>(100, c.lambda));
+  EXPECT_NEAR(moment(0, 1), 0, round_off<double>(100, c.lambda));
+}
+
+TYPED_TEST(ElasticMeshOn, AgreesWithDouble) {
+  using Real = typename TypeParam::Real;
+  for_each_material([&](auto material) {
+    const Problem problem = small_cube(material.name, 5);  // several patches
+    LevelProbe<TypeParam> probe(problem);
+    LevelProbe<Host> reference(problem);
+    EXPECT_GT(probe.at(0).level.model.patches.count, 1);
+    const auto u = random_field(probe.vertices(), 0.001, 1), p = random_field(probe.vertices(), 0.001, 2);
+    const auto f = reference.force(u), q = reference.stiffness(u, p);
+    EXPECT_LE(largest_difference(probe.force(u), f), round_off<Real>(100, largest(f)));
+    EXPECT_LE(largest_difference(probe.stiffness(u, p), q), round_off<Real>(100, largest(q)));
+  });
+}
+
+TEST(ElasticMesh, LumpedMassesAddUpAndGravityIsTheirWeight) {
+  Problem problem = small_cube();
+  problem.body.levels[0] = with_regions(problem.body.levels[0], 0.05, "light", "heavy");
+  problem.body.regions["heavy"].density = 4000;
+  problem.gravity = {0, 0, -9.81};
+  LevelProbe<Host> probe(problem);
+  double want = 0, sum = 0;
+  const TetMesh& mesh = problem.body.levels[0];
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(mesh.tets[e][k])]; };
+    want += tet_volume(x(0), x(1), x(2), x(3)) * (mesh.region[e] == 1 ? 4000 : 1000);
+  }
+  const auto m = probe.mass();
+  const auto f = probe.force(probe.zero());
+  for (std::size_t a = 0; a < m.size(); ++a) {
+    sum += m[a];
+    EXPECT_LE((f[a] - m[a] * problem.gravity).norm(), round_off<double>(4, 9.81 * m[a]));
+  }
+  EXPECT_NEAR(sum, want, round_off<double>(100, want));
+  EXPECT_NEAR(probe.built.reports[0].mass, want, round_off<double>(100, want));
+}
+
+}  // namespace
