@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of the body among its obstacles: by VTK off-screen where PyVista is there, else by Matplotlib."""
+"""Pictures of the body among its obstacles: by VTK off-screen where that works, else by Matplotlib."""
 import subprocess
 import sys
 
 import numpy
-from matplotlib.colors import LinearSegmentedColormap, to_rgba
+from matplotlib.colors import LinearSegmentedColormap, to_rgb, to_rgba
 
 try:
-    import pyvista
-    from vtkmodules.vtkCommonCore import vtkLogger
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)  # no display is no news
+    vtk.vtkLogger.SetStderrVerbosity(vtk.vtkLogger.VERBOSITY_ERROR)  # no display is no news
 except ImportError:
-    pyvista = None
+    vtk = None
 
 BODY_MAP = LinearSegmentedColormap.from_list("deformation", ["#3d8fb3", "#8fcfb0", "#f6d365", "#f08a4b", "#b5233b"])
 OBSTACLE = "#6f8296"
@@ -94,8 +94,32 @@ def cells_facing(points, triangles):
 
 def vtk_renders():
     """Tried in another process: without any OpenGL VTK takes the whole interpreter down."""
-    trial = "import pyvista; p = pyvista.Plotter(off_screen=True); p.add_mesh(pyvista.Sphere()); p.screenshot(return_img=True)"
-    return pyvista is not None and subprocess.run([sys.executable, "-c", trial], capture_output=True).returncode == 0
+    trial = "import vtk; w = vtk.vtkRenderWindow(); w.OffScreenRenderingOn(); w.AddRenderer(vtk.vtkRenderer()); w.Render()"
+    return vtk is not None and subprocess.run([sys.executable, "-c", trial], capture_output=True).returncode == 0
+
+
+def vtk_actor(points, triangles, colours=None):
+    """A smoothly shaded surface; colours: red, green and blue of each vertex."""
+    data, corners, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    corners.SetData(numpy_to_vtk(numpy.ascontiguousarray(points), deep=True))
+    cells.SetData(3, numpy_to_vtkIdTypeArray(triangles.astype(numpy.int64).ravel(), deep=True))
+    data.SetPoints(corners)
+    data.SetPolys(cells)
+    if colours is not None:
+        data.GetPointData().SetScalars(numpy_to_vtk((255 * colours).astype(numpy.uint8), deep=True))
+    smooth = vtk.vtkPolyDataNormals()
+    smooth.SetInputData(data)
+    smooth.SetFeatureAngle(40)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(smooth.GetOutputPort())
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetAmbient(0.35)
+    look.SetDiffuse(0.7)
+    look.SetSpecular(0.12)
+    look.SetSpecularPower(30)
+    return actor
 
 
 class View:
@@ -124,26 +148,37 @@ class View:
         return self.draw(points, triangles, values, largest, size)
 
     def _by_vtk(self, points, triangles, values, largest, size):
-        plotter = pyvista.Plotter(off_screen=True, window_size=size)
-        plotter.background_color = "white"
-        body = pyvista.PolyData.from_regular_faces(points, triangles)
-        plotter.add_mesh(body, scalars=values, cmap=BODY_MAP, clim=(0, largest), show_scalar_bar=False,
-                         smooth_shading=True, split_sharp_edges=True, ambient=0.4, diffuse=0.7, specular=0.12)
-        plotter.add_mesh(body.extract_all_edges(), color="black", opacity=0.12, line_width=1)
+        renderer = vtk.vtkRenderer()
+        renderer.SetBackground(1, 1, 1)
+        renderer.SetUseDepthPeeling(True)
+        vtk.vtkLightKit().AddLightsToRenderer(renderer)
+        renderer.AddActor(vtk_actor(points, triangles, BODY_MAP(values / largest)[:, :3]))
         for shape_points, shape_triangles, opacity in self.shapes:
-            shape = pyvista.PolyData.from_regular_faces(shape_points, shape_triangles)
-            plotter.add_mesh(shape, color=OBSTACLE, opacity=opacity, smooth_shading=True, ambient=0.3, specular=0.1)
-        plotter.camera.parallel_projection = True
-        plotter.camera.focal_point = self.focus
-        plotter.camera.position = self.focus - 2 * self.depth * FORWARD
-        plotter.camera.up = UP
-        plotter.camera.parallel_scale = self.half_height
-        plotter.camera.clipping_range = (0.5 * self.depth, 4 * self.depth)
-        plotter.enable_depth_peeling()
-        plotter.enable_anti_aliasing("ssaa")
-        image = plotter.screenshot(return_img=True)
-        plotter.close()
-        return image
+            shape = vtk_actor(shape_points, shape_triangles)
+            shape.GetProperty().SetColor(to_rgb(OBSTACLE))
+            shape.GetProperty().SetOpacity(opacity)
+            renderer.AddActor(shape)
+        camera = renderer.GetActiveCamera()
+        camera.ParallelProjectionOn()
+        camera.SetFocalPoint(*self.focus)
+        camera.SetPosition(*(self.focus - 2 * self.depth * FORWARD))
+        camera.SetViewUp(*UP)
+        camera.SetParallelScale(self.half_height)
+        camera.SetClippingRange(0.5 * self.depth, 4 * self.depth)
+        window = vtk.vtkRenderWindow()
+        window.OffScreenRenderingOn()
+        window.SetMultiSamples(0)
+        window.SetAlphaBitPlanes(True)
+        window.SetSize(2 * size[0], 2 * size[1])  # four samples per pixel, averaged below
+        window.AddRenderer(renderer)
+        window.Render()
+        grab = vtk.vtkWindowToImageFilter()
+        grab.SetInput(window)
+        grab.ReadFrontBufferOff()
+        grab.Update()
+        pixels = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
+        image = pixels.reshape(size[1], 2, size[0], 2, 3)[::-1, ::-1]
+        return image.mean(axis=(1, 3)).astype(numpy.uint8)
 
     def _by_matplotlib(self, points, triangles, values, largest, size):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
