@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/build_patches.hpp>
+#include <plica/kernels/transfer/map_state.hpp>
+#include <plica/meshes/sphere_surface.hpp>
+
+#include "beam.hpp"
+#include "fixture.hpp"
+#include "measure.hpp"
+#include "suites.hpp"
+
+namespace plica::bench {
+
+namespace {
+
+using Exec = Kokkos::DefaultExecutionSpace;
+
+const std::vector<Cells> four_levels{medium_beam, {16, 16, 39}, {13, 13, 32}, {10, 10, 25}};
+
+/// The ball of the main scene, resting in its bowl, on the first `levels` of its meshes.
+Problem ball_problem(std::size_t levels, int subdivisions) {
+  Problem p;
+  for (int cells : {17, 15, 12, 10})
+    if (p.body.levels.size() < levels)
+      p.body.levels.push_back(box_mesh({Point::Zero(), Point::Constant(0.11)}, {cells, cells, cells}));
+  p.body.material = {"neo_hookean", 50e3, 0.4, 1000};
+  p.body.damping.mass = 5;
+  p.body.initial.position = Point(0, 0, 0.049);
+  p.body.surface = sphere_surface(Point::Constant(0.055), 0.05, subdivisions);
+  p.gravity = Point(0, 0, -9.81);
+  p.contact.obstacles.push_back({BowlOptions{Point(0, 0, 0.13), 0.13, 0.08}, 0.3, Point::Zero()});
+  p.integration.cycle = levels > 1 ? "rsv" : "single";
+  return p;
+}
+
+template <class B>
+std::shared_ptr<BuiltHierarchy<B>> built(const Problem& problem) {
+  return std::make_shared<BuiltHierarchy<B>>(build_hierarchy<B>(problem, {}));
+}
+
+/// The switched mapping between the two finest of four levels. Compulsory: rows, both fields of the source now and at the
+/// start, and of the target in and out, with its switching distance.
+template <class Real>
+void transfer(benchmark::State& state, bool down) {
+  using B = Backend<Real, Exec>;
+  auto& b = fixture<BuiltHierarchy<B>>(std::string("transfer ") + precision_name<Real>(), [&] {
+    Problem problem = beam_problem(four_levels, "st_venant_kirchhoff");
+    problem.integration.cycle = "rsv";
+    return built<B>(problem);
+  });
+  const Level<B>&fine = (*b.hierarchy)[0].level, &coarse = (*b.hierarchy)[1].level;
+  const Level<B>&from = down ? fine : coarse, &to = down ? coarse : fine;
+  const Transfer<B>& rows = down ? coarse.from_finer : coarse.to_finer;
+  const double s = sizeof(Real), bytes = rows.rows * (4 + 16 + 4 * s + 13 * s) + from.model.vertices * 12 * s;
+  const double time = measure<Real>(state, b.hierarchy->exec(), {0, bytes, rows.rows * 120.0}, [&] {
+    map_fields<B, MapSwitched>(b.hierarchy->exec(), "bench::transfer", rows, from.state, from.start, to.start, to.state,
+                               to.drift_limit);
+  });
+  state.counters["rows_per_second"] = rows.rows / time;
+}
+
+/// Forces of the bowl on the ball's surface points, and from there on the vertices. Compulsory: points with their rows,
+/// their transpose, displacement and velocity of the vertices touched, force in and out.
+template <class Real>
+void contact(benchmark::State& state, int subdivisions) {
+  using B = Backend<Real, Exec>;
+  auto& b = fixture<BuiltHierarchy<B>>(std::string("contact ") + precision_name<Real>() + std::to_string(subdivisions),
+                                       [&] { return built<B>(ball_problem(1, subdivisions)); });
+  HierarchyLevel<B>& h = (*b.hierarchy)[0];
+  const auto& surface = h.level.surface;
+  const double s = sizeof(Real), points = surface.points;
+  const double bytes = points * (3 * s + 2 * (16 + 4 * s)) + surface.touched * (8 + 12 * s);
+  const double time = measure<Real>(state, b.hierarchy->exec(), {0, bytes, points * 120}, [&] {
+    h.forces->contact()->add_forces(b.hierarchy->exec(), h.level, h.level.state, 0, h.forces->points(), h.level.f);
+  });
+  state.counters["points_per_second"] = points / time;
+}
+
+/// One macro step of the main scene on all four levels, contact included.
+template <class Real>
+void cycle(benchmark::State& state, std::size_t levels) {
+  using B = Backend<Real, Exec>;
+  auto& simulation = fixture<Simulation<B>>(std::string("cycle ") + precision_name<Real>() + std::to_string(levels),
+                                            [&] { return std::make_shared<Simulation<B>>(ball_problem(levels, 3)); });
+  double tets = 0;
+  for (const LevelReport& level : simulation.levels()) tets += level.tets * level.substeps;
+  const double time = measure<Real>(state, Exec(), {}, [&] { simulation.step(); });
+  state.counters["tets_per_second"] = tets / time;
+  state.counters["simulated_per_second"] = simulation.macro_step() / time;
+}
+
+template <class Real>
+void set_up_hierarchy(benchmark::State& state) {
+  using B = Backend<Real, Exec>;
+  Problem problem = beam_problem(four_levels, "st_venant_kirchhoff");
+  problem.integration.cycle = "rsv";
+  for (auto _ : state) benchmark::DoNotOptimize(Simulation<B>(problem).macro_step());
+}
+
+template <class Real>
+void set_up_patches(benchmark::State& state) {
+  const TetMesh mesh = beam_mesh(medium_beam);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(build_patches<Backend<Real, Exec>>(mesh, {lame_constants(1e5, 0.45)}).count);
+}
+
+template <class Real>
+void register_precision() {
+  const std::string real = precision_name<Real>(), medium = std::to_string(beam_tets(medium_beam));
+  const auto add = [](const std::string& name, auto function, auto... arguments) {
+    return benchmark::RegisterBenchmark(name.c_str(), function, arguments...);
+  };
+  add("transfer/restrict/" + real + "/" + medium, transfer<Real>, true);
+  add("transfer/interpolate/" + real + "/" + medium, transfer<Real>, false);
+  add("contact/bowl/" + real + "/642", contact<Real>, 3);
+  add("contact/bowl/" + real + "/10242", contact<Real>, 5);
+  add("cycle/single/neo_hookean/" + real + "/29478", cycle<Real>, std::size_t{1});
+  add("cycle/rsv/neo_hookean/" + real + "/29478", cycle<Real>, std::size_t{4});
+  add("set_up/patches/" + real + "/" + medium, set_up_patches<Real>);
+  add("set_up/hierarchy_of_4/" + real + "/" + medium, set_up_hierarchy<Real>)->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+void register_levels() {
+  register_precision<double>();
+  register_precision<float>();
+}
+
+}  // namespace plica::bench

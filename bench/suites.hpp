@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The program's benchmarks, each family in its file.
+namespace plica::bench {
+
+void register_limits();   ///< limit/...: bandwidth and arithmetic of the machine
+void register_kernels();  ///< force/, tangent/<material>/<precision>/<tets>
+void register_steps();    ///< explicit_step/, implicit_step/, cg_iteration/<material>/<precision>/<tets>
+void register_levels();   ///< transfer/, contact/, cycle/, set_up/
+void register_layouts();  ///< layout/<layout>/<material>/<precision>/<tets>
+
+}  // namespace plica::bench
