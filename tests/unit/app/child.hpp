@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "unit/app/temporary_folder.hpp"
+
+namespace plica::app::test {
+
+/// Another program, with what it wrote.
+struct Child {
+  int status = -1;  ///< its exit status; 128 + signal where one ended it
+  std::string output, errors;
+};
+
+/// Runs it to its end; `meanwhile` is called with its process id again and again until it returns true.
+inline Child run_child(std::vector<std::string> words, const TemporaryFolder& folder,
+                       const std::function<bool(pid_t)>& meanwhile = {}) {
+  const std::string out = folder / "stdout.txt", err = folder / "stderr.txt";
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  pid_t id = 0;
+  const int failure = posix_spawnp(&id, pointers[0], &files, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (failure != 0) return {};
+  int state = 0;
+  for (bool wanted = static_cast<bool>(meanwhile); wanted && waitpid(id, &state, WNOHANG) == 0;) {
+    wanted = !meanwhile(id);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (!wanted) waitpid(id, &state, 0);
+  }
+  if (!meanwhile) waitpid(id, &state, 0);
+  return {WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state), content_of(out), content_of(err)};
+}
+
+}  // namespace plica::app::test

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+
+#include "unit/app/child.hpp"
+#include "unit/app/scene_text.hpp"
+
+namespace plica::app::test {
+namespace {
+
+constexpr const char* block = R"(duration: 1
+body:
+  levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]
+  initial: {position: [0, 0, 1]}
+output: {volume: true}
+)";
+
+// The block moved by its placement and a little more
+Snapshot moved(const Scene& scene, double time, const Point& by) {
+  Snapshot snapshot;
+  snapshot.time = time;
+  for (const Point& p : scene.problem.body.levels[0].vertices) {
+    snapshot.positions.push_back(p + Point(-0.5, -0.5, 0.5) + by);
+    snapshot.velocities.emplace_back(3, 0, 4);
+  }
+  snapshot.energies = {.kinetic = 1, .elastic = 2, .potential = -4, .contact = 0.5};
+  return snapshot;
+}
+
+TEST(WriteFile, ReplacesAsAWhole) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "one");
+  write_file(folder / "a", "two");
+  EXPECT_EQ(content_of(folder / "a"), "two");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(WriteFile, FailsWithTheName) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_file(folder / "no/such/folder", "x"), FileError);
+  write_file(folder / "a", "a file");
+  EXPECT_THROW(make_folder(folder / "a/b"), FileError);
+  EXPECT_THROW(make_folder(folder / "a"), FileError);
+}
+
+TEST(RunFiles, KeepOnlyThisRun) {
+  const TemporaryFolder folder;
+  make_folder(folder / "frames");
+  for (const char* stale : {"summary.json", "frames/surface_0007.vtu", "frames/volume_0000.vtu", "frames/mine.vtu"})
+    write_file(folder / stale, "old");
+  const Scene scene = scene_of(block, {"output.volume=false"});
+  RunFiles files(scene, folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder / "summary.json"));
+  files.write(moved(scene, 0, Point::Zero()));
+  files.write(moved(scene, 0.5, Point::Zero()));
+  EXPECT_EQ(files.frames(), 2);
+  EXPECT_EQ(files.last_time(), 0.5);
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames/surface_0001.vtu"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/surface_0007.vtu"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/volume_0000.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames/mine.vtu"));
+  EXPECT_NE(content_of(folder / "frames.pvd").find("timestep=\"0.5\" part=\"0\" file=\"frames/surface_0001.vtu\""),
+            std::string::npos);
+}
+
+TEST(RunFiles, HistoryHasItsColumns) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  RunFiles files(scene, folder.path());
+  files.write(moved(scene, 0.25, {0, 0, 0.5}));
+  EXPECT_EQ(content_of(folder / "history.csv").substr(0, 71),
+            "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,tota");
+  const std::string text = content_of(folder / "history.csv"), row = text.substr(text.find('\n') + 1);
+  std::vector<double> numbers;
+  std::istringstream fields(row);
+  for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::stod(field));
+  const std::vector<double> expected = {0.25, 1, 2, -4, 0.5, -0.5, 0, 0, 1.5, 5, 5};
+  ASSERT_EQ(numbers.size(), expected.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_NEAR(numbers[i], expected[i], 1e-9) << i;
+}
+
+TEST(VertexMasses, AddUpToTheBody) {
+  Scene scene = scene_of(block, {"body.material.density=3"});
+  Body& body = scene.problem.body;
+  const auto total = [&] {
+    const std::vector<double> masses = vertex_masses(body);
+    return std::accumulate(masses.begin(), masses.end(), 0.0);
+  };
+  EXPECT_NEAR(total(), 3, 1e-12);
+  body.levels[0].region.assign(body.levels[0].tets.size(), 0);
+  for (std::size_t e = 0; e < body.levels[0].tets.size(); e += 2) body.levels[0].region[e] = 1;
+  body.levels[0].region_names = {"soft", "heavy"};
+  body.regions["heavy"].density = 5;
+  EXPECT_NEAR(total(), 4, 1e-12);
+}
+
+TEST(Summary, IsJsonWithItsFields) {
+  const Scene scene = scene_of(sound_scene);
+  Summary summary;
+  summary.status = "diverged";
+  summary.levels.resize(2);
+  Diagnosis& diagnosis = summary.diagnosis.emplace();
+  diagnosis.kind = "inverted";
+  diagnosis.element = 7;
+  const auto json = nlohmann::json::parse(summary_json(scene, summary, {"plica", "run", "a.yaml"}));
+  for (const char* key :
+       {"status", "simulated_time", "macro_step", "macro_steps", "wall_time", "setup_time", "peak_memory", "precision",
+        "backend", "threads", "cycle", "levels", "stages", "counters", "last_good_time", "diagnosis"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"vertices", "tets", "critical_step", "share", "substeps", "integrator"})
+    EXPECT_TRUE(json["levels"][0].contains(key)) << key;
+  EXPECT_EQ(json["diagnosis"]["element"], 7);
+  EXPECT_TRUE(json["diagnosis"]["vertex"].is_null());
+  EXPECT_EQ(json["obstacles"][0]["plane"]["point"][2], -0.1);
+  summary.diagnosis.reset();
+  EXPECT_TRUE(nlohmann::json::parse(summary_json(scene, summary, {}))["diagnosis"].is_null());
+}
+
+// What VTK reads from a file: points, cells, type of the cells, time, sums of the displacements and velocities; nothing
+// where there is no VTK
+std::vector<double> read_by_vtk(const std::filesystem::path& file, const TemporaryFolder& folder) {
+  const std::string own = PLICA_SOURCE_DIR "/.venv/bin/python";
+  const Child child = run_child(
+      {std::filesystem::exists(own) ? own : "python3", PLICA_SOURCE_DIR "/tests/unit/app/read_vtu.py", file.string()},
+      folder);
+  std::vector<double> numbers;
+  constexpr int no_vtk = 77, no_python = 127;
+  if (child.status == no_vtk || child.status == no_python || child.status < 0) return numbers;
+  EXPECT_EQ(child.status, 0) << child.errors;
+  std::istringstream words(child.output);
+  for (double value = 0; words >> value;) numbers.push_back(value);
+  return numbers;
+}
+
+TEST(Vtu, IsReadByVtk) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  RunFiles files(scene, folder.path());
+  files.write(moved(scene, 0.125, {0, 0, 0.5}));
+  const auto surface = read_by_vtk(folder / "frames/surface_0000.vtu", folder);
+  if (surface.empty()) GTEST_SKIP() << "no Python with VTK here (cmake/setup vtk)";
+  EXPECT_EQ(surface, (std::vector<double>{26, 48, 5, 0.125, 0, 0, 13, 78, 0, 104}));
+  const auto volume = read_by_vtk(folder / "frames/volume_0000.vtu", folder);
+  EXPECT_EQ(volume, (std::vector<double>{27, 48, 10, 0.125, 0, 0, 13.5, 81, 0, 108}));
+}
+
+}  // namespace
+}  // namespace plica::app::test

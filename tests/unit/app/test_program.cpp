@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "unit/app/child.hpp"
+
+namespace plica::app::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* falling_block = R"(duration: 20 ms
+gravity: [0, 0, -9.81]
+body:
+  levels: [{box: {size: [0.1, 0.1, 0.1], cells: [2, 2, 2]}}]
+integration: {macro_step: 1 ms}
+output: {every: 5 ms}
+)";
+
+class Program : public testing::Test {
+ protected:
+  Program() { std::ofstream(scene) << falling_block; }
+
+  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
+    words.insert(words.begin(), PLICA_EXECUTABLE);
+    return run_child(words, folder, meanwhile);
+  }
+  Json summary() const { return Json::parse(content_of(folder / "out/summary.json")); }
+  std::size_t lines(const std::string& file) const {
+    const std::string text = content_of(folder / file);
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+  // A run without end, and what to wait for before it is stopped
+  std::vector<std::string> endless() const {
+    return {"run", scene, "-o", out, "--duration", "1000 s", "--set", "output.every=2 ms", "--threads", "1"};
+  }
+  bool has_frames() const { return std::filesystem::exists(folder / "out/frames/surface_0003.vtu"); }
+
+  TemporaryFolder folder;
+  std::string scene = folder / "block.yaml", out = folder / "out";
+};
+
+TEST_F(Program, RunsAndWrites) {
+  const Child run = plica({"run", scene, "-o", out});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.output.find("block: completed"), std::string::npos) << run.output;
+  EXPECT_EQ(run.errors.find('\r'), std::string::npos) << "progress where there is no terminal";
+  EXPECT_EQ(run.errors.find('\033'), std::string::npos) << "colour where there is no terminal";
+  const Json json = summary();
+  EXPECT_EQ(json["status"], "completed");
+  EXPECT_EQ(json["macro_steps"], 20);
+  EXPECT_NEAR(json["simulated_time"], 0.02, 1e-12);
+  EXPECT_TRUE(json["diagnosis"].is_null());
+  EXPECT_EQ(json["frames"], 5);
+  EXPECT_EQ(lines("out/history.csv"), 6);
+}
+
+TEST_F(Program, QuietSaysNothing) {
+  const Child run = plica({"run", scene, "-o", out, "--quiet", "--duration", "2ms", "--precision", "float"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.output + run.errors, "");
+  EXPECT_EQ(summary()["precision"], "float");
+}
+
+TEST_F(Program, DurationIsCoveredByWholeSteps) {
+  ASSERT_EQ(plica({"run", scene, "-o", out, "--set", "integration.macro_step=3 ms"}).status, 0);
+  EXPECT_EQ(summary()["macro_steps"], 7);
+  EXPECT_NEAR(summary()["simulated_time"], 0.021, 1e-12);
+}
+
+TEST_F(Program, BadInputIs2) {
+  EXPECT_EQ(plica({"run", folder / "none.yaml"}).status, 2);
+  EXPECT_EQ(plica({"check", scene, "--set", "durtion=1"}).status, 2);
+  EXPECT_EQ(plica({}).status, 2);
+  EXPECT_EQ(plica({"rnu"}).status, 2);
+  EXPECT_EQ(plica({"run"}).status, 2);
+  EXPECT_EQ(plica({"run", scene, "--no-such-option"}).status, 2);
+  EXPECT_EQ(plica({"run", scene, "--precision", "half"}).status, 2);
+  EXPECT_EQ(plica({"run", scene, "--threads", "0"}).status, 2);
+  EXPECT_EQ(plica({"mesh"}).status, 2);
+  EXPECT_EQ(plica({"mesh", "info", folder / "none.msh"}).status, 2);
+  EXPECT_EQ(plica({"list", "material"}).status, 2);
+}
+
+TEST_F(Program, ErrorsNameTheNearest) {
+  EXPECT_NE(plica({"rnu"}).errors.find("did you mean 'run'?"), std::string::npos);
+  EXPECT_NE(plica({"list", "material"}).errors.find("did you mean 'materials'?"), std::string::npos);
+  const Child check = plica({"check", scene, "--set", "durtion=1"});
+  EXPECT_NE(check.errors.find("error: --set durtion=1: unknown key 'durtion'; did you mean 'duration'?"),
+            std::string::npos)
+      << check.errors;
+  EXPECT_EQ(check.output, "");
+}
+
+TEST_F(Program, RefusedStepIs2) {
+  const Child run =
+      plica({"run", scene, "-o", out, "--set", "integration.macro_step=1 s", "--set", "integration.substeps=1"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.errors.find("block.yaml"), std::string::npos) << run.errors;
+  EXPECT_FALSE(std::filesystem::exists(out)) << "files of a run that was refused";
+}
+
+TEST_F(Program, FailureIs1) {
+  std::ofstream(folder / "file") << "in the way";
+  const Child run = plica({"run", scene, "-o", folder / "file/out"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.errors.find("cannot make the folder " + (folder / "file/out").string()), std::string::npos)
+      << run.errors;
+}
+
+TEST_F(Program, DivergedIs3) {
+  const Child run = plica({"run", scene, "-o", out, "--duration", "1 s", "--set", "integration.allow_unstable=true",
+                           "--set", "integration.macro_step=20 ms", "--set", "integration.substeps=1", "--set",
+                           "body.initial.angular_velocity=[0, 3, 0]"});
+  EXPECT_EQ(run.status, 3) << run.errors;
+  EXPECT_NE(run.errors.find("diverged: "), std::string::npos);
+  const Json json = summary();
+  EXPECT_EQ(json["status"], "diverged");
+  EXPECT_TRUE(json["diagnosis"]["remedy"].is_string());
+  EXPECT_LE(json["last_good_time"], json["simulated_time"]);
+  EXPECT_GE(lines("out/history.csv"), 2);
+  EXPECT_EQ(content_of(folder / "out/history.csv").find("nan"), std::string::npos);
+}
+
+TEST_F(Program, NotInThisBuildIs4) {
+  for (const char* command : {"study", "stability", "verify"}) {
+    const Child child = plica({command, scene, "-o", out, "--budget", "60s"});
+    EXPECT_EQ(child.status, 4);
+    EXPECT_NE(child.errors.find("not in this build"), std::string::npos);
+  }
+  EXPECT_EQ(plica({"check", scene, "--set", "integration.cycle=him"}).status, 4);
+  EXPECT_EQ(plica({"check", scene, "--set", "study={}"}).status, 4);
+}
+
+TEST_F(Program, CtrlCEndsWithWholeFiles) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(out);
+    const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, signal) == 0; });
+    EXPECT_EQ(run.status, 130) << run.errors;
+    EXPECT_EQ(summary()["status"], "interrupted");
+    EXPECT_EQ(summary()["frames"], lines("out/frames.pvd") - 5);
+    EXPECT_EQ(summary()["frames"], lines("out/history.csv") - 1);
+    EXPECT_EQ(summary()["last_good_time"], summary()["simulated_time"]);
+  }
+}
+
+TEST_F(Program, KilledRunLeavesWholeFiles) {
+  const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, SIGKILL) == 0; });
+  EXPECT_EQ(run.status, 128 + SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
+  const std::string collection = content_of(folder / "out/frames.pvd");
+  EXPECT_TRUE(collection.ends_with("</VTKFile>\n"));
+  EXPECT_TRUE(content_of(folder / "out/history.csv").ends_with("\n"));
+  for (const auto& frame : std::filesystem::directory_iterator(folder / "out/frames"))
+    if (frame.path().extension() == ".vtu") {
+      EXPECT_TRUE(content_of(frame.path()).ends_with("</VTKFile>\n")) << frame.path();
+    }
+}
+
+TEST_F(Program, HelpAndVersionAreResults) {
+  for (const char* command : {"run", "explain", "check", "mesh", "list"}) {
+    const Child help = plica({command, "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_NE(help.output.find("Usage"), std::string::npos);
+    EXPECT_EQ(help.errors, "");
+  }
+  const Child version = plica({"--version"});
+  EXPECT_EQ(version.status, 0);
+  for (const char* part : {"plica", "Kokkos", "back ends", "compiler", "git"})
+    EXPECT_NE(version.output.find(part), std::string::npos) << part;
+}
+
+TEST_F(Program, ExplainsForPeopleAndPrograms) {
+  const Child text = plica({"explain", scene});
+  ASSERT_EQ(text.status, 0) << text.errors;
+  std::istringstream rows(text.output);
+  for (std::string row; std::getline(rows, row);)
+    if (row.find(scene) == std::string::npos) {
+      EXPECT_LE(row.size(), 100) << row;
+    }
+  const Json json = Json::parse(plica({"explain", scene, "--json"}).output);
+  EXPECT_EQ(json["levels"][0]["tets"], 48);
+  EXPECT_EQ(json["macro_steps"], 20);
+  EXPECT_FALSE(json["parts"].empty());
+  EXPECT_TRUE(json["parts"][0].contains("bytes"));
+}
+
+TEST_F(Program, ChecksWithoutRunning) {
+  EXPECT_EQ(plica({"check", scene}).status, 0);
+  EXPECT_EQ(Json::parse(plica({"check", scene, "--json"}).output)["sound"], true);
+  const Child bad = plica({"check", scene, "--json", "--duration", "4 cm"});
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_EQ(Json::parse(bad.output)["error"],
+            "--duration 4 cm: duration: expected a time (s) > 0, got '4 cm', a length");
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(Program, ListsFamilies) {
+  for (const char* family : {"materials", "integrators", "cycles", "distributions", "shapes", "solvers", "keys"}) {
+    EXPECT_NE(plica({"list", family}).output, "") << family;
+    EXPECT_FALSE(Json::parse(plica({"list", family, "--json"}).output).empty()) << family;
+  }
+  EXPECT_EQ(plica({"list"}).status, 0);
+}
+
+TEST_F(Program, KokkosOptionsPassThrough) {
+  ASSERT_EQ(plica({"run", scene, "-o", out, "--kokkos-num-threads=1"}).status, 0);
+  EXPECT_EQ(summary()["threads"], 1);
+}
+
+}  // namespace
+}  // namespace plica::app::test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "unit/app/scene_text.hpp"
+
+namespace plica::app::test {
+namespace {
+
+struct Damage {
+  const char* name;
+  const char* piece;
+  const char* replacement;
+  const char* message;  // all of it, or its beginning
+};
+
+class SceneError : public testing::TestWithParam<Damage> {};
+
+TEST_P(SceneError, SaysWhereWhatAndWhatInstead) {
+  const auto& [name, piece, replacement, message] = GetParam();
+  EXPECT_EQ(error_of(damaged(piece, replacement)).substr(0, std::string(message).size()), message);
+}
+
+const Damage damages[] = {
+    {"UnknownKey",
+     "material:", "materal:", "a.yaml:7: body: unknown key 'materal'; did you mean 'material'? (choices: "},
+    {"UnknownTopLevelKey", "gravity:", "gravty:", "a.yaml:2: unknown key 'gravty'; did you mean 'gravity'? (choices: "},
+    {"MisplacedKey", "gravity: [0, 0, -9.81]", "young_modulus: 3",
+     "a.yaml:2: unknown key 'young_modulus'; it belongs in body.material or body.regions.<name>"},
+    {"MisplacedBelow", "macro_step: 1 ms", "gravity: [0, 0, -9.81]",
+     "a.yaml:11: integration: unknown key 'gravity'; it belongs in the top level"},
+    {"DuplicateKey", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.81]\ngravity: [0, 0, 0]",
+     "a.yaml:3: the key 'gravity' stands here for the second time; the first is in line 2"},
+    {"MissingKey", "duration: 1 s", "name: x", "a.yaml:1: the key 'duration' is missing"},
+    {"MissingKeyBelow", "radius: 4 cm, ", "", "a.yaml:8: body.surface.sphere: the key 'radius' is missing"},
+    {"WrongDimension", "50 kPa", "4 cm",
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) > 0, got '4 cm', a length"},
+    {"UnknownUnit", "50 kPa", "50 kpa",
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) > 0, got '50 kpa', unknown unit 'kpa'; did you "
+     "mean "
+     "'kPa'?"},
+    {"NotANumber", "1 s", "long", "a.yaml:1: duration: expected a time (s) > 0, got 'long', not a number"},
+    {"NotFinite", "1 s", ".inf", "a.yaml:1: duration: expected a time (s) > 0, got '.inf', not a number"},
+    {"OutOfRange", "1 s", "-1 s", "a.yaml:1: duration: expected a time (s) > 0, got '-1 s'"},
+    {"PoissonRatio", "young_modulus: 50 kPa", "poisson_ratio: 0.5",
+     "a.yaml:7: body.material.poisson_ratio: expected a number in [0, 0.5), got '0.5'"},
+    {"Nothing", "1 s", "", "a.yaml:1: duration: expected a time (s) > 0, got nothing"},
+    {"ScalarForList", "[0, 0, -9.81]", "-9.81",
+     "a.yaml:2: gravity: expected a list of 3 accelerations (m/s^2), got '-9.81'"},
+    {"ListLength", "[0, 0, -9.81]", "[0, -9.81]",
+     "a.yaml:2: gravity: expected a list of 3 accelerations (m/s^2), got a list of 2"},
+    {"ListEntry", "[0, 0, -9.81]", "[0, x, -9.81]",
+     "a.yaml:2: gravity.1: expected an acceleration (m/s^2), got 'x', not a number"},
+    {"MapForScalar", "1 s", "{s: 1}", "a.yaml:1: duration: expected a time (s) > 0, got a map (s)"},
+    {"ScalarForMap", "{model: neo_hookean, young_modulus: 50 kPa}", "soft",
+     "a.yaml:7: body.material: expected a map of keys, got 'soft'"},
+    {"FractionalCount", "[4, 4, 4]", "[4, 4.5, 4]",
+     "a.yaml:5: body.levels.0.box.cells.1: expected a whole number >= 1, got '4.5'"},
+    {"CountTooSmall", "[2, 2, 2]", "[2, 2, 0]",
+     "a.yaml:6: body.levels.1.box.cells.2: expected a whole number >= 1, got '0'"},
+    {"CountTooLarge", "[2, 2, 2]", "[2000, 2000, 2000]", "a.yaml:6: "},
+    {"NotAFlag", "macro_step: 1 ms", "allow_unstable: yes",
+     "a.yaml:11: integration.allow_unstable: expected true or false, got 'yes'"},
+    {"UnknownName", "neo_hookean", "neohookean",
+     "a.yaml:7: body.material.model: unknown material 'neohookean'; did you mean 'neo_hookean'? (choices: "},
+    {"PlannedName", "cycle: rsv", "cycle: him",
+     "a.yaml:10: integration.cycle: the cycle 'him' is not in this build (choices: single, "},
+    {"PlannedKey", "macro_step: 1 ms", "him: {sigma: 0.8}",
+     "a.yaml:11: the key 'integration.him' is not in this build"},
+    {"TwoAlternatives", "{plane: {point: [0, 0, -0.1]}, ", "{plane: {}, sphere: {radius: 1}, ",
+     "a.yaml:14: contact.obstacles.0: expected only one of plane, sphere, bowl, got a map (plane, sphere, friction)"},
+    {"NoAlternative", "{plane: {point: [0, 0, -0.1]}, friction: 0.2}", "{friction: 0.2}",
+     "a.yaml:14: contact.obstacles.0: expected one of plane, sphere, bowl, got a map (friction)"},
+    {"EmptyList", "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}", "[]",
+     "a.yaml:14: contact.obstacles: expected at least one entry, got a list of 0"},
+    {"AutoMisspelt", "1 ms", "automatic",
+     "a.yaml:11: integration.macro_step: expected a time (s) > 0, or auto, got 'automatic', not a number"},
+    {"Substeps", "macro_step: 1 ms", "substeps: 0",
+     "a.yaml:11: integration.substeps: expected a whole number >= 1, got '0'"},
+    {"SubstepsPerLevel", "macro_step: 1 ms", "substeps: [auto, 2, 3]",
+     "a.yaml:11: integration.substeps: expected one for all or one for each level (2 in body.levels), got a list of 3"},
+    {"IntegratorPerLevel", "macro_step: 1 ms", "integrator: [rk4, rk4, rk4]",
+     "a.yaml:11: integration.integrator: expected one for all or one for each level (2 in body.levels), got a list of "
+     "3"},
+    {"SharesPerLevel", "macro_step: 1 ms", "distribution: [1]",
+     "a.yaml:11: integration.distribution: expected one for each level (2 in body.levels), got a list of 1"},
+    {"SharesSum", "macro_step: 1 ms", "distribution: [0.5, 0.6]",
+     "a.yaml:11: integration.distribution: the shares must add up to 1, got 1.1"},
+    {"ContactWithoutSurface", "  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", "",
+     "a.yaml:12: contact.obstacles: the body has no surface to touch them; give body.surface"},
+    {"RimAboveRadius", "plane: {point: [0, 0, -0.1]}", "bowl: {radius: 1, rim: 2}",
+     "a.yaml:14: contact.obstacles.0.bowl.rim: expected at most the radius (1 m), got 2 m"},
+    {"NoNormal", "point: [0, 0, -0.1]", "normal: [0, 0, 0]",
+     "a.yaml:14: contact.obstacles.0.plane.normal: expected a direction, got [0, 0, 0]"},
+    {"BoxUpsideDown", "material:", "fixed: [{box: {min: [0, 0, 1], max: [1, 1, 0]}}]\n  material:",
+     "a.yaml:7: body.fixed.0.box: min is above max"},
+    {"ScaleWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, scale: 2}",
+     "a.yaml:5: body.levels.0.scale: only a file has one"},
+    {"NoSurfaceKind", "sphere: {radius: 4 cm, subdivisions: 1}", "boundary: false",
+     "a.yaml:8: body.surface.boundary: expected true, got 'false'; leave body.surface out to have none"},
+    {"UnknownGroup", "material:", "fixed: [{group: left}]\n  material:",
+     "a.yaml:7: body.fixed.0.group: there is no group 'left': the meshes name none"},
+    {"UnknownRegion", "material:", "regions: {tumour: {density: 1}}\n  material:",
+     "a.yaml:7: body.regions.tumour: there is no region 'tumour': the meshes name none"},
+    {"MissingMesh", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{file: nowhere.msh}",
+     "a.yaml:5: there is no mesh file 'nowhere.msh' (its name is relative to the scene)"},
+    {"NotYaml", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.81", "a.yaml:3: not YAML: "},
+    {"TwoDocuments", "gravity:", "---\ngravity:", "a.yaml:3: a scene is one YAML document; here begins another"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SceneError, testing::ValuesIn(damages),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(Scene, EmptyIsAnError) {
+  EXPECT_EQ(error_of(""), "a.yaml: the scene is empty");
+  EXPECT_EQ(error_of("# nothing but words\n"), "a.yaml: the scene is empty");
+  EXPECT_EQ(error_of("- a list\n").substr(0, 10), "a.yaml:1: ");
+}
+
+TEST(Scene, MissingFileIsAnError) {
+  EXPECT_THROW(load_scene("/nowhere/at/all.yaml"), InputError);
+  EXPECT_THROW(load_scene(PLICA_SOURCE_DIR), InputError);
+}
+
+}  // namespace
+}  // namespace plica::app::test
