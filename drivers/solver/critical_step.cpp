@@ -128,19 +128,22 @@ double critical_step(const typename B::Exec& exec, const Level<B>& level, const 
   const auto frequency = [&](double stiffness) {
     return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, stiffness));
   };
-  double w = frequency(contact.stiffness);
-  if (!(w > 0)) return std::numeric_limits<double>::infinity();
-  if (limit.needs_damping) return mass_damping / (w * w);
-  if (limit.radius <= 0) return std::numeric_limits<double>::infinity();
-  // damping acts like the stiffness radius D / h: iterate on h, which shrinks towards its fixed point in alternating steps
+  const double infinite = std::numeric_limits<double>::infinity();
+  const double by_damping = limit.damping > 0 && mass_damping > 0 ? limit.damping / mass_damping : infinite;
+  const double w = frequency(contact.stiffness);
+  if (!(w > 0)) return by_damping;
+  if (limit.needs_damping) return std::min(mass_damping / (w * w), by_damping);
+  if (limit.radius <= 0) return infinite;
+  // damping acts like the stiffness radius D / h: the limit is where step(h) = h, reached from above. There ln step has a
+  // slope of at most 1/2 over ln h (the eigenvalue is convex in 1/h), so that it is not below step^2 / h.
   double h = limit.radius / w;
-  for (int i = 0; i < 8 && contact.damping > 0; ++i) {
-    const double next = limit.radius / frequency(contact.stiffness + limit.radius * contact.damping / h);
-    const bool close = std::abs(next - h) < 1e-3 * h;
-    h = std::min(h, 0.5 * (h + next));
-    if (close) return std::min(h, next);
+  for (int i = 0; i < 20 && contact.damping > 0; ++i) {
+    const double step = limit.radius / frequency(contact.stiffness + limit.radius * contact.damping / h);
+    const bool close = std::abs(step - h) < 5e-3 * h;
+    h = close ? std::min(step, step * step / h) : step;
+    if (close) break;
   }
-  return h;
+  return std::min(h, by_damping);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                                     \

@@ -37,11 +37,17 @@ class LevelProbe {
     return force(u, std::vector<Point>(u.size(), Point::Zero()));
   }
 
-  /// K(u) p
+  /// K(u) p, elastic
   std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p, int i = 0) {
-    const Vectors<B> q("test.q", p.size());
-    at(i).forces->product(at(i).level, state(u, p), device_field<B>(p), 1, 0, q);
-    return to_host<B>(built.hierarchy->exec(), q);
+    const Level<B>& level = at(i).level;
+    at(i).forces->tangent(level, state(u, p), device_field<B>(p));
+    const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
+    const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+    const auto first = host(level.model.patches.first_copy), copy = host(level.model.patches.copy);
+    std::vector<Point> q(p.size(), Point::Zero());
+    for (std::size_t a = 0; a < q.size(); ++a)
+      for (int s = first(a); s < first(a + 1); ++s) q[a] -= shares[static_cast<std::size_t>(copy(s))];
+    return q;
   }
 
   /// [J], a sum of the vertices' shares

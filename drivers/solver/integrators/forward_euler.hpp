@@ -6,12 +6,12 @@
 namespace plica {
 
 /// Forward Euler: first order. |1 + h s|^2 = 1 - h c + h^2 w^2: an undamped mode grows at every step, one with mass damping
-/// c is stable for h < c / w^2.
+/// c is stable for h < c / w^2 and h < 2 / c.
 struct ForwardEuler {
   static constexpr const char* name = "euler";
   static constexpr const char* summary = "explicit, order 1; undamped it grows at every step";
   static constexpr bool is_explicit = true;
-  static constexpr StabilityLimit limit{0.0, true};
+  static constexpr StabilityLimit limit{0.0, true, 2.0};
 
   template <class B>
   class Step final : public Integrator<B> {

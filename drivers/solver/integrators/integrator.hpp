@@ -34,6 +34,7 @@ class Integrator {
 struct StabilityLimit {
   double radius;               ///< 0: none of this kind
   bool needs_damping = false;  ///< grows at every step without mass damping c; with it h <= c / w^2
+  double damping = 0;  ///< the largest h c, where mass damping c is explicit; 0: it is implicit and never a limit
 };
 
 }  // namespace plica

@@ -11,7 +11,7 @@ struct Rk4 {
   static constexpr const char* name = "rk4";
   static constexpr const char* summary = "explicit, order 4, four forces a step; h < 2.78/w";
   static constexpr bool is_explicit = true;
-  static constexpr StabilityLimit limit{2.78};
+  static constexpr StabilityLimit limit{2.78, false, 2.78};
 
   template <class B>
   class Step final : public Integrator<B> {
