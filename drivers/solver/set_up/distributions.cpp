@@ -25,6 +25,18 @@ std::vector<double> custom_shares(const std::vector<double>& shares, std::size_t
   return shares;
 }
 
+/// The critical step is 0 under undamped euler and infinite where nothing moves: no proportion then.
+void expect_proportions(const std::vector<double>& weights, const std::string& distribution) {
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (!(weights[i] > 0 && std::isfinite(weights[i]))) {
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "distribution: '%s' finds no share for level %zu, where it is %g; use equal or custom",
+                    distribution.c_str(), i, weights[i]);
+      throw InputError(text);
+    }
+}
+
 }  // namespace
 
 std::vector<double> make_shares(const IntegrationOptions& options, const LevelFacts& facts) {
@@ -35,6 +47,7 @@ std::vector<double> make_shares(const IntegrationOptions& options, const LevelFa
   } else {
     const bool known = Distributions::visit(options.distribution, [&](auto d) { w = decltype(d)::weights(facts); });
     if (!known) throw InputError(unknown_name("distribution", options.distribution, names(distributions())));
+    if (levels > 1) expect_proportions(w, options.distribution);
     const double sum = std::accumulate(w.begin(), w.end(), 0.0);
     for (double& share : w) share /= sum;
   }

@@ -39,7 +39,8 @@ struct CriticalShares {
 using Distributions = TypeList<EqualShares, InverseElementShares, CriticalShares>;
 
 /// The shares that the options ask for, after shift_to_coarsest. Throws InputError for an unknown name, a list of the wrong
-/// length, a share that is not positive or a sum that is not 1 to 1e-12.
+/// length, a share that is not positive (critical: of a level without a
+/// limit) or a sum that is not 1 to 1e-12.
 std::vector<double> make_shares(const IntegrationOptions& options, const LevelFacts& facts);
 
 }  // namespace plica
