@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cmath>
+#include <limits>
 #include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/implicit/conjugate_gradients.hpp>
 
@@ -29,8 +30,12 @@ CgOutcome conjugate_gradients(const typename B::Exec& exec, const CgVectors<B>& 
   read();
   const double first = scalars(2);
   CgOutcome out;
-  out.right_side = std::sqrt(std::max(0.0, first));
-  out.converged = !(first > 0);
+  out.right_side = std::sqrt(first);
+  out.converged = first == 0;
+  if (!std::isfinite(first)) {  // forces that are not finite: x stays 0, and the solve is a miss
+    out.relative_residual = std::numeric_limits<double>::infinity();
+    return out;
+  }
   int last = 2;
   while (!out.converged && out.iterations < (fixed > 0 ? fixed : most)) {
     product(c.p, c.q);
@@ -40,12 +45,12 @@ CgOutcome conjugate_gradients(const typename B::Exec& exec, const CgVectors<B>& 
     out.indefinite = !(scalars(0) > 0);
     if (out.indefinite) break;
     ++out.iterations;
-    out.relative_residual = std::sqrt(std::max(0.0, scalars(3 - last)) / first);
+    out.relative_residual = std::sqrt(scalars(3 - last) / first);  // not a number stays so, and is no convergence
     if (fixed == 0 && out.relative_residual <= tolerance) out.converged = true;
     if (!out.converged) update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{c, last});
     last = 3 - last;
   }
-  if (fixed > 0) out.converged = !out.indefinite;
+  if (fixed > 0) out.converged = !out.indefinite && std::isfinite(out.relative_residual);
   return out;
 }
 
