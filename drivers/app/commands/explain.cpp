@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
 
 namespace plica::app {
 namespace {
@@ -32,8 +31,8 @@ ExitStatus check(const SceneArguments& arguments) {
       if (arguments.json)
         std::cout << nlohmann::ordered_json{{"scene", scene.file}, {"sound", true}, {"error", nullptr}}.dump(2) << "\n";
       else
-        std::cout << fmt::format("{}: sound, {} level{}\n", scene.file, simulation.levels().size(),
-                                 simulation.levels().size() == 1 ? "" : "s");
+        std::cout << scene.file << ": sound, " << counted(static_cast<long>(simulation.levels().size()), "level")
+                  << "\n";
     });
   } catch (const InputError& error) {
     if (arguments.json)

@@ -32,7 +32,7 @@ std::string facts_text(const Mesh& m) {
                {"vertices", std::to_string(q.vertices)},
                {"tetrahedra", std::to_string(q.tets)},
                {"boundary", fmt::format("{} triangles, {:.4g} m^2", q.boundary_triangles, q.boundary_area)},
-               {"volume", fmt::format("{:.4g} m^3 in {} connected part{}", q.volume, q.parts, q.parts == 1 ? "" : "s")},
+               {"volume", fmt::format("{:.4g} m^3 in {}", q.volume, counted(q.parts, "connected part"))},
                {"from", fmt::format("[{:.4g}, {:.4g}, {:.4g}] m", box.min.x(), box.min.y(), box.min.z())},
                {"to", fmt::format("[{:.4g}, {:.4g}, {:.4g}] m", box.max.x(), box.max.y(), box.max.z())},
                {"mended", fmt::format("{} tetrahedra turned the right way round, {} unused vertices dropped",

@@ -23,9 +23,9 @@ template <class B>
 void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine) {
   std::string tets;
   for (const LevelReport& level : simulation.levels()) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
-  message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {} thread{}", scene.name, tets,
+  message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {}", scene.name, tets,
                       scene.problem.integration.cycle, in_units(simulation.macro_step(), "s"), machine.precision,
-                      machine.backend, machine.threads, machine.threads == 1 ? "" : "s"));
+                      machine.backend, counted(machine.threads, "thread")));
 }
 
 template <class B>

@@ -20,14 +20,14 @@ std::string head_text(const Scene& scene, const Plan& plan) {
   const std::string shift =
       i.shift_to_coarsest > 0 ? fmt::format(", {:g} of each to the coarsest", i.shift_to_coarsest) : "";
   return fmt::format("{} ({})\n", scene.name, scene.file) +
-         text_table({{"time", fmt::format("{:g} s in {} macro steps of {}", scene.duration, step_count(scene, plan),
-                                          in_units(plan.macro_step, "s"))},
-                     {"cycle", fmt::format("{}, {} shares{}", i.cycle, i.distribution, shift)},
-                     {"material", fmt::format("{}, E {}, nu {:g}, {}", m.model, in_units(m.young_modulus, "Pa"),
-                                              m.poisson_ratio, fmt::format("{:g} kg/m^3", m.density))},
-                     {"machine", fmt::format("{} on {}, {} thread{}", plan.precision, plan.backend, plan.threads,
-                                             plan.threads == 1 ? "" : "s")}},
-                    "<<");
+         text_table(
+             {{"time", fmt::format("{:g} s in {} of {}", scene.duration, counted(step_count(scene, plan), "macro step"),
+                                   in_units(plan.macro_step, "s"))},
+              {"cycle", fmt::format("{}, {} shares{}", i.cycle, i.distribution, shift)},
+              {"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", m.model, in_units(m.young_modulus, "Pa"),
+                                       m.poisson_ratio, m.density)},
+              {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
+             "<<");
 }
 
 // Two tables: what a level is, then what it does in a macro step

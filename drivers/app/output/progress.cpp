@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <plica/drivers/app/output/progress.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -20,8 +21,9 @@ std::string in_clock(double seconds) {
 
 std::string progress_line(double time, double duration, long steps, double wall_time, int width) {
   const double done = std::clamp(time / duration, 0.0, 1.0);
-  const std::string before = fmt::format("{:.3g} / {:.3g} s ", time, duration);
-  const std::string after = fmt::format(" {:3.0f} %  {:.3g} steps/s  {:.2f} x real time  {} left", 100 * done,
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(duration))), 0, 9);
+  const std::string before = fmt::format("{:.{}f} / {:.{}f} s ", time, decimals, duration, decimals);
+  const std::string after = fmt::format(" {:3.0f} % {:6.0f} steps/s {:6.2f} x real time {:>8} left", 100 * done,
                                         static_cast<double>(steps) / wall_time, time / wall_time,
                                         done > 0 ? in_clock(wall_time * (1 - done) / done) : "?");
   const int room = width - static_cast<int>(before.size() + after.size()) - 3;

@@ -23,7 +23,7 @@ class Progress {
   Clock::time_point start_ = Clock::now(), drawn_{};
 };
 
-/// The line: "0.62 / 3.00 s [#####....]  21 %  812 steps/s  1.58 x real time  1.5 s left".
+/// The line: "0.62 / 3.00 s [###.......]  21 %    812 steps/s   1.58 x real time    1.5 s left".
 std::string progress_line(double time, double duration, long steps, double wall_time, int width);
 
 }  // namespace plica::app

@@ -110,15 +110,14 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
                                  : "";
   const std::string last_good =
       s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time) : std::string{};
-  return fmt::format("{}: {}\n", scene.name, s.status) +
-         text_table(
-             {{"simulated", fmt::format("{:.5g} s in {} macro steps of {}{}", s.simulated_time, s.macro_steps,
-                                        in_units(s.macro_step, "s"), beyond)},
-              {"stepping", in_units(wall, "s") + speed},
-              {"set-up", fmt::format("{}, peak memory {}", in_units(s.setup_time, "s"), in_bytes(s.peak_memory))},
-              {"files",
-               fmt::format("{}: summary.json, history.csv, frames.pvd ({} frames{})", folder, s.frames, last_good)}},
-             "<<");
+  const std::vector<std::vector<std::string>> rows = {
+      {"simulated", fmt::format("{:.5g} s in {} of {}{}", s.simulated_time, counted(s.macro_steps, "macro step"),
+                                in_units(s.macro_step, "s"), beyond)},
+      {"stepping", in_units(wall, "s") + speed},
+      {"set-up", in_units(s.setup_time, "s") + ", peak memory " + in_bytes(s.peak_memory)},
+      {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
+                            counted(static_cast<long>(s.frames), "frame"), last_good)}};
+  return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }
 
 }  // namespace plica::app

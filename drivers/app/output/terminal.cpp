@@ -46,6 +46,10 @@ std::string in_units(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
+std::string counted(long count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string in_bytes(std::size_t bytes) {
   const double size = static_cast<double>(bytes);
   if (size >= 1e9) return fmt::format("{:.3g} GB", size / 1e9);

@@ -24,6 +24,9 @@ void message(const std::string& text);
 /// "1.94 ms", "50 kPa", "12 um": three or four digits and a prefix. Units of masses start from kg and keep it.
 std::string in_units(double value, const std::string& unit);
 
+/// "1 frame", "2 frames".
+std::string counted(long count, const std::string& noun);
+
 /// "12.3 MB", in powers of 1000.
 std::string in_bytes(std::size_t bytes);
 

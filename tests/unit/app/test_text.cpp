@@ -15,6 +15,8 @@ TEST(Text, NumbersInUnits) {
   EXPECT_EQ(in_units(3e-6, "m"), "3 um");
   EXPECT_EQ(in_units(1.331, "kg"), "1.331 kg");
   EXPECT_EQ(in_units(0, "s"), "0 s");
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(0, "frame"), "0 frames");
   EXPECT_EQ(in_bytes(999), "999 B");
   EXPECT_EQ(in_bytes(12345678), "12.3 MB");
 }
@@ -28,7 +30,7 @@ TEST(Text, LinesWrap) { EXPECT_EQ(wrapped("one two three", 10, "  "), "  one two
 TEST(Text, ProgressFitsItsTerminal) {
   const std::string line = progress_line(0.62, 3, 500, 0.5, 100);
   EXPECT_EQ(line,
-            "0.62 / 3 s [#######............................]  21 %  1e+03 steps/s  1.24 x real time  1.9 s left");
+            "0.62 / 3.00 s [#####........................]  21 %   1000 steps/s   1.24 x real time    1.9 s left");
   for (int width = 1; width < 140; ++width)
     EXPECT_LT(progress_line(0.62, 3, 500, 0.5, width).size(), static_cast<std::size_t>(width)) << width;
 }
