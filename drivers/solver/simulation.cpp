@@ -73,6 +73,7 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
   s.hierarchy().exec().fence("plica::set_state");
   copy(displacement, state.u, "displacements");
   copy(velocity, state.v, "velocities");
+  for (auto& part : s.hierarchy().levels) part.level.flags.clear(s.hierarchy().exec());
   s.built.cycle->begin(s.hierarchy());
   s.keep();
   s.start_energy();

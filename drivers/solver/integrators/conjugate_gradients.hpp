@@ -32,7 +32,8 @@ CgOutcome conjugate_gradients(const typename B::Exec& exec, const CgVectors<B>& 
   CgOutcome out;
   out.right_side = std::sqrt(first);
   out.converged = first == 0;
-  if (!std::isfinite(first)) {  // forces that are not finite: x stays 0, and the solve is a miss
+  if (!std::isfinite(first)) {  // forces that are not finite must show in the state, for whoever checks it
+    Kokkos::deep_copy(exec, c.x, c.r);
     out.relative_residual = std::numeric_limits<double>::infinity();
     return out;
   }

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/drivers/solver/contact.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/edge_lengths.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/level_probe.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Penalty contact of a body with the options' obstacles.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+/// A cube that stands on (or over) the plane z = 0, its own vertices as contact surface.
+Problem cube_over(double gap, std::optional<double> friction = {}) {
+  Problem p = body_of({box_mesh(decimetre, {3, 3, 3})}, "corotational");
+  TriangleSurface surface;
+  surface.vertices =
+      p.body.levels[0].vertices;  // every mesh vertex is a contact point; the sides' and inner ones never touch
+  const auto at = [](int x, int y, int z) { return x + 4 * (y + 4 * z); };
+  for (int z : {0, 3})
+    for (int x = 0; x < 3; ++x)
+      for (int y = 0; y < 3; ++y) {
+        surface.triangles.push_back({at(x, y, z), at(x + 1, y, z), at(x, y + 1, z)});
+        surface.triangles.push_back({at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z)});
+      }
+  p.body.surface = surface;
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -gap}, {0, 0, 2}}, friction, Point::Zero()});
+  return p;
+}
+
+Point sum(const std::vector<Point>& f) {
+  Point total = Point::Zero();
+  for (const Point& x : f) total += x;
+  return total;
+}
+
+template <class B>
+class ContactOn : public testing::Test {};
+TYPED_TEST_SUITE(ContactOn, EachBackend);
+
+TYPED_TEST(ContactOn, StiffnessIsYoungsModulusTimesAreaOverEdge) {
+  Problem p = cube_over(0);
+  p.contact.stiffness_scale = 3, p.contact.damping_scale = 0.5;
+  LevelProbe<TypeParam> probe(p);
+  const double area = 0.02 / 64, edge = mean_edge_length(p.body.levels[0]), k = 3 * 20e3 * area / edge;
+  EXPECT_NEAR(probe.at(0).forces->contact()->stiffness(), k, round_off<double>(50, k));
+  const double d = 0.5 * std::sqrt(k * 1000 * area * edge);
+  EXPECT_NEAR(probe.at(0).forces->contact()->damping(), d, round_off<double>(50, d));
+}
+
+TYPED_TEST(ContactOn, ForceOnASunkenBodyIsThePenalty) {
+  using Real = typename TypeParam::Real;
+  Problem p = cube_over(0, 0.4);
+  LevelProbe<TypeParam> probe(p);
+  const auto& contact = *probe.at(0).forces->contact();
+  const double k = contact.stiffness(), depth = 0.002;
+  std::vector<Point> down(probe.vertices(), Point(0, 0, -depth));
+  EXPECT_LE((sum(probe.force(down)) - Point(0, 0, 16 * k * depth)).norm(), round_off<Real>(2000, k * depth));
+  // sliding fast: Coulomb's force against it
+  std::vector<Point> slide(probe.vertices(), Point(3, 4, 0));
+  const Point f = sum(probe.force(down, slide));
+  EXPECT_LE((f - 16 * k * depth * Point(-0.4 * 0.6, -0.4 * 0.8, 1)).norm(), round_off<Real>(2000, k * depth));
+  // sinking: damping on top
+  std::vector<Point> sink(probe.vertices(), Point(0, 0, -0.1));
+  EXPECT_NEAR(sum(probe.force(down, sink))[2], 16 * (k * depth + contact.damping() * 0.1),
+              round_off<Real>(2000, k * depth));
+  EXPECT_LE(sum(probe.force(std::vector<Point>(probe.vertices(), Point(0, 0, 1e-4)))).norm(), round_off<Real>(500, 1));
+}
+
+TYPED_TEST(ContactOn, MovingObstacleIsWhereItsVelocityTakesIt) {
+  using Real = typename TypeParam::Real;
+  Problem p = cube_over(0.01);
+  p.contact.obstacles[0].velocity = {0, 0, 0.5};
+  p.contact.damping_scale = 0;
+  LevelProbe<TypeParam> probe(p);
+  const double k = probe.at(0).forces->contact()->stiffness();
+  const auto z = probe.zero();
+  EXPECT_LE(largest(probe.force(z, z, 0.019)), round_off<Real>(500, 1));
+  EXPECT_NEAR(sum(probe.force(z, z, 0.024))[2], 16 * k * 0.002, round_off<Real>(2000, k * 0.01));
+}
+
+TYPED_TEST(ContactOn, EnergyIsHalfStiffnessTimesDepthSquared) {
+  using Real = typename TypeParam::Real;
+  Problem p = cube_over(-0.001);  // the plane's surface is 1 mm inside the body
+  p.integration.macro_step = 1e-4;
+  Simulation<TypeParam> simulation(p);
+  const double k = LevelProbe<TypeParam>(p).at(0).forces->contact()->stiffness();
+  EXPECT_NEAR(simulation.energies().contact, 16 * 0.5 * k * 1e-6, round_off<Real>(2000, k * 1e-6));
+}
+
+// Sum of contact forces at rest: the mean over a long time balances the weight.
+TEST(Contact, CarriesTheWeightAtRest) {
+  for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
+    Problem p = cube_over(0, 0.3);
+    p.gravity = {0, 0, -9.81};
+    p.body.damping.mass = 20;
+    p.integration.integrator = {integrator};
+    p.integration.macro_step = 4e-3;
+    p.integration.substeps = {0};
+    Simulation<Host> simulation(p);
+    advance(simulation, 250);
+    EXPECT_LE(largest(simulation.velocities()), 1e-3) << integrator;
+    LevelProbe<Host> probe(p);
+    const auto u = displacements(simulation, p.body.levels[0]);
+    double contact = 9.81;  // elastic forces sum to zero, so this is contact alone
+    contact += sum(probe.force(u))[2];
+    EXPECT_NEAR(contact, 9.81, 0.01 * 9.81) << integrator;
+  }
+}
+
+// Sliding: the centre of mass decelerates at mu g.
+TEST(Contact, FrictionStopsASlidingBlock) {
+  for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
+    Problem p = cube_over(0, 0.2);
+    p.body.material.young_modulus = 2e5;  // stiff: it does not topple or rock much
+    p.gravity = {0, 0, -10};
+    p.integration.integrator = {integrator};
+    p.integration.macro_step = 1e-3;
+    p.integration.substeps = {0};
+    // settle first, then push
+    p.body.damping.mass = 50;
+    Simulation<Host> settled(p);
+    advance(settled, 150);
+    const auto u = displacements(settled, p.body.levels[0]);
+    p.body.damping.mass = 0;
+    Simulation<Host> simulation(p);
+    simulation.set_state(u, std::vector<Point>(u.size(), Point(0.6, 0, 0)));
+    const auto mean = [&] { return sum(simulation.velocities())[0] / static_cast<double>(u.size()); };
+    advance(simulation, 100);
+    EXPECT_NEAR(mean(), 0.6 - 0.2 * 10 * simulation.time(), 0.06) << integrator;
+    advance(simulation, 300);
+    EXPECT_NEAR(mean(), 0, 0.02) << integrator;
+  }
+}
+
+TEST(Contact, SlopeBelowTheFrictionAngleHoldsAndAboveDoesNot) {
+  const auto slid = [](double friction) {
+    Problem p = cube_over(0, friction);
+    p.gravity = 10 * Point(std::sin(0.2), 0, -std::cos(0.2));  // tan 0.2 = 0.203
+    p.body.material.young_modulus = 2e5;
+    p.body.damping.mass = 5;
+    p.contact.tangential_damping_scale = 20;  // little creep
+    p.integration.macro_step = 2e-3;
+    p.integration.integrator = {"implicit_euler"};
+    Simulation<Host> simulation(p);
+    advance(simulation, 250);
+    const auto v = simulation.velocities();
+    return sum(v)[0] / static_cast<double>(v.size());
+  };
+  EXPECT_LT(slid(0.4), 0.03);
+  EXPECT_NEAR(slid(0.1), 10 * (std::sin(0.2) - 0.1 * std::cos(0.2)) * (1 - std::exp(-5 * 0.5)) / 5, 0.03);
+}
+
+// A body thrown at the floor with steps far above the explicit limit neither blows up nor sinks through it.
+TEST(Contact, ImplicitStepsSurviveAFastImpact) {
+  for (int newton : {1, 10})
+    for (double speed : {1.0, 10.0}) {
+      Problem p = cube_over(0.05);
+      p.body.initial.velocity = {0, 0, -speed};
+      p.gravity = {0, 0, -9.81};
+      p.integration.integrator = {"implicit_euler"};
+      p.integration.macro_step = 0.01;
+      p.integration.implicit.newton_iterations = newton;
+      Simulation<Host> simulation(p);
+      double lowest = 0;
+      for (int n = 0; n < 30; ++n) {
+        advance(simulation, 1);
+        for (const Point& x : simulation.positions()) lowest = std::min(lowest, x[2] + 0.05);
+      }
+      EXPECT_GT(lowest, -0.09) << newton << " " << speed;
+      EXPECT_LE(largest(simulation.velocities()), speed + 3) << newton << " " << speed;
+      EXPECT_EQ(simulation.counters().at("cg_misses"), 0);
+    }
+}
+
+TEST(Contact, MovingPlanePushesTheBody) {
+  for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
+    Problem p = cube_over(0.001);
+    p.contact.obstacles[0].velocity = {0, 0, 0.3};
+    p.body.damping.mass = 10;
+    p.integration.integrator = {integrator};
+    p.integration.macro_step = 4e-3;
+    p.integration.substeps = {0};
+    Simulation<Host> simulation(p);
+    advance(simulation, 375);
+    for (const Point& v : simulation.velocities()) EXPECT_NEAR(v[2], 0.3, 0.02) << integrator;
+    double lowest = 1e9;
+    for (const Point& x : simulation.positions()) lowest = std::min(lowest, x[2]);
+    EXPECT_NEAR(lowest, 0.3 * simulation.time() - 0.001, 0.002) << integrator;
+  }
+}
+
+TEST(Contact, NeedsASurface) {
+  Problem p = cube_over(0);
+  p.body.surface.reset();
+  EXPECT_ANY_THROW(Simulation<Host>{p});
+}
+
+}  // namespace

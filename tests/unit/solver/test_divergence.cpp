@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/drivers/solver/diagnose.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// A run that goes wrong stops before it shows, and says where, by how much and what to do.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+template <class B>
+class Divergence : public testing::Test {};
+TYPED_TEST_SUITE(Divergence, EachBackend);
+
+Problem hanging(const std::string& material) {
+  Problem p = small_cube(material);
+  p.gravity = {0, 0, -9.81};
+  p.body.fixed = {left_face()};
+  return p;
+}
+
+bool all_finite(const std::vector<Point>& field) {
+  for (const Point& p : field)
+    if (!p.allFinite()) return false;
+  return true;
+}
+
+TYPED_TEST(Divergence, AboveTheCriticalStepStopsBeforeItIsNotFinite) {
+  for (const char* material : {"st_venant_kirchhoff", "corotational", "linear", "neo_hookean"}) {
+    SCOPED_TRACE(material);
+    Problem p = hanging(material);
+    const double limit = Simulation<TypeParam>(p).levels()[0].critical_step;
+    p.integration.macro_step = 1.5 * limit;
+    p.integration.substeps = {1};
+    p.integration.allow_unstable = true;
+    Simulation<TypeParam> simulation(p);
+    std::optional<Diagnosis> bad;
+    for (int n = 0; n < 2000 && !bad; ++n) {
+      simulation.step();
+      bad = simulation.check();
+    }
+    ASSERT_TRUE(bad);
+    EXPECT_TRUE(all_finite(simulation.positions()) && all_finite(simulation.velocities()));
+    EXPECT_TRUE(bad->kind == "energy" || (bad->kind == "inverted" && std::string(material) == "neo_hookean"))
+        << bad->kind;
+    EXPECT_EQ(bad->level, 0);
+    EXPECT_GE(bad->element, 0);
+    EXPECT_LT(bad->J, 1);
+    EXPECT_NEAR(bad->substep_over_critical, 1.5, 0.01);
+    EXPECT_NE(bad->remedy.find("critical step"), std::string::npos);
+    for (const char* part : {"level 0", "element ", "J = ", "1.5 times", "try "})
+      EXPECT_NE(bad->text().find(part), std::string::npos) << part << " not in: " << bad->text();
+  }
+}
+
+TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
+  Problem p = small_cube("neo_hookean", 5);
+  p.body.levels[0] = with_regions(p.body.levels[0], 0.05, "left", "right");
+  p.integration.macro_step = 1e-6;
+  Simulation<TypeParam> simulation(p);
+  const TetMesh& mesh = p.body.levels[0];
+  // one vertex is pushed through the opposite face of one of its tetrahedra, which comes out the most inverted of all
+  std::size_t inner = 0;
+  while (on_boundary(decimetre, mesh.vertices[inner]) || mesh.vertices[inner][0] < 0.065) ++inner;
+  std::vector<Point> u(mesh.vertices.size(), Point::Zero()), v = u;
+  u[inner] = {0.012, 0.016, 0.008};
+  const WorstElement worst = worst_element(mesh, u);
+  ASSERT_LT(worst.J, 0);
+  simulation.set_state(u, v);
+  simulation.step();
+  const auto bad = simulation.check();
+  ASSERT_TRUE(bad);
+  EXPECT_EQ(bad->kind, "inverted");
+  EXPECT_EQ(bad->region, "right");
+  EXPECT_LT(bad->J, 0);
+  EXPECT_NE(bad->remedy.find("survives inversion"), std::string::npos);
+  // it is one of the inverted elements
+  const auto& t = mesh.tets[static_cast<std::size_t>(bad->element)];
+  const auto at = [&](std::size_t k) {
+    const auto a = static_cast<std::size_t>(t[k]);
+    return Point(mesh.vertices[a] + u[a]);
+  };
+  EXPECT_LT(tet_volume(at(0), at(1), at(2), at(3)), 0);
+  // a sound state set afterwards is sound
+  simulation.set_state(v, v);
+  simulation.step();
+  EXPECT_FALSE(simulation.check());
+}
+
+TYPED_TEST(Divergence, NotFiniteIsFoundAtItsVertex) {
+  Problem p = small_cube();
+  p.integration.macro_step = 1e-5;
+  Simulation<TypeParam> simulation(p);
+  std::vector<Point> u(p.body.levels[0].vertices.size(), Point::Zero()), v = u;
+  v[17] = {0, std::numeric_limits<double>::quiet_NaN(), 0};
+  simulation.set_state(u, v);
+  simulation.step();
+  const auto bad = simulation.check();
+  ASSERT_TRUE(bad);
+  EXPECT_EQ(bad->kind, "non_finite");
+  EXPECT_EQ(bad->vertex, 17);
+  EXPECT_NE(bad->text().find("vertex 17"), std::string::npos);
+}
+
+TYPED_TEST(Divergence, ImplicitStepsDoNotHideIt) {
+  Problem p = small_cube("st_venant_kirchhoff");
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.macro_step = 1e-3;
+  Simulation<TypeParam> simulation(p);
+  std::vector<Point> u(p.body.levels[0].vertices.size(), Point::Zero()), v = u;
+  u[17] = {0, 1e30, 0};  // its stress is beyond the numbers there are
+  if (std::is_same_v<typename TypeParam::Real, double>) u[17] = {0, 1e200, 0};
+  simulation.set_state(u, v);
+  simulation.step();
+  const auto bad = simulation.check();
+  ASSERT_TRUE(bad);
+  EXPECT_EQ(bad->kind, "non_finite");
+  EXPECT_EQ(simulation.counters()["cg_misses"], 1);
+}
+
+TYPED_TEST(Divergence, ReturnsToTheLastGoodState) {
+  Problem p = hanging("st_venant_kirchhoff");
+  const double limit = Simulation<TypeParam>(p).levels()[0].critical_step;
+  p.integration.macro_step = 1.5 * limit;
+  p.integration.allow_unstable = true;
+  p.integration.substeps = {1};
+  Simulation<TypeParam> simulation(p);
+  std::vector<std::vector<Point>> history = {simulation.positions()};
+  while (history.size() < 2000) {
+    simulation.step();
+    history.push_back(simulation.positions());
+    if (simulation.check()) break;
+  }
+  ASSERT_LT(history.size(), 2000u);
+  simulation.return_to_last_good();
+  const auto back = static_cast<std::size_t>(simulation.macro_steps());
+  EXPECT_LT(back, history.size() - 1);
+  EXPECT_GE(back + 21, history.size() - 1);
+  EXPECT_DOUBLE_EQ(simulation.time(), static_cast<double>(back) * *p.integration.macro_step);
+  EXPECT_TRUE(same_bits(simulation.positions(), history[back]));
+}
+
+}  // namespace

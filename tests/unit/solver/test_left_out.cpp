@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/meshes/sphere_surface.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/simulate.hpp"
+#include "support/watch.hpp"
+
+// What a scene does not need is not there: no array, no kernel.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+using Counts = std::map<std::string, int>;
+
+template <class B>
+class LeftOut : public testing::Test {};
+TYPED_TEST_SUITE(LeftOut, EachBackend);
+
+Problem everything() {
+  Problem p = cube_levels(3, 4, "rsv");
+  p.body.material.model = "neo_hookean";
+  p.gravity = {0, 0, -9.81};
+  p.body.damping.mass = 1;
+  p.body.prescribed = {{left_face(), {0, 0, 0.1}}};
+  p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.01}, {0, 0, 1}}, 0.3, Point::Zero()});
+  p.integration.integrator = {"symplectic_euler", "symplectic_euler", "implicit_euler"};
+  return p;
+}
+
+const std::vector<std::string> optional_parts = {"contact", "surface",  "prescribe", "restrict", "interpol",
+                                                 "start",   "previous", "drift",     "implicit", "cg",
+                                                 "newton",  "flags",    "invert",    "rk4"};
+
+TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
+  Problem p = small_cube();
+  const Watch watch;
+  Simulation<TypeParam> simulation(p);
+  simulation.step();
+  // set-up's eigenvalue iteration says lanczos_start; nothing else may match
+  for (const std::string& label : watch.about(optional_parts))
+    EXPECT_EQ(label, "plica::lanczos_start") << "allocated or launched without need";
+}
+
+TYPED_TEST(LeftOut, FullSceneHasItAll) {  // that the words above are those of the labels
+  const Watch watch;
+  Simulation<TypeParam> simulation(everything());
+  simulation.step();
+  for (const std::string& part : optional_parts)
+    if (part != "rk4") {
+      EXPECT_FALSE(watch.about({part}).empty()) << part;
+    }
+}
+
+TYPED_TEST(LeftOut, StepOfTheMinimalSceneIsThreeKernels) {
+  Problem p = small_cube();
+  p.integration.macro_step = 1e-4;
+  p.integration.substeps = {4};
+  Simulation<TypeParam> simulation(p);
+  const Watch watch;
+  simulation.step();
+  simulation.step();
+  const Counts want = {{"plica::elastic_force", 8}, {"plica::gather_forces", 8}, {"plica::symplectic_euler", 8}};
+  EXPECT_EQ(watch.launches, want);
+  EXPECT_EQ(watch.allocations, Counts{});
+}
+
+TYPED_TEST(LeftOut, NoStepAllocates) {
+  for (const char* cycle : {"rs", "rv", "rsv", "rsv_sv"}) {
+    Problem p = everything();
+    p.integration.cycle = cycle;
+    Simulation<TypeParam> simulation(p);
+    const Watch watch;
+    for (int n = 0; n < 3; ++n) simulation.step();
+    EXPECT_EQ(watch.allocations, Counts{}) << cycle;
+  }
+  for (const char* integrator : {"euler", "rk4", "implicit_euler"}) {
+    Problem p = small_cube();
+    p.integration.integrator = {integrator};
+    p.integration.macro_step = 1e-4;
+    p.integration.allow_unstable = true;
+    Simulation<TypeParam> simulation(p);
+    const Watch watch;
+    simulation.step();
+    EXPECT_EQ(watch.allocations, Counts{}) << integrator;
+  }
+}
+
+template <class B>
+std::map<std::string, Part> parts_of(const Problem& p) {
+  std::map<std::string, Part> parts;
+  for (const Part& part : Simulation<B>(p).parts()) parts[part.name] = part;
+  return parts;
+}
+
+TYPED_TEST(LeftOut, PartsSayIt) {
+  const auto least = parts_of<TypeParam>(small_cube()), most = parts_of<TypeParam>(everything());
+  for (const auto& [name, part] : least) {
+    const bool always = name == "elastic elements" || name == "state, mass and force";
+    EXPECT_EQ(part.in, always) << name;
+    EXPECT_EQ(part.bytes > 0, always) << name;
+    EXPECT_FALSE(part.reason.empty()) << name;
+  }
+  for (const auto& [name, part] : most)
+    if (name != "fixed vertices") {
+      EXPECT_TRUE(part.in) << name;
+      const bool no_memory = name == "gravity" || name == "mass damping" || name == "friction";
+      EXPECT_EQ(part.bytes > 0, !no_memory) << name;
+    }
+}
+
+}  // namespace
