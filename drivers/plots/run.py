@@ -35,7 +35,7 @@ def draw_bodies(figure, run, view, box):
     left, bottom, right, top = box
     chosen = run.telling_frames(ROWS * COLUMNS)
     moved = {frame: run.displacement(frame) for frame in chosen}
-    largest = max(numpy.percentile(values, 98) for values in moved.values()) or 1.0
+    largest = max(numpy.percentile(values, 98) for values in moved.values()) or 1e-3  # nothing moved: a millimetre
     grid = figure.add_gridspec(ROWS, COLUMNS, left=left, right=right - 0.075, top=top, bottom=bottom,
                                wspace=0.03, hspace=0.1)
     for place, frame in zip(grid, chosen):
@@ -133,7 +133,10 @@ def draw(folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path, help="what plica run wrote")
-    print(draw(parser.parse_args().folder))
+    try:
+        print(draw(parser.parse_args().folder))
+    except OSError as error:
+        sys.exit(f"error: {error.filename}: {error.strerror}")
 
 
 if __name__ == "__main__":

@@ -46,4 +46,10 @@ inline Child run_child(std::vector<std::string> words, const TemporaryFolder& fo
   return {WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state), content_of(out), content_of(err)};
 }
 
+/// The Python of the project's own environment where that was made, else the system's.
+inline std::string python() {
+  const std::string own = PLICA_SOURCE_DIR "/.venv/bin/python";
+  return std::filesystem::exists(own) ? own : "python3";
+}
+
 }  // namespace plica::app::test

@@ -123,10 +123,7 @@ TEST(Summary, IsJsonWithItsFields) {
 // What VTK reads from a file: points, cells, type of the cells, time, sums of the displacements and velocities; nothing
 // where there is no VTK
 std::vector<double> read_by_vtk(const std::filesystem::path& file, const TemporaryFolder& folder) {
-  const std::string own = PLICA_SOURCE_DIR "/.venv/bin/python";
-  const Child child = run_child(
-      {std::filesystem::exists(own) ? own : "python3", PLICA_SOURCE_DIR "/tests/unit/app/read_vtu.py", file.string()},
-      folder);
+  const Child child = run_child({python(), PLICA_SOURCE_DIR "/tests/unit/app/read_vtu.py", file.string()}, folder);
   std::vector<double> numbers;
   constexpr int no_vtk = 77, no_python = 127;
   if (child.status == no_vtk || child.status == no_python || child.status < 0) return numbers;

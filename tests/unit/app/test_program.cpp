@@ -204,6 +204,14 @@ TEST_F(Program, ListsFamilies) {
   EXPECT_EQ(plica({"list"}).status, 0);
 }
 
+TEST_F(Program, RunsCanBeDrawn) {
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  ASSERT_EQ(plica({"run", scene, "-o", out}).status, 0);
+  const Child plot = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/run.py", out}, folder);
+  EXPECT_EQ(plot.status, 0) << plot.errors;
+  EXPECT_GT(std::filesystem::file_size(folder / "out/run.png"), 10000);
+}
+
 TEST_F(Program, KokkosOptionsPassThrough) {
   ASSERT_EQ(plica({"run", scene, "-o", out, "--kokkos-num-threads=1"}).status, 0);
   EXPECT_EQ(summary()["threads"], 1);
