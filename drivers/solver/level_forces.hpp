@@ -34,6 +34,11 @@ class LevelForces {
   /// level.partial = the copies of -K p at a state
   void tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const;
 
+  /// Books work() under a stage of this level.
+  template <class Work>
+  void time(const char* stage, const Work& work) const {
+    clock_->time(stage, level_, work);
+  }
   const Elasticity<B>& elasticity() const { return *elasticity_; }
   const Contact<B>* contact() const { return contact_.get(); }
   const ContactPoints<B>& points() const { return points_; }

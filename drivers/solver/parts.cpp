@@ -27,6 +27,10 @@ std::size_t bytes_of(const EmbeddedSurface<B>& s) {
   return bytes(s.rest, s.vertex, s.first, s.point, s.weight) + bytes_of(s.embedding);
 }
 
+std::string counted(std::size_t n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
 }  // namespace
 
 template <class B>
@@ -55,8 +59,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
 
   add("elastic elements", true, body.material.model, "",
       sum([](const L& l) { return bytes_of(l.level.model.patches) + bytes(l.level.partial); }));
-  add("state, mass and force", true, std::to_string(levels) + (levels > 1 ? " levels" : " level"), "",
-      sum([](const L& l) {
+  add("state, mass and force", true, counted(levels, "level"), "", sum([](const L& l) {
         return bytes_of(l.level.state) + bytes(l.level.model.mass, l.level.model.inverse_mass, l.level.f);
       }));
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
@@ -72,7 +75,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("switched mapping", limits > 0, "switch_threshold", "not in cycle " + problem.integration.cycle, limits);
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
       sum([](const L& l) { return bytes_of(l.level.surface); }));
-  add("contact", contact, std::to_string(problem.contact.obstacles.size()) + " obstacle(s)", "no obstacle",
+  add("contact", contact, counted(problem.contact.obstacles.size(), "obstacle"), "no obstacle",
       sum([](const L& l) { return bytes(l.forces->points().force, l.forces->points().block); }));
   add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
   add("implicit solver", implicit, "an implicit level", "every level is explicit",

@@ -70,9 +70,12 @@ struct ImplicitEuler {
       update_vertices<B>(exec, "plica::newton_right_side", n,
                          NewtonRightSide<B>{level.model, at_start_.v, level.state.v, level.f, level.partial, cg_.r,
                                             static_cast<Real>(h), static_cast<Real>(options_.mass_damping), first});
-      const CgOutcome out = conjugate_gradients<B>(
-          exec, cg_, blocks_, n, o.relative_residual, o.iterations, o.max_iterations,
-          [&](const Vectors<B>& p, const Vectors<B>& q) { forces.product(level, level.state, p, h, inertia, q); });
+      CgOutcome out;
+      forces.time("solve", [&] {
+        out = conjugate_gradients<B>(
+            exec, cg_, blocks_, n, o.relative_residual, o.iterations, o.max_iterations,
+            [&](const Vectors<B>& p, const Vectors<B>& q) { forces.product(level, level.state, p, h, inertia, q); });
+      });
       count(out);
       update_vertices<B>(exec, "plica::newton_update", n,
                          NewtonUpdate<B>{at_start_.u, cg_.x, level.state.u, level.state.v, static_cast<Real>(h)});
