@@ -15,7 +15,7 @@ LevelForces<B>::LevelForces(std::shared_ptr<const Elasticity<B>> elasticity, con
 template <class B>
 void LevelForces<B>::elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f) {
   ++evaluations_;
-  time("force", [&] {
+  book("force", [&] {
     elasticity_->force(clock_->exec(), level.model.patches, state.u, level.flags, ++evaluation_, level.partial);
     gather_forces<B>(clock_->exec(), level.model, level.partial, gravity_, f);
   });
@@ -24,14 +24,14 @@ void LevelForces<B>::elastic_and_gravity(const Level<B>& level, const State<B>& 
 template <class B>
 void LevelForces<B>::evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
-  if (contact_) time("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
+  if (contact_) book("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
 }
 
 template <class B>
 void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
                                const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
-  if (contact_) time("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
+  if (contact_) book("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
 }
 
 template <class B>

@@ -36,7 +36,7 @@ class LevelForces {
 
   /// Books work() under a stage of this level.
   template <class Work>
-  void time(const char* stage, const Work& work) const {
+  void book(const char* stage, const Work& work) const {
     clock_->time(stage, level_, work);
   }
   const Elasticity<B>& elasticity() const { return *elasticity_; }

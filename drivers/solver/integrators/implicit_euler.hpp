@@ -71,7 +71,7 @@ struct ImplicitEuler {
                          NewtonRightSide<B>{level.model, at_start_.v, level.state.v, level.f, level.partial, cg_.r,
                                             static_cast<Real>(h), static_cast<Real>(options_.mass_damping), first});
       CgOutcome out;
-      forces.time("solve", [&] {
+      forces.book("solve", [&] {
         out = conjugate_gradients<B>(
             exec, cg_, blocks_, n, o.relative_residual, o.iterations, o.max_iterations,
             [&](const Vectors<B>& p, const Vectors<B>& q) { forces.product(level, level.state, p, h, inertia, q); });

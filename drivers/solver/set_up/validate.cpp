@@ -109,6 +109,8 @@ void check_contact(const Problem& problem) {
   const ContactOptions& c = problem.contact;
   if (!c.obstacles.empty() && !problem.body.surface)
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
+  if (!c.obstacles.empty() && problem.body.surface->triangles.empty())
+    throw InputError("body.surface has no triangle; contact needs its area");
   for (const ObstacleOptions& o : c.obstacles) {
     std::visit(CheckShape{}, o.shape);
     if (o.friction) not_negative("contact friction", *o.friction, "");
