@@ -31,7 +31,7 @@ TYPED_TEST(Momentum, OfAFreeBodyStays) {
   for (const char* material : {"st_venant_kirchhoff", "corotational", "neo_hookean", "linear"})
     for (const char* integrator : {"symplectic_euler", "rk4", "implicit_euler"}) {
       SCOPED_TRACE(std::string(material) + " " + integrator);
-      Problem p = small_cube(material);
+      Problem p = small_cube(material, 4);  // more than one patch
       const TetMesh& mesh = p.body.levels[0];
       p.integration.integrator = {integrator};
       p.integration.macro_step = 5e-4;

@@ -81,6 +81,14 @@ TEST(Validate, NamesEveryBadOption) {
   }
 }
 
+TEST(Validate, ContactNeedsASurfaceWithAnArea) {
+  Problem p = small_cube();
+  p.body.surface = TriangleSurface{{{0, 0, 0}}, {}};
+  EXPECT_EQ(refusal(p), "");
+  p.contact.obstacles = {{PlaneOptions{}, {}, Point::Zero()}};
+  EXPECT_NE(refusal(p).find("no triangle"), std::string::npos);
+}
+
 TEST(Validate, ChecksObstacles) {
   const auto with = [](ObstacleOptions o) {
     Problem p = small_cube();
