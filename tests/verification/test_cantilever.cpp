@@ -14,7 +14,7 @@ using namespace plica;
 using namespace plica::test;
 
 Problem beam(const std::string& material) {
-  Problem p = body_of({jittered_box(beam_box, {16, 4, 4})}, material);
+  Problem p = body_of({jittered_box(beam_box, {12, 3, 3})}, material);
   p.body.material.young_modulus = 1e5, p.body.material.poisson_ratio = 0.3;
   p.body.fixed = {left_face()};
   return p;
@@ -72,7 +72,7 @@ TEST(Cantilever, NonlinearSagBalancesEveryVertex) {
 // Coarse levels pull to their own sag; a fine level alone must not.
 TEST(Cantilever, SingleCycleOfALevelHierarchyIsTheFineSag) {
   Problem p = beam("linear");
-  p.body.levels.push_back(jittered_box(beam_box, {8, 2, 2}));
+  p.body.levels.push_back(jittered_box(beam_box, {6, 2, 2}));
   p.gravity = {0, 0, -2};
   LevelProbe<Host> probe(p);
   const auto sag = SparseStiffness(probe).equilibrium(weight(probe, probe.mass(), p.gravity));
