@@ -73,7 +73,7 @@ struct IntegrationOptions {
   std::optional<double> macro_step;       ///< [s] > 0; none: 0.9 of the predicted limit
   std::string distribution = "critical";  ///< equal | inverse_elements | critical | custom
   std::vector<double> shares;             ///< of the macro step, finest first, with `custom`; their sum is 1 to 1e-12
-  double shift_to_coarsest = 0;           ///< this part of every finer level's share goes to the coarsest, in [0, 1]
+  double shift_to_coarsest = 0;           ///< this part of every finer level's share goes to the coarsest, in [0, 1)
   std::vector<std::string> integrator = {"symplectic_euler"};  ///< one for all levels, or one each, finest first
   std::vector<int> substeps = {0};                             ///< likewise; 0: as many as the level's limit asks for
   double safety = 0.9;            ///< of the limit that automatic sub-steps keep, in (0, 1]

@@ -137,7 +137,7 @@ void describe(V& v, IntegrationOptions& o) {
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
   v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
-  v("shift_to_coarsest", o.shift_to_coarsest, Quantity{number, {.min = 0, .max = 1}},
+  v("shift_to_coarsest", o.shift_to_coarsest, Quantity{number, {.min = 0, .max = 1, .max_excluded = true}},
     "this part of every finer level's share goes to the coarsest");
   v("integrator", o.integrator,
     NamePerLevel{{"integrator", integrators, {"central_difference", "rk2", "newmark", "bdf2", "generalized_alpha"}}},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <numeric>
+#include <plica/core/error.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
@@ -106,6 +107,11 @@ class HierarchyBuilder {
     Level<B>& level = built_.hierarchy->levels[i].level;
     const Embedding down = embed(built_.meshes[i].vertices, *locators_[i - 1], rule);
     const Embedding up = embed(built_.meshes[i - 1].vertices, *locators_[i], rule);
+    if (rule == Outside::keep && down.misses + up.misses > 0)
+      throw InputError(
+          "integration.outside is keep, but " + std::to_string(down.misses) + " vertices of level " +
+          std::to_string(i) + " lie outside level " + std::to_string(i - 1) + " and " + std::to_string(up.misses) +
+          " the other way: they would move in their own level's share of the step only; use clamp or extrapolate");
     level.from_finer = build_transfer<B>("restriction", down, constants_[i].constrained);
     level.to_finer = build_transfer<B>("interpolation", up, constants_[i - 1].constrained);
     LevelReport& report = built_.reports[i];
