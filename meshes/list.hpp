@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <filesystem>
-#include <plica/meshes/read_msh.hpp>
+#include <plica/meshes/msh/parse_msh.hpp>
 
 namespace plica {
 
@@ -9,12 +8,12 @@ namespace plica {
 struct MeshFormat {
   const char* extension;    ///< lower case, without the dot
   const char* description;  ///< for help texts
-  TetMesh (*read)(const std::filesystem::path& path, MeshReport* report);
+  RawMesh (*parse)(const InputFile& file, MeshReport& report);
 };
 
-/// All of them. A new format is one file with a reader that ends in sound_mesh(), and one line here.
+/// All of them. A new format is one file with a parser, and one line here.
 inline constexpr MeshFormat mesh_formats[] = {
-    {"msh", "Gmsh MSH 2.2 ASCII", read_msh},
+    {"msh", "Gmsh MSH 2.2 and 4.1, text and binary", parse_msh},
 };
 
 }  // namespace plica

@@ -16,11 +16,11 @@ namespace {
 constexpr double flat = 1e-9;  // six volumes over the longest edge cubed
 
 template <typename... Parts>
-[[noreturn]] void refuse(const RawMesh& raw, int line, const Parts&... parts) {
+[[noreturn]] void refuse(const RawMesh& raw, const Place& place, const Parts&... parts) {
   std::ostringstream text;
   text.precision(12);
   (text << ... << parts);
-  throw InputError(text.str(), {raw.file, line});
+  refuse(raw.file, place, text.str());
 }
 
 std::string nodes(const RawTet& tet) {
@@ -37,22 +37,23 @@ class Numbering {
     for (std::size_t v = 0; v < raw.vertices.size(); ++v) {
       const RawVertex& vertex = raw.vertices[v];
       if (!vertex.position.allFinite())
-        refuse(raw, vertex.line, "node ", vertex.tag, " is at ", vertex.position.transpose(), "; it must be finite");
+        refuse(raw, vertex.place, "node ", vertex.tag, " is at ", vertex.position.transpose(), "; it must be finite");
       const auto [first, is_new] = index_.try_emplace(vertex.tag, static_cast<int>(v));
       if (!is_new)
-        refuse(raw, vertex.line, "node ", vertex.tag, " is defined again (first on line ", line_of(first->second), ")");
+        refuse(raw, vertex.place, "node ", vertex.tag, " is defined again (first ", to_text(place_of(first->second)),
+               ")");
     }
   }
 
   template <typename Who>
-  int at(std::int64_t tag, int line, const Who& who) const {
+  int at(std::int64_t tag, const Place& place, const Who& who) const {
     const auto found = index_.find(tag);
-    if (found == index_.end()) refuse(raw_, line, who(), " names node ", tag, ", which the file does not define");
+    if (found == index_.end()) refuse(raw_, place, who(), " names node ", tag, ", which the file does not define");
     return found->second;
   }
 
  private:
-  int line_of(int vertex) const { return raw_.vertices[static_cast<std::size_t>(vertex)].line; }
+  const Place& place_of(int vertex) const { return raw_.vertices[static_cast<std::size_t>(vertex)].place; }
 
   const RawMesh& raw_;
   std::unordered_map<std::int64_t, int> index_;
@@ -68,7 +69,7 @@ void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, (corners[j] - corners[i]).norm());
   if (!(std::abs(6.0 * volume) > flat * longest * longest * longest))
-    refuse(raw, tet.line, "tetrahedron ", tet.tag, " (nodes ", nodes(tet), ") has no volume: ", volume,
+    refuse(raw, tet.place, "tetrahedron ", tet.tag, " (nodes ", nodes(tet), ") has no volume: ", volume,
            " for a longest edge of ", longest);
 }
 
@@ -78,10 +79,10 @@ void add_tets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh, Mes
   for (const RawTet& tet : raw.tets) {
     std::array<int, 4> v;
     for (std::size_t k = 0; k < 4; ++k)
-      v[k] = numbering.at(tet.vertices[k], tet.line, [&] { return "tetrahedron " + std::to_string(tet.tag); });
+      v[k] = numbering.at(tet.vertices[k], tet.place, [&] { return "tetrahedron " + std::to_string(tet.tag); });
     const auto ascending = sorted(v);
     if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end())
-      refuse(raw, tet.line, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
+      refuse(raw, tet.place, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
     mesh.tets.push_back(v);
     const auto corners = corners_of(mesh, static_cast<int>(mesh.tets.size()) - 1);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
@@ -103,16 +104,18 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
       first = keys[k - 1].second, again = keys[k].second;
   if (again == keys.size()) return;
   const RawTet &one = raw.tets[first], &other = raw.tets[again];
-  refuse(raw, other.line, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " on line ", one.line,
+  refuse(raw, other.place, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " ", to_text(one.place),
          " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
 }
 
 void add_sets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh) {
   const auto element = [] { return "an element"; };
-  for (const RawMention& mention : raw.others) numbering.at(mention.vertex, mention.line, element);
+  for (const RawTriangle& triangle : raw.triangles)
+    for (const std::int64_t v : triangle.vertices) numbering.at(v, triangle.place, element);
+  for (const RawMention& mention : raw.others) numbering.at(mention.vertex, mention.place, element);
   for (const auto& [name, mentions] : raw.vertex_sets) {
     std::vector<int>& set = mesh.vertex_sets[name];
-    for (const RawMention& mention : mentions) set.push_back(numbering.at(mention.vertex, mention.line, element));
+    for (const RawMention& mention : mentions) set.push_back(numbering.at(mention.vertex, mention.place, element));
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
   }
@@ -142,7 +145,7 @@ void drop_unreferenced(const RawMesh& raw, TetMesh& mesh, MeshReport& report) {
 }  // namespace
 
 TetMesh sound_mesh(const RawMesh& raw, MeshReport& report) {
-  if (raw.tets.empty()) refuse(raw, 0, "the file holds no tetrahedron");
+  if (raw.tets.empty()) refuse(raw, {}, "the file holds no tetrahedron");
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of tetrahedra", static_cast<double>(raw.tets.size()));
 
