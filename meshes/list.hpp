@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/meshes/msh/parse_msh.hpp>
+#include <plica/meshes/vtk/parse_vtk.hpp>
 
 namespace plica {
 
@@ -14,6 +15,7 @@ struct MeshFormat {
 /// All of them. A new format is one file with a parser, and one line here.
 inline constexpr MeshFormat mesh_formats[] = {
     {"msh", "Gmsh MSH 2.2 and 4.1, text and binary", parse_msh},
+    {"vtk", "VTK legacy, an unstructured grid, text and binary", parse_vtk},
 };
 
 }  // namespace plica

@@ -31,7 +31,8 @@ class Numbers {
 
   virtual Place place() const = 0;                  ///< of the last number
   virtual std::int64_t room(NumberType) const = 0;  ///< how many such numbers the rest has at most
-  [[noreturn]] virtual void fail(const std::string& message) const = 0;
+  virtual const std::string& file() const = 0;      ///< its name
+  [[noreturn]] void fail(const std::string& message) const { refuse(file(), place(), message); }
 
   /// How many `what` there are, each of at least `numbers` numbers of type `each`: from 0 to what the rest of the file
   /// and an int have room for, so that no absurd count is ever allocated.
@@ -43,8 +44,8 @@ class Numbers {
 /// From lines of text, whatever the type.
 class TextNumbers final : public Numbers {
  public:
-  /// `free`: a number may be on any of the following lines, as the formats of VTK have it.
-  explicit TextNumbers(TextLines& lines, bool free = false) : lines_(lines), free_(free) {}
+  /// What follows the current line. `free`: a number may be on any of the following lines, as the formats of VTK have it.
+  explicit TextNumbers(TextLines& lines, bool free = false) : lines_(lines), free_(free), word_(lines.words().size()) {}
 
   void begin(std::string_view what, std::int64_t number, std::int64_t of) override;
   void end(std::string_view what) override;
@@ -53,14 +54,14 @@ class TextNumbers final : public Numbers {
   void skip(std::int64_t count, NumberType type, std::string_view what) override;
   Place place() const override { return lines_.place(); }
   std::int64_t room(NumberType type) const override;
-  void fail(const std::string& message) const override { lines_.fail(message); }
+  const std::string& file() const override { return lines_.file().name; }
 
  private:
   void go_to_word(std::string_view what);
 
   TextLines& lines_;
   bool free_;
-  std::size_t word_ = 0;
+  std::size_t word_;  // of the line, the next one
 };
 
 /// From bytes, in either order of bytes.
@@ -78,7 +79,7 @@ class ByteNumbers final : public Numbers {
   void skip(std::int64_t count, NumberType type, std::string_view what) override;
   Place place() const override;
   std::int64_t room(NumberType type) const override;
-  void fail(const std::string& message) const override { refuse(file_, place(), message); }
+  const std::string& file() const override { return file_; }
 
   std::size_t taken() const { return next_; }  ///< bytes
   std::size_t left() const { return bytes_.size() - next_; }
@@ -92,6 +93,28 @@ class ByteNumbers final : public Numbers {
   bool swapped_;
   Place first_;
   std::size_t last_ = 0, next_ = 0;
+};
+
+/// The numbers of a file whose headings are lines of text.
+struct NumberForm {
+  bool binary = false;
+  std::endian order = std::endian::native;  ///< of bytes
+  bool free = false;                        ///< as for TextNumbers
+
+  /// What `read` makes of the numbers that follow the current line; the lines go on after them.
+  template <typename Read>
+  auto after(TextLines& lines, const Read& read) const {
+    if (!binary) {
+      TextNumbers numbers(lines, free);
+      return read(numbers);
+    }
+    const std::size_t start = lines.next_byte();
+    ByteNumbers numbers(lines.file().name, std::string_view(lines.file().bytes).substr(start), order,
+                        {0, static_cast<std::int64_t>(start)});
+    const auto result = read(numbers);
+    lines.resume_at(start + numbers.taken());
+    return result;
+  }
 };
 
 }  // namespace plica

@@ -5,7 +5,7 @@ namespace plica {
 
 namespace {
 
-void read_element(const MshElement& kind, std::int64_t tag, std::int64_t tags, const Place& place, Numbers& numbers,
+void read_element(const ElementKind& kind, std::int64_t tag, std::int64_t tags, const Place& place, Numbers& numbers,
                   MshGather& gather) {
   const std::int64_t group = tags > 0 ? physical_tag(numbers) : 0;
   for (std::int64_t t = 1; t < tags; ++t) numbers.integer(NumberType::int32, "a tag of an element");
@@ -15,8 +15,6 @@ void read_element(const MshElement& kind, std::int64_t tag, std::int64_t tags, c
 std::int64_t read_tags(Numbers& numbers) {
   return numbers.count(NumberType::int32, "the number of tags of an element", NumberType::int32, 1);
 }
-
-std::string who(std::int64_t tag) { return "element " + std::to_string(tag); }
 
 }  // namespace
 
@@ -36,7 +34,8 @@ void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather&
     std::int64_t tag = binary ? 0 : numbers.integer(type, "the tag of an element");
     const Place place = numbers.place();
     const std::int64_t code = numbers.integer(type, "the type of an element");
-    const MshElement& kind = taken_element(code, binary ? "a block of elements" : who(tag), numbers);
+    const auto who = [&] { return binary ? "a block of elements" : "element " + std::to_string(tag); };
+    const ElementKind& kind = taken_element(code, who, numbers);
     if (!binary) {
       read_element(kind, tag, read_tags(numbers), place, numbers, gather);
       ++done;

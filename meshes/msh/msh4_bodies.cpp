@@ -144,6 +144,7 @@ const std::vector<std::int64_t>& Msh4Bodies::groups_of(const Entity& entity, con
 }
 
 std::string Msh4Bodies::elements(Numbers& numbers, MshGather& gather) const {
+  const auto who = [] { return std::string("a block of elements"); };
   const Blocks all = read_blocks("elements", 2, numbers);
   std::int64_t done = 0;
   for (std::int64_t b = 1; b <= all.blocks; ++b) {
@@ -151,8 +152,7 @@ std::string Msh4Bodies::elements(Numbers& numbers, MshGather& gather) const {
     const std::int64_t dimension = read_dimension(numbers);
     const std::int64_t tag = numbers.integer(tag_type, "the tag of an entity");
     const auto& groups = groups_of({dimension, tag}, numbers);
-    const MshElement& kind =
-        taken_element(numbers.integer(tag_type, "the type of elements"), "a block of elements", numbers);
+    const ElementKind& kind = taken_element(numbers.integer(tag_type, "the type of elements"), who, numbers);
     if (kind.dimension != dimension)
       numbers.fail("a block of elements of dimension " + std::to_string(kind.dimension) +
                    " is in an entity of dimension " + std::to_string(dimension));

@@ -31,7 +31,7 @@ void MshGather::add_node(std::int64_t tag, Numbers& numbers, const Place& place)
   raw_.vertices.push_back(vertex);
 }
 
-void MshGather::add_element(const MshElement& kind, std::int64_t tag, std::span<const std::int64_t> groups,
+void MshGather::add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> groups,
                             NumberType node_type, Numbers& numbers, const Place& place) {
   std::array<std::int64_t, 4> nodes = {};
   const std::size_t corners = static_cast<std::size_t>(kind.vertices);
@@ -66,12 +66,8 @@ RawMesh MshGather::take() {
   return std::move(raw_);
 }
 
-const MshElement& taken_element(std::int64_t type, const std::string& who, const Numbers& numbers) {
-  const MshElement* kind = find_msh_element(type);
-  if (kind == nullptr || !kind->taken)
-    numbers.fail(who + " has type " + std::to_string(type) + (kind ? ", a " + std::string(kind->name) : "") +
-                 "; supported are points, lines, triangles, quadrangles and tetrahedra of first order");
-  return *kind;
+const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who, const Numbers& numbers) {
+  return taken_kind(msh_elements, type, who, numbers.file(), numbers.place());
 }
 
 std::int64_t msh_tag(NumberType type, std::string_view what, Numbers& numbers) {

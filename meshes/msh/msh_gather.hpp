@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <map>
 #include <plica/meshes/mesh_report.hpp>
 #include <plica/meshes/msh/msh_elements.hpp>
@@ -22,8 +23,8 @@ class MshGather {
   /// A node: three coordinates follow.
   void add_node(std::int64_t tag, Numbers& numbers, const Place& place);
   /// An element of some physical groups, a tetrahedron of one at most (0: none): its nodes follow.
-  void add_element(const MshElement& kind, std::int64_t tag, std::span<const std::int64_t> groups, NumberType node_type,
-                   Numbers& numbers, const Place& place);
+  void add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> groups,
+                   NumberType node_type, Numbers& numbers, const Place& place);
   /// All of it; to be called once.
   RawMesh take();
 
@@ -39,7 +40,7 @@ class MshGather {
 };
 
 /// A kind of element that we take, else an InputError; `who` has that type.
-const MshElement& taken_element(std::int64_t type, const std::string& who, const Numbers& numbers);
+const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who, const Numbers& numbers);
 
 /// A tag of a node or element: 1 or more.
 std::int64_t msh_tag(NumberType type, std::string_view what, Numbers& numbers);

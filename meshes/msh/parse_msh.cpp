@@ -27,15 +27,17 @@ class MshParser {
   std::int64_t count_of(const std::string& kind, std::int64_t fewest);
   void end_of(const std::string& section, const std::string& after = "");
   template <typename Read>
-  auto body(Read read);
+  auto body(const Read& read) {
+    return form_.after(lines_, read);
+  }
   const InputFile& file() const { return lines_.file(); }
 
   TextLines lines_;
   MeshReport& report_;
   MshGather gather_;
   Msh4Bodies bodies4_;
-  bool version4_ = false, binary_ = false;
-  std::endian order_ = std::endian::native;
+  bool version4_ = false;
+  NumberForm form_;
   std::set<std::string> seen_;
 };
 
@@ -48,27 +50,13 @@ void MshParser::format() {
   if (!version4_ && version != "2.2")
     lines_.fail("the MSH version is " + shown(version) +
                 "; supported are 2.2 and 4.1: gmsh IN -save -format msh41 -o OUT.msh");
-  binary_ = type == "1";
-  if (!binary_ && type != "0") lines_.fail("the file type is " + shown(type) + "; expected 0 (text) or 1 (binary)");
+  form_.binary = type == "1";
+  if (!form_.binary && type != "0")
+    lines_.fail("the file type is " + shown(type) + "; expected 0 (text) or 1 (binary)");
   if (size != "8") lines_.fail("the data size is " + shown(size) + "; expected 8");
-  report_.format = "Gmsh MSH " + std::string(version) + (binary_ ? " binary" : " ASCII");
-  if (binary_) check_byte_order();
+  report_.format = "Gmsh MSH " + std::string(version) + (form_.binary ? " binary" : " ASCII");
+  if (form_.binary) check_byte_order();
   end_of("MeshFormat");
-}
-
-// What follows in the form of the file, text or binary
-template <typename Read>
-auto MshParser::body(Read read) {
-  if (!binary_) {
-    TextNumbers numbers(lines_);
-    return read(numbers);
-  }
-  const std::size_t start = lines_.next_byte();
-  ByteNumbers numbers(file().name, std::string_view(file().bytes).substr(start), order_,
-                      {0, static_cast<std::int64_t>(start)});
-  const auto result = read(numbers);
-  lines_.resume_at(start + numbers.taken());
-  return result;
 }
 
 // The integer 1 as the file writes it
@@ -78,7 +66,7 @@ void MshParser::check_byte_order() {
   const std::size_t start = lines_.next_byte();
   const std::int64_t one = body(flag);
   if (one == 1) return;
-  order_ = other;
+  form_.order = other;
   lines_.resume_at(start);
   if (body(flag) == 1) return;
   refuse(file().name, {0, static_cast<std::int64_t>(start)},
@@ -110,7 +98,7 @@ void MshParser::section() {
 void MshParser::skip(const std::string& name) {
   report_.skipped_sections.push_back(name.substr(0, 60));
   const std::string end = "$End" + name.substr(1);
-  if (binary_) lines_.resume_at(file().bytes.find("\n" + end, lines_.next_byte() - 1));
+  if (form_.binary) lines_.resume_at(file().bytes.find("\n" + end, lines_.next_byte() - 1));
   while (lines_.next())
     if (lines_.text() == end) return;
   lines_.expected(shown(end));
@@ -120,15 +108,14 @@ void MshParser::skip(const std::string& name) {
 std::int64_t MshParser::count_of(const std::string& kind, std::int64_t fewest) {
   if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of " + kind);
   const std::int64_t count = lines_.integer(0, "the number of " + kind);
-  if (!binary_) return TextNumbers(lines_).checked_count(count, "the number of " + kind, NumberType::int32, fewest);
   return body(
       [&](Numbers& rest) { return rest.checked_count(count, "the number of " + kind, NumberType::int32, fewest); });
 }
 
 void MshParser::physical_names() {
   if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of physical names");
-  const std::int64_t count =
-      TextNumbers(lines_).count(NumberType::int32, "the number of physical names", NumberType::int32, 3);
+  const std::int64_t count = TextNumbers(lines_).checked_count(lines_.integer(0, "the number of physical names"),
+                                                               "the number of physical names", NumberType::int32, 3);
   for (std::int64_t i = 1; i <= count; ++i) {
     if (!lines_.next() || lines_.text().front() == '$')
       lines_.expected("physical name " + std::to_string(i) + " of " + std::to_string(count));
@@ -165,7 +152,7 @@ void MshParser::elements() {
   const std::int64_t count = version4_ ? 0 : count_of("elements", 2);
   const std::string what = body([&](Numbers& numbers) {
     if (version4_) return bodies4_.elements(numbers, gather_);
-    msh2_elements(count, binary_, numbers, gather_);
+    msh2_elements(count, form_.binary, numbers, gather_);
     return std::to_string(count) + " elements";
   });
   end_of("Elements", what);
