@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/meshes/msh/parse_msh.hpp>
 #include <plica/meshes/vtk/parse_vtk.hpp>
+#include <plica/meshes/vtk/parse_vtu.hpp>
 
 namespace plica {
 
@@ -16,6 +17,7 @@ struct MeshFormat {
 inline constexpr MeshFormat mesh_formats[] = {
     {"msh", "Gmsh MSH 2.2 and 4.1, text and binary", parse_msh},
     {"vtk", "VTK legacy, an unstructured grid, text and binary", parse_vtk},
+    {"vtu", "VTK XML, an unstructured grid in one piece, not compressed", parse_vtu},
 };
 
 }  // namespace plica

@@ -50,8 +50,8 @@ std::int64_t Numbers::checked_count(std::int64_t count, std::string_view what, N
                                     std::int64_t numbers) const {
   const std::int64_t most = room(each) / numbers;
   if (count < 0 || count > std::min<std::int64_t>(most, std::numeric_limits<int>::max()))
-    fail(std::string(what) + " is " + std::to_string(count) + ", but the rest of the file has room for " +
-         std::to_string(most) + " at most");
+    fail(std::string(what) + " is " + std::to_string(count) + ", but there is room for " + std::to_string(most) +
+         " at most");
   return count;
 }
 

@@ -23,7 +23,7 @@ bool parse(std::string_view word, Number& value) {
 TextLines::TextLines(const InputFile& file, char comment) : file_(file), comment_(comment), end_(file.bytes.size()) {}
 
 TextLines::TextLines(const InputFile& file, std::size_t begin, std::size_t end, std::int64_t first_line)
-    : file_(file), next_(begin), end_(end), next_line_(first_line) {}
+    : file_(file), next_(begin), end_(end), next_line_(first_line), place_{first_line}, part_(true) {}
 
 void TextLines::resume_at(std::size_t byte) {
   next_ = std::min(byte, end_);
@@ -85,7 +85,7 @@ std::int64_t TextLines::integer(std::size_t word, std::string_view what) const {
 }
 
 void TextLines::expected(std::string_view what) const {
-  if (ended_) fail("expected " + std::string(what) + ", but the file ends");
+  if (ended_) fail("expected " + std::string(what) + (part_ ? ", but it ends here" : ", but the file ends"));
   fail("expected " + std::string(what) + ", found " + shown(text_));
 }
 

@@ -51,7 +51,7 @@ class TextLines {
   std::size_t end_;
   std::int64_t next_line_ = 1;  // its number; 0: unknown
   Place place_;
-  bool ended_ = false;
+  bool part_ = false, ended_ = false;
   std::string_view text_;
   std::vector<std::string_view> words_;
 };

@@ -125,7 +125,8 @@ TEST(MalformedVtk, Cells) {
   expect_refused_with("CELLS 3 14", "CELLS 3 13", 13, {"points of cell 2 is 4", "4 of 13"});
   expect_refused_with("CELLS 3 14", "CELLS 4 14", 14, {"number of points of a cell", "'CELL_TYPES'"});
   expect_refused_with("CELLS 3 14", "CELLS 3 99999999999", 10, {"99999999999", "room for"});
-  expect_refused_with("CELLS 3 14\n3 0 1 2", "CELLS 3 15\n4 0 1 2 3", 11, {"cell 0, a triangle, has 4 points", "expected 3"});
+  expect_refused_with("CELLS 3 14\n3 0 1 2", "CELLS 3 15\n4 0 1 2 3", 11,
+                      {"cell 0, a triangle, has 4 points", "expected 3"});
   expect_refused_with("5\n10 10", "5\n10 12", 16, {"cell 2 has type 12, a hexahedron", "supported"});
   expect_refused_with("5\n10 10", "5\n10 99", 16, {"cell 2 has type 99;"});
   expect_refused_with("CELL_TYPES 3\n5\n", "CELL_TYPES 2\n", 15, {"there are 2 types for 3 cells"});
