@@ -17,6 +17,21 @@ int root(std::vector<int>& parent, int v) {
   return v;
 }
 
+template <std::size_t corners>
+int count_parts(std::size_t vertices, const std::vector<std::array<int, corners>>& elements) {
+  std::vector<int> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& element : elements)
+    for (std::size_t k = 1; k < corners; ++k) {
+      const int a = root(parent, element[0]), b = root(parent, element[k]);
+      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  std::vector<int> roots;
+  for (const auto& element : elements) roots.push_back(root(parent, element[0]));
+  std::sort(roots.begin(), roots.end());
+  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+}
+
 struct LowerTwin {
   const std::vector<Point>& points;
   int self;
@@ -35,19 +50,9 @@ struct LowerTwin {
 
 }  // namespace
 
-int count_parts(const TetMesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& tet : mesh.tets)
-    for (std::size_t k = 1; k < 4; ++k) {
-      const int a = root(parent, tet[0]), b = root(parent, tet[k]);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  std::vector<int> roots;
-  for (const auto& tet : mesh.tets) roots.push_back(root(parent, tet[0]));
-  std::sort(roots.begin(), roots.end());
-  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
-}
+int count_parts(const TetMesh& mesh) { return count_parts(mesh.vertices.size(), mesh.tets); }
+
+int count_parts(const TriangleSurface& surface) { return count_parts(surface.vertices.size(), surface.triangles); }
 
 int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
   std::vector<int> vertices(mesh.vertices.size());

@@ -6,6 +6,7 @@ namespace plica {
 
 /// The number of parts of a mesh that share no vertex; vertices of no tetrahedron do not count.
 int count_parts(const TetMesh& mesh);
+int count_parts(const TriangleSurface& surface);
 
 /// The number of vertices within `tolerance` [m], above zero, of one with a lower number. Two meshes glued together
 /// without merging their common vertices show up here: they come apart when simulated.

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <plica/meshes/input_file.hpp>
+#include <plica/meshes/memory_file.hpp>
 #include <span>
 #include <string>
 

@@ -1,23 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/meshes/msh/parse_msh.hpp>
+#include <plica/meshes/surfaces/parse_obj.hpp>
+#include <plica/meshes/surfaces/parse_stl.hpp>
+#include <plica/meshes/tetgen/parse_tetgen.hpp>
 #include <plica/meshes/vtk/parse_vtk.hpp>
 #include <plica/meshes/vtk/parse_vtu.hpp>
 
 namespace plica {
 
-/// A format of mesh files.
+/// A format of files with meshes or surfaces.
 struct MeshFormat {
   const char* extension;    ///< lower case, without the dot
   const char* description;  ///< for help texts
-  RawMesh (*parse)(const InputFile& file, MeshReport& report);
+  RawMesh (*parse)(const MemoryFile& file, MeshReport& report);
 };
 
-/// All of them. A new format is one file with a parser, and one line here.
+/// All that hold tetrahedra. A new format is one file with a parser, and one line here.
 inline constexpr MeshFormat mesh_formats[] = {
     {"msh", "Gmsh MSH 2.2 and 4.1, text and binary", parse_msh},
     {"vtk", "VTK legacy, an unstructured grid, text and binary", parse_vtk},
     {"vtu", "VTK XML, an unstructured grid in one piece, not compressed", parse_vtu},
+    {"ele", "TetGen, with the .node file beside it", parse_tetgen},
+    {"node", "TetGen, with the .ele file beside it", parse_tetgen},
+};
+
+/// All that hold triangles.
+inline constexpr MeshFormat surface_formats[] = {
+    {"obj", "Wavefront OBJ, its polygons", parse_obj},
+    {"stl", "STL, text and binary", parse_stl},
+    {"msh", "Gmsh MSH 2.2 and 4.1, its triangles", parse_msh},
 };
 
 }  // namespace plica

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 #include <plica/core/mesh.hpp>
-#include <plica/meshes/input_file.hpp>
+#include <plica/meshes/memory_file.hpp>
 #include <string>
 #include <vector>
 
@@ -38,6 +38,7 @@ struct RawMention {
 /// What a parser of any format gathers, before anything of it is believed.
 struct RawMesh {
   std::string file;
+  std::string vertex_file;  ///< when the vertices come from another one
   std::vector<RawVertex> vertices;
   std::vector<RawTet> tets;
   std::vector<RawTriangle> triangles;                          ///< of a surface; for a mesh they are only checked

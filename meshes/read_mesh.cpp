@@ -11,7 +11,7 @@ TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report) {
   return read_mesh(load_file(path), report);
 }
 
-TetMesh read_mesh(const InputFile& file, MeshReport* report) {
+TetMesh read_mesh(const MemoryFile& file, MeshReport* report) {
   MeshReport found;
   const RawMesh raw = format_of(file.name, mesh_formats, "mesh").parse(file, found);
   TetMesh mesh = sound_mesh(raw, found);

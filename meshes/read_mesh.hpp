@@ -2,7 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <plica/core/mesh.hpp>
-#include <plica/meshes/input_file.hpp>
+#include <plica/meshes/memory_file.hpp>
 #include <plica/meshes/mesh_report.hpp>
 
 namespace plica {
@@ -13,6 +13,6 @@ namespace plica {
 TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report = nullptr);
 
 /// The same of a file in memory.
-TetMesh read_mesh(const InputFile& file, MeshReport* report = nullptr);
+TetMesh read_mesh(const MemoryFile& file, MeshReport* report = nullptr);
 
 }  // namespace plica

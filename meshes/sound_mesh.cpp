@@ -5,8 +5,8 @@
 #include <plica/meshes/barycentric.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/sound_mesh.hpp>
+#include <plica/meshes/vertex_numbers.hpp>
 #include <sstream>
-#include <unordered_map>
 #include <utility>
 
 namespace plica {
@@ -29,36 +29,6 @@ std::string nodes(const RawTet& tet) {
   return text;
 }
 
-/// From the numbers in the file to positions in raw.vertices
-class Numbering {
- public:
-  explicit Numbering(const RawMesh& raw) : raw_(raw) {
-    index_.reserve(raw.vertices.size());
-    for (std::size_t v = 0; v < raw.vertices.size(); ++v) {
-      const RawVertex& vertex = raw.vertices[v];
-      if (!vertex.position.allFinite())
-        refuse(raw, vertex.place, "node ", vertex.tag, " is at ", vertex.position.transpose(), "; it must be finite");
-      const auto [first, is_new] = index_.try_emplace(vertex.tag, static_cast<int>(v));
-      if (!is_new)
-        refuse(raw, vertex.place, "node ", vertex.tag, " is defined again (first ", to_text(place_of(first->second)),
-               ")");
-    }
-  }
-
-  template <typename Who>
-  int at(std::int64_t tag, const Place& place, const Who& who) const {
-    const auto found = index_.find(tag);
-    if (found == index_.end()) refuse(raw_, place, who(), " names node ", tag, ", which the file does not define");
-    return found->second;
-  }
-
- private:
-  const Place& place_of(int vertex) const { return raw_.vertices[static_cast<std::size_t>(vertex)].place; }
-
-  const RawMesh& raw_;
-  std::unordered_map<std::int64_t, int> index_;
-};
-
 std::array<int, 4> sorted(std::array<int, 4> tet) {
   std::sort(tet.begin(), tet.end());
   return tet;
@@ -74,7 +44,7 @@ void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 
 }
 
 // All vertices as yet, with their positions in the file as indices; the tetrahedra turned right side out
-void add_tets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh, MeshReport& report) {
+void add_tets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
   mesh.tets.reserve(raw.tets.size());
   for (const RawTet& tet : raw.tets) {
     std::array<int, 4> v;
@@ -108,7 +78,7 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
          " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
 }
 
-void add_sets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh) {
+void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh) {
   const auto element = [] { return "an element"; };
   for (const RawTriangle& triangle : raw.triangles)
     for (const std::int64_t v : triangle.vertices) numbering.at(v, triangle.place, element);
@@ -149,7 +119,7 @@ TetMesh sound_mesh(const RawMesh& raw, MeshReport& report) {
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of tetrahedra", static_cast<double>(raw.tets.size()));
 
-  const Numbering numbering(raw);
+  const VertexNumbers numbering(raw);
   TetMesh mesh;
   mesh.region_names = raw.region_names;
   mesh.vertices.reserve(raw.vertices.size());

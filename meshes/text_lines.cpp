@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <plica/meshes/text_lines.hpp>
@@ -20,9 +21,15 @@ bool parse(std::string_view word, Number& value) {
 
 }  // namespace
 
-TextLines::TextLines(const InputFile& file, char comment) : file_(file), comment_(comment), end_(file.bytes.size()) {}
+std::string lower_case(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
-TextLines::TextLines(const InputFile& file, std::size_t begin, std::size_t end, std::int64_t first_line)
+TextLines::TextLines(const MemoryFile& file, char comment) : file_(file), comment_(comment), end_(file.bytes.size()) {}
+
+TextLines::TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line)
     : file_(file), next_(begin), end_(end), next_line_(first_line), place_{first_line}, part_(true) {}
 
 void TextLines::resume_at(std::size_t byte) {

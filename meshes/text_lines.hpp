@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
-#include <plica/meshes/input_file.hpp>
+#include <plica/meshes/memory_file.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace plica {
+
+std::string lower_case(std::string_view word);
 
 /// Text, taken line by line as words between blanks; every complaint names the line. Knows what is left of the file, so
 /// that a reader can tell an absurd count before it allocates. Where lines are headings of binary data, whoever reads
@@ -14,9 +16,9 @@ namespace plica {
 class TextLines {
  public:
   /// All of a file, which must outlive this. What follows `comment` on a line is left out, 0: nothing does.
-  explicit TextLines(const InputFile& file, char comment = 0);
+  explicit TextLines(const MemoryFile& file, char comment = 0);
   /// The part of a file that begins with line `first_line` at the byte `begin` and ends before `end`.
-  TextLines(const InputFile& file, std::size_t begin, std::size_t end, std::int64_t first_line);
+  TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line);
 
   /// Goes to the next line that is not blank; false at the end of the file.
   bool next();
@@ -29,7 +31,7 @@ class TextLines {
   const std::vector<std::string_view>& words() const { return words_; }
   std::size_t bytes_left() const { return end_ - next_; }
   std::size_t next_byte() const { return next_; }  ///< where the next line begins
-  const InputFile& file() const { return file_; }
+  const MemoryFile& file() const { return file_; }
   Place place() const { return place_; }
 
   /// A word as a number; InputError with `what` it was to be, when it is missing, no number, or not finite.
@@ -45,7 +47,7 @@ class TextLines {
   std::string_view word(std::size_t word, std::string_view what) const;
   void split();
 
-  const InputFile& file_;
+  const MemoryFile& file_;
   char comment_ = 0;
   std::size_t next_ = 0;  // where the line after this one starts
   std::size_t end_;

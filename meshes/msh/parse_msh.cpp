@@ -9,7 +9,7 @@ namespace {
 
 class MshParser {
  public:
-  MshParser(const InputFile& file, MeshReport& report) : lines_(file), report_(report), gather_(file.name, report) {}
+  MshParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report), gather_(file.name, report) {}
   RawMesh parse();
 
  private:
@@ -30,7 +30,7 @@ class MshParser {
   auto body(const Read& read) {
     return form_.after(lines_, read);
   }
-  const InputFile& file() const { return lines_.file(); }
+  const MemoryFile& file() const { return lines_.file(); }
 
   TextLines lines_;
   MeshReport& report_;
@@ -170,6 +170,6 @@ RawMesh MshParser::parse() {
 
 }  // namespace
 
-RawMesh parse_msh(const InputFile& file, MeshReport& report) { return MshParser(file, report).parse(); }
+RawMesh parse_msh(const MemoryFile& file, MeshReport& report) { return MshParser(file, report).parse(); }
 
 }  // namespace plica

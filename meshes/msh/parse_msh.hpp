@@ -16,6 +16,6 @@ namespace plica {
 /// Strict: anything malformed, cut short, of another version or of elements we cannot take is an InputError with file,
 /// line or byte, the value and what was expected. Sections Gmsh adds for other uses ($Periodic, $NodeData, ...) are
 /// skipped.
-RawMesh parse_msh(const InputFile& file, MeshReport& report);
+RawMesh parse_msh(const MemoryFile& file, MeshReport& report);
 
 }  // namespace plica

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cctype>
 #include <plica/meshes/vtk/legacy_arrays.hpp>
 
 namespace plica {
@@ -42,12 +41,6 @@ std::int64_t read_components(std::size_t word, const TextLines& lines) {
 }
 
 }  // namespace
-
-std::string lower_case(std::string_view word) {
-  std::string text(word);
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 NumberType legacy_vtk_type(std::size_t word, const TextLines& lines) {
   if (word >= lines.words().size()) lines.expected("a type of numbers");

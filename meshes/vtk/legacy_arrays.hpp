@@ -6,8 +6,6 @@
 
 namespace plica {
 
-std::string lower_case(std::string_view word);
-
 /// The type of numbers that a word of the line names, in any case of letters; else an InputError with the choices.
 NumberType legacy_vtk_type(std::size_t word, const TextLines& lines);
 

@@ -11,7 +11,7 @@ namespace {
 
 class VtkParser {
  public:
-  VtkParser(const InputFile& file, MeshReport& report) : lines_(file), report_(report) { grid_.file = file.name; }
+  VtkParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) { grid_.file = file.name; }
   RawMesh parse();
 
  private:
@@ -177,6 +177,6 @@ RawMesh VtkParser::parse() {
 
 }  // namespace
 
-RawMesh parse_vtk(const InputFile& file, MeshReport& report) { return VtkParser(file, report).parse(); }
+RawMesh parse_vtk(const MemoryFile& file, MeshReport& report) { return VtkParser(file, report).parse(); }
 
 }  // namespace plica

@@ -12,6 +12,6 @@ namespace plica {
 /// Points and cells have the numbers they have in the file, from 0. Coordinates are taken as metres.
 ///
 /// Strict, as parse_msh(). The format has no end mark: a file that is cut between two arrays looks whole.
-RawMesh parse_vtk(const InputFile& file, MeshReport& report);
+RawMesh parse_vtk(const MemoryFile& file, MeshReport& report);
 
 }  // namespace plica

@@ -11,7 +11,7 @@ namespace {
 
 class VtuParser {
  public:
-  VtuParser(const InputFile& file, MeshReport& report) : file_(file), report_(report), arrays_(file) {
+  VtuParser(const MemoryFile& file, MeshReport& report) : file_(file), report_(report), arrays_(file) {
     grid_.file = file.name;
   }
   RawMesh parse();
@@ -27,7 +27,7 @@ class VtuParser {
   std::vector<PlacedInteger> integers(const XmlElement& array, std::int64_t count, const char* what);
   [[noreturn]] void fail(const Place& place, const std::string& message) const { refuse(file_.name, place, message); }
 
-  const InputFile& file_;
+  const MemoryFile& file_;
   MeshReport& report_;
   VtuArrays arrays_;
   VtkGrid grid_;
@@ -145,6 +145,6 @@ RawMesh VtuParser::parse() {
 
 }  // namespace
 
-RawMesh parse_vtu(const InputFile& file, MeshReport& report) { return VtuParser(file, report).parse(); }
+RawMesh parse_vtu(const MemoryFile& file, MeshReport& report) { return VtuParser(file, report).parse(); }
 
 }  // namespace plica

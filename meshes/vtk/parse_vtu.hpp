@@ -9,6 +9,6 @@ namespace plica {
 /// arrays as text, in base64, or appended, raw or in base64; in either order of bytes; not compressed.
 ///
 /// Regions and numbers are as for parse_vtk(). Strict, as parse_msh().
-RawMesh parse_vtu(const InputFile& file, MeshReport& report);
+RawMesh parse_vtu(const MemoryFile& file, MeshReport& report);
 
 }  // namespace plica

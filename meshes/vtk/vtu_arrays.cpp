@@ -42,13 +42,13 @@ std::string place_of(const XmlElement& array) {
 
 }  // namespace
 
-const std::string& attribute(const XmlElement& element, const std::string& key, const InputFile& file) {
+const std::string& attribute(const XmlElement& element, const std::string& key, const MemoryFile& file) {
   const auto found = element.attributes.find(key);
   if (found == element.attributes.end()) refuse(file.name, element.place, "<" + element.name + "> has no " + key);
   return found->second;
 }
 
-std::int64_t attribute_count(const XmlElement& element, const std::string& key, const InputFile& file) {
+std::int64_t attribute_count(const XmlElement& element, const std::string& key, const MemoryFile& file) {
   const std::string& text = attribute(element, key, file);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -57,7 +57,7 @@ std::int64_t attribute_count(const XmlElement& element, const std::string& key, 
   return value;
 }
 
-NumberType vtu_type(const XmlElement& array, const InputFile& file) {
+NumberType vtu_type(const XmlElement& array, const MemoryFile& file) {
   const std::string& name = attribute(array, "type", file);
   std::vector<std::string> choices;
   for (const TypeName& known : type_names) {

@@ -11,7 +11,7 @@ namespace plica {
 /// The numbers of a <DataArray>, wherever and however the file stores them.
 class VtuArrays {
  public:
-  explicit VtuArrays(const InputFile& file) : file_(file) {}
+  explicit VtuArrays(const MemoryFile& file) : file_(file) {}
 
   /// From <VTKFile>: order of bytes, type of the lengths; InputError if the arrays are compressed.
   void header(const XmlElement& element);
@@ -29,7 +29,7 @@ class VtuArrays {
   std::string_view appended_at(const XmlElement& array) const;
   std::uint64_t length(std::string_view bytes, const Place& place) const;
 
-  const InputFile& file_;
+  const MemoryFile& file_;
   std::endian order_ = std::endian::little;
   NumberType length_type_ = NumberType::uint32;
   bool has_appended_ = false, raw_ = false;
@@ -37,9 +37,9 @@ class VtuArrays {
 };
 
 /// An attribute; InputError when there is none.
-const std::string& attribute(const XmlElement& element, const std::string& key, const InputFile& file);
+const std::string& attribute(const XmlElement& element, const std::string& key, const MemoryFile& file);
 /// The same as an integer from 0.
-std::int64_t attribute_count(const XmlElement& element, const std::string& key, const InputFile& file);
-NumberType vtu_type(const XmlElement& array, const InputFile& file);
+std::int64_t attribute_count(const XmlElement& element, const std::string& key, const MemoryFile& file);
+NumberType vtu_type(const XmlElement& array, const MemoryFile& file);
 
 }  // namespace plica

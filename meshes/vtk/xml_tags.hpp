@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <map>
-#include <plica/meshes/input_file.hpp>
+#include <plica/meshes/memory_file.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +26,7 @@ struct XmlElement {
 /// library plica needs Kokkos and Eigen only; and what is left to parse is this small.
 class XmlTags {
  public:
-  explicit XmlTags(const InputFile& file) : file_(file), text_(file.bytes) {}
+  explicit XmlTags(const MemoryFile& file) : file_(file), text_(file.bytes) {}
 
   enum class Event { start, end, finished };
   /// Goes to the next tag. Elements stay open until their end; an empty one has none.
@@ -49,7 +49,7 @@ class XmlTags {
   void go_to(std::size_t at);
   [[noreturn]] void fail(const std::string& message) const { refuse(file_.name, {line_}, message); }
 
-  const InputFile& file_;
+  const MemoryFile& file_;
   std::string_view text_;
   std::size_t at_ = 0;
   std::int64_t line_ = 1;

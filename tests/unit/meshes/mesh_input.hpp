@@ -19,7 +19,7 @@ inline std::string with(std::string text, const std::string& from, const std::st
 }
 
 /// A file of meshes/data/formats.
-inline InputFile sample(const std::string& name) {
+inline MemoryFile sample(const std::string& name) {
   return load_file(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "formats" / name);
 }
 
@@ -44,15 +44,15 @@ inline void expect_refused(const std::function<void()>& read, const std::string&
   }
 }
 
-inline void expect_refused(const InputFile& file, const std::string& place, const std::vector<std::string>& parts) {
+inline void expect_refused(const MemoryFile& file, const std::string& place, const std::vector<std::string>& parts) {
   expect_refused([&] { read_mesh(file); }, place, parts);
 }
 
 /// Cut at any byte, a file is refused, unless only the last `optional` bytes are missing.
 template <typename Read>
-void expect_whole(const InputFile& file, std::size_t optional, const Read& read) {
+void expect_whole(const MemoryFile& file, std::size_t optional, const Read& read) {
   for (std::size_t bytes = 0; bytes < file.bytes.size(); ++bytes) {
-    const InputFile part{file.name, file.bytes.substr(0, bytes)};
+    const MemoryFile part{file.name, file.bytes.substr(0, bytes)};
     if (bytes + optional >= file.bytes.size())
       EXPECT_NO_THROW(read(part)) << bytes;
     else
@@ -62,11 +62,11 @@ void expect_whole(const InputFile& file, std::size_t optional, const Read& read)
 
 /// Any byte may turn into any other: an error or a sound result, but no crash. `check` sees what was read.
 template <typename Read, typename Check>
-void change_every_byte(const InputFile& file, const Read& read, const Check& check,
+void change_every_byte(const MemoryFile& file, const Read& read, const Check& check,
                        const std::vector<char>& into = {' ', '\n', '9', '-', '$', '"', 'e', '\0', '\xff'}) {
   for (std::size_t at = 0; at < file.bytes.size(); ++at)
     for (const char c : into) {
-      InputFile changed = file;
+      MemoryFile changed = file;
       changed.bytes[at] = c;
       try {
         check(read(changed));

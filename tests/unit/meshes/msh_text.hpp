@@ -20,12 +20,12 @@ inline const std::string two_tets_4 =
     "$Elements\n3 3 6 8\n2 3 2 1\n6 1 2 3\n3 1 4 1\n7 1 2 3 10\n3 2 4 1\n8 2 3 10 11\n$EndElements\n";
 
 inline TetMesh read_text(const std::string& content, MeshReport* report = nullptr) {
-  return read_mesh(InputFile{"m.msh", content}, report);
+  return read_mesh(MemoryFile{"m.msh", content}, report);
 }
 
 /// Reading fails at `line` (0: the message has none), and the message has every one of `parts`.
 inline void expect_refused(const std::string& content, int line, const std::vector<std::string>& parts) {
-  expect_refused(InputFile{"m.msh", content}, "m.msh" + (line > 0 ? ":" + std::to_string(line) : ""), parts);
+  expect_refused(MemoryFile{"m.msh", content}, "m.msh" + (line > 0 ? ":" + std::to_string(line) : ""), parts);
 }
 
 }  // namespace plica::test

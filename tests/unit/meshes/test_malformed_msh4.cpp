@@ -58,10 +58,10 @@ TEST(MalformedMsh4, NodesAndTetrahedra) {
 
 // Bytes are named where there are no lines
 TEST(MalformedMsh4, Binary) {
-  const InputFile file = sample("blocks_41_binary.msh");
+  const MemoryFile file = sample("blocks_41_binary.msh");
   const std::size_t flag = file.bytes.find("\n4.1 1 8\n") + 9, nodes = file.bytes.find("$Nodes\n") + 7;
   const auto changed = [&](std::size_t at, auto value) {
-    InputFile copy = file;
+    MemoryFile copy = file;
     std::memcpy(copy.bytes.data() + at, &value, sizeof(value));
     return copy;
   };
@@ -73,7 +73,7 @@ TEST(MalformedMsh4, Binary) {
   expect_refused(changed(first, std::uint64_t{0}), place(first), {"tag of a node is 0"});
   expect_refused(changed(first + 16, std::numeric_limits<double>::quiet_NaN()), place(first + 16),
                  {"coordinate y is nan"});
-  InputFile cut = file;  // in the last element: 20 bytes for its last nodes and the end of the section
+  MemoryFile cut = file;  // in the last element: 20 bytes for its last nodes and the end of the section
   cut.bytes.resize(file.bytes.find("\n$EndElements") - 4);
   expect_refused(cut, place(cut.bytes.size() - 4), {"expected a node of an element, but the data end"});
 }

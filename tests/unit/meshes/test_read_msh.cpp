@@ -97,18 +97,18 @@ TEST(ReadMsh, SkipsSectionsForOtherUses) {
 
 TEST(ReadMsh, CutAtAnyByteIsRefused) {
   for (const std::string& text : {two_tets, two_tets_4})
-    expect_whole({"m.msh", text}, 1, [](const InputFile& file) { expect_same(read_mesh(file), read_text(two_tets)); });
+    expect_whole({"m.msh", text}, 1, [](const MemoryFile& file) { expect_same(read_mesh(file), read_text(two_tets)); });
 }
 
 TEST(ReadMsh, AnyByteChangedIsRefusedOrSound) {
   for (const std::string& text : {two_tets, two_tets_4})
     change_every_byte(
-        {"m.msh", text}, [](const InputFile& file) { return read_mesh(file); },
+        {"m.msh", text}, [](const MemoryFile& file) { return read_mesh(file); },
         [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); });
 }
 
 TEST(ReadMesh, ChoosesTheFormatByExtension) {
-  expect_same(read_mesh(InputFile{"liver.MSH", two_tets}), read_text(two_tets));
+  expect_same(read_mesh(MemoryFile{"liver.MSH", two_tets}), read_text(two_tets));
   expect_refused([] { read_mesh("liver.mshh"); }, "liver.mshh",
                  {"unknown mesh file extension 'mshh'; did you mean 'msh'? (choices: msh, "});
   EXPECT_THROW(read_mesh("no_extension"), InputError);

@@ -11,7 +11,7 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-TetMesh read(const InputFile& file) { return read_mesh(file); }
+TetMesh read(const MemoryFile& file) { return read_mesh(file); }
 
 struct Variant {
   const char* file;

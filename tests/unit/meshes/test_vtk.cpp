@@ -24,17 +24,17 @@ const std::string two_tets_5 =
     "CELL_TYPES 3\n5 10 10\nPOINT_DATA 5\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 nan 0\n"
     "CELL_DATA 3\nFIELD FieldData 2\nregion 1 3 int\n0 5 2\nMETADATA\nINFORMATION 0\n\nother 2 3 double\n1 2 3 4 5 6\n";
 
-TetMesh read(const InputFile& file) { return read_mesh(file); }
-TetMesh read_text(const std::string& text) { return read_mesh(InputFile{"m.vtk", text}); }
+TetMesh read(const MemoryFile& file) { return read_mesh(file); }
+TetMesh read_text(const std::string& text) { return read_mesh(MemoryFile{"m.vtk", text}); }
 
 void expect_refused_with(const std::string& from, const std::string& to, int line,
                          const std::vector<std::string>& parts) {
-  expect_refused(InputFile{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line), parts);
+  expect_refused(MemoryFile{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line), parts);
 }
 
 TEST(Vtk, TakesTetrahedraAndRegions) {
   MeshReport report;
-  const TetMesh mesh = read_mesh(InputFile{"m.vtk", two_tets}, &report);
+  const TetMesh mesh = read_mesh(MemoryFile{"m.vtk", two_tets}, &report);
   ASSERT_EQ(mesh.vertices.size(), 5u);
   EXPECT_EQ(mesh.vertices[3], Point(0, 0, 1));
   EXPECT_EQ(mesh.tets, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
@@ -76,7 +76,7 @@ TEST(Vtk, CutAtAnyByteIsRefused) {
   const TetMesh whole = read(sample("blocks_51.vtk"));
   for (const char* name : {"blocks_51.vtk", "blocks_51_binary.vtk", "blocks_42_binary.vtk"}) {
     SCOPED_TRACE(name);
-    const InputFile file = sample(name);
+    const MemoryFile file = sample(name);
     for (std::size_t bytes = 0; bytes < file.bytes.size(); ++bytes) {
       try {
         const TetMesh mesh = read({file.name, file.bytes.substr(0, bytes)});
@@ -99,13 +99,13 @@ TEST(Vtk, AnyByteChangedIsRefusedOrSound) {
 }
 
 TEST(MalformedVtk, Headings) {
-  expect_refused(InputFile{"m.vtk", ""}, "m.vtk", {"# vtk DataFile Version", "the file ends"});
+  expect_refused(MemoryFile{"m.vtk", ""}, "m.vtk", {"# vtk DataFile Version", "the file ends"});
   expect_refused_with("3.0", "6.0", 1, {"version is '6.0'", "1.0 to 5.1"});
   expect_refused_with("ASCII", "TEXT", 3, {"'TEXT'", "ASCII or BINARY"});
   expect_refused_with("UNSTRUCTURED_GRID", "POLYDATA", 4, {"DATASET UNSTRUCTURED_GRID", "'DATASET POLYDATA'"});
   expect_refused_with("DATASET UNSTRUCTURED_GRID\n", "", 4, {"DATASET UNSTRUCTURED_GRID"});
   expect_refused_with("CELL_TYPES 3", "CELL_KINDS 3", 14, {"keyword", "'CELL_KINDS 3'"});
-  expect_refused(InputFile{"m.vtk", two_tets.substr(0, two_tets.find("CELL_TYPES"))}, "m.vtk:13",
+  expect_refused(MemoryFile{"m.vtk", two_tets.substr(0, two_tets.find("CELL_TYPES"))}, "m.vtk:13",
                  {"CELL_TYPES", "ends"});
 }
 
@@ -133,7 +133,7 @@ TEST(MalformedVtk, Cells) {
   expect_refused_with("4 1 2 3 4", "4 1 2 3 0", 13, {"tetrahedron 2 repeats tetrahedron 1 on line 12"});
   const auto refuse_5 = [](const std::string& from, const std::string& to, int line,
                            const std::vector<std::string>& parts) {
-    expect_refused(InputFile{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line), parts);
+    expect_refused(MemoryFile{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line), parts);
   };
   refuse_5("0 3 7 11\n", "1 3 7 11\n", 19, {"first offset is 1"});
   refuse_5("0 3 7 11\n", "0 3 7 10\n", 19, {"use 10 of 11"});
@@ -155,10 +155,10 @@ TEST(MalformedVtk, Arrays) {
 }
 
 TEST(MalformedVtk, Binary) {
-  const InputFile file = sample("blocks_51_binary.vtk");
+  const MemoryFile file = sample("blocks_51_binary.vtk");
   const std::size_t points = file.bytes.find("double\n") + 7;
   const auto place = [&](std::size_t at) { return file.name + ": byte " + std::to_string(at); };
-  InputFile changed = file;
+  MemoryFile changed = file;
   changed.bytes.replace(points + 8, 2, "\x7f\xf8");
   expect_refused(changed, place(points + 8), {"coordinate y is nan"});
   changed = file;

@@ -22,12 +22,12 @@ const std::string two_tets =
     "<CellData>\n<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">5 2</DataArray>\n</CellData>\n"
     "<!-- a > comment --></Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 
-TetMesh read(const InputFile& file) { return read_mesh(file); }
-TetMesh read_text(const std::string& text) { return read_mesh(InputFile{"m.vtu", text}); }
+TetMesh read(const MemoryFile& file) { return read_mesh(file); }
+TetMesh read_text(const std::string& text) { return read_mesh(MemoryFile{"m.vtu", text}); }
 
 void expect_refused_with(const std::string& from, const std::string& to, int line,
                          const std::vector<std::string>& parts) {
-  expect_refused(InputFile{"m.vtu", with(two_tets, from, to)}, "m.vtu:" + std::to_string(line), parts);
+  expect_refused(MemoryFile{"m.vtu", with(two_tets, from, to)}, "m.vtu:" + std::to_string(line), parts);
 }
 
 const char* const variants[] = {"blocks_ascii.vtu", "blocks_base64.vtu",     "blocks_base64_32_big.vtu",
@@ -80,8 +80,8 @@ TEST(Vtu, AnyByteChangedIsRefusedOrSound) {
 TEST(MalformedVtu, Files) {
   expect_refused(sample("blocks_zlib.vtu"), sample("blocks_zlib.vtu").name + ":2",
                  {"compressed by 'vtkZLibDataCompressor'", "supported are ascii, base64 and raw"});
-  expect_refused(InputFile{"m.vtu", ""}, "m.vtu:1", {"XML tag", "the file ends"});
-  expect_refused(InputFile{"m.vtu", "$MeshFormat\n"}, "m.vtu:1", {"XML tag", "'$MeshFormat?'"});
+  expect_refused(MemoryFile{"m.vtu", ""}, "m.vtu:1", {"XML tag", "the file ends"});
+  expect_refused(MemoryFile{"m.vtu", "$MeshFormat\n"}, "m.vtu:1", {"XML tag", "'$MeshFormat?'"});
   expect_refused_with("\"UnstructuredGrid\"", "\"PolyData\"", 2, {"'PolyData'", "UnstructuredGrid"});
   expect_refused_with("\"LittleEndian\"", "\"Middle\"", 2, {"byte_order is 'Middle'"});
   expect_refused_with(" byte_order=\"LittleEndian\"", " byte_order=\"LittleEndian\" header_type=\"Int8\"", 2,
@@ -98,10 +98,10 @@ TEST(MalformedVtu, Xml) {
   expect_refused_with("'2'", "'&two;'", 4, {"unknown entity '&two;'"});
   expect_refused_with("<!-- a > comment -->", "<![CDATA[x]]>", 21, {"CDATA", "not supported"});
   expect_refused_with("-->", "", 21, {"a comment has no end"});
-  expect_refused(InputFile{"m.vtu", two_tets + "<VTKFile/>"}, "m.vtu:24", {"second outermost"});
+  expect_refused(MemoryFile{"m.vtu", two_tets + "<VTKFile/>"}, "m.vtu:24", {"second outermost"});
   std::string deep;
   for (int i = 0; i < 1000; ++i) deep += "<a>";
-  expect_refused(InputFile{"m.vtu", two_tets.substr(0, two_tets.find("<Piece")) + deep}, "m.vtu:4", {"nested"});
+  expect_refused(MemoryFile{"m.vtu", two_tets.substr(0, two_tets.find("<Piece")) + deep}, "m.vtu:4", {"nested"});
 }
 
 TEST(MalformedVtu, Arrays) {
@@ -123,9 +123,9 @@ TEST(MalformedVtu, Arrays) {
 }
 
 TEST(MalformedVtu, Appended) {
-  const InputFile file = sample("blocks_raw.vtu");
+  const MemoryFile file = sample("blocks_raw.vtu");
   const auto changed = [&](const std::string& from, const std::string& to) {
-    return InputFile{file.name, with(file.bytes, from, to)};
+    return MemoryFile{file.name, with(file.bytes, from, to)};
   };
   const std::size_t begin = file.bytes.find("\n   _") + 5;
   const std::string at = file.name + ": byte ";
@@ -133,7 +133,7 @@ TEST(MalformedVtu, Appended) {
   EXPECT_THROW(read(changed("\"raw\"", "\"rot\"")), InputError);
   expect_refused(changed("</AppendedData>", "</AppendedDate>"), at + std::to_string(file.bytes.size()),
                  {"expected </AppendedData>"});
-  InputFile huge = file;
+  MemoryFile huge = file;
   const std::size_t points = std::stoul(file.bytes.substr(file.bytes.find("offset=", file.bytes.find("<Points>")) + 8));
   huge.bytes[begin + points + 6] = '\x7f';
   expect_refused(huge, at + std::to_string(begin + points), {"the array 'Points' has", "are left"});

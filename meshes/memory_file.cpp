@@ -2,12 +2,12 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <plica/meshes/input_file.hpp>
+#include <plica/meshes/memory_file.hpp>
 
 namespace plica {
 
-InputFile load_file(const std::filesystem::path& path) {
-  InputFile file{path.string(), {}};
+MemoryFile load_file(const std::filesystem::path& path) {
+  MemoryFile file{path.string(), {}};
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) refuse(file.name, {}, "is a folder, not a file");
   std::ifstream in(path, std::ios::binary);

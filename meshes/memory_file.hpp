@@ -9,13 +9,13 @@
 namespace plica {
 
 /// A file in memory.
-struct InputFile {
+struct MemoryFile {
   std::string name;  ///< as errors show it; its extension tells the format
   std::string bytes;
 };
 
 /// Reads all of it; InputError when there is none, or a folder.
-InputFile load_file(const std::filesystem::path& path);
+MemoryFile load_file(const std::filesystem::path& path);
 
 /// Where in a file something stands: on a line, or, where a file is binary, at a byte.
 struct Place {
