@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/meshes/msh/parse_msh.hpp>
+#include <plica/meshes/msh/write_msh.hpp>
 #include <plica/meshes/surfaces/parse_obj.hpp>
 #include <plica/meshes/surfaces/parse_stl.hpp>
 #include <plica/meshes/tetgen/parse_tetgen.hpp>
+#include <plica/meshes/tetgen/write_tetgen.hpp>
 #include <plica/meshes/vtk/parse_vtk.hpp>
 #include <plica/meshes/vtk/parse_vtu.hpp>
+#include <plica/meshes/vtk/write_vtk.hpp>
 
 namespace plica {
 
@@ -30,6 +33,24 @@ inline constexpr MeshFormat surface_formats[] = {
     {"obj", "Wavefront OBJ, its polygons", parse_obj},
     {"stl", "STL, text and binary", parse_stl},
     {"msh", "Gmsh MSH 2.2 and 4.1, its triangles", parse_msh},
+};
+
+/// A format that meshes are written in.
+struct MeshWriter {
+  const char* extension;
+  const char* name;  ///< to choose among those of an extension
+  const char* description;
+  WrittenMesh (*write)(const std::filesystem::path& path, const TetMesh& mesh);
+};
+
+/// All of them; of one extension the first is written when none is named.
+inline constexpr MeshWriter mesh_writers[] = {
+    {"msh", "msh41", "Gmsh MSH 4.1, text", write_msh41},
+    {"msh", "msh22", "Gmsh MSH 2.2, text", write_msh22},
+    {"vtk", "vtk", "VTK legacy 3.0, text", write_vtk},
+    {"vtu", "vtu", "VTK XML, raw appended arrays", write_vtu},
+    {"ele", "tetgen", "TetGen, with the .node file beside it", write_tetgen},
+    {"node", "tetgen", "TetGen, with the .ele file beside it", write_tetgen},
 };
 
 }  // namespace plica
