@@ -36,15 +36,16 @@ struct LowerTwin {
   const std::vector<Point>& points;
   int self;
   double tolerance;
-  bool found = false;
+  int found = -1;
 
   bool intersectVolume(const Volume& box) const {
     return box.squaredExteriorDistance(points[static_cast<std::size_t>(self)]) <= tolerance * tolerance;
   }
   bool intersectObject(int other) {
     const Point& p = points[static_cast<std::size_t>(self)];
-    found = other < self && (points[static_cast<std::size_t>(other)] - p).norm() <= tolerance;
-    return found;
+    if (other >= self || (points[static_cast<std::size_t>(other)] - p).norm() > tolerance) return false;
+    found = other;
+    return true;
   }
 };
 
@@ -54,19 +55,24 @@ int count_parts(const TetMesh& mesh) { return count_parts(mesh.vertices.size(), 
 
 int count_parts(const TriangleSurface& surface) { return count_parts(surface.vertices.size(), surface.triangles); }
 
-int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
-  std::vector<int> vertices(mesh.vertices.size());
+std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance) {
+  std::vector<int> vertices(points.size());
   std::iota(vertices.begin(), vertices.end(), 0);
   std::vector<Volume> boxes;
-  for (const Point& p : mesh.vertices) boxes.emplace_back(p, p);
+  for (const Point& p : points) boxes.emplace_back(p, p);
   const Eigen::KdBVH<double, 3, int> tree(vertices.begin(), vertices.end(), boxes.begin(), boxes.end());
-  int count = 0;
+  std::vector<int> twins;
   for (const int v : vertices) {
-    LowerTwin twin{mesh.vertices, v, tolerance};
+    LowerTwin twin{points, v, tolerance};
     Eigen::BVIntersect(tree, twin);
-    count += twin.found ? 1 : 0;
+    twins.push_back(twin.found);
   }
-  return count;
+  return twins;
+}
+
+int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
+  const std::vector<int> twins = lower_twins(mesh.vertices, tolerance);
+  return static_cast<int>(std::count_if(twins.begin(), twins.end(), [](int twin) { return twin >= 0; }));
 }
 
 }  // namespace plica
