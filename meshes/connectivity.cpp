@@ -17,51 +17,62 @@ int root(std::vector<int>& parent, int v) {
   return v;
 }
 
+template <std::size_t corners>
+int count_parts(std::size_t vertices, const std::vector<std::array<int, corners>>& elements) {
+  std::vector<int> parent(vertices);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& element : elements)
+    for (std::size_t k = 1; k < corners; ++k) {
+      const int a = root(parent, element[0]), b = root(parent, element[k]);
+      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  std::vector<int> roots;
+  for (const auto& element : elements) roots.push_back(root(parent, element[0]));
+  std::sort(roots.begin(), roots.end());
+  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+}
+
 struct LowerTwin {
   const std::vector<Point>& points;
   int self;
   double tolerance;
-  bool found = false;
+  int found = -1;
 
   bool intersectVolume(const Volume& box) const {
     return box.squaredExteriorDistance(points[static_cast<std::size_t>(self)]) <= tolerance * tolerance;
   }
   bool intersectObject(int other) {
     const Point& p = points[static_cast<std::size_t>(self)];
-    found = other < self && (points[static_cast<std::size_t>(other)] - p).norm() <= tolerance;
-    return found;
+    if (other >= self || (points[static_cast<std::size_t>(other)] - p).norm() > tolerance) return false;
+    found = other;
+    return true;
   }
 };
 
 }  // namespace
 
-int count_parts(const TetMesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const auto& tet : mesh.tets)
-    for (std::size_t k = 1; k < 4; ++k) {
-      const int a = root(parent, tet[0]), b = root(parent, tet[k]);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  std::vector<int> roots;
-  for (const auto& tet : mesh.tets) roots.push_back(root(parent, tet[0]));
-  std::sort(roots.begin(), roots.end());
-  return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
+int count_parts(const TetMesh& mesh) { return count_parts(mesh.vertices.size(), mesh.tets); }
+
+int count_parts(const TriangleSurface& surface) { return count_parts(surface.vertices.size(), surface.triangles); }
+
+std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance) {
+  std::vector<int> vertices(points.size());
+  std::iota(vertices.begin(), vertices.end(), 0);
+  std::vector<Volume> boxes;
+  for (const Point& p : points) boxes.emplace_back(p, p);
+  const Eigen::KdBVH<double, 3, int> tree(vertices.begin(), vertices.end(), boxes.begin(), boxes.end());
+  std::vector<int> twins;
+  for (const int v : vertices) {
+    LowerTwin twin{points, v, tolerance};
+    Eigen::BVIntersect(tree, twin);
+    twins.push_back(twin.found);
+  }
+  return twins;
 }
 
 int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
-  std::vector<int> vertices(mesh.vertices.size());
-  std::iota(vertices.begin(), vertices.end(), 0);
-  std::vector<Volume> boxes;
-  for (const Point& p : mesh.vertices) boxes.emplace_back(p, p);
-  const Eigen::KdBVH<double, 3, int> tree(vertices.begin(), vertices.end(), boxes.begin(), boxes.end());
-  int count = 0;
-  for (const int v : vertices) {
-    LowerTwin twin{mesh.vertices, v, tolerance};
-    Eigen::BVIntersect(tree, twin);
-    count += twin.found ? 1 : 0;
-  }
-  return count;
+  const std::vector<int> twins = lower_twins(mesh.vertices, tolerance);
+  return static_cast<int>(std::count_if(twins.begin(), twins.end(), [](int twin) { return twin >= 0; }));
 }
 
 }  // namespace plica

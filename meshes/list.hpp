@@ -1,20 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <filesystem>
-#include <plica/meshes/read_msh.hpp>
+#include <plica/meshes/msh/parse_msh.hpp>
+#include <plica/meshes/msh/write_msh.hpp>
+#include <plica/meshes/surfaces/parse_obj.hpp>
+#include <plica/meshes/surfaces/parse_stl.hpp>
+#include <plica/meshes/tetgen/parse_tetgen.hpp>
+#include <plica/meshes/tetgen/write_tetgen.hpp>
+#include <plica/meshes/vtk/parse_vtk.hpp>
+#include <plica/meshes/vtk/parse_vtu.hpp>
+#include <plica/meshes/vtk/write_vtk.hpp>
 
 namespace plica {
 
-/// A format of mesh files.
+/// A format of files with meshes or surfaces.
 struct MeshFormat {
   const char* extension;    ///< lower case, without the dot
   const char* description;  ///< for help texts
-  TetMesh (*read)(const std::filesystem::path& path, MeshReport* report);
+  RawMesh (*parse)(const MemoryFile& file, MeshReport& report);
 };
 
-/// All of them. A new format is one file with a reader that ends in sound_mesh(), and one line here.
+/// All that hold tetrahedra. A new format is one file with a parser, and one line here.
 inline constexpr MeshFormat mesh_formats[] = {
-    {"msh", "Gmsh MSH 2.2 ASCII", read_msh},
+    {"msh", "Gmsh MSH 2.2 and 4.1, text and binary", parse_msh},
+    {"vtk", "VTK legacy, an unstructured grid, text and binary", parse_vtk},
+    {"vtu", "VTK XML, an unstructured grid in one piece, not compressed", parse_vtu},
+    {"ele", "TetGen, with the .node file beside it", parse_tetgen},
+    {"node", "TetGen, with the .ele file beside it", parse_tetgen},
+};
+
+/// All that hold triangles.
+inline constexpr MeshFormat surface_formats[] = {
+    {"obj", "Wavefront OBJ, its polygons", parse_obj},
+    {"stl", "STL, text and binary", parse_stl},
+    {"msh", "Gmsh MSH 2.2 and 4.1, its triangles", parse_msh},
+};
+
+/// A format that meshes are written in.
+struct MeshWriter {
+  const char* extension;
+  const char* name;  ///< to choose among those of an extension
+  const char* description;
+  WrittenMesh (*write)(const std::filesystem::path& path, const TetMesh& mesh);
+};
+
+/// All of them; of one extension the first is written when none is named.
+inline constexpr MeshWriter mesh_writers[] = {
+    {"msh", "msh41", "Gmsh MSH 4.1, text", write_msh41},
+    {"msh", "msh22", "Gmsh MSH 2.2, text", write_msh22},
+    {"vtk", "vtk", "VTK legacy 3.0, text", write_vtk},
+    {"vtu", "vtu", "VTK XML, raw appended arrays", write_vtu},
+    {"ele", "tetgen", "TetGen, with the .node file beside it", write_tetgen},
+    {"node", "tetgen", "TetGen, with the .ele file beside it", write_tetgen},
 };
 
 }  // namespace plica

@@ -5,8 +5,8 @@
 #include <plica/meshes/barycentric.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/sound_mesh.hpp>
+#include <plica/meshes/vertex_numbers.hpp>
 #include <sstream>
-#include <unordered_map>
 #include <utility>
 
 namespace plica {
@@ -16,11 +16,11 @@ namespace {
 constexpr double flat = 1e-9;  // six volumes over the longest edge cubed
 
 template <typename... Parts>
-[[noreturn]] void refuse(const RawMesh& raw, int line, const Parts&... parts) {
+[[noreturn]] void refuse(const RawMesh& raw, const Place& place, const Parts&... parts) {
   std::ostringstream text;
   text.precision(12);
   (text << ... << parts);
-  throw InputError(text.str(), {raw.file, line});
+  refuse(raw.file, place, text.str());
 }
 
 std::string nodes(const RawTet& tet) {
@@ -28,35 +28,6 @@ std::string nodes(const RawTet& tet) {
   for (const std::int64_t v : tet.vertices) text += (text.empty() ? "" : " ") + std::to_string(v);
   return text;
 }
-
-/// From the numbers in the file to positions in raw.vertices
-class Numbering {
- public:
-  explicit Numbering(const RawMesh& raw) : raw_(raw) {
-    index_.reserve(raw.vertices.size());
-    for (std::size_t v = 0; v < raw.vertices.size(); ++v) {
-      const RawVertex& vertex = raw.vertices[v];
-      if (!vertex.position.allFinite())
-        refuse(raw, vertex.line, "node ", vertex.tag, " is at ", vertex.position.transpose(), "; it must be finite");
-      const auto [first, is_new] = index_.try_emplace(vertex.tag, static_cast<int>(v));
-      if (!is_new)
-        refuse(raw, vertex.line, "node ", vertex.tag, " is defined again (first on line ", line_of(first->second), ")");
-    }
-  }
-
-  template <typename Who>
-  int at(std::int64_t tag, int line, const Who& who) const {
-    const auto found = index_.find(tag);
-    if (found == index_.end()) refuse(raw_, line, who(), " names node ", tag, ", which the file does not define");
-    return found->second;
-  }
-
- private:
-  int line_of(int vertex) const { return raw_.vertices[static_cast<std::size_t>(vertex)].line; }
-
-  const RawMesh& raw_;
-  std::unordered_map<std::int64_t, int> index_;
-};
 
 std::array<int, 4> sorted(std::array<int, 4> tet) {
   std::sort(tet.begin(), tet.end());
@@ -68,20 +39,20 @@ void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, (corners[j] - corners[i]).norm());
   if (!(std::abs(6.0 * volume) > flat * longest * longest * longest))
-    refuse(raw, tet.line, "tetrahedron ", tet.tag, " (nodes ", nodes(tet), ") has no volume: ", volume,
+    refuse(raw, tet.place, "tetrahedron ", tet.tag, " (nodes ", nodes(tet), ") has no volume: ", volume,
            " for a longest edge of ", longest);
 }
 
 // All vertices as yet, with their positions in the file as indices; the tetrahedra turned right side out
-void add_tets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh, MeshReport& report) {
+void add_tets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
   mesh.tets.reserve(raw.tets.size());
   for (const RawTet& tet : raw.tets) {
     std::array<int, 4> v;
     for (std::size_t k = 0; k < 4; ++k)
-      v[k] = numbering.at(tet.vertices[k], tet.line, [&] { return "tetrahedron " + std::to_string(tet.tag); });
+      v[k] = numbering.at(tet.vertices[k], tet.place, [&] { return "tetrahedron " + std::to_string(tet.tag); });
     const auto ascending = sorted(v);
     if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end())
-      refuse(raw, tet.line, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
+      refuse(raw, tet.place, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
     mesh.tets.push_back(v);
     const auto corners = corners_of(mesh, static_cast<int>(mesh.tets.size()) - 1);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
@@ -103,16 +74,18 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
       first = keys[k - 1].second, again = keys[k].second;
   if (again == keys.size()) return;
   const RawTet &one = raw.tets[first], &other = raw.tets[again];
-  refuse(raw, other.line, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " on line ", one.line,
+  refuse(raw, other.place, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " ", to_text(one.place),
          " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
 }
 
-void add_sets(const RawMesh& raw, const Numbering& numbering, TetMesh& mesh) {
+void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh) {
   const auto element = [] { return "an element"; };
-  for (const RawMention& mention : raw.others) numbering.at(mention.vertex, mention.line, element);
+  for (const RawTriangle& triangle : raw.triangles)
+    for (const std::int64_t v : triangle.vertices) numbering.at(v, triangle.place, element);
+  for (const RawMention& mention : raw.others) numbering.at(mention.vertex, mention.place, element);
   for (const auto& [name, mentions] : raw.vertex_sets) {
     std::vector<int>& set = mesh.vertex_sets[name];
-    for (const RawMention& mention : mentions) set.push_back(numbering.at(mention.vertex, mention.line, element));
+    for (const RawMention& mention : mentions) set.push_back(numbering.at(mention.vertex, mention.place, element));
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
   }
@@ -142,11 +115,11 @@ void drop_unreferenced(const RawMesh& raw, TetMesh& mesh, MeshReport& report) {
 }  // namespace
 
 TetMesh sound_mesh(const RawMesh& raw, MeshReport& report) {
-  if (raw.tets.empty()) refuse(raw, 0, "the file holds no tetrahedron");
+  if (raw.tets.empty()) refuse(raw, {}, "the file holds no tetrahedron");
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of tetrahedra", static_cast<double>(raw.tets.size()));
 
-  const Numbering numbering(raw);
+  const VertexNumbers numbering(raw);
   TetMesh mesh;
   mesh.region_names = raw.region_names;
   mesh.vertices.reserve(raw.vertices.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <plica/meshes/text_lines.hpp>
 
 namespace plica {
@@ -21,37 +21,54 @@ bool parse(std::string_view word, Number& value) {
 
 }  // namespace
 
-TextLines::TextLines(const std::filesystem::path& path) : file_(path.string()) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail("is a folder, not a file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) fail("cannot be opened");
-  content_.assign(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) fail("cannot be read");
+std::string lower_case(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+TextLines::TextLines(const MemoryFile& file, char comment) : file_(file), comment_(comment), end_(file.bytes.size()) {}
+
+TextLines::TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line)
+    : file_(file), next_(begin), end_(end), next_line_(first_line), place_{first_line}, part_(true) {}
+
+void TextLines::resume_at(std::size_t byte) {
+  next_ = std::min(byte, end_);
+  next_line_ = 0;
 }
 
 bool TextLines::next() {
-  while (next_ < content_.size()) {
-    const std::size_t end = std::min(content_.find('\n', next_), content_.size());
-    text_ = std::string_view(content_).substr(next_, end - next_);
-    next_ = std::min(end + 1, content_.size());
-    ++line_;
-    words_.clear();
-    for (std::size_t at = text_.find_first_not_of(blanks); at < text_.size();) {
-      const std::size_t stop = std::min(text_.find_first_of(blanks, at), text_.size());
-      words_.push_back(text_.substr(at, stop - at));
-      at = text_.find_first_not_of(blanks, stop);
-    }
-    if (words_.empty()) continue;
-    const auto first = words_.front().data() - text_.data(), last = words_.back().data() - text_.data();
-    text_ =
-        text_.substr(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first) + words_.back().size());
-    return true;
-  }
-  ended_ = true;
-  text_ = {};
-  words_.clear();
+  while (next_or_blank())
+    if (!words_.empty()) return true;
   return false;
+}
+
+bool TextLines::next_or_blank() {
+  words_.clear();
+  text_ = {};
+  ended_ = next_ >= end_;
+  if (ended_) return false;
+  place_ = next_line_ > 0 ? Place{next_line_++, -1} : Place{0, static_cast<std::int64_t>(next_)};
+  const std::string_view rest = std::string_view(file_.bytes).substr(next_, end_ - next_);
+  text_ = rest.substr(0, rest.find('\n'));
+  next_ = std::min(next_ + text_.size() + 1, end_);
+  if (comment_ != 0) text_ = text_.substr(0, text_.find(comment_));
+  split();
+  return true;
+}
+
+void TextLines::split() {
+  for (std::size_t at = text_.find_first_not_of(blanks); at < text_.size();) {
+    const std::size_t stop = std::min(text_.find_first_of(blanks, at), text_.size());
+    words_.push_back(text_.substr(at, stop - at));
+    at = text_.find_first_not_of(blanks, stop);
+  }
+  if (words_.empty()) {
+    text_ = {};
+    return;
+  }
+  const auto first = words_.front().data() - text_.data(), last = words_.back().data() - text_.data();
+  text_ = text_.substr(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first) + words_.back().size());
 }
 
 std::string_view TextLines::word(std::size_t word, std::string_view what) const {
@@ -74,18 +91,9 @@ std::int64_t TextLines::integer(std::size_t word, std::string_view what) const {
   return value;
 }
 
-void TextLines::fail(const std::string& message) const { throw InputError(message, where()); }
-
 void TextLines::expected(std::string_view what) const {
-  if (ended_) fail("expected " + std::string(what) + ", but the file ends");
+  if (ended_) fail("expected " + std::string(what) + (part_ ? ", but it ends here" : ", but the file ends"));
   fail("expected " + std::string(what) + ", found " + shown(text_));
-}
-
-std::string shown(std::string_view input) {
-  constexpr std::size_t longest = 60;
-  std::string text = "'";
-  for (const char c : input.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
-  return text + (input.size() > longest ? "...'" : "'");
 }
 
 }  // namespace plica

@@ -13,10 +13,10 @@ void expect_refused_with(const std::string& from, const std::string& to, int lin
 TEST(MalformedMsh, OtherFilesAndVersions) {
   expect_refused("", 0, {"$MeshFormat", "the file ends"});
   expect_refused("<?xml version=\"1.0\"?>\n", 1, {"$MeshFormat", "'<?xml version=\"1.0\"?>'"});
-  expect_refused_with("2.2 0 8", "4.1 0 8", 2, {"version is '4.1'", "MSH 2.2 ASCII", "-format msh22"});
-  expect_refused_with("2.2 0 8", "2.2 1 8", 2, {"'1', binary", "MSH 2.2 ASCII", "-format msh22"});
+  expect_refused_with("2.2 0 8", "4.0 0 8", 2, {"version is '4.0'", "2.2 and 4.1", "-format msh41"});
+  expect_refused_with("2.2 0 8", "2.2 2 8", 2, {"'2'", "0 (text) or 1 (binary)"});
   expect_refused_with("2.2 0 8", "2.2 0 4", 2, {"'4'", "expected 8"});
-  expect_refused_with("2.2 0 8", "2.2", 2, {"'2.2'", "2.2 0 8"});
+  expect_refused_with("2.2 0 8", "2.2", 2, {"'2.2'", "4.1 0 8"});
   expect_refused_with("$EndMeshFormat", "$End", 3, {"$EndMeshFormat", "'$End'"});
 }
 
@@ -45,7 +45,7 @@ TEST(MalformedMsh, Numbers) {
   expect_refused_with("10 0 0 1", "10 -inf 0 1", 16, {"coordinate x is '-inf'", "finite"});
   expect_refused_with("10 0 0 1", "10 0 0 1e999", 16, {"coordinate z is '1e999'", "number"});
   expect_refused_with("10 0 0 1", "10 0 0,5 1", 16, {"'0,5'", "number"});
-  expect_refused_with("10 0 0 1", "10 0 0", 16, {"'10 0 0'", "three coordinates"});
+  expect_refused_with("10 0 0 1", "10 0 0", 16, {"'10 0 0'", "coordinate z"});
   expect_refused_with("10 0 0 1", "10 0 0 1 7", 16, {"'10 0 0 1 7'", "three coordinates"});
   expect_refused_with("10 0 0 1", "1.5 0 0 1", 16, {"'1.5'", "integer"});
   expect_refused_with("10 0 0 1", "0 0 0 1", 16, {"node is 0", "1 or more"});
@@ -73,9 +73,9 @@ TEST(MalformedMsh, Elements) {
   expect_refused_with("7 4 2", "7 11 2", 22, {"type 11, a second-order tetrahedron"});
   expect_refused_with("6 2 2", "6 9 2", 21, {"type 9, a second-order triangle"});
   expect_refused_with("6 2 2", "6 77 2", 21, {"element 6 has type 77;"});
-  expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 2 1 1 1 2 3", 22, {"element 7, a tetrahedron with 2 tags, has 8"});
-  expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 3 1 1 1 2 3 10", 22, {"with 3 tags"});
-  expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 -1 1 1 1 2 3 10", 22, {"with -1 tags"});
+  expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 2 1 1 1 2 3", 22, {"line ends", "a node of an element"});
+  expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 3 1 1 1 2 3 10", 22, {"line ends", "a node of an element"});
+  expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 -1 1 1 1 2 3 10", 22, {"number of tags of an element is -1"});
   expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4", 22, {"line ends", "number of tags"});
   expect_refused_with("7 4 2 1 1 1 2 3 10", "7 4 2 x 1 1 2 3 10", 22, {"'x'", "physical group"});
   expect_refused_with("7 4 2 1 1", "7 4 2 -9223372036854775808 1", 22, {"-9223372036854775808", "32 bits"});

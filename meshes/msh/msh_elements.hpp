@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
+#include <plica/meshes/element_kind.hpp>
 
 namespace plica {
 
-/// A kind of element of the MSH formats (Gmsh reference manual, "MSH file format").
-struct MshElement {
-  int type;
-  const char* name;
-  int dimension;
-  int vertices;
-  bool taken;  ///< first order, and a tetrahedron or of lower dimension
-};
-
-inline constexpr MshElement msh_elements[] = {
+/// Of the MSH formats (Gmsh reference manual, "MSH file format").
+inline constexpr ElementKind msh_elements[] = {
     {15, "point", 0, 1, true},
     {1, "line", 1, 2, true},
     {2, "triangle", 2, 3, true},
@@ -40,12 +32,5 @@ inline constexpr MshElement msh_elements[] = {
     {30, "fourth-order tetrahedron", 3, 35, false},
     {92, "third-order hexahedron", 3, 64, false},
 };
-
-/// nullptr for a type that is not in the table.
-constexpr const MshElement* find_msh_element(std::int64_t type) {
-  for (const MshElement& element : msh_elements)
-    if (element.type == type) return &element;
-  return nullptr;
-}
 
 }  // namespace plica

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <plica/meshes/reordering.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr int bits = 21;  // per axis: 63 in all
+
+// From a cell of the cube with 2^21 cells along an edge to its number on the Hilbert curve (J. Skilling: Programming the
+// Hilbert curve. AIP Conf. Proc. 707, 2004)
+std::uint64_t hilbert_number(std::array<std::uint32_t, 3> x) {
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
+    const std::uint32_t p = q - 1;
+    for (std::uint32_t& xi : x) {
+      if (xi & q) {
+        x[0] ^= p;
+        continue;
+      }
+      const std::uint32_t exchanged = (x[0] ^ xi) & p;
+      x[0] ^= exchanged, xi ^= exchanged;
+    }
+  }
+  x[1] ^= x[0], x[2] ^= x[1];
+  std::uint32_t turn = 0;
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1)
+    if (x[2] & q) turn ^= q - 1;
+  std::uint64_t number = 0;
+  for (int b = bits - 1; b >= 0; --b)
+    for (const std::uint32_t xi : x) number = number << 1 | ((xi ^ turn) >> b & 1u);
+  return number;
+}
+
+std::uint64_t key_of(const Point& p, const Box& box, double size) {
+  std::array<std::uint32_t, 3> cell;
+  for (int a = 0; a < 3; ++a) {
+    const double at = size > 0.0 ? (p[a] - box.min[a]) / size : 0.0;
+    cell[static_cast<std::size_t>(a)] = static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0) * ((1u << bits) - 1));
+  }
+  return hilbert_number(cell);
+}
+
+}  // namespace
+
+Reordering locality_order(const TetMesh& mesh) {
+  const Box box = bounding_box(mesh.vertices);
+  const double size = (box.max - box.min).maxCoeff();
+  std::vector<std::uint64_t> keys;
+  keys.reserve(mesh.tets.size());
+  for (const auto& tet : mesh.tets) {
+    Point centroid = Point::Zero();
+    for (const int v : tet) centroid += mesh.vertices[static_cast<std::size_t>(v)] / 4.0;
+    keys.push_back(key_of(centroid, box, size));
+  }
+  Reordering order;
+  order.tets.resize(mesh.tets.size());
+  std::iota(order.tets.begin(), order.tets.end(), 0);
+  std::stable_sort(order.tets.begin(), order.tets.end(),
+                   [&](int a, int b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; });
+  std::vector<bool> taken(mesh.vertices.size(), false);
+  const auto take = [&](int v) {
+    if (!taken[static_cast<std::size_t>(v)]) order.vertices.push_back(v);
+    taken[static_cast<std::size_t>(v)] = true;
+  };
+  for (const int t : order.tets)
+    for (const int v : mesh.tets[static_cast<std::size_t>(t)]) take(v);
+  for (std::size_t v = 0; v < taken.size(); ++v) take(static_cast<int>(v));  // of no tetrahedron
+  return order;
+}
+
+TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
+  std::vector<int> new_number(mesh.vertices.size());
+  for (std::size_t v = 0; v < order.vertices.size(); ++v)
+    new_number[static_cast<std::size_t>(order.vertices[v])] = static_cast<int>(v);
+  TetMesh result;
+  result.vertices = permuted(mesh.vertices, order.vertices);
+  result.tets = permuted(mesh.tets, order.tets);
+  result.region = permuted(mesh.region, order.tets);
+  result.region_names = mesh.region_names;
+  result.vertex_sets = mesh.vertex_sets;
+  for (auto& tet : result.tets)
+    for (int& v : tet) v = new_number[static_cast<std::size_t>(v)];
+  for (auto& [name, set] : result.vertex_sets) {
+    for (int& v : set) v = new_number[static_cast<std::size_t>(v)];
+    std::sort(set.begin(), set.end());
+  }
+  return result;
+}
+
+double mean_vertex_span(const TetMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& tet : mesh.tets) {
+    const auto [least, most] = std::minmax_element(tet.begin(), tet.end());
+    sum += *most - *least;
+  }
+  return mesh.tets.empty() ? 0.0 : sum / static_cast<double>(mesh.tets.size());
+}
+
+}  // namespace plica

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <bit>
+#include <plica/meshes/vtk/write_vtk.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr int tet_type = 10;
+
+WrittenMesh noted(const TetMesh& mesh) {
+  WrittenMesh written;
+  leave_out_region_names(mesh, "region_", written);
+  leave_out_vertex_sets(mesh, written);
+  return written;
+}
+
+// Each array after its length in bytes
+class Appended {
+ public:
+  template <typename Number>
+  std::string array(const char* type, const char* name, int components, const std::vector<Number>& values) {
+    TextOut tag;
+    tag << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
+        << "\" format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
+    const std::uint64_t size = values.size() * sizeof(Number);
+    bytes_.append(reinterpret_cast<const char*>(&size), sizeof(size));
+    bytes_.append(reinterpret_cast<const char*>(values.data()), size);
+    return tag.take();
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace
+
+WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh) {
+  WrittenMesh written = noted(mesh);
+  const std::size_t cells = mesh.tets.size();
+  TextOut out;
+  out << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << mesh.vertices.size()
+      << " double\n";
+  for (const Point& p : mesh.vertices) out << p.x() << " " << p.y() << " " << p.z() << "\n";
+  out << "CELLS " << cells << " " << 5 * cells << "\n";
+  for (const auto& [a, b, c, d] : mesh.tets) out << "4 " << a << " " << b << " " << c << " " << d << "\n";
+  out << "CELL_TYPES " << cells << "\n";
+  for (std::size_t t = 0; t < cells; ++t) out << tet_type << "\n";
+  if (!mesh.region.empty()) out << "CELL_DATA " << cells << "\nSCALARS region int 1\nLOOKUP_TABLE default\n";
+  for (const std::int64_t region : region_numbers(mesh)) out << region << "\n";
+  written.files = {{path.string(), out.take()}};
+  return written;
+}
+
+WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh) {
+  WrittenMesh written = noted(mesh);
+  std::vector<double> points;
+  for (const Point& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), p.z()});
+  std::vector<std::int64_t> corners, ends;
+  for (const auto& tet : mesh.tets) {
+    corners.insert(corners.end(), tet.begin(), tet.end());
+    ends.push_back(static_cast<std::int64_t>(corners.size()));
+  }
+  const std::vector<std::uint8_t> types(mesh.tets.size(), tet_type);
+  Appended appended;
+  TextOut out;
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
+      << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
+      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.vertices.size()
+      << "\" NumberOfCells=\"" << mesh.tets.size() << "\">\n<Points>\n"
+      << appended.array("Float64", "Points", 3, points) << "</Points>\n<Cells>\n"
+      << appended.array("Int64", "connectivity", 1, corners) << appended.array("Int64", "offsets", 1, ends)
+      << appended.array("UInt8", "types", 1, types) << "</Cells>\n";
+  if (!mesh.region.empty())
+    out << "<CellData>\n" << appended.array("Int64", "region", 1, region_numbers(mesh)) << "</CellData>\n";
+  out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << appended.bytes()
+      << "\n</AppendedData>\n</VTKFile>\n";
+  written.files = {{path.string(), out.take()}};
+  return written;
+}
+
+}  // namespace plica

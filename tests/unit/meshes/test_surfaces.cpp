@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/read_surface.hpp>
+
+#include "mesh_input.hpp"
+
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+// A tetrahedron; line 1 is the first vertex, 5 the first face
+const std::string obj =
+    "v 0 0 0\nv 1 0 0 # a corner\nv 0 1 0 1.0\nv 0 0 1 0.5 0.5 0.5\nf 1 3 2\nf 1/1 2/2 4/3\nf 2//1 3//1 4//1\nf -4 -1 "
+    "-2\n";
+// A triangle; line 4 is its first corner
+const std::string facet =
+    "solid one\n facet normal 0 0 nan\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 -0\n  endloop\n"
+    " endfacet\n";
+const std::string stl = facet + "endsolid one\n";
+
+TriangleSurface read(const MemoryFile& file) { return read_surface(file); }
+
+void expect_surface_refused(const MemoryFile& file, const std::string& place, const std::vector<std::string>& parts) {
+  expect_refused([&] { read(file); }, place, parts);
+}
+
+TEST(Surfaces, ObjWithEveryFormOfCorner) {
+  SurfaceReport report;
+  const TriangleSurface surface = read_surface(MemoryFile{"m.obj", obj}, &report);
+  EXPECT_EQ(surface.vertices[3], Point(0, 0, 1));
+  EXPECT_EQ(surface.triangles, (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
+  EXPECT_TRUE(report.closed());
+  EXPECT_EQ(report.parts, 1);
+  EXPECT_FALSE(report.turned);
+  EXPECT_NEAR(enclosed_volume(surface), 1.0 / 6.0, 1e-15);
+}
+
+TEST(Surfaces, ObjPolygonsAreCutOrRefused) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.8 0.8 0\nf 1 2 3 4\n";
+  EXPECT_EQ(read({"m.obj", square}).triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  expect_surface_refused({"m.obj", with(square, "f 1 2 3 4", "f 2 3 4 5")}, "m.obj:6", {"4 corners", "cut"});
+}
+
+TEST(Surfaces, TurnsAClosedSurfaceThatIsInsideOut) {
+  std::string inside_out = with(with(obj, "f 1 3 2", "f 1 2 3"), "f 1/1 2/2 4/3", "f 2 1 4");
+  inside_out = with(with(inside_out, "f 2//1 3//1", "f 3 2"), "f -4 -1 -2", "f 1 3 4");
+  SurfaceReport report;
+  const TriangleSurface surface = read_surface(MemoryFile{"m.obj", inside_out}, &report);
+  EXPECT_TRUE(report.turned);
+  EXPECT_NEAR(enclosed_volume(surface), 1.0 / 6.0, 1e-15);
+}
+
+TEST(Surfaces, CountsWhatIsNotClosed) {
+  SurfaceReport report;
+  const auto read_with = [&](const std::string& from, const std::string& to) {
+    read_surface(MemoryFile{"m.obj", with(with(obj, "f -4 -1 -2", "f 1 4 3"), from, to)}, &report);
+    return report;
+  };
+  EXPECT_EQ(read_with("f 1 3 2\n", "").open_edges, 3);
+  EXPECT_FALSE(report.closed());
+  EXPECT_EQ(read_with("f 1 3 2\n", "f 1 2 3\n").inconsistent_edges, 3);
+  EXPECT_EQ(read_with("f 1 3 2\n", "v 1 1 0\nf 1 3 2\nf 2 3 5\n").crowded_edges, 1);
+  EXPECT_EQ(read_with("f 1 3 2\n", "f 1 3 2\nf 3 2 1\n").repeated, 1);
+  EXPECT_TRUE(report.closed());
+  EXPECT_EQ(read_with("f 1 3 2\n", "f 1 3 2\nf 3 3 1\n").collapsed, 1);
+  EXPECT_EQ(read_with("f 1 3 2\n", "v 9 9 9\nf 1 3 2\n").unreferenced, 1);
+  EXPECT_EQ(read_with("f 1 3 2\n", "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 3 2\nf 5 6 7\n").parts, 2);
+}
+
+TEST(Surfaces, EveryFormatHoldsTheSameBlocks) {
+  for (const char* name : {"blocks.stl", "blocks_binary.stl", "blocks.obj"}) {
+    SCOPED_TRACE(name);
+    SurfaceReport report;
+    const TriangleSurface surface = read_surface(sample(name), &report);
+    // Gmsh wrote the groups of surfaces, and turned one of them
+    const bool whole = std::string(name) == "blocks.obj";
+    EXPECT_EQ(surface.triangles.size(), whole ? 40u : 20u);
+    EXPECT_EQ(report.open_edges, whole ? 0 : 4);
+    EXPECT_EQ(report.crowded_edges, 0);
+    EXPECT_EQ(report.inconsistent_edges, whole ? 0 : 4);
+    EXPECT_NEAR(surface_area(surface), whole ? 10 * 4e-4 : 5 * 4e-4, 1e-9);
+  }
+  for (const char* name : {"blocks_22.msh", "blocks_41_binary.msh"}) {
+    SurfaceReport report;
+    EXPECT_EQ(read_surface(sample(name), &report).triangles.size(), 20u);
+    EXPECT_EQ(report.open_edges, 4);
+  }
+}
+
+TEST(Surfaces, StlCornersAtOnePlaceAreOneVertex) {
+  const TriangleSurface surface = read(sample("blocks.stl"));
+  EXPECT_EQ(surface.vertices.size(), 13u);
+  EXPECT_EQ(read({"m.stl", stl}).vertices.size(), 3u);
+  const std::string below = with(with(facet, "vertex 1 0 0", "vertex 0 1 0"), "vertex 0 1 -0", "vertex 1 -0 0");
+  const TriangleSurface both = read({"m.stl", stl + below + "endsolid\n"});
+  EXPECT_EQ(both.vertices.size(), 3u);
+  EXPECT_EQ(both.triangles.size(), 2u);
+}
+
+TEST(Surfaces, CutAtAnyByteIsRefused) {
+  expect_whole({"m.stl", stl}, 5, read);  // the name after endsolid
+  expect_whole(sample("blocks_binary.stl"), 0, read);
+}
+
+TEST(Surfaces, AnyByteChangedIsRefusedOrSound) {
+  const auto check = [](const TriangleSurface& surface) { EXPECT_GT(surface_area(surface), 0.0); };
+  change_every_byte({"m.obj", obj}, read, check);
+  change_every_byte({"m.stl", stl}, read, check);
+  change_every_byte(sample("blocks_binary.stl"), read, check);
+}
+
+TEST(MalformedSurfaces, Obj) {
+  const auto refused = [](const std::string& from, const std::string& to, int line,
+                          const std::vector<std::string>& parts) {
+    expect_surface_refused({"m.obj", with(obj, from, to)}, "m.obj:" + std::to_string(line), parts);
+  };
+  expect_surface_refused({"m.obj", ""}, "m.obj", {"no triangle"});
+  refused("v 0 0 0", "v 0 0", 1, {"three coordinates"});
+  refused("v 0 0 0", "v 0 inf 0", 1, {"coordinate y is 'inf'"});
+  refused("0 1 0 1.0", "0 1 0 0.5", 3, {"weight", "'0.5'"});
+  refused("f 1 3 2", "f 1 3", 5, {"three corners"});
+  refused("f 1 3 2", "f 1 3 9", 5, {"vertex 9", "there are 4"});
+  refused("f 1 3 2", "f 1 3 0", 5, {"'0'", "from 1"});
+  refused("f 1 3 2", "f 1 3 -5", 5, {"'-5'", "only 4 vertices"});
+  refused("f 1 3 2", "f 1 3 x", 5, {"'x'"});
+  refused("f 1 3 2", "f 1 3 \\\n2", 5, {"not supported"});
+  refused("f 1 3 2", "curv 1 2 3", 5, {"'curv'", "supported are polygons"});
+  refused("v 0 1 0 1.0", "v 2 0 0", 5, {"triangle 1 has no area"});
+}
+
+TEST(MalformedSurfaces, Stl) {
+  const auto refused = [](const std::string& from, const std::string& to, int line,
+                          const std::vector<std::string>& parts) {
+    expect_surface_refused({"m.stl", with(stl, from, to)}, "m.stl:" + std::to_string(line), parts);
+  };
+  expect_surface_refused({"m.stl", "liquid"}, "m.stl", {"no STL file"});
+  refused("vertex 1 0 0", "vertex 1 0", 5, {"three coordinates"});
+  refused("vertex 1 0 0", "vertex 1 0 nan", 5, {"coordinate z is 'nan'"});
+  refused("   vertex 1 0 0\n", "", 6, {"vertex 3 of 3", "'endloop'"});
+  refused("endloop", "vertex 2 2 2\nendloop", 7, {"endloop after three vertices"});
+  refused("outer loop", "inner loop", 3, {"outer loop"});
+  refused("endsolid one", "facets", 9, {"facet or endsolid"});
+  const MemoryFile file = sample("blocks_binary.stl");
+  MemoryFile changed = file;
+  changed.bytes[82] = 1;
+  expect_surface_refused(changed, file.name + ": byte 80", {"triangles is 65556", "3277884 bytes", "has 1084"});
+  changed = file;
+  std::memcpy(changed.bytes.data() + 84 + 12 + 4, "\0\0\xc0\x7f", 4);
+  expect_surface_refused(changed, file.name + ": byte 100", {"coordinate y is nan"});
+}
+
+}  // namespace

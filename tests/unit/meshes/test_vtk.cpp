@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+#include <plica/meshes/mesh_quality.hpp>
+
+#include "mesh_input.hpp"
+
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+// Two tetrahedra on a common face and a triangle; line 6 is point 0, 11 cell 0, 15 its type
+const std::string two_tets =
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0\n1 0 0\n0 1 0 0 0 1\n1 1 "
+    "1\n"
+    "CELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 1 2 3 4\nCELL_TYPES 3\n5\n10 10\n"
+    "CELL_DATA 3\nSCALARS quality int 1\nLOOKUP_TABLE default\n7 8 9\nFIELD FieldData 1\nregion 1 3 int\n0 5 2\n";
+
+const std::string two_tets_5 =
+    "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+    "FIELD FieldData 1\nTIME 1 1 double\n0.5\nMETADATA\nINFORMATION 1\nNAME A LOCATION B\n\n"
+    "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\nMETADATA\nINFORMATION 0\n\n"
+    "CELLS 4 11\nOFFSETS vtktypeint64\n0 3 7 11\nCONNECTIVITY vtktypeint64\n0 1 2 0 1 2 3 1 2 3 4\n"
+    "CELL_TYPES 3\n5 10 10\nPOINT_DATA 5\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 nan 0\n"
+    "CELL_DATA 3\nFIELD FieldData 2\nregion 1 3 int\n0 5 2\nMETADATA\nINFORMATION 0\n\nother 2 3 double\n1 2 3 4 5 6\n";
+
+TetMesh read(const MemoryFile& file) { return read_mesh(file); }
+TetMesh read_text(const std::string& text) { return read_mesh(MemoryFile{"m.vtk", text}); }
+
+void expect_refused_with(const std::string& from, const std::string& to, int line,
+                         const std::vector<std::string>& parts) {
+  expect_refused(MemoryFile{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line), parts);
+}
+
+TEST(Vtk, TakesTetrahedraAndRegions) {
+  MeshReport report;
+  const TetMesh mesh = read_mesh(MemoryFile{"m.vtk", two_tets}, &report);
+  ASSERT_EQ(mesh.vertices.size(), 5u);
+  EXPECT_EQ(mesh.vertices[3], Point(0, 0, 1));
+  EXPECT_EQ(mesh.tets, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"region_2", "region_5"}));
+  EXPECT_EQ(mesh.region, (std::vector<int>{1, 0}));
+  EXPECT_EQ(report.format, "VTK legacy 3.0 ASCII");
+  EXPECT_EQ(report.tet_tags, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(report.other_elements, (std::map<std::string, int>{{"triangle", 1}}));
+  expect_same(read_text(two_tets_5), mesh);
+}
+
+TEST(Vtk, RegionsAreTheArrayOfThatNameOrTheFirstOfIntegers) {
+  EXPECT_EQ(read_text(with(two_tets, "region 1 3", "other 1 3")).region_names,
+            (std::vector<std::string>{"quality_8", "quality_9"}));
+  EXPECT_TRUE(read_text(with(two_tets, "0 5 2", "7 0 0")).region_names.empty());
+  EXPECT_TRUE(read_text(two_tets.substr(0, two_tets.find("CELL_DATA"))).region_names.empty());
+}
+
+TEST(Vtk, EveryVariantHoldsTheSameBlocks) {
+  const TetMesh first = read(sample("blocks_20.vtk"));
+  for (const std::string name : {"20", "42", "51"})
+    for (const std::string form : {"", "_binary"}) {
+      SCOPED_TRACE(name + form);
+      MeshReport report;
+      const TetMesh mesh = read_mesh(sample("blocks_" + name + form + ".vtk"), &report);
+      EXPECT_EQ(report.format,
+                "VTK legacy " + name.substr(0, 1) + "." + name.substr(1) + (form.empty() ? " ASCII" : " binary"));
+      EXPECT_EQ(mesh.vertices.size(), 23u);
+      EXPECT_EQ(mesh.tets, first.tets);
+      EXPECT_EQ(mesh.region, first.region);
+      const std::string array = name == "20" ? "CellEntityIds" : "region";
+      EXPECT_EQ(mesh.region_names, (std::vector<std::string>{array + "_1", array + "_2"}));
+      EXPECT_NEAR(mesh_quality(mesh).volume, 1.6e-5, 1e-17);
+    }
+}
+
+// The arrays after the types may be cut off without a trace
+TEST(Vtk, CutAtAnyByteIsRefused) {
+  const TetMesh whole = read(sample("blocks_51.vtk"));
+  for (const char* name : {"blocks_51.vtk", "blocks_51_binary.vtk", "blocks_42_binary.vtk"}) {
+    SCOPED_TRACE(name);
+    const MemoryFile file = sample(name);
+    for (std::size_t bytes = 0; bytes < file.bytes.size(); ++bytes) {
+      try {
+        const TetMesh mesh = read({file.name, file.bytes.substr(0, bytes)});
+        EXPECT_EQ(mesh.tets, whole.tets) << bytes;
+        EXPECT_EQ(mesh.vertices.size(), whole.vertices.size()) << bytes;
+      } catch (const InputError&) {
+      }
+    }
+    const std::size_t needed = file.bytes.find("CELL_DATA") - 2;
+    expect_whole({file.name, file.bytes.substr(0, needed)}, 0, read);
+  }
+}
+
+TEST(Vtk, AnyByteChangedIsRefusedOrSound) {
+  const auto check = [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); };
+  change_every_byte({"m.vtk", two_tets}, read, check);
+  change_every_byte({"m.vtk", two_tets_5}, read, check);
+  for (const char* name : {"blocks_42_binary.vtk", "blocks_51_binary.vtk"})
+    change_every_byte(sample(name), read, check, {'\0', '\x01', '\xff'});
+}
+
+TEST(MalformedVtk, Headings) {
+  expect_refused(MemoryFile{"m.vtk", ""}, "m.vtk", {"# vtk DataFile Version", "the file ends"});
+  expect_refused_with("3.0", "6.0", 1, {"version is '6.0'", "1.0 to 5.1"});
+  expect_refused_with("ASCII", "TEXT", 3, {"'TEXT'", "ASCII or BINARY"});
+  expect_refused_with("UNSTRUCTURED_GRID", "POLYDATA", 4, {"DATASET UNSTRUCTURED_GRID", "'DATASET POLYDATA'"});
+  expect_refused_with("DATASET UNSTRUCTURED_GRID\n", "", 4, {"DATASET UNSTRUCTURED_GRID"});
+  expect_refused_with("CELL_TYPES 3", "CELL_KINDS 3", 14, {"keyword", "'CELL_KINDS 3'"});
+  expect_refused(MemoryFile{"m.vtk", two_tets.substr(0, two_tets.find("CELL_TYPES"))}, "m.vtk:13",
+                 {"CELL_TYPES", "ends"});
+}
+
+TEST(MalformedVtk, Points) {
+  expect_refused_with("5 double", "5 doubel", 5, {"'doubel'", "did you mean 'double'"});
+  expect_refused_with("5 double", "99999999999 double", 5, {"99999999999", "room for"});
+  expect_refused_with("5 double", "-5 double", 5, {"-5"});
+  expect_refused_with("5 double", "6 double", 10, {"coordinate x", "'CELLS'"});
+  expect_refused_with("5 double", "4 double", 9, {"keyword", "'1 1 1'"});
+  expect_refused_with("0 1 0 0 0 1", "0 1 0 0 0 1 1", 9, {"'1' is too much", "the points"});
+  expect_refused_with("0 1 0 0 0 1", "0 1 0 0 nan 1", 8, {"coordinate y is 'nan'"});
+  expect_refused_with("4 1 2 3 4", "4 1 2 3 5", 13, {"tetrahedron 2 names node 5"});
+}
+
+TEST(MalformedVtk, Cells) {
+  expect_refused_with("CELLS 3 14", "CELLS 3 15", 13, {"take 14 numbers and not 15"});
+  expect_refused_with("CELLS 3 14", "CELLS 3 13", 13, {"points of cell 2 is 4", "4 of 13"});
+  expect_refused_with("CELLS 3 14", "CELLS 4 14", 14, {"number of points of a cell", "'CELL_TYPES'"});
+  expect_refused_with("CELLS 3 14", "CELLS 3 99999999999", 10, {"99999999999", "room for"});
+  expect_refused_with("CELLS 3 14\n3 0 1 2", "CELLS 3 15\n4 0 1 2 3", 11,
+                      {"cell 0, a triangle, has 4 points", "expected 3"});
+  expect_refused_with("5\n10 10", "5\n10 12", 16, {"cell 2 has type 12, a hexahedron", "supported"});
+  expect_refused_with("5\n10 10", "5\n10 99", 16, {"cell 2 has type 99;"});
+  expect_refused_with("CELL_TYPES 3\n5\n", "CELL_TYPES 2\n", 15, {"there are 2 types for 3 cells"});
+  expect_refused_with("4 1 2 3 4", "4 1 2 3 0", 13, {"tetrahedron 2 repeats tetrahedron 1 on line 12"});
+  const auto refuse_5 = [](const std::string& from, const std::string& to, int line,
+                           const std::vector<std::string>& parts) {
+    expect_refused(MemoryFile{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line), parts);
+  };
+  refuse_5("0 3 7 11\n", "1 3 7 11\n", 19, {"first offset is 1"});
+  refuse_5("0 3 7 11\n", "0 3 7 10\n", 19, {"use 10 of 11"});
+  refuse_5("0 3 7 11\n", "0 3 12 11\n", 19, {"cell 1 is from 3 to 12 of 11"});
+  refuse_5("0 3 7 11\n", "0 3 2 11\n", 19, {"cell 1 is from 3 to 2"});
+  refuse_5("OFFSETS vtktypeint64", "OFFSETS double", 18, {"an offset is no integer"});
+  refuse_5("OFFSETS", "OFSETS", 18, {"OFFSETS vtktypeint64", "'OFSETS vtktypeint64'"});
+}
+
+TEST(MalformedVtk, Arrays) {
+  expect_refused_with("CELL_DATA 3", "CELL_DATA 4", 17, {"4 for 3 cells"});
+  expect_refused_with("LOOKUP_TABLE default\n", "", 19, {"LOOKUP_TABLE default", "'7 8 9'"});
+  expect_refused_with("region 1 3 int", "region 1 3 double", 22, {"'region'", "one integer per cell"});
+  expect_refused_with("region 1 3 int", "region 1 2 int", 23, {"'2' is too much"});
+  expect_refused_with("region 1 3 int", "region 1 3 string", 22, {"'string'", "choices"});
+  expect_refused_with("region 1 3 int", "region 0 3 int", 22, {"components is 0"});
+  expect_refused_with("FieldData 1", "FieldData 2", 23, {"array 2 of 2", "the file ends"});
+  expect_refused_with("0 5 2", "0 5 x", 23, {"a region is 'x'"});
+}
+
+TEST(MalformedVtk, Binary) {
+  const MemoryFile file = sample("blocks_51_binary.vtk");
+  const std::size_t points = file.bytes.find("double\n") + 7;
+  const auto place = [&](std::size_t at) { return file.name + ": byte " + std::to_string(at); };
+  MemoryFile changed = file;
+  changed.bytes.replace(points + 8, 2, "\x7f\xf8");
+  expect_refused(changed, place(points + 8), {"coordinate y is nan"});
+  changed = file;
+  changed.bytes.resize(points + 100);
+  expect_refused(changed, place(points), {"number of points is 23", "room for 4"});
+}
+
+}  // namespace
