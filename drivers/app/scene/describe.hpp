@@ -45,7 +45,7 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("box", o.box, BoxRecipe{}, "a box of cells");
   v.alternative("ball", o.ball, BallRecipe{}, "a ball");
   v.alternative("cylinder", o.cylinder, CylinderRecipe{}, "a cylinder");
-  v.alternative_value("file", o.file, Text{}, "a Gmsh file (MSH 2.2, ASCII), relative to the scene");
+  v.alternative_value("file", o.file, Text{}, "a mesh file (.msh, .vtk, .vtu, .ele), relative to the scene");
   v("scale", o.scale, Quantity{number, positive}, "metres per unit of that file: 0.001 for millimetres");
 }
 
