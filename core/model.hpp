@@ -23,6 +23,7 @@ struct State {
   Vectors<B> v;
 
   State() = default;
+  State(const Vectors<B>& u_, const Vectors<B>& v_) : u(u_), v(v_) {}
   State(const std::string& name, int vertices)
       : u("plica::" + name + ".u", vertices), v("plica::" + name + ".v", vertices) {}
 

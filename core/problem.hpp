@@ -122,6 +122,7 @@ struct Problem {
   Point gravity = Point::Zero();  ///< [m/s^2]
   IntegrationOptions integration;
   ContactOptions contact;
+  bool surface_forces = false;  ///< the caller will put forces of its own on the surface: embed it in every level
 };
 
 }  // namespace plica

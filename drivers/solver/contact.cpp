@@ -97,18 +97,11 @@ ContactPoints<B> Contact<B>::make_points(bool implicit) const {
 }
 
 template <class B>
-void scatter(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const Vectors<B>& force,
-             const Vectors<B>& f) {
-  Kokkos::parallel_for("plica::contact_scatter", Kokkos::RangePolicy<typename B::Exec>(exec, 0, surface.touched),
-                       ScatterToVertices<B>{surface, force, f});
-}
-
-template <class B>
 void Contact<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
                             const ContactPoints<B>& points, const Vectors<B>& f) const {
   for (std::size_t i = 0; i < obstacles_.size(); ++i)
     obstacles_[i]->forces(exec, level.surface, s, time, i == 0, points);
-  scatter<B>(exec, level.surface, points.force, f);
+  scatter_to_vertices<B>(exec, level.surface, points.force, f);
 }
 
 template <class B>
@@ -116,7 +109,7 @@ void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<
                            double ahead, const ContactPoints<B>& points, const Vectors<B>& f) const {
   for (std::size_t i = 0; i < obstacles_.size(); ++i)
     obstacles_[i]->linearise(exec, level.surface, s, time, h, ahead, i == 0, points);
-  scatter<B>(exec, level.surface, points.force, f);
+  scatter_to_vertices<B>(exec, level.surface, points.force, f);
 }
 
 template <class B>
@@ -124,7 +117,7 @@ void Contact<B>::add_product(const Exec& exec, const Level<B>& level, const Vect
                              const ContactPoints<B>& points, const Vectors<B>& q) const {
   Kokkos::parallel_for("plica::contact_product", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.points),
                        PointProduct<B>{level.surface, p, points.block, points.force});
-  scatter<B>(exec, level.surface, points.force, q);
+  scatter_to_vertices<B>(exec, level.surface, points.force, q);
 }
 
 template <class B>

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/level_forces.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
+#include <plica/kernels/explicit/updates.hpp>
 
 namespace plica {
 
 template <class B>
 LevelForces<B>::LevelForces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
                             std::shared_ptr<const Contact<B>> contact, bool implicit, StageClock<B>* clock, int level)
-    : elasticity_(std::move(elasticity)), contact_(std::move(contact)), clock_(clock), level_(level) {
+    : elasticity_(std::move(elasticity)),
+      contact_(std::move(contact)),
+      implicit_(implicit),
+      clock_(clock),
+      level_(level) {
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
   if (contact_) points_ = contact_->make_points(implicit);
 }
@@ -25,6 +30,7 @@ template <class B>
 void LevelForces<B>::evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
   if (contact_) book("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
+  if (external_) book("external", [&] { ask_caller(level, state, time, 0, 0, f); });
 }
 
 template <class B>
@@ -32,6 +38,21 @@ void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, dou
                                const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
   if (contact_) book("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
+  if (external_) book("external", [&] { ask_caller(level, state, time, h, ahead, f); });
+}
+
+template <class B>
+void LevelForces<B>::set_external(const ExternalForces<B>& forces, const Vectors<B>& rest) {
+  external_ = forces;
+  rest_ = rest;
+  external_stiffness_ = implicit_ && forces ? Blocks<B>("plica::external.stiffness", rest.extent(0)) : Blocks<B>();
+}
+
+template <class B>
+void LevelForces<B>::ask_caller(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
+                                const Vectors<B>& f) {
+  if (implicit_) Kokkos::deep_copy(clock_->exec(), external_stiffness_, typename B::Real(0));
+  external_({clock_->exec(), level_, time, rest_, state.u, state.v, f, level.surface, h, ahead, external_stiffness_});
 }
 
 template <class B>
@@ -49,6 +70,9 @@ void LevelForces<B>::product(const Level<B>& level, const State<B>& state, const
                        NewtonProduct<B>{level.model.patches, level.model.mass, p, level.partial, q,
                                         static_cast<Real>(inertia), static_cast<Real>(h * h)});
   if (contact_) contact_->add_product(exec, level, p, points_, q);
+  if (external_)
+    update_vertices<B>(exec, "plica::external_product", level.model.vertices,
+                       AddBlockProduct<B>{external_stiffness_, p, q, static_cast<Real>(h * h)});
 }
 
 template <class B>
@@ -63,6 +87,9 @@ void LevelForces<B>::preconditioner(const Level<B>& level, const State<B>& state
                                            static_cast<Real>(inertia), static_cast<Real>(h * h), direction});
   }
   if (contact_) contact_->add_diagonal(exec, level, points_, blocks);
+  if (external_)
+    update_vertices<B>(exec, "plica::external_diagonal", level.model.vertices,
+                       AddBlocks<B>{external_stiffness_, blocks, static_cast<Real>(h * h)});
   Kokkos::parallel_for("plica::invert_blocks", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
                        InvertBlocks<B>{level.model, blocks, static_cast<Real>(inertia)});
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <functional>
 #include <memory>
 #include <plica/core/level.hpp>
 #include <plica/core/small.hpp>
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/external_forces.hpp>
 #include <plica/drivers/solver/stage_clock.hpp>
 
 namespace plica {
 
-/// All forces on one level: internal, gravity, contact. What the scene does not have is not there.
+/// All forces on one level: internal, gravity, contact, the caller's. What the scene does not have is not there.
 template <class B>
 class LevelForces {
  public:
@@ -43,6 +43,8 @@ class LevelForces {
   const Contact<B>* contact() const { return contact_.get(); }
   const ContactPoints<B>& points() const { return points_; }
   long evaluations() const { return evaluations_; }
+  /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at rest [m].
+  void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);
   /// Evaluations are numbered from 1 in each macro step, for the element flags.
   void begin_macro_step() { evaluation_ = 0; }
 
@@ -51,12 +53,18 @@ class LevelForces {
   Vec3<typename B::Real> gravity_;
   std::shared_ptr<const Contact<B>> contact_;
   ContactPoints<B> points_;
+  bool implicit_;
   StageClock<B>* clock_;
   int level_;
+  ExternalForces<B> external_;
+  Vectors<B> rest_;
+  Blocks<B> external_stiffness_;  ///< implicit levels only
   long evaluations_ = 0;
   int evaluation_ = 0;
 
   void elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f);
+  void ask_caller(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
+                  const Vectors<B>& f);
 };
 
 }  // namespace plica

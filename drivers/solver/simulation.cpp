@@ -32,6 +32,7 @@ void Simulation<B>::step() {
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
   Inside& s = *inside_;
+  if (s.budget_opens) s.open_budget();
   const Energies e = s.meter.motion();
   if (auto inverted = find_inverted<B>(s.built)) return inverted;
   if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential)) return locate_failure<B>("non_finite", s.built, s.kept);
@@ -73,10 +74,14 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
   s.hierarchy().exec().fence("plica::set_state");
   copy(displacement, state.u, "displacements");
   copy(velocity, state.v, "velocities");
-  for (auto& part : s.hierarchy().levels) part.level.flags.clear(s.hierarchy().exec());
-  s.built.cycle->begin(s.hierarchy());
-  s.keep();
-  s.start_energy();
+  s.restart();
+}
+
+template <class B>
+void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
+  Inside& s = *inside_;
+  for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].forces->set_external(forces, s.rest_positions(i));
+  if (forces) s.budget_known = false;
 }
 
 template <class B>

@@ -4,7 +4,9 @@
 #include <memory>
 #include <optional>
 #include <plica/core/backend.hpp>
+#include <plica/core/device_array.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/solver/external_forces.hpp>
 #include <string>
 #include <vector>
 
@@ -95,9 +97,27 @@ class Simulation {
   double worst_residual() const;  ///< of all macro steps so far
 
   /// A level's fields as the device holds them, [vertices][3]: displacement from the placed rest mesh [m] and velocity
-  /// [m/s]. step() updates them in place.
+  /// [m/s]. step() updates them in place; they may outlive the simulation.
   Vectors<B> displacement(int level = 0) const;
   Vectors<B> velocity(int level = 0) const;
+
+  /// Into views of the caller's on the device, [vertices][3] or [surface points][3], float or double, in any layout:
+  /// positions [m] and velocities [m/s] after the steps enqueued so far, in input order. Enqueues, does not wait; a level's
+  /// first call uploads its rest positions. Throws InputError where the sizes differ.
+  void read_positions(const DeviceOutput<B>& to, int level = 0) const;
+  void read_velocities(const DeviceOutput<B>& to, int level = 0) const;
+  void read_surface_positions(const DeviceOutput<B>& to) const;
+  void read_surface_velocities(const DeviceOutput<B>& to) const;
+
+  /// The other way: replaces level 0's state by that in views of the caller's. The next cycle restricts it to the others.
+  /// Enqueues, does not wait; the views must stay as they are until the work is done.
+  void write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities);
+
+  /// From now on asks this function for more forces, on every level, at every state about to be integrated; an empty one
+  /// ends that. The library cannot know their stiffness: explicit levels are stable up to h^2 k < 4 m of a vertex they act on,
+  /// about, and implicit ones take it from ForceRequest::stiffness. Since such forces may do work, check() no longer compares
+  /// energies.
+  void set_external_forces(const ExternalForces<B>& forces);
 
   /// Host copies; they wait. Positions [m] of a level's vertices, or of the embedded surface's, in input order.
   std::vector<Point> positions(int level = 0) const;

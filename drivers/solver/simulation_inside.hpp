@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/parts.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 
@@ -16,23 +17,24 @@ struct Simulation<B>::Inside {
   Inside(const Problem& p, const Exec& exec)
       : problem(p), built(build_hierarchy<B>((validate(p), p), exec)), meter(*built.hierarchy, p.gravity) {
     problem.body.levels.clear();  // the placed meshes in use are in `built`
+    rest.resize(built.hierarchy->levels.size());
     for (const auto& part : built.hierarchy->levels) kept.emplace_back("kept", part.level.model.vertices);
     budget_known =
         problem.body.prescribed.empty() && std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                                                         [](const ObstacleOptions& o) { return o.velocity.norm() > 0; });
-    parts = list_parts<B>(p, built);
     keep();
-    start_energy();
+    open_budget();
   }
 
   Problem problem;
   BuiltHierarchy<B> built;
   EnergyMeter<B> meter;
-  std::vector<Part> parts;
+  std::vector<Vectors<B>> rest;  // of each level's vertices, where somebody has asked for positions
   std::vector<State<B>> kept;
   double time = 0, kept_time = 0;
   long steps = 0, kept_steps = 0;
-  bool budget_known;  // nothing from outside but gravity does work
+  bool budget_known;          // nothing from outside but gravity does work
+  bool budget_opens = false;  // anew at the next check: the state has been replaced since
   double residual = 0, worst_residual = 0;
   double start = 0, put_in = 0;  // energy at the start, the most that was ever there to be had [J]
 
@@ -44,13 +46,29 @@ struct Simulation<B>::Inside {
     return hierarchy()[i].level;
   }
 
+  const Vectors<B>& rest_positions(int i) {
+    level(i);  // throws where there is none
+    Vectors<B>& x = rest[static_cast<std::size_t>(i)];
+    if (x.extent(0) == 0)
+      x = to_device<Vectors<B>>("rest", rows<typename B::Real>(built.meshes[static_cast<std::size_t>(i)].vertices));
+    return x;
+  }
+
   void keep() {
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].level.state);
     kept_time = time, kept_steps = steps;
   }
-  void start_energy() {
+  void open_budget() {
     const Energies e = meter.all(time);
     start = put_in = e.total();
+    budget_opens = false;
+  }
+  /// Level 0's state has been replaced: the other levels follow.
+  void restart() {
+    for (auto& part : hierarchy().levels) part.level.flags.clear(hierarchy().exec());
+    built.cycle->begin(hierarchy());
+    keep();
+    budget_opens = true;
   }
 };
 

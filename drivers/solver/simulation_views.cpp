@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a simulation tells of itself.
 #include <plica/drivers/solver/diagnose.hpp>
+#include <plica/drivers/solver/exchange.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
-#include <plica/kernels/transfer/map_state.hpp>
 
 namespace plica {
 
@@ -24,7 +24,7 @@ const std::vector<LevelReport>& Simulation<B>::levels() const {
 }
 template <class B>
 std::vector<Part> Simulation<B>::parts() const {
-  return inside_->parts;
+  return list_parts<B>(inside_->problem, inside_->built);
 }
 template <class B>
 Energies Simulation<B>::energies() const {
@@ -65,44 +65,54 @@ Vectors<B> Simulation<B>::velocity(int level) const {
 }
 
 template <class B>
+void Simulation<B>::read_positions(const DeviceOutput<B>& to, int level) const {
+  plica::read_positions<B>(inside_->hierarchy().exec(), inside_->rest_positions(level), displacement(level), to);
+}
+template <class B>
+void Simulation<B>::read_velocities(const DeviceOutput<B>& to, int level) const {
+  read_vectors<B>(inside_->hierarchy().exec(), velocity(level), to);
+}
+template <class B>
+void Simulation<B>::read_surface_positions(const DeviceOutput<B>& to) const {
+  const Level<B>& finest = inside_->level(0);
+  read_surface<B>(inside_->hierarchy().exec(), finest.surface, finest.state, false, to);
+}
+template <class B>
+void Simulation<B>::read_surface_velocities(const DeviceOutput<B>& to) const {
+  const Level<B>& finest = inside_->level(0);
+  read_surface<B>(inside_->hierarchy().exec(), finest.surface, finest.state, true, to);
+}
+
+template <class B>
+void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities) {
+  const State<B>& state = inside_->level(0).state;
+  write_positions<B>(inside_->hierarchy().exec(), positions, inside_->rest_positions(0), state.u);
+  write_vectors<B>(inside_->hierarchy().exec(), velocities, state.v);
+  inside_->restart();
+}
+
+template <class B>
 std::vector<Point> Simulation<B>::positions(int level) const {
   std::vector<Point> x = to_host<B>(inside_->hierarchy().exec(), displacement(level));
   const auto& rest = inside_->built.meshes[static_cast<std::size_t>(level)].vertices;
   for (std::size_t a = 0; a < x.size(); ++a) x[a] += rest[a];
   return x;
 }
-
 template <class B>
 std::vector<Point> Simulation<B>::velocities(int level) const {
   return to_host<B>(inside_->hierarchy().exec(), velocity(level));
 }
-
-namespace {
-
-/// Level 0's state at the surface's points.
-template <class B>
-State<B> on_surface(Hierarchy<B>& h) {
-  const EmbeddedSurface<B>& surface = h[0].level.surface;
-  const State<B> mapped("surface", surface.points);
-  map_fields<B, MapState>(h.exec(), "plica::surface", surface.embedding, h[0].level.state, {}, {}, mapped, {});
-  return mapped;
-}
-
-}  // namespace
-
 template <class B>
 std::vector<Point> Simulation<B>::surface_positions() const {
-  Hierarchy<B>& h = inside_->hierarchy();
-  std::vector<Point> x = to_host<B>(h.exec(), on_surface<B>(h).u);
-  const auto rest = to_host<B>(h.exec(), h[0].level.surface.rest);
-  for (std::size_t p = 0; p < x.size(); ++p) x[p] += rest[p];
-  return x;
+  const Vectors<B> x("plica::surface.x", inside_->level(0).surface.points);
+  read_surface_positions(x);
+  return to_host<B>(inside_->hierarchy().exec(), x);
 }
-
 template <class B>
 std::vector<Point> Simulation<B>::surface_velocities() const {
-  Hierarchy<B>& h = inside_->hierarchy();
-  return to_host<B>(h.exec(), on_surface<B>(h).v);
+  const Vectors<B> v("plica::surface.v", inside_->level(0).surface.points);
+  read_surface_velocities(v);
+  return to_host<B>(inside_->hierarchy().exec(), v);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

@@ -3,23 +3,10 @@
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
 #include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
 
 namespace plica {
-
-/// Position and velocity of surface point p, from a level's state.
-template <class B>
-KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u, const Vectors<B>& v, int p,
-                                          Vec3<typename B::Real>& x, Vec3<typename B::Real>& speed) {
-  for (int k = 0; k < 3; ++k) {
-    x[k] = s.rest(p, k), speed[k] = 0;
-    for (int c = 0; c < 4; ++c) {
-      const int a = s.embedding.source(p, c);
-      x[k] += s.embedding.weight(p, c) * u(a, k);
-      speed[k] += s.embedding.weight(p, c) * v(a, k);
-    }
-  }
-}
 
 /// Forces of one obstacle on the surface points [N], set (`first` obstacle) or added. With Tangent also each point's symmetric
 /// 3x3 block h^2 k n n + h d n n + h drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz: the coupling of friction to
@@ -70,6 +57,13 @@ struct ScatterToVertices {
     for (int k = 0; k < 3; ++k) f(a, k) += sum[k];
   }
 };
+
+template <class B>
+void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const Vectors<B>& force,
+                         const Vectors<B>& f) {
+  Kokkos::parallel_for("plica::scatter_to_vertices", Kokkos::RangePolicy<typename B::Exec>(exec, 0, surface.touched),
+                       ScatterToVertices<B>{surface, force, f});
+}
 
 /// y_p = block_p * (sum of weight * x), the point part of a product with the tangent.
 template <class B>

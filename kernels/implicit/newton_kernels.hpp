@@ -72,6 +72,33 @@ struct DiagonalColumn {
   }
 };
 
+/// q += scale * block p, and diagonal += scale * block, with symmetric vertex blocks that are not from elements.
+template <class B>
+struct AddBlockProduct {
+  using Real = typename B::Real;
+  Blocks<B> block;
+  Vectors<B> p, q;
+  Real scale;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const Real x = scale * p(a, 0), y = scale * p(a, 1), z = scale * p(a, 2);
+    q(a, 0) += block(a, 0) * x + block(a, 3) * y + block(a, 4) * z;
+    q(a, 1) += block(a, 3) * x + block(a, 1) * y + block(a, 5) * z;
+    q(a, 2) += block(a, 4) * x + block(a, 5) * y + block(a, 2) * z;
+  }
+};
+
+template <class B>
+struct AddBlocks {
+  using Real = typename B::Real;
+  Blocks<B> block, diagonal;
+  Real scale;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 6; ++k) diagonal(a, k) += scale * block(a, k);
+  }
+};
+
 /// Inverts the vertex blocks in place. A block that is not positive definite (a material that softens) gives way to its mass.
 template <class B>
 struct InvertBlocks {

@@ -97,8 +97,8 @@ class HierarchyBuilder {
         limit.push_back(static_cast<typename B::Real>(problem_.integration.switch_threshold * edge));
       part.level.drift_limit = to_device<Scalars<B>>("drift_limit", limit);
     }
-    // the finest level carries the surface for whoever looks at it; the others only where it touches something
-    if (problem_.body.surface && (i == 0 || !problem_.contact.obstacles.empty()))
+    // the finest level carries the surface for whoever looks at it; the others only where something acts on it
+    if (problem_.body.surface && (i == 0 || !problem_.contact.obstacles.empty() || problem_.surface_forces))
       part.level.surface = build_surface<B>(surface_, embed(surface_.vertices, *locators_[i], Outside::clamp));
   }
 

@@ -33,12 +33,9 @@ EmbeddedSurface<B> build_surface(const TriangleSurface& surface, const Embedding
   EmbeddedSurface<B> s;
   s.points = static_cast<int>(surface.vertices.size());
   s.embedding = build_transfer<B>("surface", embedding, {});
-  std::vector<std::array<Real, 3>> rest;
   std::map<int, std::vector<std::pair<int, Real>>> of_vertex;
   for (int p = 0; p < s.points; ++p) {
     const auto i = static_cast<std::size_t>(p);
-    const Point& x = surface.vertices[i];
-    rest.push_back({static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])});
     for (std::size_t c = 0; c < 4; ++c)
       if (embedding.weights[i][c] != 0)
         of_vertex[embedding.vertices[i][c]].emplace_back(p, static_cast<Real>(embedding.weights[i][c]));
@@ -51,7 +48,7 @@ EmbeddedSurface<B> build_surface(const TriangleSurface& surface, const Embedding
     first.push_back(static_cast<int>(point.size()));
   }
   s.touched = static_cast<int>(vertex.size());
-  s.rest = to_device<decltype(s.rest)>("surface.rest", rest);
+  s.rest = to_device<decltype(s.rest)>("surface.rest", rows<Real>(surface.vertices));
   s.vertex = to_device<decltype(s.vertex)>("surface.vertex", vertex);
   s.first = to_device<decltype(s.first)>("surface.first", first);
   s.point = to_device<decltype(s.point)>("surface.point", point);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Kokkos_Core.hpp>
+#include <array>
 #include <cstring>
+#include <plica/core/mesh.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,16 @@ View to_device(const std::string& name, const std::vector<Element>& values) {
   }
   Kokkos::deep_copy(view, host);
   return view;
+}
+
+/// Points as the rows of a view.
+template <class Real>
+std::vector<std::array<Real, 3>> rows(const std::vector<Point>& points) {
+  std::vector<std::array<Real, 3>> result;
+  result.reserve(points.size());
+  for (const Point& p : points)
+    result.push_back({static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])});
+  return result;
 }
 
 }  // namespace plica

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/core/small.hpp>
+#include <plica/core/surface.hpp>
+
+// What a simulation gives to and takes from its caller's arrays, whatever their precision and layout. Per vertex 3 or 6 values
+// in and 3 out.
+namespace plica {
+
+/// Position x and velocity of surface point p, from a level's state.
+template <class B>
+KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u, const Vectors<B>& v, int p,
+                                          Vec3<typename B::Real>& x, Vec3<typename B::Real>& speed) {
+  for (int k = 0; k < 3; ++k) {
+    x[k] = s.rest(p, k), speed[k] = 0;
+    for (int c = 0; c < 4; ++c) {
+      const int a = s.embedding.source(p, c);
+      x[k] += s.embedding.weight(p, c) * u(a, k);
+      speed[k] += s.embedding.weight(p, c) * v(a, k);
+    }
+  }
+}
+
+/// out = rest + u
+template <class B, class Out>
+struct ReadPositions {
+  Vectors<B> rest, u;
+  Out out;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    using T = typename Out::value_type;
+    for (int k = 0; k < 3; ++k) out(a, k) = static_cast<T>(rest(a, k)) + static_cast<T>(u(a, k));
+  }
+};
+
+/// out = v
+template <class B, class Out>
+struct ReadVectors {
+  Vectors<B> v;
+  Out out;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) out(a, k) = static_cast<typename Out::value_type>(v(a, k));
+  }
+};
+
+/// u = x - rest
+template <class B, class In>
+struct WritePositions {
+  In x;
+  Vectors<B> rest, u;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    using T = typename In::non_const_value_type;
+    for (int k = 0; k < 3; ++k) u(a, k) = static_cast<typename B::Real>(x(a, k) - static_cast<T>(rest(a, k)));
+  }
+};
+
+/// v = x
+template <class B, class In>
+struct WriteVectors {
+  In x;
+  Vectors<B> v;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) v(a, k) = static_cast<typename B::Real>(x(a, k));
+  }
+};
+
+/// out = the surface points' positions, or their velocities
+template <class B, class Out>
+struct ReadSurface {
+  EmbeddedSurface<B> surface;
+  State<B> state;
+  bool velocity;
+  Out out;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    Vec3<typename B::Real> x, v;
+    surface_point(surface, state.u, state.v, p, x, v);
+    for (int k = 0; k < 3; ++k) out(p, k) = static_cast<typename Out::value_type>(velocity ? v[k] : x[k]);
+  }
+};
+
+}  // namespace plica
