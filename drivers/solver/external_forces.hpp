@@ -22,7 +22,7 @@ struct ForceRequest {
 
   // On implicit levels: what makes stiff forces part of the solve. On explicit ones: zero and empty.
   double step = 0;      ///< h [s]
-  double ahead = 0;     ///< predict gaps by so much, x + ahead * velocity: 0 or h [s]
+  double ahead = 0;     ///< 0 or h [s]: take stiff forces and gaps at displacement + ahead * velocity
   Blocks<B> stiffness;  ///< [vertices][6] xx yy zz xy xz yz N/m, zero on entry: add -d(force)/d(position) where that is
                         ///< positive semi-definite, and 1/h times the same of the velocity
 

@@ -3,11 +3,12 @@
 #include <Kokkos_Core.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plica::test {
 
-/// Counts kernels and allocations by label, through Kokkos' profiling callbacks, while it lives. One at a time.
+/// Counts kernels, allocations and fences by label, through Kokkos' profiling callbacks, while it lives. One at a time.
 class Watch {
  public:
   Watch() {
@@ -20,6 +21,10 @@ class Watch {
     tools::set_allocate_data_callback([](Kokkos_Profiling_SpaceHandle, const char* label, const void*, std::uint64_t) {
       if (current()) ++current()->allocations[label];
     });
+    tools::set_begin_fence_callback([](const char* label, std::uint32_t, std::uint64_t*) {
+      // watching makes Kokkos itself wait, before and after each kernel
+      if (current() && !std::string_view(label).starts_with("Kokkos::Tools::")) ++current()->fences[label];
+    });
   }
   ~Watch() {
     current() = nullptr;
@@ -28,13 +33,14 @@ class Watch {
     tools::set_begin_parallel_reduce_callback(nullptr);
     tools::set_begin_parallel_scan_callback(nullptr);
     tools::set_allocate_data_callback(nullptr);
+    tools::set_begin_fence_callback(nullptr);
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  std::map<std::string, int> launches, allocations;
+  std::map<std::string, int> launches, allocations, fences;
 
-  /// Labels of either kind that contain one of the words.
+  /// Labels of kernels and allocations that contain one of the words.
   std::vector<std::string> about(const std::vector<std::string>& words) const {
     std::vector<std::string> found;
     for (const auto* list : {&launches, &allocations})
