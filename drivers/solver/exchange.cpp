@@ -8,7 +8,7 @@ namespace {
 
 /// Launches kernel(view) over the rows of a caller's array, which must be `count`.
 template <class B, class Array, class Kernel>
-void launch(const typename B::Exec& exec, const char* label, const Array& array, std::size_t count,
+void over_rows(const typename B::Exec& exec, const char* label, const Array& array, std::size_t count,
             const Kernel& kernel) {
   if (array.size() != count)
     throw InputError("an array of " + std::to_string(array.size()) + " vectors where there are " +
@@ -23,14 +23,14 @@ void launch(const typename B::Exec& exec, const char* label, const Array& array,
 template <class B>
 void read_positions(const typename B::Exec& exec, const Vectors<B>& rest, const Vectors<B>& u,
                     const DeviceOutput<B>& to) {
-  launch<B>(exec, "plica::read_positions", to, u.extent(0), [&]<class Out>(const Out& view) {
+  over_rows<B>(exec, "plica::read_positions", to, u.extent(0), [&]<class Out>(const Out& view) {
     return ReadPositions<B, Out>{rest, u, view};
   });
 }
 
 template <class B>
 void read_vectors(const typename B::Exec& exec, const Vectors<B>& field, const DeviceOutput<B>& to) {
-  launch<B>(exec, "plica::read_vectors", to, field.extent(0), [&]<class Out>(const Out& view) {
+  over_rows<B>(exec, "plica::read_vectors", to, field.extent(0), [&]<class Out>(const Out& view) {
     return ReadVectors<B, Out>{field, view};
   });
 }
@@ -38,7 +38,7 @@ void read_vectors(const typename B::Exec& exec, const Vectors<B>& field, const D
 template <class B>
 void read_surface(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
                   bool velocities, const DeviceOutput<B>& to) {
-  launch<B>(exec, "plica::read_surface", to, static_cast<std::size_t>(surface.points), [&]<class Out>(const Out& view) {
+  over_rows<B>(exec, "plica::read_surface", to, static_cast<std::size_t>(surface.points), [&]<class Out>(const Out& view) {
     return ReadSurface<B, Out>{surface, state, velocities, view};
   });
 }
@@ -46,14 +46,14 @@ void read_surface(const typename B::Exec& exec, const EmbeddedSurface<B>& surfac
 template <class B>
 void write_positions(const typename B::Exec& exec, const DeviceInput<B>& from, const Vectors<B>& rest,
                      const Vectors<B>& u) {
-  launch<B>(exec, "plica::write_positions", from, u.extent(0), [&]<class In>(const In& view) {
+  over_rows<B>(exec, "plica::write_positions", from, u.extent(0), [&]<class In>(const In& view) {
     return WritePositions<B, In>{view, rest, u};
   });
 }
 
 template <class B>
 void write_vectors(const typename B::Exec& exec, const DeviceInput<B>& from, const Vectors<B>& field) {
-  launch<B>(exec, "plica::write_vectors", from, field.extent(0), [&]<class In>(const In& view) {
+  over_rows<B>(exec, "plica::write_vectors", from, field.extent(0), [&]<class In>(const In& view) {
     return WriteVectors<B, In>{view, field};
   });
 }
