@@ -21,7 +21,7 @@ struct Patches {
   using Memory = typename B::Memory;
   static constexpr int lanes = B::lanes;
   static constexpr int capacity = 256;         ///< elements of a patch, at most
-  static constexpr int vertex_capacity = 160;  ///< vertices of a patch, at most: 31 kB with two fields in double
+  static constexpr int vertex_capacity = 120;  ///< vertices of a patch, at most: 31 kB with two fields in double
   template <class T>
   using Array = Kokkos::View<T, Kokkos::LayoutRight, Memory>;
 

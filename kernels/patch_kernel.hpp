@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/patches.hpp>
 #include <plica/core/small.hpp>
+#include <plica/core/transposed.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 namespace plica {
@@ -28,9 +29,10 @@ struct PatchKernel {
   using Member = typename Policy::member_type;
   static constexpr int lanes = B::lanes;
   static constexpr int fields = Integrand::fields;
+  static constexpr int stride = lanes >= 4 ? 4 : 3;  ///< of vectors in scratch: whole quarters of a register
   static constexpr int force_slots = (Patches<B>::capacity + lanes - 1) / lanes * 12 * lanes;
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
-    return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * 3 * fields) * sizeof(Real);
+    return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * stride * fields) * sizeof(Real);
   }
   using T = typename PackOf<Real, lanes>::type;
 
@@ -48,7 +50,7 @@ struct PatchKernel {
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
       const int a = patches.vertex(first_vertex + i);
       for (int f = 0; f < fields; ++f)
-        for (int k = 0; k < 3; ++k) local[(i * fields + f) * 3 + k] = integrand.field[f](a, k);
+        for (int k = 0; k < 3; ++k) local[(i * fields + f) * stride + k] = integrand.field[f](a, k);
     });
     team.team_barrier();
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
@@ -65,19 +67,21 @@ struct PatchKernel {
   }
 
   KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
+    const Real* const stored = &patches.shape(pack, 0, 0);
+    const std::uint16_t* const corner_of = &patches.corner(pack, 0, 0);
+    prefetch(stored + 3 * 10 * lanes, 10 * lanes), prefetch(corner_of + 3 * 4 * lanes, 4 * lanes);
     ElementShape<T> shape;
     for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(&patches.shape(pack, 3 * c + k, 0));
-    shape.volume = load(&patches.shape(pack, 9, 0));
+      for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(stored + (3 * c + k) * lanes);
+    shape.volume = load(stored + 9 * lanes);
     shape.lame = {T(patches.lame(patch, 0)), T(patches.lame(patch, 1))};
     Mat3<T> G[fields];
     for (int f = 0; f < fields; ++f) {
       Vec3<T> u[4];
-      for (int l = 0; l < lanes; ++l)
-        for (int c = 0; c < 4; ++c) {
-          const Real* x = local + (patches.corner(pack, c, l) * fields + f) * 3;
-          for (int k = 0; k < 3; ++k) set_lane(u[c][k], l, x[k]);
-        }
+      for (int c = 0; c < 4; ++c) {
+        const std::uint16_t* const at = corner_of + c * lanes;
+        load_vectors([=](int l) { return local + (at[l] * fields + f) * stride; }, u[c]);
+      }
       const Vec3<T> d[3] = {u[1] - u[0], u[2] - u[0], u[3] - u[0]};
       for (int r = 0; r < 3; ++r)
         G[f][r] = d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
@@ -87,6 +91,15 @@ struct PatchKernel {
     for (int c = 0; c < 4; ++c)
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < lanes; ++l) forces[(c * 3 + k) * lanes + l] = lane(corner[c][k], l);
+  }
+
+  /// What the pack after next but one reads: a patch's streams are too many and too short for the hardware to foresee.
+  template <class Number>
+  static KOKKOS_INLINE_FUNCTION void prefetch([[maybe_unused]] const Number* from, [[maybe_unused]] int count) {
+#if defined(__GNUC__) && !defined(__CUDACC__)
+    if constexpr (lanes > 1)
+      for (int i = 0; i < count; i += 64 / static_cast<int>(sizeof(Number))) __builtin_prefetch(from + i);
+#endif
   }
 
   static KOKKOS_INLINE_FUNCTION T load(const Real* p) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/small.hpp>
+#include <utility>
+
+namespace plica {
+
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+/// Vectors of N elements from where they lie in memory: N/4 groups of four are loaded whole and transposed in registers,
+/// a third of the instructions that number by number would take.
+template <class T, int N>
+struct Transposed {
+  static constexpr bool possible = N == 4 || N == 8 || N == 16;
+  using Lanes = typename Pack<T, N>::Lanes;
+  typedef T Four __attribute__((vector_size(4 * sizeof(T)), may_alias, aligned(alignof(T))));
+
+  /// Rows i, i + 4, i + 8 ... side by side.
+  template <class Row>
+  static Lanes gather(int i, const Row& row) {
+    const auto four = [&](int j) { return *reinterpret_cast<const Four*>(row(i + 4 * j)); };
+    if constexpr (N == 4) return four(0);
+    if constexpr (N >= 8) {
+      const auto low = __builtin_shufflevector(four(0), four(1), 0, 1, 2, 3, 4, 5, 6, 7);
+      if constexpr (N == 8) return low;
+      if constexpr (N == 16) {
+        const auto high = __builtin_shufflevector(four(2), four(3), 0, 1, 2, 3, 4, 5, 6, 7);
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      }
+    }
+  }
+  /// In every group of four: entries a, b of x, then c, d of y.
+  template <int a, int b, int c, int d>
+  static Lanes mix(Lanes x, Lanes y) {
+    return [&]<std::size_t... i>(std::index_sequence<i...>) {
+      constexpr int from[4] = {a, b, N + c, N + d};
+      return __builtin_shufflevector(x, y, (from[i % 4] + static_cast<int>(i / 4 * 4))...);
+    }
+    (std::make_index_sequence<N>{});
+  }
+};
+#endif
+
+/// Lane l of v is the vector at row(l), four numbers of which the last is not used.
+template <class T, class Row>
+KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+  using Rows = Transposed<typename LaneOf<T>::type, LaneOf<T>::count>;
+  if constexpr (Rows::possible) {
+    const auto A = Rows::gather(0, row), B = Rows::gather(1, row), C = Rows::gather(2, row), D = Rows::gather(3, row);
+    const auto xz = Rows::template mix<0, 2, 0, 2>(A, B), yw = Rows::template mix<1, 3, 1, 3>(A, B);
+    const auto xz2 = Rows::template mix<0, 2, 0, 2>(C, D), yw2 = Rows::template mix<1, 3, 1, 3>(C, D);
+    v[0].v = Rows::template mix<0, 2, 0, 2>(xz, xz2);
+    v[2].v = Rows::template mix<1, 3, 1, 3>(xz, xz2);
+    v[1].v = Rows::template mix<0, 2, 0, 2>(yw, yw2);
+    return;
+  }
+#endif
+  for (int l = 0; l < LaneOf<T>::count; ++l)
+    for (int k = 0; k < 3; ++k) set_lane(v[k], l, row(l)[k]);
+}
+
+}  // namespace plica
