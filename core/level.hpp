@@ -29,6 +29,7 @@ struct Level {
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
   Transfer<B> to_finer;    ///< P: level i -> i-1, likewise
+  Restriction<B> adjoint;  ///< of the finer level's to_finer, where a cycle conserves what it hands down
   State<B> start;          ///< at the start of this cycle, where variations are mapped
   State<B> previous;       ///< at the start of the last cycle, likewise
   Scalars<B> drift_limit;  ///< [vertices] m, where mappings are switched

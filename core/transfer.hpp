@@ -14,4 +14,15 @@ struct Transfer {
   Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> weight;  ///< each row sums to 1
 };
 
+/// The adjoint of an interpolation, in gather form: to every coarse vertex the finer ones in its elements, in order. Forces
+/// take the interpolation's own weights; states their averages by mass, which keep momentum where masses are inherited.
+template <class B>
+struct Restriction {
+  int rows = 0;        ///< coarse vertices, one row each
+  Indices<B> first;    ///< [rows + 1] into the others
+  Indices<B> source;   ///< a finer vertex
+  Scalars<B> weight;   ///< of its force; 0 where it is only averaged
+  Scalars<B> average;  ///< of its state; each row sums to 1
+};
+
 }  // namespace plica

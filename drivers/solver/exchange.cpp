@@ -9,7 +9,7 @@ namespace {
 /// Launches kernel(view) over the rows of a caller's array, which must be `count`.
 template <class B, class Array, class Kernel>
 void over_rows(const typename B::Exec& exec, const char* label, const Array& array, std::size_t count,
-            const Kernel& kernel) {
+               const Kernel& kernel) {
   if (array.size() != count)
     throw InputError("an array of " + std::to_string(array.size()) + " vectors where there are " +
                      std::to_string(count));
@@ -38,9 +38,10 @@ void read_vectors(const typename B::Exec& exec, const Vectors<B>& field, const D
 template <class B>
 void read_surface(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
                   bool velocities, const DeviceOutput<B>& to) {
-  over_rows<B>(exec, "plica::read_surface", to, static_cast<std::size_t>(surface.points), [&]<class Out>(const Out& view) {
-    return ReadSurface<B, Out>{surface, state, velocities, view};
-  });
+  over_rows<B>(exec, "plica::read_surface", to, static_cast<std::size_t>(surface.points),
+               [&]<class Out>(const Out& view) {
+                 return ReadSurface<B, Out>{surface, state, velocities, view};
+               });
 }
 
 template <class B>

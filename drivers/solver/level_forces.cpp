@@ -31,6 +31,7 @@ void LevelForces<B>::evaluate(const Level<B>& level, const State<B>& state, doub
   elastic_and_gravity(level, state, f);
   if (contact_) book("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
   if (external_) book("external", [&] { ask_caller(level, state, time, 0, 0, f); });
+  add_correction(f);
 }
 
 template <class B>
@@ -39,6 +40,7 @@ void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, dou
   elastic_and_gravity(level, state, f);
   if (contact_) book("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
   if (external_) book("external", [&] { ask_caller(level, state, time, h, ahead, f); });
+  add_correction(f);
 }
 
 template <class B>
@@ -53,6 +55,13 @@ void LevelForces<B>::ask_caller(const Level<B>& level, const State<B>& state, do
                                 const Vectors<B>& f) {
   if (implicit_) Kokkos::deep_copy(clock_->exec(), external_stiffness_, typename B::Real(0));
   external_({clock_->exec(), level_, time, rest_, state.u, state.v, f, level.surface, h, ahead, external_stiffness_});
+}
+
+template <class B>
+void LevelForces<B>::add_correction(const Vectors<B>& f) const {
+  if (correction_.extent(0) > 0)
+    update_vertices<B>(clock_->exec(), "plica::add_correction", static_cast<int>(f.extent(0)),
+                       AddVectors<B>{correction_, f});
 }
 
 template <class B>

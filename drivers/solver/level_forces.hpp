@@ -45,6 +45,9 @@ class LevelForces {
   long evaluations() const { return evaluations_; }
   /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at rest [m].
   void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);
+  /// A constant force [N] that is part of every evaluation from now on; an empty one ends that.
+  void set_correction(const Vectors<B>& force) { correction_ = force; }
+  void add_correction(const Vectors<B>& f) const;
   /// Evaluations are numbered from 1 in each macro step, for the element flags.
   void begin_macro_step() { evaluation_ = 0; }
 
@@ -58,6 +61,7 @@ class LevelForces {
   int level_;
   ExternalForces<B> external_;
   Vectors<B> rest_;
+  Vectors<B> correction_;
   Blocks<B> external_stiffness_;  ///< implicit levels only
   long evaluations_ = 0;
   int evaluation_ = 0;

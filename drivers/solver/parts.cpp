@@ -14,6 +14,10 @@ std::size_t bytes_of(const Transfer<B>& t) {
   return bytes(t.target, t.source, t.weight);
 }
 template <class B>
+std::size_t bytes_of(const Restriction<B>& r) {
+  return bytes(r.first, r.source, r.weight, r.average);
+}
+template <class B>
 std::size_t bytes_of(const State<B>& s) {
   return bytes(s.u, s.v);
 }
@@ -68,8 +72,9 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("prescribed motion", !body.prescribed.empty(), "body.prescribed", "none asked for",
       sum([](const L& l) { return bytes(l.level.prescribed.vertex, l.level.prescribed.velocity); }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,
-      levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level",
-      sum([](const L& l) { return bytes_of(l.level.from_finer) + bytes_of(l.level.to_finer); }));
+      levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level", sum([](const L& l) {
+        return bytes_of(l.level.from_finer) + bytes_of(l.level.to_finer) + bytes_of(l.level.adjoint);
+      }));
   add("variation mapping", variations > 0, "cycle " + problem.integration.cycle,
       "not in cycle " + problem.integration.cycle, variations);
   add("switched mapping", limits > 0, "switch_threshold", "not in cycle " + problem.integration.cycle, limits);

@@ -34,6 +34,7 @@ struct LevelReport {
   bool explicit_integrator = true;
   int outside_down = 0;     ///< its vertices outside the next finer mesh
   int outside_up = 0;       ///< the next finer level's vertices outside its mesh
+  int massless = 0;         ///< its vertices without one of the next finer level in their elements (cycle fas)
   double largest_miss = 0;  ///< their largest distance over the local edge length
 };
 

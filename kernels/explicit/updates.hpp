@@ -81,6 +81,15 @@ struct PrescribeMotion {
   }
 };
 
+/// sum += x
+template <class B>
+struct AddVectors {
+  Vectors<B> x, sum;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) sum(a, k) += x(a, k);
+  }
+};
+
 template <class B, class Update>
 void update_vertices(const typename B::Exec& exec, const char* label, int vertices, const Update& update) {
   Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, vertices), update);

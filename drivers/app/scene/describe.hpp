@@ -133,7 +133,7 @@ void describe(V& v, ImplicitOptions& o) {
 
 template <class V>
 void describe(V& v, IntegrationOptions& o) {
-  v("cycle", o.cycle, Name{"cycle", cycles, {"fas", "him"}}, "how the levels share a macro step");
+  v("cycle", o.cycle, Name{"cycle", cycles, {"him"}}, "how the levels share a macro step");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
   v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/type_list.hpp>
+#include <plica/drivers/solver/cycles/fas.hpp>
 #include <plica/drivers/solver/cycles/v_cycle.hpp>
 
 namespace plica {
@@ -9,7 +10,7 @@ namespace plica {
 struct Single {
   static constexpr const char* name = "single";
   static constexpr const char* summary = "the finest level alone";
-  static constexpr bool uses_coarse_levels = false, switched = false;
+  static constexpr bool uses_coarse_levels = false, switched = false, inherits_masses = false;
   template <class B>
   using Of = VCycle<B, MapState, MapState>;
 };
@@ -17,7 +18,7 @@ struct Single {
 /// The paper's V-cycle with one of its mappings each way.
 template <class Down, class Up>
 struct PaperCycle {
-  static constexpr bool uses_coarse_levels = true;
+  static constexpr bool uses_coarse_levels = true, inherits_masses = false;
   static constexpr bool switched =
       (Down::needs_state && Down::needs_variation) || (Up::needs_state && Up::needs_variation);
   template <class B>
@@ -41,7 +42,15 @@ struct RsvSv : PaperCycle<MapState, MapVariation> {
   static constexpr const char* summary = "state down, variation up";
 };
 
+struct Fas {
+  static constexpr const char* name = "fas";
+  static constexpr const char* summary = "state down, variation up, coarse forces corrected to the finest level's";
+  static constexpr bool uses_coarse_levels = true, switched = false, inherits_masses = true;
+  template <class B>
+  using Of = FasCycle<B>;
+};
+
 /// Every cycle there is. One more: its struct above or its own file, its name here.
-using Cycles = TypeList<Single, Rs, Rv, Rsv, RsvSv>;
+using Cycles = TypeList<Single, Rs, Rv, Rsv, RsvSv, Fas>;
 
 }  // namespace plica

@@ -8,6 +8,7 @@
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
+#include <plica/drivers/solver/set_up/inherit_masses.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -32,11 +33,13 @@ class HierarchyBuilder {
     Cycles::visit(problem.integration.cycle, [&](auto cycle) {
       levels_ = decltype(cycle)::uses_coarse_levels ? problem.body.levels.size() : 1;
       switched_ = decltype(cycle)::switched && levels_ > 1;
+      inherits_masses_ = decltype(cycle)::inherits_masses;
     });
   }
 
   BuiltHierarchy<B> build() {
     place_meshes();
+    embed_levels();
     for (std::size_t i = 0; i < levels_; ++i) add_level(i);
     for (std::size_t i = 1; i < levels_; ++i) connect(i);
     add_contact();
@@ -53,11 +56,13 @@ class HierarchyBuilder {
   const Problem& problem_;
   BuiltHierarchy<B> built_;
   std::size_t levels_ = 1;
-  bool switched_ = false;
+  bool switched_ = false, inherits_masses_ = false;
   Point centre_ = Point::Zero();
   TriangleSurface surface_;  // placed
   std::vector<LevelConstants> constants_;
   std::vector<std::unique_ptr<TetLocator>> locators_;
+  std::vector<Embedding> down_, up_;  // [i]: level i's vertices in level i-1, and the other way; [0] empty
+  std::vector<int> massless_ = {0};   // [i]: level i's vertices that inherit no mass
   std::shared_ptr<const Elasticity<B>> elasticity_;
   std::shared_ptr<const Contact<B>> contact_;
 
@@ -102,20 +107,34 @@ class HierarchyBuilder {
       part.level.surface = build_surface<B>(surface_, embed(surface_.vertices, *locators_[i], Outside::clamp));
   }
 
+  void embed_levels() {
+    const Outside rule = outside_rule(problem_.integration.outside);
+    down_.resize(1), up_.resize(1);
+    for (std::size_t i = 1; i < levels_; ++i) {
+      down_.push_back(embed(built_.meshes[i].vertices, *locators_[i - 1], rule));
+      up_.push_back(embed(built_.meshes[i - 1].vertices, *locators_[i], rule));
+      std::vector<double>& mass = constants_[i].mass;
+      if (inherits_masses_) mass = inherited_masses(up_[i], constants_[i - 1].mass, mass, massless_.emplace_back());
+    }
+  }
+
   void connect(std::size_t i) {
     const Outside rule = outside_rule(problem_.integration.outside);
     Level<B>& level = built_.hierarchy->levels[i].level;
-    const Embedding down = embed(built_.meshes[i].vertices, *locators_[i - 1], rule);
-    const Embedding up = embed(built_.meshes[i - 1].vertices, *locators_[i], rule);
+    const Embedding &down = down_[i], &up = up_[i];
     if (rule == Outside::keep && down.misses + up.misses > 0)
       throw InputError(
           "integration.outside is keep, but " + std::to_string(down.misses) + " vertices of level " +
           std::to_string(i) + " lie outside level " + std::to_string(i - 1) + " and " + std::to_string(up.misses) +
           " the other way: they would move in their own level's share of the step only; use clamp or extrapolate");
-    level.from_finer = build_transfer<B>("restriction", down, constants_[i].constrained);
+    if (inherits_masses_)
+      level.adjoint = build_restriction<B>(up, constants_[i - 1].mass, down);
+    else
+      level.from_finer = build_transfer<B>("restriction", down, constants_[i].constrained);
     level.to_finer = build_transfer<B>("interpolation", up, constants_[i - 1].constrained);
     LevelReport& report = built_.reports[i];
     report.outside_down = down.misses, report.outside_up = up.misses;
+    report.massless = inherits_masses_ ? massless_[i] : 0;
     report.largest_miss = std::max(down.largest_distance_over_edge, up.largest_distance_over_edge);
   }
 

@@ -79,6 +79,10 @@ void check_integration(const IntegrationOptions& o, std::size_t levels) {
   expect(o.safety > 0 && o.safety <= 1, "integration.safety", o.safety, "above 0, at most 1");
   positive("integration.switch_threshold", o.switch_threshold, "");
   known("treatment of outside vertices", o.outside, {{"clamp", ""}, {"extrapolate", ""}, {"keep", ""}});
+  if (o.cycle == "fas" && o.outside != "clamp" && levels > 1)
+    throw InputError("integration.outside is " + o.outside +
+                     ", but cycle fas hands masses down by its weights, which "
+                     "must not be negative or missing; expected clamp");
   const ImplicitOptions& i = o.implicit;
   expect(i.relative_residual > 0 && i.relative_residual < 1, "integration.implicit.relative_residual",
          i.relative_residual, "above 0 and below 1");
