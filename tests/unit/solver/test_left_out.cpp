@@ -24,7 +24,7 @@ Problem everything() {
   p.body.material.model = "neo_hookean";
   p.gravity = {0, 0, -9.81};
   p.body.damping.mass = 1;
-  p.body.prescribed = {{left_face(), {0, 0, 0.1}}};
+  p.body.prescribed = {{left_face(), Point(0, 0, 0.1)}};
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
   p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.01}, {0, 0, 1}}, 0.3, Point::Zero()});
   p.integration.integrator = {"symplectic_euler", "symplectic_euler", "implicit_euler"};

@@ -74,7 +74,7 @@ TYPED_TEST(NoFalseAlarm, OfAStretchedBodyThatIsLetGo) {
 
 TYPED_TEST(NoFalseAlarm, OfAPushedBody) {
   Problem p = small_cube();
-  p.body.prescribed = {{left_face(), {0.5, 0, 0}}};
+  p.body.prescribed = {{left_face(), Point(0.5, 0, 0)}};
   p.body.damping.mass = 5;
   Simulation<TypeParam> simulation(p);
   advance(simulation, 300);

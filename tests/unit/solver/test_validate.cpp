@@ -102,7 +102,7 @@ TEST(Validate, ChecksObstacles) {
   EXPECT_NE(with({SphereOptions{{0, 0, 0}, -1}, {}, Point::Zero()}).find("radius is -1"), std::string::npos);
   EXPECT_NE(with({BowlOptions{{0, 0, 0}, 1, 1.5}, {}, Point::Zero()}).find("rim is 1.5"), std::string::npos);
   EXPECT_NE(with({PlaneOptions{}, -0.1, Point::Zero()}).find("friction is -0.1"), std::string::npos);
-  EXPECT_NE(with({PlaneOptions{}, {}, Point(nan, 0, 0)}).find("obstacle velocity"), std::string::npos);
+  EXPECT_NE(with({PlaneOptions{}, {}, Point(nan, 0, 0)}).find("contact.obstacles.0.velocity"), std::string::npos);
 }
 
 }  // namespace
