@@ -65,11 +65,12 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
   add("mass damping", body.damping.mass > 0, "body.damping.mass", "zero", 0);
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
-  add("prescribed motion", !body.prescribed.empty(), "body.prescribed", "none asked for", sum([](const L& l) {
+  add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"), "none asked for",
+      sum([](const L& l) {
         const auto& p = l.level.prescribed;
         return bytes(p.vertex, p.path, p.paths, p.knots);
       }));
-  add("loads", !body.loads.empty(), "body.loads", "none asked for", sum([](const L& l) {
+  add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for", sum([](const L& l) {
         std::size_t total = 0;
         for (const auto& load : l.level.loads) total += bytes(load.vertex, load.force);
         return total;

@@ -27,7 +27,7 @@ inline void finite(const std::string& option, const Point& p) {
 
 inline void direction(const std::string& option, const Point& p) {
   finite(option, p);
-  expect(p.norm() > 0, "the length of " + option, p.norm(), "a number above 0");
+  expect(p.norm() > 0, option + ", as a length,", p.norm(), "a number above 0");
 }
 
 }  // namespace plica

@@ -53,9 +53,9 @@ struct CheckCourse {
     expect(std::isfinite(c.phase), option + ".sine.phase", c.phase, "a finite angle");
   }
   void operator()(const PolygonCourse& c) const {
-    check_times(option + ".factor", c.knots);
+    check_times(option + ".course", c.knots);
     for (const auto& knot : c.knots)
-      expect(std::isfinite(knot.factor), option + ".factor", knot.factor, "finite numbers");
+      expect(std::isfinite(knot.factor), option + ".course", knot.factor, "finite numbers");
   }
 };
 
@@ -74,7 +74,7 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
                      " of more than two triangles and " + std::to_string(edges.inconsistent_edges) +
                      " between triangles that look to different sides; expected a closed surface");
   const double volume = enclosed_volume(surface);
-  expect(volume > 0, "the volume inside " + option, volume, "triangles counter-clockwise seen from outside");
+  expect(volume > 0, option + ", as an enclosed volume,", volume, "triangles counter-clockwise seen from outside");
 }
 
 struct CheckShape {
@@ -82,7 +82,7 @@ struct CheckShape {
   void ends(const std::string& shape, const Point& from, const Point& to, double radius) const {
     finite(option + shape + ".from", from);
     finite(option + shape + ".to", to);
-    positive("the distance of " + option + shape + ".from and .to", (to - from).norm(), " m");
+    positive(option + shape + ".to, as a distance from .from,", (to - from).norm(), " m");
     positive(option + shape + ".radius", radius, " m");
   }
   void operator()(const PlaneOptions& o) const {

@@ -31,7 +31,7 @@ Problem cube_over(double gap, std::optional<double> friction = {}) {
         surface.triangles.push_back({at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z)});
       }
   p.body.surface = surface;
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -gap}, {0, 0, 2}}, friction, Point::Zero()});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -gap}, {0, 0, 2}}, friction, {}});
   return p;
 }
 
