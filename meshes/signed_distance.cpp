@@ -112,7 +112,7 @@ SignedDistance::~SignedDistance() = default;
 double SignedDistance::operator()(const Point& point, double bound) const {
   Nearest nearest{tree_->surface, point, bound * bound * (1 + 1e-9)};
   Eigen::BVMinimize(tree_->boxes, nearest);
-  if (nearest.triangle < 0) return (*this)(point);  // a bound that was not one, by a rounding
+  if (nearest.least > nearest.reach) return (*this)(point);  // a bound that was not one, by a rounding
   const Point& normal = tree_->normals[static_cast<std::size_t>(nearest.triangle)][nearest.closest.feature];
   const double d = std::sqrt(nearest.least);
   return (point - nearest.closest.point).dot(normal) < 0 ? -d : d;

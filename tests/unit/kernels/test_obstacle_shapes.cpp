@@ -23,7 +23,7 @@ const Block::Shape<double> block{V{0.1, -0.2, 0.1}, {V{0.6, 0, 0.8}, V{0, 1, 0},
 const Cylinder::Shape<double> cylinder{V{0.1, 0.1, -0.1}, V{0, 0.6, 0.8}, 0.5, 0.4};
 
 struct SampledBall {
-  TriangleSurface surface = sphere_surface({0.1, -0.1, 0.2}, 0.7, 3);
+  TriangleSurface surface = sphere_surface({0.1, -0.1, 0.2}, 0.7, 5);
   DistanceGrid grid = sample_distance(surface, 40);
   SampledSurface::Shape<double> shape() const {
     return {grid.value.data(),
@@ -51,13 +51,26 @@ std::vector<SampledSurface::Shape<double>> examples(SampledSurface) { return {sa
 template <class Family>
 constexpr double slope_error = 1e-6;
 template <>
-constexpr double slope_error<SampledSurface> = 0.03;
+constexpr double slope_error<SampledSurface> = 0.05;
+
+// The distances in which it is one: the sampled one's is a lower bound outside its grid, and rough around its middle.
+template <class Family>
+constexpr double lowest = -1e9,
+                 highest = 1e9;
+template <>
+constexpr double lowest<SampledSurface> = -0.4;
+template <>
+constexpr double highest<SampledSurface> = 0.1;
+template <class Family>
+bool within(double distance) {
+  return distance > lowest<Family> && distance < highest<Family>;
+}
 
 V vec(const Point& p) { return {p[0], p[1], p[2]}; }
 Point point(const V& p) { return {p[0], p[1], p[2]}; }
 
-template <class Shape>
-void expect_gradient(const Shape& shape, double tolerance) {
+template <class Family, class Shape>
+void expect_gradient(const Shape& shape) {
   const double h = 1e-6, away_from_edges = 1e-4;
   int tested = 0;
   for (const Point& p : random_field(4000, 1.6, 4)) {
@@ -72,9 +85,9 @@ void expect_gradient(const Shape& shape, double tolerance) {
                                    (point(at(-away_from_edges).normal) - point(gap.normal)).norm());
       smooth = smooth && turn < 0.1;  // else a ridge of the distance runs between: it has no gradient there
     }
-    if (!smooth) continue;
+    if (!smooth || (gap.distance < 0 && !within<Family>(gap.distance))) continue;
     ++tested;
-    EXPECT_LE((slope - point(gap.normal)).norm(), tolerance) << p.transpose();
+    EXPECT_LE((slope - point(gap.normal)).norm(), slope_error<Family>) << p.transpose();
   }
   EXPECT_GT(tested, 3000);
 }
@@ -82,37 +95,40 @@ void expect_gradient(const Shape& shape, double tolerance) {
 TEST(ObstacleShapes, NormalsAreTheUnitGradient) {
   ObstacleShapes::for_each([](auto family) {
     SCOPED_TRACE(family.name);
-    for (const auto& shape : examples(family)) expect_gradient(shape, slope_error<decltype(family)>);
+    for (const auto& shape : examples(family)) expect_gradient<decltype(family)>(shape);
   });
 }
 
-template <class Shape>
+template <class Family, class Shape>
 void expect_continuous(const Shape& shape) {  // a distance never changes by more than the way gone
   const auto steps = random_field(20000, 1e-3, 6);
-  const auto points = random_field(20000, 0.8, 5);  // of the sampled surface within its grid
+  const auto points = random_field(20000, 1.3, 5);
+  int tested = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double change = shape(vec(points[i] + steps[i])).distance - shape(vec(points[i])).distance;
-    EXPECT_LE(std::abs(change), steps[i].norm() * (1 + 1e-9)) << points[i].transpose();
+    const double before = shape(vec(points[i])).distance, after = shape(vec(points[i] + steps[i])).distance;
+    if (!within<Family>(before) || !within<Family>(after)) continue;
+    ++tested;
+    const double slack = slope_error<Family> > 0.01 ? slope_error<Family> : 1e-9;
+    EXPECT_LE(std::abs(after - before), steps[i].norm() * (1 + slack)) << points[i].transpose();
   }
+  EXPECT_GT(tested, 1000);
 }
 
 TEST(ObstacleShapes, DistanceIsContinuous) {
   ObstacleShapes::for_each([](auto family) {
     SCOPED_TRACE(family.name);
-    for (const auto& shape : examples(family)) expect_continuous(shape);
+    for (const auto& shape : examples(family)) expect_continuous<decltype(family)>(shape);
   });
 }
 
 // Back along the normal by the distance lies the surface: with the two tests above the distance is the true one.
-template <class Shape>
+template <class Family, class Shape>
 void expect_surface(const Shape& shape, double tolerance) {
   int outside = 0, inside = 0;
   for (const Point& p : random_field(2000, 0.8, 9)) {
     const Gap<double> gap = shape(vec(p));
-    if (gap.distance < 0) {
-      ++inside;
-      continue;
-    }
+    inside += gap.distance < 0 ? 1 : 0;
+    if (gap.distance < 0 || !within<Family>(gap.distance)) continue;
     ++outside;
     const Point foot = p - gap.distance * point(gap.normal);
     EXPECT_NEAR(shape(vec(foot)).distance, 0, tolerance) << p.transpose();
@@ -125,7 +141,7 @@ TEST(ObstacleShapes, TheSurfaceIsADistanceAway) {
   ObstacleShapes::for_each([](auto family) {
     SCOPED_TRACE(family.name);
     const bool sampled_one = std::is_same_v<decltype(family), SampledSurface>;
-    for (const auto& shape : examples(family)) expect_surface(shape, sampled_one ? 2e-3 : 1e-9);
+    for (const auto& shape : examples(family)) expect_surface<decltype(family)>(shape, sampled_one ? 2e-3 : 1e-9);
   });
 }
 
@@ -168,7 +184,7 @@ TEST(ObstacleShapes, SampledSurfaceIsNearTheSphereItSamples) {
     EXPECT_LE(got, want + 0.01) << p.transpose();
     EXPECT_GT(got, 0) << p.transpose();
   }
-  EXPECT_LT(worst, 0.01);  // the triangles are up to 4.5 mm inside the sphere of 700
+  EXPECT_LT(worst, 0.001);  // of 0.7; the triangles are up to 0.00014 inside the sphere
   EXPECT_GT(beyond, 1000);
 }
 

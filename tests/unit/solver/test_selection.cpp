@@ -9,6 +9,7 @@
 #include "support/bodies.hpp"
 #include "support/level_probe.hpp"
 #include "support/simulate.hpp"
+#include "support/tolerance.hpp"
 
 namespace {
 
