@@ -152,11 +152,10 @@ TEST(Inputs, TheLibrarysErrorsHaveTheirPlaceToo) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(
-      refusal(damaged("friction: 0.2",
-                      "\n       path:\n       - {time: 1, displacement: [0, 0, 0]}\n       - {time: 1, displacement: "
-                      "[0, 0, 0]}\n     ")),
-      "a.yaml:17: contact.obstacles.0.path.1.time is 1; expected a time after that of the entry before, 1 s");
+  EXPECT_EQ(refusal(damaged("friction: 0.2",
+                            "path: [{time: 1, displacement: [0, 0, 0]},\n"
+                            "        {time: 1, displacement: [0, 0, 0]}]")),
+            "a.yaml:15: contact.obstacles.0.path.1.time is 1; expected a time after that of the entry before, 1 s");
   const Tree tree = parse_tree(sound_scene, "a.yaml");
   EXPECT_STREQ(located(InputError("body.levels.1: too small"), tree).what(), "a.yaml:6: body.levels.1: too small");
   EXPECT_STREQ(located(InputError("level 0: a step"), tree).what(), "a.yaml: level 0: a step");

@@ -55,8 +55,9 @@ constexpr double slope_error<SampledSurface> = 0.05;
 
 // The distances in which it is one: the sampled one's is a lower bound outside its grid, and rough around its middle.
 template <class Family>
-constexpr double lowest = -1e9,
-                 highest = 1e9;
+constexpr double lowest = -1e9;
+template <class Family>
+constexpr double highest = 1e9;
 template <>
 constexpr double lowest<SampledSurface> = -0.4;
 template <>
@@ -184,7 +185,7 @@ TEST(ObstacleShapes, SampledSurfaceIsNearTheSphereItSamples) {
     EXPECT_LE(got, want + 0.01) << p.transpose();
     EXPECT_GT(got, 0) << p.transpose();
   }
-  EXPECT_LT(worst, 0.001);  // of 0.7; the triangles are up to 0.00014 inside the sphere
+  EXPECT_LT(worst, 0.002);  // of 0.7: the interpolation is off by up to an eighth of cell^2 times the curvature
   EXPECT_GT(beyond, 1000);
 }
 

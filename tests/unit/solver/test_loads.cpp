@@ -72,9 +72,10 @@ TYPED_TEST(Loads, AFreeBodyIsAcceleratedByForceOverMass) {
     Simulation<TypeParam> simulation(p);
     for (int n = 0; n < 100; ++n) simulation.step();
     const Point want = 0.1 * Point(2, 0, -1) / simulation.levels()[0].mass;  // 1 kg
+    const bool implicit = std::string(integrator) == "implicit_euler";       // to the residual of its solves
     // by its masses: all vertices alike, so that the body does not even deform
     for (const Point& v : simulation.velocities())
-      EXPECT_LE((v - want).norm(), round_off<typename TypeParam::Real>(3000)) << v.transpose();
+      EXPECT_LE((v - want).norm(), implicit ? 1e-6 : round_off<typename TypeParam::Real>(3000)) << v.transpose();
     EXPECT_FALSE(simulation.check());
   }
 }
