@@ -10,7 +10,8 @@ namespace plica {
 struct SteadyMotion {
   Point velocity = Point::Zero();  ///< [m/s] from t = 0
   SteadyMotion() = default;
-  SteadyMotion(const Point& v) : velocity(v) {}
+  template <class Expression>
+  SteadyMotion(const Eigen::MatrixBase<Expression>& v) : velocity(v) {}
 };
 
 /// Straight from one displacement to the next, at rest before the first and after the last.
