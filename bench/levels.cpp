@@ -28,7 +28,7 @@ Problem ball_problem(std::size_t levels, int subdivisions) {
   p.body.initial.position = Point(0, 0, 0.049);
   p.body.surface = sphere_surface(Point::Constant(0.055), 0.05, subdivisions);
   p.gravity = Point(0, 0, -9.81);
-  p.contact.obstacles.push_back({BowlOptions{Point(0, 0, 0.13), 0.13, 0.08}, 0.3, Point::Zero()});
+  p.contact.obstacles.push_back({BowlOptions{Point(0, 0, 0.13), 0.13, 0.08}, 0.3, {}});
   p.integration.cycle = levels > 1 ? "rsv" : "single";
   return p;
 }

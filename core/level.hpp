@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/element_flags.hpp>
+#include <plica/core/load.hpp>
 #include <plica/core/model.hpp>
+#include <plica/core/path.hpp>
 #include <plica/core/surface.hpp>
+#include <vector>
 
 namespace plica {
 
-/// Vertices that move with given velocities from t = 0; none: no arrays.
+/// Vertices whose motion is given; none: no arrays.
 template <class B>
 struct PrescribedVertices {
   int count = 0;
-  Indices<B> vertex;
-  Vectors<B> velocity;  ///< [count][3] m/s
+  Indices<B> vertex;  ///< [count]
+  Indices<B> path;    ///< [count] the one it follows
+  Kokkos::View<Path*, typename B::Memory> paths;
+  Kokkos::View<PathKnot*, typename B::Memory> knots;
+};
+
+/// A dead load's forces at factor 1.
+template <class B>
+struct Load {
+  int count = 0;
+  Indices<B> vertex;  ///< [count]
+  Vectors<B> force;   ///< [count][3] N
+  LoadCourse course;
 };
 
 /// One resolution of the body: what is constant, its state, what is needed to integrate it, and how it exchanges states with
@@ -21,6 +35,7 @@ struct Level {
   Model<B> model;
   State<B> state;
   PrescribedVertices<B> prescribed;
+  std::vector<Load<B>> loads;
   EmbeddedSurface<B> surface;  ///< only with contact; on level 0 also for looking at
 
   Vectors<B> f;           ///< [vertices][3] force at the state about to be integrated [N]

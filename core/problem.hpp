@@ -3,9 +3,9 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <plica/core/mesh.hpp>
+#include <plica/core/load.hpp>
+#include <plica/core/obstacles.hpp>
 #include <string>
-#include <variant>
 #include <vector>
 
 /// What is to be simulated, in SI and without files: the library's whole input. Every struct is plain; a default is the
@@ -21,21 +21,16 @@ struct MaterialOptions {
 
 /// What a region has of its own; the rest is the body's.
 struct RegionOptions {
+  std::optional<Selection> where;       ///< its elements; none: those of the mesh's region of that name
   std::optional<double> young_modulus;  ///< [Pa] > 0
   std::optional<double> poisson_ratio;  ///< in [0, 0.5)
   std::optional<double> density;        ///< [kg/m^3] > 0
 };
 
-/// Vertices chosen at rest, on every level: those in the box, or those of the mesh's vertex set or region of that name.
-struct Selection {
-  std::optional<Box> box;  ///< of rest positions [m]
-  std::string group;       ///< used where there is no box
-};
-
-/// Vertices whose motion is given: they move with this velocity from t = 0.
+/// Vertices whose motion is given.
 struct PrescribedMotion {
   Selection where;
-  Point velocity = Point::Zero();  ///< [m/s]
+  Motion motion;
 };
 
 struct DampingOptions {
@@ -54,6 +49,7 @@ struct Body {
   std::map<std::string, RegionOptions> regions;
   std::vector<Selection> fixed;
   std::vector<PrescribedMotion> prescribed;
+  std::vector<LoadOptions> loads;
   DampingOptions damping;
   InitialOptions initial;
   std::optional<TriangleSurface> surface;  ///< embedded in every level; contact acts on its vertices
@@ -81,31 +77,6 @@ struct IntegrationOptions {
   double switch_threshold = 0.1;  ///< epsilon of the switched mappings, > 0
   std::string outside = "clamp";  ///< clamp | extrapolate | keep: vertices outside the other mesh
   ImplicitOptions implicit;
-};
-
-/// The half-space below a plane is solid.
-struct PlaneOptions {
-  Point point = Point::Zero();    ///< on the plane [m]
-  Point normal = Point::UnitZ();  ///< out of the solid; any length > 0
-};
-
-/// A solid sphere.
-struct SphereOptions {
-  Point centre = Point::Zero();  ///< [m]
-  double radius = 1;             ///< [m] > 0
-};
-
-/// A block with flat top out of which a sphere is hollowed: the inside of a spherical shell, up to its rim.
-struct BowlOptions {
-  Point centre = Point::Zero();  ///< of the sphere [m]
-  double radius = 1;             ///< [m] > 0
-  double rim = 0;  ///< height of the flat top above the bowl's lowest point [m], in (0, radius]; 0: radius
-};
-
-struct ObstacleOptions {
-  std::variant<PlaneOptions, SphereOptions, BowlOptions> shape;
-  std::optional<double> friction;  ///< Coulomb's coefficient >= 0; none: frictionless
-  Point velocity = Point::Zero();  ///< the obstacle moves so from t = 0 [m/s]
 };
 
 /// Penalty contact of the embedded surface's vertices. The scales multiply, per surface point, the stiffness E A / h

@@ -81,6 +81,8 @@ void drop_unreferenced(TriangleSurface& surface, SurfaceReport& report) {
     for (int& v : triangle) v = number[static_cast<std::size_t>(v)];
 }
 
+}  // namespace
+
 void count_edges(const TriangleSurface& surface, SurfaceReport& report) {
   std::vector<std::pair<std::array<int, 2>, bool>> edges;  // ascending; whether the triangle runs so
   edges.reserve(surface.triangles.size() * 3);
@@ -97,8 +99,6 @@ void count_edges(const TriangleSurface& surface, SurfaceReport& report) {
     if (end == e + 2 && edges[e].second == edges[e + 1].second) ++report.inconsistent_edges;
   }
 }
-
-}  // namespace
 
 TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report) {
   if (raw.triangles.empty()) refuse(raw.file, {}, "the file holds no triangle");

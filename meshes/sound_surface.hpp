@@ -15,4 +15,7 @@ namespace plica {
 ///        twice, or not at all; a triangle without area (twice the area is at most 1e-12 of the longest edge squared)
 TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report);
 
+/// Adds its edges that keep a surface from having an inside to the report.
+void count_edges(const TriangleSurface& surface, SurfaceReport& report);
+
 }  // namespace plica

@@ -2,51 +2,43 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/set_up/device_shape.hpp>
+#include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/motion/path.hpp>
 
 namespace plica {
 
 namespace {
-
-template <class Real>
-Vec3<Real> vec(const Point& p) {
-  return {static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])};
-}
-
-template <class Real>
-Plane::Shape<Real> device_shape(const PlaneOptions& o) {
-  return {vec<Real>(o.point), vec<Real>(o.normal.normalized())};
-}
-template <class Real>
-Sphere::Shape<Real> device_shape(const SphereOptions& o) {
-  return {vec<Real>(o.centre), static_cast<Real>(o.radius)};
-}
-template <class Real>
-Bowl::Shape<Real> device_shape(const BowlOptions& o) {
-  const double rim = o.rim > 0 ? o.rim : o.radius;
-  return {vec<Real>(o.centre), static_cast<Real>(o.radius), static_cast<Real>(rim - o.radius)};
-}
 
 template <class B, class Shape>
 class ObstacleOf final : public Obstacle<B> {
   using Real = typename B::Real;
   using Exec = typename B::Exec;
   Shape shape_;
-  Point velocity_;
+  Scalars<B> storage_;  // of the shape
+  std::vector<PathKnot> knots_;
+  Path path_;
   PenaltyLaw<Real> law_;
+
+  PathPoint at(double time, double ahead) const { return path_step(path_, knots_.data(), time, ahead); }
+  static Vec3<Real> rounded(const Vec3<double>& x) {
+    return {static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])};
+  }
 
   template <bool Tangent>
   void launch(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double h,
               double ahead, bool first, const ContactPoints<B>& points) const {
+    const PathPoint now = at(time, ahead);
     Kokkos::parallel_for("plica::contact_forces", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
-                         ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, vec<Real>(time * velocity_),
-                                                            vec<Real>(velocity_), law_, static_cast<Real>(ahead),
+                         ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, rounded(now.displacement),
+                                                            rounded(now.velocity), law_, static_cast<Real>(ahead),
                                                             static_cast<Real>(h), first, points.force, points.block});
   }
 
  public:
-  ObstacleOf(const Shape& shape, const Point& velocity, const PenaltyLaw<Real>& law)
-      : shape_(shape), velocity_(velocity), law_(law) {}
+  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Motion& motion, const PenaltyLaw<Real>& law)
+      : shape_(shape), storage_(storage), path_(make_path(motion, knots_)), law_(law) {}
 
   void forces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
               const ContactPoints<B>& points) const override {
@@ -59,9 +51,10 @@ class ObstacleOf final : public Obstacle<B> {
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
               const BlockSums<B>& blocks, const Kokkos::View<double*, typename B::Memory>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
-                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, vec<Real>(time * velocity_), law_.stiffness},
+                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, rounded(at(time, 0).displacement), law_.stiffness},
                  blocks, result);
   }
+  std::size_t bytes() const override { return storage_.span() * sizeof(Real); }
 };
 
 }  // namespace
@@ -82,8 +75,10 @@ Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& materi
                                static_cast<Real>(o.friction.value_or(0))};
     std::visit(
         [&](const auto& shape) {
-          using Shape = decltype(device_shape<Real>(shape));
-          obstacles_.push_back(std::make_unique<ObstacleOf<B, Shape>>(device_shape<Real>(shape), o.velocity, law));
+          Scalars<B> storage;
+          const auto made = device_shape<B>(shape, storage);
+          using Shape = std::decay_t<decltype(made)>;
+          obstacles_.push_back(std::make_unique<ObstacleOf<B, Shape>>(made, storage, o.motion, law));
         },
         o.shape);
   }
@@ -136,6 +131,13 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
     exec.fence();
     total += Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result)(0);
   }
+  return total;
+}
+
+template <class B>
+std::size_t Contact<B>::grid_bytes() const {
+  std::size_t total = 0;
+  for (const auto& obstacle : obstacles_) total += obstacle->bytes();
   return total;
 }
 

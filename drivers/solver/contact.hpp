@@ -32,6 +32,8 @@ class Obstacle {
   /// Energy stored in its penalties [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const BlockSums<B>&,
                       const Kokkos::View<double*, typename B::Memory>& result) const = 0;
+  /// Device memory of its own.
+  virtual std::size_t bytes() const = 0;
 };
 
 /// Penalty contact between a level's embedded surface and all obstacles.
@@ -58,6 +60,7 @@ class Contact {
 
   double stiffness() const { return stiffness_; }  ///< of a point [N/m]
   double damping() const { return damping_; }      ///< the larger of its coefficients [N s/m]
+  std::size_t grid_bytes() const;                  ///< of sampled distances
 
  private:
   int points_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/level_forces.hpp>
+#include <plica/drivers/solver/load_factor.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/loads/add_load.hpp>
 
 namespace plica {
 
@@ -27,8 +29,14 @@ void LevelForces<B>::elastic_and_gravity(const Level<B>& level, const State<B>& 
 }
 
 template <class B>
+void LevelForces<B>::add_loads(const Level<B>& level, double time, const Vectors<B>& f) const {
+  for (const Load<B>& load : level.loads) add_load<B>(clock_->exec(), load, load_factor(load.course, time), f);
+}
+
+template <class B>
 void LevelForces<B>::evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
+  add_loads(level, time, f);
   if (contact_) book("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
   if (external_) book("external", [&] { ask_caller(level, state, time, 0, 0, f); });
   add_correction(f);
@@ -38,6 +46,7 @@ template <class B>
 void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
                                const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
+  add_loads(level, time + ahead, f);
   if (contact_) book("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
   if (external_) book("external", [&] { ask_caller(level, state, time, h, ahead, f); });
   add_correction(f);

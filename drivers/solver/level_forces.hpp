@@ -10,7 +10,7 @@
 
 namespace plica {
 
-/// All forces on one level: internal, gravity, contact, the caller's. What the scene does not have is not there.
+/// All forces on one level: internal, gravity, loads, contact, the caller's. What the scene does not have is not there.
 template <class B>
 class LevelForces {
  public:
@@ -22,7 +22,7 @@ class LevelForces {
   /// f = the forces of a state of this level at a time [s].
   void evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f);
 
-  /// Linearises about a state for an implicit step h: f as above with contact predicted `ahead` [s].
+  /// Linearises about a state for an implicit step h: f as above with loads and contact `ahead` of it [s].
   void linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
                  const Vectors<B>& f);
   /// q = ((1 + h c) M + h^2 K + contact) p at the linearised state, inertia = 1 + h c.
@@ -69,6 +69,7 @@ class LevelForces {
   void elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f);
   void ask_caller(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
                   const Vectors<B>& f);
+  void add_loads(const Level<B>& level, double time, const Vectors<B>& f) const;
 };
 
 }  // namespace plica

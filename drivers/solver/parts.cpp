@@ -69,8 +69,16 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
   add("mass damping", body.damping.mass > 0, "body.damping.mass", "zero", 0);
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
-  add("prescribed motion", !body.prescribed.empty(), "body.prescribed", "none asked for",
-      sum([](const L& l) { return bytes(l.level.prescribed.vertex, l.level.prescribed.velocity); }));
+  add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"), "none asked for",
+      sum([](const L& l) {
+        const auto& p = l.level.prescribed;
+        return bytes(p.vertex, p.path, p.paths, p.knots);
+      }));
+  add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for", sum([](const L& l) {
+        std::size_t total = 0;
+        for (const auto& load : l.level.loads) total += bytes(load.vertex, load.force);
+        return total;
+      }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,
       levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level", sum([](const L& l) {
         return bytes_of(l.level.from_finer) + bytes_of(l.level.to_finer) + bytes_of(l.level.adjoint);
@@ -82,6 +90,9 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       sum([](const L& l) { return bytes_of(l.level.surface); }));
   add("contact", contact, counted(problem.contact.obstacles.size(), "obstacle"), "no obstacle",
       sum([](const L& l) { return bytes(l.forces->points().force, l.forces->points().block); }));
+  const Contact<B>* touching = (*built.hierarchy)[0].forces->contact();
+  const std::size_t grids = touching ? touching->grid_bytes() : 0;
+  add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
   add("implicit solver", implicit, "an implicit level", "every level is explicit",
       sum([](const L& l) { return l.integrator->bytes(); }));

@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/parts.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation.hpp>
@@ -19,9 +20,9 @@ struct Simulation<B>::Inside {
     problem.body.levels.clear();  // the placed meshes in use are in `built`
     rest.resize(built.hierarchy->levels.size());
     for (const auto& part : built.hierarchy->levels) kept.emplace_back("kept", part.level.model.vertices);
-    budget_known =
-        problem.body.prescribed.empty() && std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
-                                                        [](const ObstacleOptions& o) { return o.velocity.norm() > 0; });
+    budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
+                   std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
+                                [](const ObstacleOptions& o) { return moves(o.motion); });
     keep();
     open_budget();
   }

@@ -3,7 +3,8 @@
 #include <plica/core/model.hpp>
 
 // The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a = f/m (0 where the motion
-// is given). Undamped, each moves 12 s bytes in and 6 s out per vertex, s = sizeof(Real).
+// is given: prescribe() replaces what they make of those). Undamped, each moves 12 s bytes in and 6 s out per vertex, s =
+// sizeof(Real).
 namespace plica {
 
 /// v += h a, damped implicitly: v = (v + h a)/(1 + h c); then u += h v. Second-order in the velocity's staggered sense and
@@ -61,22 +62,6 @@ struct RungeKuttaStage {
       sum.v(a, i) += weight * h * kv;
       stage.u(a, i) = start.u(a, i) + ahead * h * ku;
       stage.v(a, i) = start.v(a, i) + ahead * h * kv;
-    }
-  }
-};
-
-/// Vertices whose motion is given: u = velocity * time, v = velocity. Within a sub-step they move like any other.
-template <class B>
-struct PrescribeMotion {
-  Indices<B> vertex;
-  Vectors<B> velocity;  ///< [listed vertices][3] m/s
-  State<B> state;
-  typename B::Real time;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) {
-      state.u(vertex(i), k) = time * velocity(i, k);
-      state.v(vertex(i), k) = velocity(i, k);
     }
   }
 };

@@ -24,7 +24,7 @@ Problem ball_in_bowl(const std::string& cycle, std::vector<int> cells) {
   p.body.surface = sphere_surface({0, 0, 0.1}, 0.05, 2);
   p.body.initial.velocity = {0.2, 0, -0.7};
   p.gravity = {0, 0, -9.81};
-  p.contact.obstacles.push_back({BowlOptions{{0.01, 0, 0.13}, 0.13, 0.08}, 0.3, Point::Zero()});
+  p.contact.obstacles.push_back({BowlOptions{{0.01, 0, 0.13}, 0.13, 0.08}, 0.3, {}});
   p.integration.cycle = cycle;
   return p;
 }

@@ -70,6 +70,6 @@ inline Problem cube_levels(int levels, int finest, const std::string& cycle) {
 }
 
 /// The vertices of the face x = 0.
-inline Selection left_face() { return {Box{{0, -1e3, -1e3}, {0, 1e3, 1e3}}, ""}; }
+inline Selection left_face() { return Box{{0, -1e3, -1e3}, {0, 1e3, 1e3}}; }
 
 }  // namespace plica::test

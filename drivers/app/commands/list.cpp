@@ -40,7 +40,8 @@ void list_keys(bool json) {
   std::string text;
   for (const KeyInfo& key : scene_keys()) {
     array.push_back({{"key", key.path}, {"expects", key.expects}, {"otherwise", key.otherwise}, {"help", key.help}});
-    const bool has_default = !key.otherwise.empty() && key.otherwise != "required" && key.otherwise != "one of these";
+    const bool has_default =
+        !key.otherwise.empty() && key.otherwise != "required" && !key.otherwise.ends_with("one of these");
     const std::string otherwise = key.otherwise.empty() ? "" : (has_default ? "; default " : "; ") + key.otherwise;
     if (!text.empty() && key.path.find('.') == std::string::npos) text += "\n";
     text += key.path + "\n" + wrapped(key.expects + otherwise, 96, "    ") + wrapped(key.help, 96, "    ");

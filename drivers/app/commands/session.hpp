@@ -36,7 +36,7 @@ auto with_simulation(const SceneArguments& arguments, const Action& action) {
     try {
       simulation.emplace(scene.problem);
     } catch (const InputError& error) {
-      throw InputError(error.what(), {scene.file});
+      throw located(error, scene.source);
     }
     using Exec = typename B::Exec;
     const Machine machine{Exec::name(), Exec().concurrency(), arguments.precision};

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/obstacles_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/version.hpp>
@@ -11,31 +12,6 @@ namespace plica::app {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-Json point(const Point& p) { return {p.x(), p.y(), p.z()}; }
-
-Json shape_json(const PlaneOptions& plane) {
-  return {{"plane", {{"point", point(plane.point)}, {"normal", point(plane.normal)}}}};
-}
-Json shape_json(const SphereOptions& sphere) {
-  return {{"sphere", {{"centre", point(sphere.centre)}, {"radius", sphere.radius}}}};
-}
-Json shape_json(const BowlOptions& bowl) {
-  return {{"bowl",
-           {{"centre", point(bowl.centre)}, {"radius", bowl.radius}, {"rim", bowl.rim > 0 ? bowl.rim : bowl.radius}}}};
-}
-
-// As the scene names them, so that a picture can show what was hit
-Json obstacles_json(const std::vector<ObstacleOptions>& obstacles) {
-  Json list = Json::array();
-  for (const ObstacleOptions& obstacle : obstacles) {
-    Json entry = std::visit([](const auto& shape) { return shape_json(shape); }, obstacle.shape);
-    entry["friction"] = obstacle.friction.value_or(0);
-    entry["velocity"] = point(obstacle.velocity);
-    list.push_back(entry);
-  }
-  return list;
-}
 
 Json diagnosis_json(const std::optional<Diagnosis>& diagnosis) {
   if (!diagnosis) return nullptr;

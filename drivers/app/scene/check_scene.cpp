@@ -46,7 +46,8 @@ void check_contact(const Scene& scene, const Tree& tree) {
 }
 
 void check_box(const Selection& selection, const std::string& path, const Tree& tree) {
-  if (selection.box && (selection.box->min.array() > selection.box->max.array()).any())
+  const Box* box = std::get_if<Box>(&selection);
+  if (box && (box->min.array() > box->max.array()).any())
     throw InputError(path + ".box: min is above max", place_of(tree, path + ".box"));
 }
 

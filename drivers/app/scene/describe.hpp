@@ -4,8 +4,8 @@
 #include <plica/drivers/app/scene/scene.hpp>
 
 /// Every key of a scene, once: its name, where it goes, what it may be, and what it means. A visitor walks these
-/// tables to read a scene (reader.hpp) or to print the keys (key_list.hpp). `required` keys have no default; exactly
-/// one of a struct's `alternative` keys is given.
+/// tables to read a scene (reader.hpp) or to print the keys (key_list.hpp). `required` keys have no default; of the
+/// `alternative` keys after one_of() exactly one is given, after at_most_one() one or none.
 namespace plica::app {
 
 std::vector<Choice> outside_rules();
@@ -42,6 +42,7 @@ void describe(V& v, CylinderRecipe& o) {
 
 template <class V>
 void describe(V& v, LevelRecipe& o) {
+  v.one_of();
   v.alternative("box", o.box, BoxRecipe{}, "a box of cells");
   v.alternative("ball", o.ball, BallRecipe{}, "a ball");
   v.alternative("cylinder", o.cylinder, CylinderRecipe{}, "a cylinder");
@@ -58,6 +59,7 @@ void describe(V& v, BallSurfaceRecipe& o) {
 
 template <class V>
 void describe(V& v, SurfaceRecipe& o) {
+  v.one_of();
   v.alternative("sphere", o.sphere, BallSurfaceRecipe{}, "a triangulated sphere");
   v.alternative_value("boundary", o.boundary, Flag{}, "true: the boundary of level 0");
 }
@@ -72,7 +74,34 @@ void describe(V& v, MaterialOptions& o) {
 }
 
 template <class V>
+void describe(V& v, BallSelection& o) {
+  v("centre", o.centre, Vector{length}, "centre");
+  v.required("radius", o.radius, Quantity{length, positive}, "radius");
+}
+
+template <class V>
+void describe(V& v, HalfSpaceSelection& o) {
+  v("point", o.point, Vector{length}, "on the plane");
+  v("normal", o.normal, Vector{number}, "away from what is chosen; its length does not matter");
+}
+
+template <class V>
+void describe(V& v, Selection& o) {
+  v.one_of();
+  v.alternative("box", o, Box{}, "what is inside, at rest");
+  v.alternative("sphere", o, BallSelection{}, "what is inside, at rest");
+  v.alternative("plane", o, HalfSpaceSelection{}, "what lies on the plane or below it, at rest");
+  v.alternative_value("group", o, As<GroupSelection, std::string, Text>{},
+                      "a named group of the mesh file: points, lines, surfaces or a volume");
+  v.alternative_value("region", o, As<RegionSelection, std::string, Text>{},
+                      "a volume of the mesh file, or one of body.regions");
+  v.alternative_value("nearest", o, As<NearestSelection, Point, Vector>{{length}},
+                      "the one nearest to this point, on every level");
+}
+
+template <class V>
 void describe(V& v, RegionOptions& o) {
+  v.group("where", o.where, "its elements, by their centroids; left out: the mesh file's volume of that name");
   v("young_modulus", o.young_modulus, Quantity{pressure, positive}, "instead of the body's");
   v("poisson_ratio", o.poisson_ratio, Quantity{number, {.min = 0, .max = 0.5, .max_excluded = true}},
     "instead of the body's");
@@ -80,15 +109,60 @@ void describe(V& v, RegionOptions& o) {
 }
 
 template <class V>
-void describe(V& v, Selection& o) {
-  v.alternative("box", o.box, Box{}, "the vertices inside, at rest");
-  v.alternative_value("group", o.group, Text{}, "the vertices of a named group of the mesh file");
+void describe(V& v, PathMotion::Knot& o) {
+  v.required("time", o.time, Quantity{duration, not_negative}, "after that of the entry before");
+  v.required("displacement", o.displacement, Vector{length}, "at that time, from where it is at rest");
+}
+
+template <class V>
+void describe(V& v, SineMotion& o) {
+  v.required("amplitude", o.amplitude, Vector{length}, "largest displacement from the middle");
+  v.required("frequency", o.frequency, Quantity{rate, positive}, "in hertz");
+  v("phase", o.phase, Quantity{angle}, "at the start, which is at rest's place: -90 deg starts without speed");
+}
+
+/// The keys of a motion, beside others of the map they stand in.
+template <class V>
+void describe_motion(V& v, Motion& o) {
+  v.alternative_value("velocity", o, As<SteadyMotion, Point, Vector>{{velocity}}, "with which it moves from the start");
+  v.alternative_list("path", o, PathMotion{}, &PathMotion::knots,
+                     "displacements at given times, straight in between, at rest before and after");
+  v.alternative("sine", o, SineMotion{}, "to and fro: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
 }
 
 template <class V>
 void describe(V& v, PrescribedMotion& o) {
   describe(v, o.where);
-  v.required("velocity", o.velocity, Vector{velocity}, "with which they move from the start");
+  v.one_of();
+  describe_motion(v, o.motion);
+}
+
+template <class V>
+void describe(V& v, PolygonCourse::Knot& o) {
+  v.required("time", o.time, Quantity{duration, not_negative}, "after that of the entry before");
+  v.required("factor", o.factor, Quantity{number}, "at that time");
+}
+
+template <class V>
+void describe(V& v, SineCourse& o) {
+  v.required("frequency", o.frequency, Quantity{rate, positive}, "in hertz");
+  v("phase", o.phase, Quantity{angle}, "at the start");
+}
+
+template <class V>
+void describe(V& v, LoadOptions& o) {
+  describe(v, o.where);
+  v.one_of();
+  v.alternative_value("traction", o.load, As<Traction, Point, Vector>{{pressure}},
+                      "force per area, on the boundary triangles at rest with all their vertices chosen");
+  v.alternative_value("force", o.load, As<TotalForce, Point, Vector>{{force}},
+                      "of all chosen vertices together, each in proportion to its mass");
+  v.at_most_one();
+  v.alternative_value("ramp", o.course, As<RampCourse, double, Quantity>{{duration, positive}},
+                      "rises smoothly from nothing in this time");
+  v.alternative_list("course", o.course, PolygonCourse{}, &PolygonCourse::knots,
+                     "factors at given times, straight in between, constant before and after");
+  v.alternative("sine", o.course, SineCourse{}, "times sin(2 pi frequency t + phase)");
 }
 
 template <class V>
@@ -113,9 +187,10 @@ void describe(V& v, BodyKeys& o) {
   Body& body = o.scene.problem.body;
   v.required_list("levels", o.scene.levels, "the body's meshes, finest first");
   v.group("material", body.material, "what the body is made of");
-  v.map("regions", body.regions, "what parts of it have of their own, by the mesh file's physical volumes");
+  v.map("regions", body.regions, "what parts of it have of their own: volumes of the mesh file, or selections");
   v.list("fixed", body.fixed, "vertices that stay where they are");
   v.list("prescribed", body.prescribed, "vertices whose motion is given");
+  v.list("loads", body.loads, "forces from outside, of fixed direction");
   v.group("damping", body.damping, "damping");
   v.group("initial", body.initial, "state at the start");
   v.group("surface", o.scene.surface, "embedded in every level: it touches the obstacles and is looked at");
@@ -171,20 +246,63 @@ void describe(V& v, BowlOptions& o) {
 }
 
 template <class V>
-void describe(V& v, ObstacleOptions& o) {
-  v.alternative("plane", o.shape, PlaneOptions{}, "the half-space below a plane");
-  v.alternative("sphere", o.shape, SphereOptions{}, "a solid sphere");
-  v.alternative("bowl", o.shape, BowlOptions{}, "the inside of a spherical shell, up to a rim");
-  v("friction", o.friction, Quantity{number, not_negative}, "Coulomb's coefficient; left out: frictionless");
-  v("velocity", o.velocity, Vector{velocity}, "with which it moves from the start");
+void describe(V& v, CapsuleOptions& o) {
+  v.required("from", o.from, Vector{length}, "one end of its middle line");
+  v.required("to", o.to, Vector{length}, "the other end");
+  v.required("radius", o.radius, Quantity{length, positive}, "around the line and its ends");
 }
 
 template <class V>
-void describe(V& v, ContactOptions& o) {
-  v.list("obstacles", o.obstacles, "what the body's surface touches");
-  v("stiffness_scale", o.stiffness_scale, Quantity{number, positive}, "times the penalty stiffness E A / h");
-  v("damping_scale", o.damping_scale, Quantity{number, not_negative}, "times the damping of the approach");
-  v("tangential_damping_scale", o.tangential_damping_scale, Quantity{number, not_negative},
+void describe(V& v, BlockOptions& o) {
+  v("centre", o.centre, Vector{length}, "centre");
+  v.required("size", o.size, Vector{length, positive}, "edges");
+  v("rotation", o.rotation, Vector{angle}, "about the centre: [0, 0, 30 deg] turns it by 30 degrees about z");
+}
+
+template <class V>
+void describe(V& v, CylinderOptions& o) {
+  v.required("from", o.from, Vector{length}, "centre of one end");
+  v.required("to", o.to, Vector{length}, "centre of the other end");
+  v.required("radius", o.radius, Quantity{length, positive}, "radius");
+}
+
+template <class V>
+void describe(V& v, ToolRecipe& o) {
+  v.required("file", o.file, Text{}, "a closed surface (.stl, .obj, .msh), relative to the scene");
+  v("scale", o.scale, Quantity{number, positive}, "metres per unit of that file: 0.001 for millimetres");
+  v("rotation", o.rotation, Vector{angle}, "about the file's origin: [0, 0, 30 deg] turns it by 30 degrees about z");
+  v("position", o.position, Vector{length}, "where that origin is put");
+  v("cells", o.cells, Count{0}, "of its distance grid, along the longest extent; 0: 64, and more where it is thin");
+}
+
+template <class V>
+void describe(V& v, ObstacleRecipe& o) {
+  auto& shape = o.options.shape;
+  v.one_of();
+  v.alternative("plane", shape, PlaneOptions{}, "the half-space below a plane");
+  v.alternative("sphere", shape, SphereOptions{}, "a solid sphere");
+  v.alternative("bowl", shape, BowlOptions{}, "the inside of a spherical shell, up to a rim");
+  v.alternative("capsule", shape, CapsuleOptions{}, "a cylinder with round ends");
+  v.alternative("box", shape, BlockOptions{}, "a solid box");
+  v.alternative("cylinder", shape, CylinderOptions{}, "a cylinder with flat ends");
+  v.alternative("surface", o.tool, ToolRecipe{}, "the inside of a closed triangulated surface");
+  v("friction", o.options.friction, Quantity{number, not_negative}, "Coulomb's coefficient; left out: frictionless");
+  v.at_most_one();
+  describe_motion(v, o.options.motion);
+}
+
+/// The key `contact` fills the library's options and the recipes of its obstacles.
+struct ContactKeys {
+  Scene& scene;
+};
+
+template <class V>
+void describe(V& v, ContactKeys& o) {
+  ContactOptions& contact = o.scene.problem.contact;
+  v.list("obstacles", o.scene.obstacles, "what the body's surface touches");
+  v("stiffness_scale", contact.stiffness_scale, Quantity{number, positive}, "times the penalty stiffness E A / h");
+  v("damping_scale", contact.damping_scale, Quantity{number, not_negative}, "times the damping of the approach");
+  v("tangential_damping_scale", contact.tangential_damping_scale, Quantity{number, not_negative},
     "times the damping of slow sliding, where friction is not yet at its cap");
 }
 
@@ -203,7 +321,8 @@ void describe(V& v, Scene& o) {
   BodyKeys body{o};
   v.required_group("body", body, "the deformable body");
   v.group("integration", o.problem.integration, "how it is stepped in time");
-  v.group("contact", o.problem.contact, "what it collides with");
+  ContactKeys contact{o};
+  v.group("contact", contact, "what it collides with");
   v.group("output", o.output, "what a run writes");
 }
 

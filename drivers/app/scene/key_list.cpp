@@ -52,14 +52,21 @@ class KeyList {
     add(key, "a map of maps", "", help);
     walk_new<T>(std::string(key) + ".<name>");
   }
+  void one_of() { choice_ = "one of these"; }
+  void at_most_one() { choice_ = "at most one of these"; }
   template <class Target, class T>
   void alternative(const char* key, Target&, T alternative, const char* help) {
-    add(key, "a map", "one of these", help);
+    add(key, "a map", choice_, help);
     walk(alternative, key);
   }
   template <class T, class Kind>
   void alternative_value(const char* key, T&, const Kind& kind, const char* help) {
-    add(key, kind.expects(), "one of these", help);
+    add(key, kind.expects(), choice_, help);
+  }
+  template <class Target, class T, class Item>
+  void alternative_list(const char* key, Target&, const T&, std::vector<Item> T::*, const char* help) {
+    add(key, "a list of maps", choice_, help);
+    walk_new<Item>(std::string(key) + "[]");
   }
 
  private:
@@ -79,7 +86,7 @@ class KeyList {
   }
 
   std::vector<KeyInfo>& keys_;
-  std::string path_;
+  std::string path_, choice_;
 };
 
 }  // namespace

@@ -111,6 +111,19 @@ struct Name {
   std::string shown(const std::string& value) const { return value; }
 };
 
+/// A value that stands for an alternative with one member, which `Kind` reads.
+template <class Alternative, class Member, class Kind>
+struct As {
+  Kind kind;
+  template <class Target>
+  void read(const Value& value, Target& target) const {
+    Member member{};
+    kind.read(value, member);
+    target = Alternative{member};
+  }
+  std::string expects() const { return kind.expects(); }
+};
+
 /// One name for all levels, or one for each.
 struct NamePerLevel {
   Name name;

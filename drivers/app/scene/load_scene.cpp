@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 
 namespace plica::app {
 
@@ -19,7 +20,18 @@ Scene read_scene(const Tree& tree) {
   Reader reader({tree, ""});
   describe(reader, scene);
   reader.finish();
+  for (const ObstacleRecipe& recipe : scene.obstacles) {
+    ObstacleOptions& made = scene.problem.contact.obstacles.emplace_back(recipe.options);
+    if (recipe.tool) made.shape = SurfaceOptions{{}, recipe.tool->cells};
+  }
+  scene.source = tree;
   return scene;
+}
+
+InputError located(const InputError& error, const Tree& source) {
+  const std::string message = error.what(), option = message.substr(0, message.find_first_of(" :,"));
+  const bool named = source.find(option.substr(0, option.find('.'))) != nullptr;
+  return InputError(message, named ? place_of(source, option) : Where{source.where.file, 0});
 }
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
@@ -28,6 +40,11 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
   Scene scene = read_scene(tree);
   check_scene(scene, tree);
   build_meshes(scene, tree);
+  try {
+    validate(scene.problem);
+  } catch (const InputError& error) {
+    throw located(error, tree);
+  }
   return scene;
 }
 

@@ -15,6 +15,10 @@ struct Override {
 /// A scene, read, checked, with its meshes built: ready for Simulation. InputError with file and line otherwise.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
+/// An error of the library, which names options and knows no files, with the place where the scene gives the option that the
+/// message begins with.
+InputError located(const InputError& error, const Tree& source);
+
 /// Its three parts. What the keys say, each within its range:
 Scene read_scene(const Tree& tree);
 /// what they say together; InputError for contradictions.

@@ -35,9 +35,9 @@ const Tree* Reader::take(const char* key, bool is_required) {
 }
 
 const Tree* Reader::take_alternative(const char* key) {
-  alternatives_.emplace_back(key);
+  choices_.back().keys.emplace_back(key);
   const Tree* tree = take(key);
-  if (tree != nullptr) chosen_.emplace_back(key);
+  if (tree != nullptr) choices_.back().chosen.emplace_back(key);
   return tree;
 }
 
@@ -59,10 +59,12 @@ void Reader::finish() const {
   const std::string section = map_.path.empty() ? "" : map_.path + ": ";
   if (!missing_.empty())
     throw InputError(fmt::format("{}the key '{}' is missing", section, missing_.front()), map_.tree.key_where);
-  if (!alternatives_.empty() && chosen_.size() != 1)
-    throw InputError(fmt::format("{}expected {} of {}, got {}", section, chosen_.empty() ? "one" : "only one",
-                                 fmt::join(alternatives_, ", "), map_.tree.shown()),
+  for (const Alternatives& choice : choices_) {
+    if (choice.chosen.size() == 1 || (choice.chosen.empty() && !choice.required)) continue;
+    throw InputError(fmt::format("{}expected {} of {}, got {}", section, choice.chosen.empty() ? "one" : "only one",
+                                 fmt::join(choice.keys, ", "), map_.tree.shown()),
                      map_.tree.key_where);
+  }
 }
 
 }  // namespace plica::app

@@ -46,6 +46,10 @@ class Reader {
     check_map(at(*tree));
     for (const Tree& item : tree->items) read_struct({item, at(*tree).path + "." + item.key}, member[item.key]);
   }
+  /// The alternatives that follow, up to the next call: exactly one of them is given, or at most one.
+  void one_of() { choices_.push_back({true, {}, {}}); }
+  void at_most_one() { choices_.push_back({false, {}, {}}); }
+
   /// `target` takes the alternative as read: a variant or an optional.
   template <class Target, class T>
   void alternative(const char* key, Target& target, T alternative, const char*) {
@@ -57,6 +61,15 @@ class Reader {
   template <class T, class Kind>
   void alternative_value(const char* key, T& member, const Kind& kind, const char*) {
     if (const Tree* tree = take_alternative(key)) read(kind, at(*tree), member);
+  }
+
+  /// An alternative that is a list, in its member `items`.
+  template <class Target, class T, class Item>
+  void alternative_list(const char* key, Target& target, T alternative, std::vector<Item> T::*items, const char*) {
+    if (const Tree* tree = take_alternative(key)) {
+      read_list(at(*tree), alternative.*items);
+      target = alternative;
+    }
   }
 
   /// After the table: unknown keys, missing ones, none or several of the alternatives.
@@ -89,8 +102,13 @@ class Reader {
     for (std::size_t i = 0; i < size; ++i) read_struct(value.item(i), member.emplace_back());
   }
 
+  struct Alternatives {
+    bool required;
+    std::vector<std::string> keys, chosen;
+  };
   Value map_;
-  std::vector<std::string> known_, missing_, alternatives_, chosen_;
+  std::vector<std::string> known_, missing_;
+  std::vector<Alternatives> choices_;
 };
 
 }  // namespace plica::app

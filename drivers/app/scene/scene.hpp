@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/app/scene/tree.hpp>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,20 @@ struct SurfaceRecipe {
   bool boundary = false;  ///< the boundary of level 0
 };
 
+/// A rigid solid of a file of triangles: scaled, turned about the file's origin, then moved.
+struct ToolRecipe {
+  std::string file;                ///< relative to the scene
+  double scale = 1;                ///< metres per unit of the file > 0
+  Point rotation = Point::Zero();  ///< its direction is the axis, its length the angle [rad]
+  Point position = Point::Zero();  ///< of the file's origin [m]
+  int cells = 0;                   ///< see SurfaceOptions
+};
+
+struct ObstacleRecipe {
+  ObstacleOptions options;
+  std::optional<ToolRecipe> tool;  ///< where the shape comes from a file
+};
+
 struct OutputOptions {
   std::optional<double> every;  ///< simulated time between frames [s] > 0; none: a sixtieth of the duration
   bool volume = false;          ///< level 0's tetrahedra as well
@@ -65,7 +80,9 @@ struct Scene {
   Problem problem;      ///< complete once its meshes are built
   std::vector<LevelRecipe> levels;
   std::optional<SurfaceRecipe> surface;
+  std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
+  Tree source;  ///< where what was said
 };
 
 }  // namespace plica::app

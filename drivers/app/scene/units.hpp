@@ -22,6 +22,8 @@ inline constexpr Dimension acceleration{.length = 1, .time = -2};
 inline constexpr Dimension angular_velocity{.time = -1, .angle = 1};
 inline constexpr Dimension pressure{.mass = 1, .length = -1, .time = -2};
 inline constexpr Dimension density{.mass = 1, .length = -3};
+inline constexpr Dimension force{.mass = 1, .length = 1, .time = -2};
+inline constexpr Dimension angle{.angle = 1};
 
 /// "a pressure", "a length"; a product of SI units where the dimension has no name.
 std::string name_of(const Dimension& dimension);

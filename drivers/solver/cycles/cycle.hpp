@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/hierarchy.hpp>
-#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
 
 namespace plica {
 
@@ -23,10 +23,7 @@ double integrate(Hierarchy<B>& hierarchy, int i, double time, double t) {
   Level<B>& level = part.level;
   const double span = part.share * t;
   hierarchy.clock.time("integrate", i, [&] {
-    if (level.prescribed.count > 0)
-      update_vertices<B>(hierarchy.exec(), "plica::prescribe", level.prescribed.count,
-                         PrescribeMotion<B>{level.prescribed.vertex, level.prescribed.velocity, level.state,
-                                            static_cast<typename B::Real>(time)});
+    prescribe(hierarchy.exec(), level, level.state, time);
     part.integrator->advance(hierarchy.exec(), level, *part.forces, time, span / part.substeps, part.substeps);
   });
   return time + span;

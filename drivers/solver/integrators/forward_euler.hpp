@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
 
 namespace plica {
 
@@ -27,6 +28,7 @@ struct ForwardEuler {
       for (int s = 0; s < steps; ++s) {
         forces.evaluate(level, level.state, time + s * h, level.f);
         update_vertices<B>(exec, "plica::euler", level.model.vertices, update);
+        prescribe(exec, level, level.state, time + (s + 1) * h);
       }
     }
 

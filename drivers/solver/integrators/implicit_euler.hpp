@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <plica/drivers/solver/integrators/conjugate_gradients.hpp>
 #include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
 
 namespace plica {
 
@@ -27,6 +28,7 @@ struct ImplicitEuler {
                  int steps) override {
       residual_ = 0;
       for (int s = 0; s < steps; ++s) {
+        prescribe(exec, level, level.state, time + s * h, h);
         at_start_.copy(exec, level.state);
         double first = 0;
         for (int i = 0; i < std::max(1, options_.implicit.newton_iterations); ++i) {
@@ -34,6 +36,7 @@ struct ImplicitEuler {
           if (i == 0) first = size;
           if (size <= options_.implicit.newton_tolerance * first && i > 0) break;
         }
+        prescribe(exec, level, level.state, time + (s + 1) * h);
       }
     }
 

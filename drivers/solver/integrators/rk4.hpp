@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
 
 namespace plica {
 
@@ -37,8 +38,10 @@ struct Rk4 {
                              RungeKuttaStage<B>{level.model.inverse_mass, level.f, start_, stage_, sum_,
                                                 static_cast<Real>(h), static_cast<Real>(damping_),
                                                 static_cast<Real>(weight[k]), static_cast<Real>(ahead[k])});
+          if (k < 3) prescribe(exec, level, stage_, time + (s + at[k + 1]) * h);
         }
         level.state.copy(exec, sum_);
+        prescribe(exec, level, level.state, time + (s + 1) * h);
       }
     }
 

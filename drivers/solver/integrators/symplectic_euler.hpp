@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
 
 namespace plica {
 
@@ -29,6 +30,7 @@ struct SymplecticEuler {
       for (int s = 0; s < steps; ++s) {
         forces.evaluate(level, level.state, time + s * h, level.f);
         update_vertices<B>(exec, "plica::symplectic_euler", level.model.vertices, update);
+        prescribe(exec, level, level.state, time + (s + 1) * h);
       }
     }
 

@@ -5,6 +5,8 @@
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/set_up/add_regions.hpp>
+#include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
@@ -60,6 +62,7 @@ class HierarchyBuilder {
   Point centre_ = Point::Zero();
   TriangleSurface surface_;  // placed
   std::vector<LevelConstants> constants_;
+  std::vector<std::vector<AssembledLoad>> loads_;  // per level
   std::vector<std::unique_ptr<TetLocator>> locators_;
   std::vector<Embedding> down_, up_;  // [i]: level i's vertices in level i-1, and the other way; [0] empty
   std::vector<int> massless_ = {0};   // [i]: level i's vertices that inherit no mass
@@ -77,9 +80,13 @@ class HierarchyBuilder {
     const Point middle = 0.5 * (box.min + box.max);
     centre_ = body.initial.position.value_or(middle);
     for (std::size_t i = 0; i < levels_; ++i) {
-      constants_.push_back(level_constants(body, body.levels[i], static_cast<int>(i)));
-      built_.meshes.push_back(body.levels[i]);
-      for (Point& p : built_.meshes.back().vertices) p += centre_ - middle;
+      TetMesh& mesh = built_.meshes.emplace_back(body.levels[i]);
+      const int level = static_cast<int>(i);
+      add_regions(mesh, body.regions, level);
+      constants_.push_back(level_constants(body, mesh, level));
+      loads_.push_back(
+          assemble_loads(body, mesh, constants_[i], level, i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
+      for (Point& p : mesh.vertices) p += centre_ - middle;
     }
     for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<TetLocator>(mesh));
     if (body.surface) surface_ = *body.surface;
@@ -90,6 +97,7 @@ class HierarchyBuilder {
     const TetMesh& mesh = built_.meshes[i];
     auto& part = built_.hierarchy->levels.emplace_back();
     part.level = build_level<B>(problem_.body, mesh, constants_[i], centre_);
+    part.level.loads = device_loads<B>(problem_.body, loads_[i]);
     LevelReport& report = built_.reports.emplace_back();
     report.vertices = part.level.model.vertices, report.tets = part.level.model.tets;
     report.mean_edge = mean_edge_length(mesh);

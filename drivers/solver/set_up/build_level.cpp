@@ -1,66 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include <map>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
+#include <plica/drivers/solver/set_up/make_path.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/materials/list.hpp>
+#include <plica/kernels/motion/path.hpp>
 
 namespace plica {
 
 namespace {
 
-std::vector<int> vertices_of_region(const TetMesh& mesh, int region) {
-  std::vector<char> in(mesh.vertices.size(), 0);
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
-    if (mesh.region[e] == region)
-      for (int v : mesh.tets[e]) in[static_cast<std::size_t>(v)] = 1;
-  std::vector<int> chosen;
-  for (std::size_t v = 0; v < in.size(); ++v)
-    if (in[v]) chosen.push_back(static_cast<int>(v));
-  return chosen;
+void constrain(LevelConstants& c, const Body& body, const TetMesh& mesh, int level) {
+  std::map<int, std::string> motion_of;
+  const auto clash = [&](int v, const std::string& option) {
+    return InputError(option + ": vertex " + std::to_string(v) + " of level " + std::to_string(level) +
+                      " is prescribed by " + motion_of.at(v) + " too; a vertex has one motion, or is fixed");
+  };
+  c.constrained.assign(mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
+    const std::string option = "body.prescribed." + std::to_string(i);
+    for (int v : select_vertices(mesh, body.prescribed[i].where, {option, level})) {
+      if (!motion_of.emplace(v, option).second) throw clash(v, option);
+      c.constrained[static_cast<std::size_t>(v)] = 1;
+      c.prescribed_vertex.push_back(v), c.prescribed_motion.push_back(static_cast<int>(i));
+    }
+  }
+  for (std::size_t i = 0; i < body.fixed.size(); ++i) {
+    const std::string option = "body.fixed." + std::to_string(i);
+    for (int v : select_vertices(mesh, body.fixed[i], {option, level})) {
+      if (motion_of.contains(v)) throw clash(v, option);
+      c.constrained[static_cast<std::size_t>(v)] = 1;
+    }
+  }
 }
 
-std::vector<int> vertices_in_box(const TetMesh& mesh, const Box& box) {
-  const Box all = bounding_box(mesh.vertices);
-  const Point slack = Point::Constant(1e-9 * (all.max - all.min).norm());  // a face is chosen by its own coordinates
-  std::vector<int> chosen;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if ((mesh.vertices[v].array() >= (box.min - slack).array()).all() &&
-        (mesh.vertices[v].array() <= (box.max + slack).array()).all())
-      chosen.push_back(static_cast<int>(v));
-  return chosen;
-}
-
-std::string text(const Point& p) {
-  std::string s = "[";
-  for (int k = 0; k < 3; ++k) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%s%g", k > 0 ? ", " : "", p[k]);
-    s += number;
-  }
-  return s + "]";
-}
-
-std::vector<int> select(const TetMesh& mesh, const Selection& selection, int level) {
-  const std::string where = " on level " + std::to_string(level);
-  if (selection.box) {
-    const auto chosen = vertices_in_box(mesh, *selection.box);
-    const Box all = bounding_box(mesh.vertices);
-    if (chosen.empty())
-      throw InputError("the box from " + text(selection.box->min) + " to " + text(selection.box->max) +
-                       " m selects no vertex" + where + ", which reaches from " + text(all.min) + " to " +
-                       text(all.max) + " m at rest");
-    return chosen;
-  }
-  if (const auto set = mesh.vertex_sets.find(selection.group); set != mesh.vertex_sets.end()) return set->second;
-  const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), selection.group);
-  if (region == mesh.region_names.end()) {
-    std::vector<std::string> choices = mesh.region_names;
-    for (const auto& [name, unused] : mesh.vertex_sets) choices.push_back(name);
-    throw InputError(unknown_name("group" + where, selection.group, choices));
-  }
-  return vertices_of_region(mesh, static_cast<int>(region - mesh.region_names.begin()));
+template <class B>
+PrescribedVertices<B> prescribed_vertices(const LevelConstants& c, const std::vector<Path>& paths,
+                                          const std::vector<PathKnot>& knots) {
+  PrescribedVertices<B> p;
+  p.count = static_cast<int>(c.prescribed_vertex.size());
+  if (p.count == 0) return p;
+  p.vertex = to_device<Indices<B>>("prescribed.vertex", c.prescribed_vertex);
+  p.path = to_device<Indices<B>>("prescribed.path", c.prescribed_motion);
+  p.paths = to_device<decltype(p.paths)>("prescribed.paths", paths);
+  p.knots = to_device<decltype(p.knots)>("prescribed.knots", knots);
+  return p;
 }
 
 }  // namespace
@@ -82,21 +69,7 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, int level)
     const double density = c.density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])];
     for (int v : t) c.mass[static_cast<std::size_t>(v)] += density * tet_volume(x(0), x(1), x(2), x(3)) / 4;
   }
-  c.constrained.assign(mesh.vertices.size(), 0);
-  for (const PrescribedMotion& motion : body.prescribed)
-    for (int v : select(mesh, motion.where, level))
-      if (!std::exchange(c.constrained[static_cast<std::size_t>(v)], 1)) {
-        c.prescribed_vertex.push_back(v);
-        c.prescribed_speed.push_back(motion.velocity);
-      }
-  for (const Selection& fixed : body.fixed)
-    for (int v : select(mesh, fixed, level)) {
-      const auto moving = std::find(c.prescribed_vertex.begin(), c.prescribed_vertex.end(), v);
-      if (moving != c.prescribed_vertex.end())
-        throw InputError("vertex " + std::to_string(v) + " of level " + std::to_string(level) +
-                         " is both fixed and prescribed");
-      c.constrained[static_cast<std::size_t>(v)] = 1;
-    }
+  constrain(c, body, mesh, level);
   return c;
 }
 
@@ -115,27 +88,29 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.model.patches = build_patches<B>(placed, c.lame);
 
   std::vector<Real> mass(n), inverse(n);
-  std::vector<Row> velocity(n);
+  std::vector<Row> velocity(n), displacement(n);
   for (std::size_t v = 0; v < n; ++v) {
     mass[v] = static_cast<Real>(c.mass[v]);
     inverse[v] = c.constrained[v] ? Real(0) : static_cast<Real>(1 / c.mass[v]);
     if (!c.constrained[v])
       velocity[v] = row(body.initial.velocity + body.initial.angular_velocity.cross(placed.vertices[v] - centre));
   }
-  std::vector<Row> prescribed;
+  std::vector<PathKnot> knots;
+  std::vector<Path> paths;
+  for (const PrescribedMotion& given : body.prescribed) paths.push_back(make_path(given.motion, knots));
+  level.prescribed = prescribed_vertices<B>(c, paths, knots);
   for (std::size_t i = 0; i < c.prescribed_vertex.size(); ++i) {
-    prescribed.push_back(row(c.prescribed_speed[i]));
-    velocity[static_cast<std::size_t>(c.prescribed_vertex[i])] = prescribed.back();
+    const auto v = static_cast<std::size_t>(c.prescribed_vertex[i]);
+    const PathPoint at = path_at(paths[static_cast<std::size_t>(c.prescribed_motion[i])], knots.data(), 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      displacement[v][k] = static_cast<Real>(at.displacement[static_cast<int>(k)]);
+      velocity[v][k] = static_cast<Real>(at.velocity[static_cast<int>(k)]);
+    }
   }
   level.model.mass = to_device<Scalars<B>>("model.mass", mass);
   level.model.inverse_mass = to_device<Scalars<B>>("model.inverse_mass", inverse);
-  level.state.u = Vectors<B>("plica::state.u", n);
+  level.state.u = to_device<Vectors<B>>("state.u", displacement);
   level.state.v = to_device<Vectors<B>>("state.v", velocity);
-  if (!prescribed.empty()) {
-    level.prescribed.count = static_cast<int>(prescribed.size());
-    level.prescribed.vertex = to_device<Indices<B>>("prescribed.vertex", c.prescribed_vertex);
-    level.prescribed.velocity = to_device<Vectors<B>>("prescribed.velocity", prescribed);
-  }
   level.f = Vectors<B>("plica::work.f", n);
   level.partial = Vectors<B>("plica::work.partial", level.model.patches.vertex.extent(0));
   Materials::visit(body.material.model, [&](auto material) {

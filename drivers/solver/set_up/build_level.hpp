@@ -9,12 +9,12 @@ namespace plica {
 
 /// What a level's set-up works out on the host and other parts of the set-up need too.
 struct LevelConstants {
-  std::vector<Lame<double>> lame;       ///< per region [Pa]; one entry where the mesh names none
-  std::vector<double> density;          ///< per region [kg/m^3]
-  std::vector<double> mass;             ///< per vertex [kg], a quarter of each of its tetrahedra
-  std::vector<char> constrained;        ///< per vertex: its motion is given
-  std::vector<int> prescribed_vertex;   ///< those of them that move
-  std::vector<Point> prescribed_speed;  ///< [m/s]
+  std::vector<Lame<double>> lame;      ///< per region [Pa]; one entry where the mesh names none
+  std::vector<double> density;         ///< per region [kg/m^3]
+  std::vector<double> mass;            ///< per vertex [kg], a quarter of each of its tetrahedra
+  std::vector<char> constrained;       ///< per vertex: its motion is given
+  std::vector<int> prescribed_vertex;  ///< those of them that may move
+  std::vector<int> prescribed_motion;  ///< which of the body's motions each of them follows
 };
 
 /// `mesh` at rest, before it is placed. Throws InputError where a selection chooses nothing on this level.

@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/expect.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/solver/set_up/validate_inputs.hpp>
 
 namespace plica {
 
 namespace {
 
-void expect(bool good, const std::string& option, double value, const std::string& expectation) {
-  if (good) return;
-  char number[40];
-  std::snprintf(number, sizeof number, "%.9g", value);
-  throw InputError(option + " is " + number + "; expected " + expectation);
-}
-void positive(const std::string& option, double v, const std::string& unit) {
-  expect(v > 0 && std::isfinite(v), option, v, "a number above 0" + unit);
-}
-void not_negative(const std::string& option, double v, const std::string& unit) {
-  expect(v >= 0 && std::isfinite(v), option, v, "0 or more" + unit);
-}
-void finite(const std::string& option, const Point& p) {
-  for (int k = 0; k < 3; ++k) expect(std::isfinite(p[k]), option, p[k], "finite numbers");
-}
 void known(const std::string& kind, const std::string& name, const std::vector<Choice>& choices) {
   const auto all = names(choices);
   if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError(unknown_name(kind, name, all));
@@ -46,7 +30,10 @@ void check_body(const Body& body) {
   check_constants("body.material.", m.young_modulus, m.poisson_ratio, m.density);
   for (const auto& [name, region] : body.regions) {
     const auto& all = body.levels.front().region_names;
-    if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError(unknown_name("region", name, all));
+    if (region.where)
+      validate_selection("body.regions." + name + ".where", *region.where);
+    else if (std::find(all.begin(), all.end(), name) == all.end())
+      throw InputError(unknown_name("region", name, all));
     check_constants("body.regions." + name + ".", region.young_modulus.value_or(m.young_modulus),
                     region.poisson_ratio.value_or(m.poisson_ratio), region.density.value_or(m.density));
   }
@@ -54,7 +41,13 @@ void check_body(const Body& body) {
   if (body.initial.position) finite("body.initial.position", *body.initial.position);
   finite("body.initial.velocity", body.initial.velocity);
   finite("body.initial.angular_velocity", body.initial.angular_velocity);
-  for (const PrescribedMotion& motion : body.prescribed) finite("body.prescribed.velocity", motion.velocity);
+  const auto numbered = [](const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i); };
+  for (std::size_t i = 0; i < body.fixed.size(); ++i) validate_selection(numbered("body.fixed", i), body.fixed[i]);
+  for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
+    validate_selection(numbered("body.prescribed", i), body.prescribed[i].where);
+    validate_motion(numbered("body.prescribed", i), body.prescribed[i].motion);
+  }
+  for (std::size_t i = 0; i < body.loads.size(); ++i) validate_load(numbered("body.loads", i), body.loads[i]);
 }
 
 void check_lengths(const IntegrationOptions& o, std::size_t levels) {
@@ -92,34 +85,14 @@ void check_integration(const IntegrationOptions& o, std::size_t levels) {
   positive("integration.implicit.newton_tolerance", i.newton_tolerance, "");
 }
 
-struct CheckShape {
-  void operator()(const PlaneOptions& o) const {
-    finite("contact plane point", o.point);
-    positive("length of a contact plane's normal", o.normal.norm(), "");
-  }
-  void operator()(const SphereOptions& o) const {
-    finite("contact sphere centre", o.centre);
-    positive("contact sphere radius", o.radius, " m");
-  }
-  void operator()(const BowlOptions& o) const {
-    finite("contact bowl centre", o.centre);
-    positive("contact bowl radius", o.radius, " m");
-    expect(o.rim >= 0 && o.rim <= o.radius, "contact bowl rim", o.rim,
-           "a height above the lowest point from 0 to the radius");
-  }
-};
-
 void check_contact(const Problem& problem) {
   const ContactOptions& c = problem.contact;
   if (!c.obstacles.empty() && !problem.body.surface)
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
   if (!c.obstacles.empty() && problem.body.surface->triangles.empty())
     throw InputError("body.surface has no triangle; contact needs its area");
-  for (const ObstacleOptions& o : c.obstacles) {
-    std::visit(CheckShape{}, o.shape);
-    if (o.friction) not_negative("contact friction", *o.friction, "");
-    finite("contact obstacle velocity", o.velocity);
-  }
+  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
+    validate_obstacle("contact.obstacles." + std::to_string(i), c.obstacles[i]);
   positive("contact.stiffness_scale", c.stiffness_scale, "");
   not_negative("contact.damping_scale", c.damping_scale, "");
   not_negative("contact.tangential_damping_scale", c.tangential_damping_scale, "");

@@ -78,7 +78,8 @@ TEST_P(ShippedScene, IsSound) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene,
                          testing::Values("ball_in_bowl", "ball_in_bowl_hybrid", "ball_in_bowl_single",
-                                         "ball_in_bowl_single_implicit", "ball_in_bowl_coarse", "beam", "smallest"),
+                                         "ball_in_bowl_single_implicit", "ball_in_bowl_coarse", "beam", "smallest",
+                                         "poke", "pull"),
                          [](const auto& one) { return std::string(one.param); });
 
 TEST(Scene, BallStartsWhereTheyAgreed) {

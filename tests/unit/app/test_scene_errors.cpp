@@ -67,9 +67,11 @@ const Damage damages[] = {
     {"PlannedKey", "macro_step: 1 ms", "him: {sigma: 0.8}",
      "a.yaml:11: the key 'integration.him' is not in this build"},
     {"TwoAlternatives", "{plane: {point: [0, 0, -0.1]}, ", "{plane: {}, sphere: {radius: 1}, ",
-     "a.yaml:14: contact.obstacles.0: expected only one of plane, sphere, bowl, got a map (plane, sphere, friction)"},
+     "a.yaml:14: contact.obstacles.0: expected only one of plane, sphere, bowl, capsule, box, cylinder, surface, got "
+     "a map (plane, sphere, friction)"},
     {"NoAlternative", "{plane: {point: [0, 0, -0.1]}, friction: 0.2}", "{friction: 0.2}",
-     "a.yaml:14: contact.obstacles.0: expected one of plane, sphere, bowl, got a map (friction)"},
+     "a.yaml:14: contact.obstacles.0: expected one of plane, sphere, bowl, capsule, box, cylinder, surface, got a "
+     "map (friction)"},
     {"EmptyList", "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}", "[]",
      "a.yaml:14: contact.obstacles: expected at least one entry, got a list of 0"},
     {"AutoMisspelt", "1 ms", "automatic",

@@ -31,7 +31,7 @@ Problem cube_over(double gap, std::optional<double> friction = {}) {
         surface.triangles.push_back({at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z)});
       }
   p.body.surface = surface;
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -gap}, {0, 0, 2}}, friction, Point::Zero()});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -gap}, {0, 0, 2}}, friction, {}});
   return p;
 }
 
@@ -77,7 +77,7 @@ TYPED_TEST(ContactOn, ForceOnASunkenBodyIsThePenalty) {
 TYPED_TEST(ContactOn, MovingObstacleIsWhereItsVelocityTakesIt) {
   using Real = typename TypeParam::Real;
   Problem p = cube_over(0.01);
-  p.contact.obstacles[0].velocity = {0, 0, 0.5};
+  p.contact.obstacles[0].motion = Point(0, 0, 0.5);
   p.contact.damping_scale = 0;
   LevelProbe<TypeParam> probe(p);
   const double k = probe.at(0).forces->contact()->stiffness();
@@ -216,7 +216,7 @@ TEST(Contact, ImplicitStepsSurviveAFastImpact) {
 TEST(Contact, MovingPlanePushesTheBody) {
   for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
     Problem p = cube_over(0.001);
-    p.contact.obstacles[0].velocity = {0, 0, 0.3};
+    p.contact.obstacles[0].motion = Point(0, 0, 0.3);
     p.body.damping.mass = 10;
     p.integration.integrator = {integrator};
     p.integration.macro_step = 4e-3;

@@ -62,7 +62,7 @@ void expect_limit(const Problem& problem, double radius) {
 Problem touching_cube(double stiffness, double damping) {
   Problem p = small_cube("linear");
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 2);
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -1}, {0, 0, 1}}, 0.3, Point::Zero()});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -1}, {0, 0, 1}}, 0.3, {}});
   p.contact.stiffness_scale = stiffness, p.contact.damping_scale = damping;
   return p;
 }

@@ -24,16 +24,18 @@ Problem everything() {
   p.body.material.model = "neo_hookean";
   p.gravity = {0, 0, -9.81};
   p.body.damping.mass = 1;
-  p.body.prescribed = {{left_face(), {0, 0, 0.1}}};
+  p.body.prescribed = {{left_face(), Point(0, 0, 0.1)}};
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.01}, {0, 0, 1}}, 0.3, Point::Zero()});
+  p.body.loads = {{Box{{0.1, 0, 0}, {0.1, 0.1, 0.1}}, Traction{{1, 0, 0}}, {}}};
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.01}, {0, 0, 1}}, 0.3, {}});
+  p.contact.obstacles.push_back({SurfaceOptions{sphere_surface({0.05, 0.05, 0.3}, 0.05, 1), 8}, {}, {}});
   p.integration.integrator = {"symplectic_euler", "symplectic_euler", "implicit_euler"};
   return p;
 }
 
-const std::vector<std::string> optional_parts = {"contact", "surface",  "prescribe", "restrict", "interpol",
-                                                 "start",   "previous", "drift",     "implicit", "cg",
-                                                 "newton",  "flags",    "invert",    "rk4"};
+const std::vector<std::string> optional_parts = {"contact",  "surface", "prescribe", "restrict", "interpol", "start",
+                                                 "previous", "drift",   "implicit",  "cg",       "newton",   "flags",
+                                                 "invert",   "rk4",     "load",      "grid"};
 
 TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
   Problem p = small_cube();

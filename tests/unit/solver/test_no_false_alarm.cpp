@@ -22,7 +22,7 @@ Problem bouncing(const std::string& cycle) {
   Problem p = cube_levels(2, 4, cycle);
   p.body.material.model = "neo_hookean";
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.05, 2);
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.02}, {0, 0, 1}}, 0.3, Point::Zero()});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.02}, {0, 0, 1}}, 0.3, {}});
   p.gravity = {0, 0, -9.81};
   p.body.damping.mass = 5;
   return p;
@@ -74,7 +74,7 @@ TYPED_TEST(NoFalseAlarm, OfAStretchedBodyThatIsLetGo) {
 
 TYPED_TEST(NoFalseAlarm, OfAPushedBody) {
   Problem p = small_cube();
-  p.body.prescribed = {{left_face(), {0.5, 0, 0}}};
+  p.body.prescribed = {{left_face(), Point(0.5, 0, 0)}};
   p.body.damping.mass = 5;
   Simulation<TypeParam> simulation(p);
   advance(simulation, 300);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/make_path.hpp>
+#include <plica/kernels/motion/path.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -85,10 +88,106 @@ TEST(Prescribed, PullsTheBodyAlong) {
   }
 }
 
-TEST(Prescribed, FixedIsNotPrescribed) {
+/// Where the vertices with x = 0 should be, and how fast.
+template <class B>
+void expect_on_path(const Simulation<B>& simulation, const Problem& p, int level, double time) {
+  std::vector<PathKnot> knots;
+  const Path path = make_path(p.body.prescribed[0].motion, knots);
+  const PathPoint at = path_at(path, knots.data(), time);
+  const TetMesh& mesh = p.body.levels[static_cast<std::size_t>(level)];
+  const auto u = displacements(simulation, mesh, level), v = simulation.velocities(level);
+  for (std::size_t a = 0; a < u.size(); ++a)
+    if (mesh.vertices[a][0] == 0)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(u[a][k], at.displacement[k], round_off<typename B::Real>(4, 0.1)) << "level " << level;
+        EXPECT_NEAR(v[a][k], at.velocity[k], round_off<typename B::Real>(4)) << "level " << level;
+      }
+}
+
+const SineMotion shake{{0.002, 0, -0.001}, 7, 0.3};
+const PathMotion there_and_back{{{0.003, {0, 0, 0}}, {0.0203, {0.004, 0, 0.002}}, {0.033, {0, 0.001, 0}}}};
+
+TYPED_TEST(Prescribed, FollowsItsPathUnderEveryIntegrator) {
+  for (const Motion& motion : {Motion(shake), Motion(there_and_back)})
+    for (const std::string& integrator : names(integrators())) {
+      SCOPED_TRACE(integrator);
+      Problem p = small_cube();
+      p.body.prescribed = {{left_face(), motion}};
+      p.body.damping.mass = 10;
+      p.integration.integrator = {integrator};
+      p.integration.macro_step = 5e-4;
+      p.integration.substeps = {3};
+      p.integration.allow_unstable = true;
+      Simulation<TypeParam> simulation(p);
+      for (int n = 0; n < 80; ++n) {
+        advance(simulation, 1);
+        if (n % 13 == 0 || n == 79) expect_on_path(simulation, p, 0, simulation.time());
+      }
+    }
+}
+
+TYPED_TEST(Prescribed, IsOnItsPathOnEveryLevelAfterTransfers) {
+  for (const std::string& cycle : names(cycles())) {
+    if (cycle == "single") continue;
+    SCOPED_TRACE(cycle);
+    Problem p = cube_levels(3, 4, cycle);
+    p.body.prescribed = {{left_face(), shake}};
+    p.body.damping.mass = 50;
+    p.integration.distribution = "custom", p.integration.shares = {0.2, 0.3, 0.5};
+    p.integration.macro_step = 4e-4;
+    Simulation<TypeParam> simulation(p);
+    advance(simulation, 20);
+    const double before = simulation.time() - 4e-4;
+    expect_on_path(simulation, p, 2, before + 0.5 * 4e-4);
+    expect_on_path(simulation, p, 1, before + 0.8 * 4e-4);
+    expect_on_path(simulation, p, 0, simulation.time());
+  }
+}
+
+TYPED_TEST(Prescribed, TenThousandStepsLeaveNoDrift) {
+  Problem p = body_of({box_mesh(decimetre, {1, 1, 1})});
+  p.body.prescribed = {{left_face(), SineMotion{{0.001, 0, 0}, 2, 0}}};
+  p.body.damping.mass = 10;
+  p.integration.macro_step = 1e-3;
+  Simulation<TypeParam> simulation(p);
+  for (int n = 0; n < 10000; ++n) simulation.step();
+  EXPECT_FALSE(simulation.check());
+  EXPECT_DOUBLE_EQ(simulation.time(), 10.0);  // twenty periods: back at rest's place
+  const auto u = displacements(simulation, p.body.levels[0]);
+  for (std::size_t a = 0; a < u.size(); ++a)
+    if (p.body.levels[0].vertices[a][0] == 0) {
+      EXPECT_LE(u[a].norm(), round_off<typename TypeParam::Real>(1, 0.1));
+    }
+}
+
+// A path that begins elsewhere begins there, on every level.
+TEST(Prescribed, StartsWhereItsPathDoes) {
+  Problem p = cube_levels(2, 3, "rs");
+  p.body.prescribed = {{left_face(), PathMotion{{{0, {-0.003, 0, 0}}, {1, {0, 0, 0}}}}}};
+  const Simulation<Host> simulation(p);
+  for (int level : {0, 1}) expect_on_path(simulation, p, level, 0);
+}
+
+std::string refusal(const Problem& p) {
+  try {
+    Simulation<Host> simulation(p);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Prescribed, AVertexHasOneMotion) {
   Problem p = pulled(small_cube());
   p.body.fixed = {left_face()};
-  EXPECT_ANY_THROW(Simulation<Host>{p});
+  EXPECT_NE(refusal(p).find("body.fixed.0: vertex 0 of level 0 is prescribed by body.prescribed.0 too"),
+            std::string::npos)
+      << refusal(p);
+  p.body.fixed.clear();
+  p.body.prescribed.push_back({Box{{0, 0, 0}, {1, 0, 1}}, Point(1, 0, 0)});
+  EXPECT_NE(refusal(p).find("body.prescribed.1: vertex 0 of level 0 is prescribed by body.prescribed.0 too"),
+            std::string::npos)
+      << refusal(p);
 }
 
 }  // namespace

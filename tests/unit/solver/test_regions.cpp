@@ -69,7 +69,7 @@ TEST(Regions, SoftHalfTakesTheStretch) {
   p.body.material.poisson_ratio = 0;
   p.body.regions["stiff"].young_modulus = 80e3;
   p.body.fixed = {left_face()};
-  p.body.prescribed = {{Selection{Box{{0.4, 0, 0}, {0.4, 0.1, 0.1}}, ""}, {0.01, 0, 0}}};
+  p.body.prescribed = {{Box{{0.4, 0, 0}, {0.4, 0.1, 0.1}}, Point(0.01, 0, 0)}};
   p.body.damping.mass = 5;
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.1;
@@ -86,7 +86,7 @@ TEST(Regions, SoftHalfTakesTheStretch) {
 TEST(Regions, GroupsSelectVertices) {
   Problem p = two_halves();
   p.body.levels[0].vertex_sets["corner"] = {0, 1, 7};
-  p.body.fixed = {Selection{{}, "soft"}, Selection{{}, "corner"}};
+  p.body.fixed = {RegionSelection{"soft"}, GroupSelection{"corner"}};
   LevelProbe<Host> probe(p);
   const auto inverse = probe.inverse_mass();
   const auto& mesh = p.body.levels[0];
@@ -96,14 +96,14 @@ TEST(Regions, GroupsSelectVertices) {
       EXPECT_EQ(inverse[a] == 0, fixed) << a;
     }
   }
-  p.body.fixed = {Selection{{}, "sofd"}};
+  p.body.fixed = {GroupSelection{"sofd"}};
   try {
     LevelProbe<Host> unknown(p);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("did you mean 'soft'?"), std::string::npos) << e.what();
   }
-  p.body.fixed = {Selection{Box{{1, 1, 1}, {2, 2, 2}}, ""}};
+  p.body.fixed = {Box{{1, 1, 1}, {2, 2, 2}}};
   try {
     LevelProbe<Host> nothing(p);
     FAIL();

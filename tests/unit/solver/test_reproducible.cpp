@@ -21,7 +21,7 @@ Problem busy() {
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 3);
   p.body.initial.velocity = {0.3, 0, -0.5};
   p.gravity = {0, 0, -9.81};
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.003}, {0, 0, 1}}, 0.3, Point::Zero()});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.003}, {0, 0, 1}}, 0.3, {}});
   p.integration.integrator = {"symplectic_euler", "rk4", "implicit_euler"};
   return p;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/meshes/sphere_surface.hpp>
 
 #include "support/bodies.hpp"
 
@@ -53,7 +54,7 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.integration.implicit.max_iterations = 0; }, {"integration.implicit.max_iterations is 0"}},
     {[](Problem& p) { p.integration.implicit.newton_iterations = 0; }, {"newton_iterations is 0"}},
     {[](Problem& p) {
-       p.contact.obstacles.push_back({SphereOptions{}, {}, Point::Zero()});
+       p.contact.obstacles.push_back({SphereOptions{}, {}, {}});
      },
      {"no surface"}},
     {[](Problem& p) { p.contact.stiffness_scale = 0; }, {"contact.stiffness_scale is 0"}},
@@ -81,12 +82,68 @@ TEST(Validate, NamesEveryBadOption) {
   }
 }
 
+TEST(Validate, ChecksMotionsLoadsAndSelections) {
+  const Box all{{0, 0, 0}, {1, 1, 1}};
+  const auto motion = [&](const Motion& m) {
+    Problem p = small_cube();
+    p.body.prescribed = {{all, m}};
+    return refusal(p);
+  };
+  EXPECT_EQ(motion(PathMotion{{{0, {0, 0, 0}}, {1, {0, 0, 1}}}}), "");
+  EXPECT_EQ(motion(PathMotion{}), "body.prescribed.0.path is empty; expected at least one time");
+  EXPECT_EQ(motion(PathMotion{{{0.5, {0, 0, 0}}, {0.5, {0, 0, 1}}}}),
+            "body.prescribed.0.path.1.time is 0.5; expected a time after that of the entry before, 0.5 s");
+  EXPECT_EQ(motion(PathMotion{{{-1, {0, 0, 0}}}}), "body.prescribed.0.path.0.time is -1; expected 0 or more s");
+  EXPECT_EQ(motion(PathMotion{{{0, {nan, 0, 0}}}}).substr(0, 41), "body.prescribed.0.path.0.displacement is ");
+  EXPECT_EQ(motion(SineMotion{{1, 0, 0}, 0, 0}),
+            "body.prescribed.0.sine.frequency is 0; expected a number above 0 1/s");
+  const auto load = [&](const LoadOptions& o) {
+    Problem p = small_cube();
+    p.body.loads = {o};
+    return refusal(p);
+  };
+  EXPECT_EQ(load({all, Traction{{1, 0, 0}}, {}}), "");
+  EXPECT_EQ(load({all, Traction{{nan, 0, 0}}, {}}).substr(0, 25), "body.loads.0.traction is ");
+  EXPECT_EQ(load({all, TotalForce{}, RampCourse{0}}), "body.loads.0.ramp is 0; expected a number above 0 s");
+  EXPECT_EQ(load({all, TotalForce{}, PolygonCourse{std::vector<PolygonCourse::Knot>{{1, 1}, {0, 0}}}}),
+            "body.loads.0.course.1.time is 0; expected a time after that of the entry before, 1 s");
+  EXPECT_NE(load({BallSelection{{0, 0, 0}, -1}, TotalForce{}, {}}).find("body.loads.0.sphere.radius is -1"),
+            std::string::npos);
+  EXPECT_NE(load({HalfSpaceSelection{{0, 0, 0}, {0, 0, 0}}, TotalForce{}, {}})
+                .find("body.loads.0.plane.normal, as a length, is 0"),
+            std::string::npos);
+  EXPECT_NE(load({Box{{0, 1, 0}, {1, 0, 1}}, TotalForce{}, {}}).find("body.loads.0.box.min is 1; expected at most"),
+            std::string::npos);
+}
+
 TEST(Validate, ContactNeedsASurfaceWithAnArea) {
   Problem p = small_cube();
   p.body.surface = TriangleSurface{{{0, 0, 0}}, {}};
   EXPECT_EQ(refusal(p), "");
-  p.contact.obstacles = {{PlaneOptions{}, {}, Point::Zero()}};
+  p.contact.obstacles = {{PlaneOptions{}, {}, {}}};
   EXPECT_NE(refusal(p).find("no triangle"), std::string::npos);
+}
+
+TEST(Validate, ASurfaceObstacleIsClosedAndLooksOutwards) {
+  const auto with = [](TriangleSurface surface, int cells = 0) {
+    Problem p = small_cube();
+    p.body.surface = TriangleSurface{{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}, {{0, 1, 2}}};
+    p.contact.obstacles = {{SurfaceOptions{std::move(surface), cells}, {}, {}}};
+    return refusal(p);
+  };
+  TriangleSurface ball = sphere_surface({0, 0, 0}, 1, 1);
+  EXPECT_EQ(with(ball), "");
+  EXPECT_NE(with(ball, 3).find("surface.cells is 3"), std::string::npos);
+  EXPECT_NE(with({}).find("has no triangle"), std::string::npos);
+  TriangleSurface open = ball, mixed = ball, inside_out = ball, wild = ball;
+  open.triangles.pop_back();
+  EXPECT_NE(with(open).find("of its edges 3 are open"), std::string::npos) << with(open);
+  std::swap(mixed.triangles[0][0], mixed.triangles[0][1]);
+  EXPECT_NE(with(mixed).find("3 between triangles that look to different sides"), std::string::npos) << with(mixed);
+  for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
+  EXPECT_NE(with(inside_out).find("contact.obstacles.0.surface, as an enclosed volume, is -"), std::string::npos);
+  wild.triangles[0][0] = 42;
+  EXPECT_NE(with(wild).find("triangle's vertex is 42; expected 0 to 41"), std::string::npos) << with(wild);
 }
 
 TEST(Validate, ChecksObstacles) {
@@ -96,13 +153,18 @@ TEST(Validate, ChecksObstacles) {
     p.contact.obstacles = {std::move(o)};
     return refusal(p);
   };
-  EXPECT_EQ(with({PlaneOptions{}, 0.3, Point::Zero()}), "");
-  EXPECT_EQ(with({BowlOptions{{0, 0, 0}, 1, 0}, {}, Point::Zero()}), "");
-  EXPECT_NE(with({PlaneOptions{{0, 0, 0}, {0, 0, 0}}, {}, Point::Zero()}).find("normal"), std::string::npos);
-  EXPECT_NE(with({SphereOptions{{0, 0, 0}, -1}, {}, Point::Zero()}).find("radius is -1"), std::string::npos);
-  EXPECT_NE(with({BowlOptions{{0, 0, 0}, 1, 1.5}, {}, Point::Zero()}).find("rim is 1.5"), std::string::npos);
-  EXPECT_NE(with({PlaneOptions{}, -0.1, Point::Zero()}).find("friction is -0.1"), std::string::npos);
-  EXPECT_NE(with({PlaneOptions{}, {}, Point(nan, 0, 0)}).find("obstacle velocity"), std::string::npos);
+  EXPECT_EQ(with({PlaneOptions{}, 0.3, {}}), "");
+  EXPECT_EQ(with({BowlOptions{{0, 0, 0}, 1, 0}, {}, {}}), "");
+  EXPECT_NE(with({PlaneOptions{{0, 0, 0}, {0, 0, 0}}, {}, {}}).find("normal"), std::string::npos);
+  EXPECT_NE(with({SphereOptions{{0, 0, 0}, -1}, {}, {}}).find("radius is -1"), std::string::npos);
+  EXPECT_NE(with({BowlOptions{{0, 0, 0}, 1, 1.5}, {}, {}}).find("rim is 1.5"), std::string::npos);
+  EXPECT_NE(with({PlaneOptions{}, -0.1, {}}).find("friction is -0.1"), std::string::npos);
+  EXPECT_EQ(with({CapsuleOptions{{0, 0, 0}, {0, 0, 1}, 1}, {}, {}}), "");
+  EXPECT_NE(with({CapsuleOptions{{0, 0, 1}, {0, 0, 1}, 1}, {}, {}}).find(".capsule.to, as a distance from .from, is 0"),
+            std::string::npos);
+  EXPECT_NE(with({CylinderOptions{{0, 0, 0}, {0, 0, 1}, 0}, {}, {}}).find("cylinder.radius is 0"), std::string::npos);
+  EXPECT_NE(with({BlockOptions{{0, 0, 0}, {1, -1, 1}, {0, 0, 0}}, {}, {}}).find("box.size is -1"), std::string::npos);
+  EXPECT_NE(with({PlaneOptions{}, {}, Point(nan, 0, 0)}).find("contact.obstacles.0.velocity"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/selection.hpp>
+#include <variant>
+#include <vector>
+
+/// Forces from outside that keep their size and direction whatever the body does (dead loads).
+namespace plica {
+
+/// On the boundary triangles at rest all of whose vertices are chosen.
+struct Traction {
+  Point value = Point::Zero();  ///< [Pa]
+};
+
+/// On the chosen vertices together, each in proportion to its mass.
+struct TotalForce {
+  Point value = Point::Zero();  ///< [N]
+};
+
+struct ConstantCourse {};
+
+/// From 0 to 1 over the duration, smoothly: (1 - cos(pi t / duration)) / 2.
+struct RampCourse {
+  double duration = 1;  ///< [s] > 0
+};
+
+/// Straight from one factor to the next; the first holds before it, the last after it.
+struct PolygonCourse {
+  struct Knot {
+    double time = 0;  ///< [s] >= 0, each after the one before
+    double factor = 1;
+  };
+  std::vector<Knot> knots;  ///< at least one
+};
+
+/// sin(2 pi frequency t + phase)
+struct SineCourse {
+  double frequency = 1;  ///< [1/s] > 0
+  double phase = 0;      ///< [rad]
+};
+
+/// A load's factor over time.
+using LoadCourse = std::variant<ConstantCourse, RampCourse, PolygonCourse, SineCourse>;
+
+struct LoadOptions {
+  Selection where;
+  std::variant<Traction, TotalForce> load;
+  LoadCourse course;
+};
+
+}  // namespace plica

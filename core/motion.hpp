@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/mesh.hpp>
+#include <variant>
+#include <vector>
+
+/// Given translations, of vertices or obstacles: displacement from where they are at rest, as a function of time.
+namespace plica {
+
+struct SteadyMotion {
+  Point velocity = Point::Zero();  ///< [m/s] from t = 0
+  SteadyMotion() = default;
+  template <class Expression>
+  SteadyMotion(const Eigen::MatrixBase<Expression>& v) : velocity(v) {}
+};
+
+/// Straight from one displacement to the next, at rest before the first and after the last.
+struct PathMotion {
+  struct Knot {
+    double time = 0;                     ///< [s] >= 0, each after the one before
+    Point displacement = Point::Zero();  ///< [m]
+  };
+  std::vector<Knot> knots;  ///< at least one
+};
+
+/// amplitude * (sin(2 pi frequency t + phase) - sin(phase)): begins at rest's place whatever its phase; -90 degrees begin
+/// without speed.
+struct SineMotion {
+  Point amplitude = Point::Zero();  ///< [m]
+  double frequency = 1;             ///< [1/s] > 0
+  double phase = 0;                 ///< [rad]
+};
+
+using Motion = std::variant<SteadyMotion, PathMotion, SineMotion>;
+
+}  // namespace plica

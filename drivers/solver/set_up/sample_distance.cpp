@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/set_up/sample_distance.hpp>
+#include <plica/meshes/signed_distance.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr int cells_around = 3;      // of margin
+constexpr double cells_across = 10;  // of the shortest extent, where nobody asks for a number
+constexpr double affordable = 1 << 23, most = 1 << 27;
+
+double nodes_of(const Point& extent, double cell) {
+  return (extent / cell).array().ceil().unaryExpr([](double n) { return n + 1 + 2 * cells_around; }).prod();
+}
+
+double cell_size(const Point& extent, int cells) {
+  if (cells > 0) return extent.maxCoeff() / cells;
+  double cell = std::min(extent.maxCoeff() / 64, extent.minCoeff() / cells_across);
+  while (nodes_of(extent, cell) > affordable) cell *= 1.1;
+  return cell;
+}
+
+}  // namespace
+
+DistanceGrid sample_distance(const TriangleSurface& surface, int cells) {
+  const Box box = bounding_box(surface.vertices);
+  const Point extent = box.max - box.min;
+  DistanceGrid grid;
+  grid.cell = cell_size(extent, cells);
+  grid.margin = cells_around * grid.cell;
+  char text[300];
+  if (const double nodes = nodes_of(extent, grid.cell); nodes > most) {
+    std::snprintf(text, sizeof text,
+                  "cells is %d, a grid of %.3g nodes around %.3g x %.3g x %.3g m; expected at most %.3g", cells, nodes,
+                  extent[0], extent[1], extent[2], most);
+    throw InputError(text);
+  }
+  std::size_t total = 1;
+  for (int k = 0; k < 3; ++k) {
+    const int across = static_cast<int>(std::ceil(extent[k] / grid.cell)) + 2 * cells_around;
+    grid.nodes[static_cast<std::size_t>(k)] = across + 1;
+    grid.origin[k] = 0.5 * (box.min[k] + box.max[k] - across * grid.cell);
+    total *= static_cast<std::size_t>(across + 1);
+  }
+  grid.value.reserve(total);
+  const SignedDistance distance(surface);
+  double last = std::numeric_limits<double>::infinity();
+  for (int z = 0; z < grid.nodes[2]; ++z)
+    for (int y = 0; y < grid.nodes[1]; ++y)
+      for (int x = 0; x < grid.nodes[0]; ++x) {
+        const double bound = x > 0 ? std::abs(last) + grid.cell : std::numeric_limits<double>::infinity();
+        last = distance(grid.origin + grid.cell * Point(x, y, z), bound);
+        grid.value.push_back(last);
+      }
+  if (*std::min_element(grid.value.begin(), grid.value.end()) >= 0) {
+    std::snprintf(text, sizeof text,
+                  "no node of its distance grid, with cells of %.3g m, lies inside the surface of %.3g x %.3g x %.3g m;"
+                  " give cells above %.0f",
+                  grid.cell, extent[0], extent[1], extent[2], std::ceil(extent.maxCoeff() / grid.cell));
+    throw InputError(text);
+  }
+  return grid;
+}
+
+}  // namespace plica

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstdio>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+
+namespace plica {
+
+namespace {
+
+std::string text(double x) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", x);
+  return number;
+}
+std::string text(const Point& p) { return "[" + text(p[0]) + ", " + text(p[1]) + ", " + text(p[2]) + "]"; }
+
+/// Chooses among points: the vertices, or the elements' centroids.
+struct Among {
+  const std::vector<Point>& points;
+  double slack;  // a face is chosen by its own coordinates
+
+  template <class Inside>
+  std::vector<int> where(const Inside& inside) const {
+    std::vector<int> chosen;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (inside(points[i])) chosen.push_back(static_cast<int>(i));
+    return chosen;
+  }
+  std::vector<int> operator()(const Box& box) const {
+    return where([&](const Point& p) {
+      return (p.array() >= box.min.array() - slack).all() && (p.array() <= box.max.array() + slack).all();
+    });
+  }
+  std::vector<int> operator()(const BallSelection& ball) const {
+    return where([&](const Point& p) { return (p - ball.centre).norm() <= ball.radius + slack; });
+  }
+  std::vector<int> operator()(const HalfSpaceSelection& half) const {
+    const Point normal = half.normal.normalized();
+    return where([&](const Point& p) { return normal.dot(p - half.point) <= slack; });
+  }
+  std::vector<int> operator()(const NearestSelection& nearest) const {
+    const auto nearer = [&](const Point& a, const Point& b) {
+      return (a - nearest.to).squaredNorm() < (b - nearest.to).squaredNorm();
+    };
+    return {static_cast<int>(std::min_element(points.begin(), points.end(), nearer) - points.begin())};
+  }
+  template <class Named>
+  std::vector<int> operator()(const Named&) const {
+    return {};
+  }
+};
+
+std::string described(const Selection& selection) {
+  if (const auto* box = std::get_if<Box>(&selection))
+    return "the box from " + text(box->min) + " to " + text(box->max) + " m";
+  if (const auto* ball = std::get_if<BallSelection>(&selection))
+    return "the sphere of radius " + text(ball->radius) + " m at " + text(ball->centre) + " m";
+  const auto& half = std::get<HalfSpaceSelection>(selection);
+  return "the plane at " + text(half.point) + " m with normal " + text(half.normal);
+}
+
+std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points, const Selection& selection,
+                        const Selecting& who, const std::string& what) {
+  const Box all = bounding_box(mesh.vertices);
+  const auto chosen = std::visit(Among{points, 1e-9 * (all.max - all.min).norm()}, selection);
+  if (chosen.empty())
+    throw InputError(who.option + ": " + described(selection) + " selects no " + what + " on level " +
+                     std::to_string(who.level) + ", which reaches from " + text(all.min) + " to " + text(all.max) +
+                     " m at rest");
+  return chosen;
+}
+
+const std::string* name_in(const Selection& selection) {
+  if (const auto* group = std::get_if<GroupSelection>(&selection)) return &group->name;
+  const auto* region = std::get_if<RegionSelection>(&selection);
+  return region ? &region->name : nullptr;
+}
+
+/// The number of the region of that name; with `sets`, the mesh's vertex sets count as choices too.
+int region_named(const TetMesh& mesh, const std::string& name, const Selecting& who, bool sets) {
+  const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
+  if (region != mesh.region_names.end() && !name.empty()) return static_cast<int>(region - mesh.region_names.begin());
+  std::vector<std::string> choices;
+  for (const std::string& other : mesh.region_names)
+    if (!other.empty()) choices.push_back(other);
+  for (const auto& [set, unused] : mesh.vertex_sets)
+    if (sets) choices.push_back(set);
+  throw InputError(
+      who.option + ": " +
+      unknown_name((sets ? "group on level " : "region on level ") + std::to_string(who.level), name, choices));
+}
+
+std::vector<int> elements_of(const TetMesh& mesh, int region) {
+  std::vector<int> chosen;
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e)
+    if (mesh.region[e] == region) chosen.push_back(static_cast<int>(e));
+  return chosen;
+}
+
+std::vector<int> vertices_of(const TetMesh& mesh, int region) {
+  std::vector<char> in(mesh.vertices.size(), 0);
+  for (int e : elements_of(mesh, region))
+    for (int v : mesh.tets[static_cast<std::size_t>(e)]) in[static_cast<std::size_t>(v)] = 1;
+  std::vector<int> chosen;
+  for (std::size_t v = 0; v < in.size(); ++v)
+    if (in[v]) chosen.push_back(static_cast<int>(v));
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection, const Selecting& who) {
+  const bool group = std::holds_alternative<GroupSelection>(selection);
+  if (const std::string* name = name_in(selection)) {
+    const auto set = mesh.vertex_sets.find(*name);
+    if (group && set != mesh.vertex_sets.end()) return set->second;
+    return vertices_of(mesh, region_named(mesh, *name, who, group));
+  }
+  return select(mesh, mesh.vertices, selection, who, "vertex");
+}
+
+std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection, const Selecting& who) {
+  if (const std::string* name = name_in(selection)) return elements_of(mesh, region_named(mesh, *name, who, false));
+  std::vector<Point> centroids;
+  for (const auto& t : mesh.tets) {
+    Point sum = Point::Zero();
+    for (int v : t) sum += mesh.vertices[static_cast<std::size_t>(v)];
+    centroids.emplace_back(sum / 4);
+  }
+  return select(mesh, centroids, selection, who, "element's centroid");
+}
+
+std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
+                                                 const Selecting& who) {
+  const std::vector<int> vertices = select_vertices(mesh, selection, who);
+  std::vector<char> in(mesh.vertices.size(), 0);
+  for (int v : vertices) in[static_cast<std::size_t>(v)] = 1;
+  std::vector<std::array<int, 3>> chosen;
+  for (const auto& t : boundary_triangles(mesh))
+    if (std::all_of(t.begin(), t.end(), [&](int v) { return in[static_cast<std::size_t>(v)] != 0; }))
+      chosen.push_back(t);
+  if (chosen.empty())
+    throw InputError(who.option + ": selects " + std::to_string(vertices.size()) + " vertices on level " +
+                     std::to_string(who.level) +
+                     ", but no boundary triangle with all three of its vertices; a traction needs some");
+  return chosen;
+}
+
+}  // namespace plica

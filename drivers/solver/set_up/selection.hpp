@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <plica/core/selection.hpp>
+#include <string>
+#include <vector>
+
+namespace plica {
+
+/// Who selects, for messages: the option as a scene names it ("body.fixed.0") and the level.
+struct Selecting {
+  std::string option;
+  int level = 0;
+};
+
+/// The vertices of a mesh at rest that a selection chooses, ascending; at least one. InputError where there is none, or no group
+/// of that name.
+std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection, const Selecting& who);
+
+/// The elements whose centroid it chooses, or of the region it names; likewise.
+std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection, const Selecting& who);
+
+/// The boundary triangles all of whose vertices it chooses; likewise.
+std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection, const Selecting& who);
+
+}  // namespace plica

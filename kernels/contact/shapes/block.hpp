@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/contact/gap.hpp>
+
+namespace plica {
+
+/// A box, turned as one likes: the nearest point of a face, an edge or a corner.
+struct Block {
+  static constexpr const char* name = "box";
+  static constexpr const char* summary = "a solid box: centre, size, rotation";
+  template <class Real>
+  struct Shape {
+    Vec3<Real> centre;
+    Mat3<Real> axes;  ///< its rows are the directions of the edges
+    Vec3<Real> half;  ///< of the edges' lengths
+
+    KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
+      const Vec3<Real> d = axes * (x - centre);
+      Vec3<Real> beyond;  // the faces
+      Real squared = 0;
+      int nearest = 0;
+      Real depth[3];
+      for (int k = 0; k < 3; ++k) {
+        depth[k] = (d[k] < 0 ? -d[k] : d[k]) - half[k];
+        beyond[k] = depth[k] > 0 ? (d[k] < 0 ? -depth[k] : depth[k]) : Real(0);
+        squared += beyond[k] * beyond[k];
+        if (depth[k] > depth[nearest]) nearest = k;
+      }
+      if (!(squared > 0)) return {depth[nearest], (d[nearest] < 0 ? Real(-1) : Real(1)) * axes[nearest]};
+      const Real r = sqrt(squared);
+      return {r, (Real(1) / r) * (transpose(axes) * beyond)};
+    }
+  };
+};
+
+}  // namespace plica

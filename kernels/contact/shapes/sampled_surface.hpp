@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/contact/gap.hpp>
+
+namespace plica {
+
+/// The inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in between; the normal is the
+/// gradient's direction. Outside the grid the distance is a lower bound: that to the grid and its margin.
+struct SampledSurface {
+  static constexpr const char* name = "surface";
+  static constexpr const char* summary = "the inside of a closed triangulated surface: file, scale, position, rotation";
+  template <class Real>
+  struct Shape {
+    const Real* value;  ///< [nodes of z][of y][of x] m, in the memory of whoever asks
+    int nodes[3];       ///< along x, y, z; each at least 2
+    Vec3<Real> origin;  ///< the lowest node
+    Real cell;          ///< [m]
+    Real margin;        ///< no node on the grid's outside is nearer to the surface [m]
+
+    KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
+      const Vec3<Real> d = x - origin;
+      Vec3<Real> beyond, weight;
+      Real squared = 0;
+      int low[3];
+      for (int k = 0; k < 3; ++k) {
+        const Real extent = static_cast<Real>(nodes[k] - 1) * cell;
+        beyond[k] = d[k] < 0 ? d[k] : d[k] > extent ? d[k] - extent : Real(0);
+        squared += beyond[k] * beyond[k];
+        const Real at = (d[k] - beyond[k]) / cell;
+        low[k] = at < static_cast<Real>(nodes[k] - 2) ? static_cast<int>(at) : nodes[k] - 2;
+        weight[k] = at - static_cast<Real>(low[k]);
+      }
+      if (squared > 0) {
+        const Real r = sqrt(squared);
+        return {r + margin, (Real(1) / r) * beyond};
+      }
+      return interpolate(low, weight);
+    }
+
+   private:
+    KOKKOS_INLINE_FUNCTION Gap<Real> interpolate(const int* low, const Vec3<Real>& weight) const {
+      Gap<Real> gap{Real(0), {}};
+      for (int corner = 0; corner < 8; ++corner) {
+        Real w[3], slope[3];
+        int node[3];
+        for (int k = 0; k < 3; ++k) {
+          const bool high = (corner >> k & 1) != 0;
+          node[k] = low[k] + (high ? 1 : 0);
+          w[k] = high ? weight[k] : 1 - weight[k];
+          slope[k] = high ? Real(1) : Real(-1);
+        }
+        const Real v = value[(node[2] * nodes[1] + node[1]) * nodes[0] + node[0]];
+        gap.distance += w[0] * w[1] * w[2] * v;
+        gap.normal += Vec3<Real>{slope[0] * w[1] * w[2] * v, w[0] * slope[1] * w[2] * v, w[0] * w[1] * slope[2] * v};
+      }
+      const Real length = sqrt(dot(gap.normal, gap.normal));
+      // in the middle between two sides the gradient may vanish: any direction leads out
+      gap.normal = length > 0 ? (Real(1) / length) * gap.normal : Vec3<Real>{Real(0), Real(0), Real(1)};
+      return gap;
+    }
+  };
+};
+
+}  // namespace plica

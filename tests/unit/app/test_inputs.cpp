@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/box_mesh.hpp>
+
+#include "unit/app/scene_text.hpp"
+#include "unit/app/temporary_folder.hpp"
+
+// Selections, motions, loads and tools as scenes write them.
+namespace plica::app::test {
+namespace {
+
+using std::numbers::pi;
+
+Scene with(const std::vector<std::string>& sets) { return scene_of(sound_scene, sets); }
+
+TEST(Inputs, Selections) {
+  const Scene scene =
+      with({"body.fixed=[{box: {min: [0, 0, 0], max: [0, 1, 1]}}, {sphere: {radius: 2 cm}},"
+            " {plane: {point: [0, 0, 1 cm]}}, {nearest: [1, 2, 3 mm]}, {region: stiff}]",
+            "body.regions.stiff={where: {plane: {point: [5 cm, 0, 0], normal: [1, 0, 0]}}, density: 3}"});
+  const auto& fixed = scene.problem.body.fixed;
+  ASSERT_EQ(fixed.size(), 5u);
+  EXPECT_EQ(std::get<Box>(fixed[0]).max, Point(0, 1, 1));
+  EXPECT_DOUBLE_EQ(std::get<BallSelection>(fixed[1]).radius, 0.02);
+  EXPECT_EQ(std::get<HalfSpaceSelection>(fixed[2]).point, Point(0, 0, 0.01));
+  EXPECT_EQ(std::get<HalfSpaceSelection>(fixed[2]).normal, Point::UnitZ());
+  EXPECT_EQ(std::get<NearestSelection>(fixed[3]).to, Point(1, 2, 0.003));
+  EXPECT_EQ(std::get<RegionSelection>(fixed[4]).name, "stiff");
+  const RegionOptions& stiff = scene.problem.body.regions.at("stiff");
+  EXPECT_DOUBLE_EQ(std::get<HalfSpaceSelection>(*stiff.where).point[0], 0.05);
+  EXPECT_EQ(stiff.density, 3);
+}
+
+TEST(Inputs, Motions) {
+  const Scene scene =
+      with({"body.prescribed=[{nearest: [0, 0, 0], velocity: [1 cm/s, 0, 0]}, {nearest: [1, 0, 0], path: "
+            "[{time: 0, displacement: [0, 0, 0]}, {time: 20 ms, displacement: [0, 0, 3 mm]}]}]",
+            "contact.obstacles.0.sine={amplitude: [0, 0, 1 mm], frequency: 3 Hz, phase: -90 deg}"});
+  const auto& given = scene.problem.body.prescribed;
+  EXPECT_EQ(std::get<SteadyMotion>(given[0].motion).velocity, Point(0.01, 0, 0));
+  const auto& knots = std::get<PathMotion>(given[1].motion).knots;
+  ASSERT_EQ(knots.size(), 2u);
+  EXPECT_DOUBLE_EQ(knots[1].time, 0.02);
+  EXPECT_EQ(knots[1].displacement, Point(0, 0, 0.003));
+  const auto& sine = std::get<SineMotion>(scene.problem.contact.obstacles[0].motion);
+  EXPECT_EQ(sine.frequency, 3);
+  EXPECT_DOUBLE_EQ(sine.phase, -pi / 2);
+}
+
+TEST(Inputs, Loads) {
+  const Scene scene =
+      with({"body.loads=[{plane: {}, traction: [0, 0, -2 kPa]}, {nearest: [0, 0, 0], force: [1 mN, 0, 0],"
+            " ramp: 50 ms}, {group: side, force: [0, 0, 0], course: [{time: 1, factor: 2}]},"
+            " {region: side, force: [0, 0, 0], sine: {frequency: 4}}]",
+            "body.regions.side={where: {sphere: {radius: 5 cm}}}"});
+  const auto& loads = scene.problem.body.loads;
+  ASSERT_EQ(loads.size(), 4u);
+  EXPECT_EQ(std::get<Traction>(loads[0].load).value, Point(0, 0, -2000));
+  EXPECT_TRUE(std::holds_alternative<ConstantCourse>(loads[0].course));
+  EXPECT_EQ(std::get<TotalForce>(loads[1].load).value, Point(0.001, 0, 0));
+  EXPECT_DOUBLE_EQ(std::get<RampCourse>(loads[1].course).duration, 0.05);
+  EXPECT_EQ(std::get<PolygonCourse>(loads[2].course).knots[0].factor, 2);
+  EXPECT_EQ(std::get<SineCourse>(loads[3].course).frequency, 4);
+}
+
+TEST(Inputs, Shapes) {
+  const Scene scene =
+      with({"contact.obstacles=[{capsule: {from: [0, 0, 0], to: [0, 0, 1], radius: 1 cm}}, {box: {size: "
+            "[1, 2, 3], rotation: [0, 0, 90 deg]}}, {cylinder: {from: [0, 0, 0], to: [1, 0, 0], radius: 2}}]"});
+  const auto& obstacles = scene.problem.contact.obstacles;
+  ASSERT_EQ(obstacles.size(), 3u);
+  EXPECT_DOUBLE_EQ(std::get<CapsuleOptions>(obstacles[0].shape).radius, 0.01);
+  EXPECT_DOUBLE_EQ(std::get<BlockOptions>(obstacles[1].shape).rotation[2], pi / 2);
+  EXPECT_EQ(std::get<CylinderOptions>(obstacles[2].shape).to, Point(1, 0, 0));
+}
+
+std::string obj_of(const TriangleSurface& surface) {
+  std::ostringstream text;
+  for (const Point& p : surface.vertices) text << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for (const auto& t : surface.triangles) text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  return text.str();
+}
+
+TEST(Inputs, ToolsAreScaledTurnedAndMoved) {
+  const TemporaryFolder folder;
+  TriangleSurface block = boundary_surface(box_mesh({{0, 0, 0}, {10, 20, 30}}, {1, 1, 1})).surface;
+  std::ofstream(folder / "tool.obj") << obj_of(block);
+  const std::string file = (folder / "tool.obj").string();
+  const Scene scene =
+      with({"contact.obstacles.0={surface: {file: " + file +
+            ", scale: 0.001, rotation: [0, 0, 90 deg], position: [1, 2, 3], cells: 20}, friction: 0.1}"});
+  const auto& tool = std::get<SurfaceOptions>(scene.problem.contact.obstacles[0].shape);
+  const Box box = bounding_box(tool.surface.vertices);
+  EXPECT_LE((box.min - Point(0.98, 2, 3)).norm(), 1e-12);
+  EXPECT_LE((box.max - Point(1, 2.01, 3.03)).norm(), 1e-12);
+  EXPECT_EQ(tool.cells, 20);
+
+  block.triangles.pop_back();
+  std::ofstream(folder / "open.obj") << obj_of(block);
+  const std::string open =
+      error_of(sound_scene, {"contact.obstacles.0={surface: {file: " + (folder / "open.obj").string() + "}}"});
+  EXPECT_NE(open.find("has no inside: 3 open edges, 0 edges of more"), std::string::npos) << open;
+  const std::string missing = error_of(damaged("{plane: {point: [0, 0, -0.1]}", "{surface: {file: spoon.stl}"));
+  EXPECT_EQ(missing, "a.yaml:14: there is no surface file 'spoon.stl' (its name is relative to the scene)");
+}
+
+struct Wrong {
+  const char* said;  // in place of a line of the scene
+  const char* instead;
+  const char* message;
+};
+
+TEST(Inputs, ErrorsHaveTheirPlace) {
+  const Wrong all[] = {
+      {"  material:", "  prescribed: [{nearest: [0, 0, 0]}]\n  material:",
+       "a.yaml:7: body.prescribed.0: expected one of velocity, path, sine, got a map (nearest)"},
+      {"  material:", "  prescribed: [{velocity: [0, 0, 0]}]\n  material:",
+       "a.yaml:7: body.prescribed.0: expected one of box, sphere, plane, group, region, nearest, got a map (velocity)"},
+      {"  material:",
+       "  prescribed: [{nearest: [0, 0, 0], velocity: [0, 0, 0], sine: {amplitude: [0, 0, 0], frequency: 1}}]\n  "
+       "material:",
+       "a.yaml:7: body.prescribed.0: expected only one of velocity, path, sine, got a map (nearest, velocity, sine)"},
+      {"  material:", "  prescribed: [{nearest: [0, 0, 0], pth: []}]\n  material:",
+       "a.yaml:7: body.prescribed.0: unknown key 'pth'; did you mean 'path'?"},
+      {"  material:", "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3 Pa]}]\n  material:",
+       "a.yaml:7: body.loads.0.force.2: expected a force (N), got '3 Pa', a pressure"},
+      {"  material:", "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3], ramp: 1, sine: {frequency: 1}}]\n  material:",
+       "a.yaml:7: body.loads.0: expected only one of ramp, course, sine, got a map (nearest, force, ramp, sine)"},
+      {"  material:", "  loads: [{region: tip, force: [0, 0, 3]}]\n  material:",
+       "a.yaml:7: body.loads.0.region: there is no region 'tip': the meshes name none"},
+      {"friction: 0.2", "path: [{time: 1, displacement: [0, 0, 0, 0]}]",
+       "a.yaml:14: contact.obstacles.0.path.0.displacement: expected a list of 3 lengths (m), got a list of 4"},
+  };
+  for (const Wrong& wrong : all) {
+    const std::string text = error_of(damaged(wrong.said, wrong.instead));
+    EXPECT_EQ(text.substr(0, std::string(wrong.message).size()), wrong.message) << text;
+  }
+}
+
+// What only the library checks gets its line all the same.
+TEST(Inputs, TheLibrarysErrorsHaveTheirPlaceToo) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    std::ofstream(folder / "a.yaml") << text;
+    try {
+      load_scene(folder / "a.yaml");
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(folder.path().string().size() + 1);
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal(damaged("friction: 0.2",
+                            "path: [{time: 1, displacement: [0, 0, 0]},\n"
+                            "        {time: 1, displacement: [0, 0, 0]}]")),
+            "a.yaml:15: contact.obstacles.0.path.1.time is 1; expected a time after that of the entry before, 1 s");
+  const Tree tree = parse_tree(sound_scene, "a.yaml");
+  EXPECT_STREQ(located(InputError("body.levels.1: too small"), tree).what(), "a.yaml:6: body.levels.1: too small");
+  EXPECT_STREQ(located(InputError("level 0: a step"), tree).what(), "a.yaml: level 0: a step");
+}
+
+}  // namespace
+}  // namespace plica::app::test
