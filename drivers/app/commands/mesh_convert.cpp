@@ -92,9 +92,11 @@ ExitStatus mesh_convert(const ConvertArguments& arguments) {
 std::string written_formats_text() {
   std::vector<std::vector<std::string>> rows;
   const auto add = [&](const auto& writers) {
-    for (const auto& writer : writers)
-      rows.push_back(
-          {"." + std::string(writer.extension), writer.name, writer.binary ? "--binary" : "", writer.description});
+    for (const auto& writer : writers) {
+      const bool has_text = !rows.empty() && rows.back()[1] == writer.name;
+      rows.push_back({"." + std::string(writer.extension), writer.name, writer.binary && has_text ? "--binary" : "",
+                      writer.description});
+    }
   };
   add(mesh_writers), add(surface_writers);
   return text_table(rows, "<<<<");

@@ -42,6 +42,10 @@ std::string info_of(ReadMesh& read, double scale, const MaterialOptions& materia
 }
 
 std::string info_of(ReadSurface& read, double scale, const MaterialOptions&, const MeshInfoArguments& arguments) {
+  if (!arguments.material.empty())
+    throw InputError(
+        option_of(arguments.material.begin()->first) + ": this file holds a surface, which has no material",
+        {arguments.file});
   for (Point& p : read.surface.vertices) p *= scale;
   SurfaceDescription s = {arguments.file.string(), std::move(read), {}};
   s.warnings = surface_warnings(s.read.report);

@@ -38,7 +38,13 @@ void write_file(const std::filesystem::path& file, const std::string& content) {
 }
 
 void write_files(const std::vector<MemoryFile>& files) {
-  for (const MemoryFile& file : files) write_draft(file.name, file.bytes);
+  try {
+    for (const MemoryFile& file : files) write_draft(file.name, file.bytes);
+  } catch (const FileError&) {
+    std::error_code ignored;
+    for (const MemoryFile& file : files) std::filesystem::remove(draft_of(file.name), ignored);
+    throw;
+  }
   for (const MemoryFile& file : files) put_in_place(file.name);
 }
 

@@ -82,8 +82,8 @@ TetMesh generated(const LevelRecipe& recipe) {
   return cylinder_mesh(cylinder.base, cylinder.radius, cylinder.length, cylinder.across, cylinder.along);
 }
 
-TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest) {
-  if (recipe.boundary) return boundary_surface(finest).surface;
+TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest, const Numbering& numbering) {
+  if (recipe.boundary) return boundary_surface(in_input_order(finest, numbering)).surface;
   const Box box = bounding_box(finest.vertices);
   const Point middle = (box.min + box.max) / 2;
   return sphere_surface(recipe.sphere->centre.value_or(middle), recipe.sphere->radius, recipe.sphere->subdivisions);
@@ -133,7 +133,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
   if (scene.surface) {
     const Where where = place_of(tree, "body.surface");
     body.surface = scene.surface->file.empty()
-                       ? placed(where, [&] { return surface_of(*scene.surface, body.levels[0]); })
+                       ? placed(where, [&] { return surface_of(*scene.surface, body.levels[0], scene.numbering[0]); })
                        : from_file(*scene.surface, scene, where);
   }
   check_names(body, tree);

@@ -115,11 +115,13 @@ TEST_F(MeshCommands, ConvertInPlace) {
 
 TEST_F(MeshCommands, ConvertLeavesTheOldFileWhereItFails) {
   std::ofstream(at("b.ele")) << "old";
-  std::filesystem::create_directory(at("b.node.part"));
+  std::filesystem::create_directories(at("b.ele.part/in the way"));
   const Child child = plica({"convert", sample("blocks_41.msh"), at("b.ele")});
   EXPECT_EQ(child.status, 1);
   EXPECT_NE(child.errors.find("cannot write"), std::string::npos) << child.errors;
   EXPECT_EQ(content_of(at("b.ele")), "old");
+  EXPECT_FALSE(std::filesystem::exists(at("b.node"))) << "the first of the two files";
+  EXPECT_FALSE(std::filesystem::exists(at("b.node.part")));
 }
 
 TEST_F(MeshCommands, WrongArgumentsAreRefused) {
@@ -134,6 +136,7 @@ TEST_F(MeshCommands, WrongArgumentsAreRefused) {
   expect_refused({"convert", sample("blocks.obj"), at("a.obj"), "--merge-duplicates", "1 mm"}, "for meshes");
   expect_refused({"info", mesh, "--young-modulus", "20kpa"}, "unknown unit 'kpa'; did you mean 'kPa'?");
   expect_refused({"info", mesh, "--model", "neohookean"}, "did you mean 'neo_hookean'?");
+  expect_refused({"info", sample("blocks.obj"), "--density", "1"}, "--density: this file holds a surface");
   expect_refused({"conver", mesh, at("a.msh")}, "unknown command 'conver'; did you mean 'convert'?");
   EXPECT_FALSE(std::filesystem::exists(at("a.msh")));
 }

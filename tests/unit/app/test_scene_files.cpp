@@ -65,6 +65,14 @@ TEST(SceneFiles, FramesAreInTheOrderOfTheFile) {
   EXPECT_NE(skin.find(expected), std::string::npos);
 }
 
+TEST(SceneFiles, TheBoundaryIsInTheOrderOfTheFile) {
+  const Scene scene =
+      scene_of("duration: 1\nbody: {levels: [{file: " + sample("blocks_41.msh") + "}], surface: {boundary: true}}\n");
+  const TriangleSurface expected = boundary_surface(read_mesh(samples / "blocks_41.msh")).surface;
+  EXPECT_EQ(scene.problem.body.surface->vertices, expected.vertices);
+  EXPECT_EQ(scene.problem.body.surface->triangles, expected.triangles);
+}
+
 TEST(SceneFiles, SurfaceIsScaled) {
   const TriangleSurface metres =
       *scene_of(of_files(sample("blocks_41.msh"), sample("blocks.obj"))).problem.body.surface;
