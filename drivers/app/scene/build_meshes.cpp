@@ -48,6 +48,14 @@ std::vector<int> ids_of(const std::vector<std::int64_t>& tags, const std::vector
   return ids;
 }
 
+// A file may be in a good order already, such as that of a grid
+Reordering better_order(const TetMesh& mesh) {
+  Reordering order = locality_order(mesh);
+  if (mean_vertex_span(reordered(mesh, order)) < mean_vertex_span(mesh)) return order;
+  std::ranges::sort(order.vertices), std::ranges::sort(order.tets);
+  return order;
+}
+
 // Scaled, glued and put in an order that is fast to simulate; `numbering` leads back to the file's
 TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where, Numbering& numbering) {
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
@@ -61,7 +69,7 @@ TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where, N
     if (merged.merged > 0) warn(scene, file, {fmt::format("merged {} duplicate vertices", merged.merged)});
   }
   warn(scene, file, mesh_warnings(mesh, report));
-  const Reordering order = locality_order(mesh);
+  const Reordering order = better_order(mesh);
   numbering = {inverse(order), ids_of(report.vertex_tags, order.vertices), ids_of(report.tet_tags, order.tets)};
   return reordered(mesh, order);
 }
