@@ -84,9 +84,11 @@ void RunFiles::write_volume(const Snapshot& snapshot) {
   grid.vertices_per_cell = 4;
   grid.point_fields = {{"displacement", displacements(grid.points, finest_.vertices, placement_)},
                        {"velocity", in_input_order(snapshot.velocities, order)}};
+  const bool has_numbers = !numbering_.tet_ids.empty();  // a reader must not take them for regions
   if (!finest_.region.empty()) grid.cell_fields.push_back({"region", finest_.region});
-  if (!numbering_.tet_ids.empty())
-    grid.cell_fields.push_back({"number", in_input_order(numbering_.tet_ids, numbering_.input.tets)});
+  if (finest_.region.empty() && has_numbers)
+    grid.cell_fields.push_back({"region", std::vector<int>(finest_.tets.size(), 0)});
+  if (has_numbers) grid.cell_fields.push_back({"number", in_input_order(numbering_.tet_ids, numbering_.input.tets)});
   volume_frames_->write(grid);
 }
 

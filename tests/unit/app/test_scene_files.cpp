@@ -161,6 +161,9 @@ TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {
   EXPECT_NE(run.errors.find("warning: " + (folder / "torn.msh").string() + ": 1 inverted element"), std::string::npos)
       << run.errors;
   const auto diagnosis = nlohmann::json::parse(content_of(folder / "out/summary.json"))["diagnosis"];
+  const TetMesh volume = read_mesh(folder / "out/frames/volume_0000.vtu");
+  EXPECT_EQ(volume.tets.size(), 2);
+  EXPECT_TRUE(volume.region_names.empty()) << "the elements' numbers are no regions";
   const int element = diagnosis["element"];
   EXPECT_TRUE(element == 5 || element == 6) << diagnosis;
 }
