@@ -13,14 +13,14 @@ double length(const TetMesh& mesh, int a, int b) {
   return (mesh.vertices[static_cast<std::size_t>(b)] - mesh.vertices[static_cast<std::size_t>(a)]).norm();
 }
 
-}  // namespace
-
-std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh) {
-  // Sorted by the lower vertex by counting, then within each vertex: several times faster than one sort of all
-  std::vector<std::size_t> start(mesh.vertices.size() + 1, 0);
+// Sorted by the lower vertex by counting, then within each vertex: several times faster than one sort of all
+template <std::size_t corners>
+std::vector<std::array<int, 2>> edges_of(const std::vector<std::array<int, corners>>& cells, std::size_t vertices) {
+  std::vector<std::size_t> start(vertices + 1, 0);
   const auto for_each = [&](auto visit) {
-    for (const auto& tet : mesh.tets)
-      for (const auto& [i, j] : corner_pairs) visit(std::min(tet[i], tet[j]), std::max(tet[i], tet[j]));
+    for (const auto& cell : cells)
+      for (std::size_t i = 0; i < corners; ++i)
+        for (std::size_t j = i + 1; j < corners; ++j) visit(std::min(cell[i], cell[j]), std::max(cell[i], cell[j]));
   };
   for_each([&](int low, int) { ++start[static_cast<std::size_t>(low) + 1]; });
   for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
@@ -37,6 +37,14 @@ std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh) {
     std::for_each(first, std::unique(first, last), [&](int high) { edges.push_back({static_cast<int>(v), high}); });
   }
   return edges;
+}
+
+}  // namespace
+
+std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh) { return edges_of(mesh.tets, mesh.vertices.size()); }
+
+std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface) {
+  return edges_of(surface.triangles, surface.vertices.size());
 }
 
 std::vector<double> local_edge_lengths(const TetMesh& mesh) {

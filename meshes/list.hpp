@@ -4,6 +4,7 @@
 #include <plica/meshes/msh/write_msh.hpp>
 #include <plica/meshes/surfaces/parse_obj.hpp>
 #include <plica/meshes/surfaces/parse_stl.hpp>
+#include <plica/meshes/surfaces/write_surfaces.hpp>
 #include <plica/meshes/tetgen/parse_tetgen.hpp>
 #include <plica/meshes/tetgen/write_tetgen.hpp>
 #include <plica/meshes/vtk/parse_vtk.hpp>
@@ -35,22 +36,32 @@ inline constexpr MeshFormat surface_formats[] = {
     {"msh", "Gmsh MSH 2.2 and 4.1, its triangles", parse_msh},
 };
 
-/// A format that meshes are written in.
-struct MeshWriter {
+/// A format that meshes or surfaces are written in.
+template <class Mesh>
+struct Writer {
   const char* extension;
   const char* name;  ///< to choose among those of an extension
+  bool binary;
   const char* description;
-  WrittenMesh (*write)(const std::filesystem::path& path, const TetMesh& mesh);
+  WrittenMesh (*write)(const std::filesystem::path& path, const Mesh& mesh);
 };
 
-/// All of them; of one extension the first is written when none is named.
-inline constexpr MeshWriter mesh_writers[] = {
-    {"msh", "msh41", "Gmsh MSH 4.1, text", write_msh41},
-    {"msh", "msh22", "Gmsh MSH 2.2, text", write_msh22},
-    {"vtk", "vtk", "VTK legacy 3.0, text", write_vtk},
-    {"vtu", "vtu", "VTK XML, raw appended arrays", write_vtu},
-    {"ele", "tetgen", "TetGen, with the .node file beside it", write_tetgen},
-    {"node", "tetgen", "TetGen, with the .ele file beside it", write_tetgen},
+/// All of them; of one extension the first is written when nothing more is said.
+inline constexpr Writer<TetMesh> mesh_writers[] = {
+    {"msh", "msh41", false, "Gmsh MSH 4.1, text", write_msh41},
+    {"msh", "msh41", true, "Gmsh MSH 4.1, binary", write_msh41_binary},
+    {"msh", "msh22", false, "Gmsh MSH 2.2, text", write_msh22},
+    {"msh", "msh22", true, "Gmsh MSH 2.2, binary", write_msh22_binary},
+    {"vtk", "vtk", false, "VTK legacy 3.0, text", write_vtk},
+    {"vtk", "vtk", true, "VTK legacy 3.0, binary", write_vtk_binary},
+    {"vtu", "vtu", true, "VTK XML, raw appended arrays", write_vtu},
+    {"ele", "tetgen", false, "TetGen, with the .node file beside it", write_tetgen},
+    {"node", "tetgen", false, "TetGen, with the .ele file beside it", write_tetgen},
+};
+inline constexpr Writer<TriangleSurface> surface_writers[] = {
+    {"obj", "obj", false, "Wavefront OBJ", write_obj},
+    {"stl", "stl", false, "STL, text", write_stl},
+    {"stl", "stl", true, "STL, binary", write_stl_binary},
 };
 
 }  // namespace plica

@@ -4,6 +4,7 @@
 #include <plica/meshes/connectivity.hpp>
 #include <plica/meshes/merge_duplicates.hpp>
 #include <plica/meshes/sound_mesh.hpp>
+#include <sstream>
 
 namespace plica {
 
@@ -41,7 +42,13 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
 
   MergedMesh result;
   MeshReport report;
-  result.mesh = sound_mesh(raw, report);
+  try {
+    result.mesh = sound_mesh(raw, report);
+  } catch (const InputError& error) {
+    std::ostringstream text;
+    text << "vertices at most " << tolerance << " m apart cannot be merged: " << error.what();
+    throw InputError(text.str());
+  }
   result.merged = static_cast<int>(mesh.vertices.size() - raw.vertices.size());
   result.original_vertex.assign(report.vertex_tags.begin(), report.vertex_tags.end());
   return result;

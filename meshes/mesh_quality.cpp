@@ -73,10 +73,10 @@ class Extent {
   std::size_t count_ = 0;
 };
 
-Range edge_range(const TetMesh& mesh) {
+Range range_of(const std::vector<std::array<int, 2>>& edges, const std::vector<Point>& vertices) {
   Extent extent;
-  const auto at = [&](int v) -> const Point& { return mesh.vertices[static_cast<std::size_t>(v)]; };
-  for (const auto& [a, b] : mesh_edges(mesh)) extent.add((at(b) - at(a)).norm());
+  const auto at = [&](int v) -> const Point& { return vertices[static_cast<std::size_t>(v)]; };
+  for (const auto& [a, b] : edges) extent.add((at(b) - at(a)).norm());
   return extent.range();
 }
 
@@ -118,6 +118,10 @@ void Histogram::add(double value) {
   const auto above = std::upper_bound(bounds.begin() + 1, bounds.end() - 1, value);
   ++counts[static_cast<std::size_t>(above - bounds.begin() - 1)];
 }
+
+Range edge_range(const TetMesh& mesh) { return range_of(mesh_edges(mesh), mesh.vertices); }
+
+Range edge_range(const TriangleSurface& surface) { return range_of(mesh_edges(surface), surface.vertices); }
 
 TetShape tet_shape(const TetMesh& mesh, int tet) { return shape_of(mesh, tet).summary; }
 

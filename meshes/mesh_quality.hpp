@@ -65,4 +65,8 @@ TetShape tet_shape(const TetMesh& mesh, int tet);
 
 MeshQuality mesh_quality(const TetMesh& mesh);
 
+/// Lengths of the edges, each once. [m]
+Range edge_range(const TetMesh& mesh);
+Range edge_range(const TriangleSurface& surface);
+
 }  // namespace plica

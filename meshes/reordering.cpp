@@ -44,6 +44,12 @@ std::uint64_t key_of(const Point& p, const Box& box, double size) {
   return hilbert_number(cell);
 }
 
+std::vector<int> inverse(const std::vector<int>& order) {
+  std::vector<int> back(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) back[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  return back;
+}
+
 }  // namespace
 
 Reordering locality_order(const TetMesh& mesh) {
@@ -72,10 +78,10 @@ Reordering locality_order(const TetMesh& mesh) {
   return order;
 }
 
+Reordering inverse(const Reordering& order) { return {inverse(order.vertices), inverse(order.tets)}; }
+
 TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
-  std::vector<int> new_number(mesh.vertices.size());
-  for (std::size_t v = 0; v < order.vertices.size(); ++v)
-    new_number[static_cast<std::size_t>(order.vertices[v])] = static_cast<int>(v);
+  const std::vector<int> new_number = inverse(order.vertices);
   TetMesh result;
   result.vertices = permuted(mesh.vertices, order.vertices);
   result.tets = permuted(mesh.tets, order.tets);

@@ -15,6 +15,9 @@ struct Reordering {
 /// these first use them. The same for the same mesh on every machine.
 Reordering locality_order(const TetMesh& mesh);
 
+/// The way back: per old number the new one.
+Reordering inverse(const Reordering& order);
+
 /// The mesh in another order; what was numbered per vertex or tetrahedron goes along by permuted().
 TetMesh reordered(const TetMesh& mesh, const Reordering& order);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fstream>
+#include <algorithm>
 #include <plica/meshes/format_of.hpp>
 #include <plica/meshes/list.hpp>
 #include <plica/meshes/write_mesh.hpp>
@@ -8,28 +8,32 @@ namespace plica {
 
 namespace {
 
-const MeshWriter& writer_of(const std::filesystem::path& path, const std::string& format) {
-  const MeshWriter& first = format_of(path, mesh_writers, "mesh");
-  if (format.empty()) return first;
-  std::vector<std::string> choices;
-  for (const MeshWriter& writer : mesh_writers) {
-    if (std::string_view(writer.extension) != first.extension) continue;
-    if (format == writer.name) return writer;
-    choices.emplace_back(writer.name);
+template <class Writers>
+const auto& writer_of(const std::filesystem::path& path, const Writers& writers, const std::string& kind,
+                      const std::string& format, bool binary) {
+  const std::string_view extension = format_of(path, writers, kind).extension;
+  std::vector<std::string> names;
+  bool known = false;
+  for (const auto& writer : writers) {
+    if (writer.extension != extension) continue;
+    if (names.empty() || names.back() != writer.name) names.emplace_back(writer.name);
+    if (!format.empty() && format != writer.name) continue;
+    known = true;
+    if (writer.binary || !binary) return writer;
   }
-  throw InputError(unknown_name("format", format, choices), {path.string()});
+  if (known) throw InputError("this format has no binary form here", {path.string()});
+  throw InputError(unknown_name("format", format, names), {path.string()});
 }
 
 }  // namespace
 
-std::vector<std::string> write_mesh(const std::filesystem::path& path, const TetMesh& mesh, const std::string& format) {
-  const WrittenMesh written = writer_of(path, format).write(path, mesh);
-  for (const MemoryFile& file : written.files) {
-    std::ofstream out(file.name, std::ios::binary);
-    out.write(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size()));
-    if (!out.flush()) throw InputError("cannot be written", {file.name});
-  }
-  return written.left_out;
+WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh, const std::string& format, bool binary) {
+  return writer_of(path, mesh_writers, "mesh", format, binary).write(path, mesh);
+}
+
+WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface, const std::string& format,
+                          bool binary) {
+  return writer_of(path, surface_writers, "surface", format, binary).write(path, surface);
 }
 
 }  // namespace plica

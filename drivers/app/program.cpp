@@ -5,12 +5,15 @@
 #include <iostream>
 #include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/app/commands/mesh_convert.hpp>
 #include <plica/drivers/app/commands/mesh_info.hpp>
+#include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/run.hpp>
 #include <plica/drivers/app/commands/version.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
+#include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/kinds.hpp>
 
 namespace plica::app {
@@ -68,11 +71,18 @@ class CommandLine {
   }
 
   void check_command(const std::vector<std::string>& words) const {
-    if (words.size() < 2 || words[1].starts_with('-')) return;
-    std::vector<std::string> known;
-    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; }))
-      known.push_back(command->get_name());
-    if (std::ranges::find(known, words[1]) == known.end()) throw InputError(unknown_name("command", words[1], known));
+    const CLI::App* command = &app_;
+    for (std::size_t i = 1; i < words.size() && !words[i].starts_with('-'); ++i) {
+      std::vector<std::string> known;
+      const CLI::App* next = nullptr;
+      for (const CLI::App* one : command->get_subcommands([](const CLI::App*) { return true; })) {
+        known.push_back(one->get_name());
+        if (one->get_name() == words[i]) next = one;
+      }
+      if (known.empty()) return;
+      if (next == nullptr) throw InputError(unknown_name("command", words[i], known));
+      command = next;
+    }
   }
 
   CLI::App* add_scene_command(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
@@ -98,12 +108,41 @@ class CommandLine {
   }
 
   void add_mesh() {
-    CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files");
+    CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files and convert them");
     mesh->require_subcommand(1);
     CLI::App* info = mesh->add_subcommand("info", "what a mesh file holds and how well its tetrahedra are shaped");
-    info->add_option("FILE", mesh_file_, "the mesh")->required();
-    info->add_flag("--json", arguments_.json, "print JSON");
-    info->callback([this] { action_ = [this] { return mesh_info(mesh_file_, arguments_.json); }; });
+    info->add_option("FILE", mesh_.file, "the mesh, or a surface")->required();
+    info->add_flag("--json", mesh_.json, "print JSON, in SI units");
+    info->add_option("--scale", mesh_.scale, "metres per unit of the file, such as 0.001");
+    const auto add = [this, info](const std::string& option, const std::string& key, const std::string& expects,
+                                  const std::string& help) {
+      info->add_option_function<std::string>(
+          option, [this, key](const std::string& text) { mesh_.material[key] = text; }, help + ": " + expects);
+    };
+    MaterialOptions material;
+    OptionList list(add);
+    describe(list, material);
+    info->callback([this] {
+      action_ = [this] {
+        mesh_.kokkos = arguments_.kokkos;
+        return mesh_info(mesh_);
+      };
+    });
+    add_convert(mesh);
+  }
+
+  void add_convert(CLI::App* mesh) {
+    CLI::App* convert = mesh->add_subcommand("convert", "write a mesh or surface in another format");
+    convert->add_option("IN", convert_.in, "the file to read")->required();
+    convert->add_option("OUT", convert_.out, "the file to write, in the format of its extension")->required();
+    convert->add_option("--format", convert_.format, "which one, where the extension has several");
+    convert->add_flag("--binary", convert_.binary, "its binary form");
+    convert->add_option("--scale", convert_.scale, "all lengths times this, such as 0.001");
+    convert->add_option("--merge-duplicates", convert_.merge_duplicates,
+                        "a distance, such as 1um, after scaling: vertices this close become one");
+    convert->footer("Written are\n" + written_formats_text() +
+                    "Read are also surfaces in .msh. A mesh written as .obj or .stl leaves its boundary there.");
+    convert->callback([this] { action_ = [this] { return mesh_convert(convert_); }; });
   }
 
   void add_list() {
@@ -122,7 +161,9 @@ class CommandLine {
   CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
   RunArguments arguments_;
   std::vector<std::string> sets_;
-  std::string duration_, family_, mesh_file_;
+  std::string duration_, family_;
+  MeshInfoArguments mesh_;
+  ConvertArguments convert_;
   std::function<ExitStatus()> action_;
 };
 

@@ -16,11 +16,14 @@ void MshGather::add_name(const TextLines& lines) {
   if (lines.words().size() < 3 || lines.words()[2].front() != '"' || close <= open + 1 || close + 1 != text.size())
     lines.expected("a dimension, a tag and a name in quotes");
   const std::string name(text.substr(open + 1, close - open - 1));
-  for (const auto& [other, taken] : names_)
-    if (other == group || (group.first == 3 && other.first == 3 && taken == name))
-      lines.fail("physical group " + std::to_string(group.second) + " " + shown(name) + ": group " +
-                 std::to_string(other.second) + " of dimension " + std::to_string(other.first) + " is " + shown(taken) +
-                 " already");
+  const auto taken = names_.find(group);
+  const auto [region, is_new] = group.first == 3 ? regions_.try_emplace(name, group) : std::pair(regions_.end(), true);
+  if (taken != names_.end() || !is_new) {
+    const Group other = taken != names_.end() ? group : region->second;
+    lines.fail("physical group " + std::to_string(group.second) + " " + shown(name) + ": group " +
+               std::to_string(other.second) + " of dimension " + std::to_string(other.first) + " is " +
+               shown(names_.at(other)) + " already");
+  }
   names_[group] = name;
 }
 

@@ -35,6 +35,7 @@ class MshGather {
   RawMesh raw_;
   MeshReport& report_;
   std::map<Group, std::string> names_;
+  std::map<std::string, Group> regions_;             // names of volumes, which are unique
   std::vector<std::int64_t> tet_groups_;             // per tetrahedron its physical tag
   std::map<Group, std::vector<RawMention>> groups_;  // of lower dimension
 };

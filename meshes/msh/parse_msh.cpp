@@ -62,7 +62,7 @@ void MshParser::format() {
 // The integer 1 as the file writes it
 void MshParser::check_byte_order() {
   constexpr auto other = std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
-  const auto flag = [this](Numbers& numbers) { return numbers.integer(NumberType::int32, "the integer 1"); };
+  const auto flag = [](Numbers& numbers) { return numbers.integer(NumberType::int32, "the integer 1"); };
   const std::size_t start = lines_.next_byte();
   const std::int64_t one = body(flag);
   if (one == 1) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <bit>
+#include <plica/meshes/numbers_out.hpp>
 #include <plica/meshes/vtk/write_vtk.hpp>
 
 namespace plica {
@@ -34,23 +35,35 @@ class Appended {
   std::string bytes_;
 };
 
+// Each array ends its line, in binary too
+WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh, bool binary) {
+  WrittenMesh written = noted(mesh);
+  const std::string cells = std::to_string(mesh.tets.size()), end = binary ? "\n" : "";
+  NumbersOut out(binary, std::endian::big);
+  out.text("# vtk DataFile Version 3.0\nmesh\n").text(binary ? "BINARY" : "ASCII");
+  out.text("\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(mesh.vertices.size()) + " double\n");
+  for (const Point& p : mesh.vertices) out.real64(p).end();
+  out.text(end + "CELLS " + cells + " " + std::to_string(5 * mesh.tets.size()) + "\n");
+  for (const auto& [a, b, c, d] : mesh.tets) out.int32(4).int32(a).int32(b).int32(c).int32(d).end();
+  out.text(end + "CELL_TYPES " + cells + "\n");
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.int32(tet_type).end();
+  out.text(end);
+  if (!mesh.region.empty()) {
+    out.text("CELL_DATA " + cells + "\nSCALARS region int 1\nLOOKUP_TABLE default\n");
+    for (const std::int64_t region : region_numbers(mesh)) out.int32(region).end();
+    out.text(end);
+  }
+  written.files = {{path.string(), out.take()}};
+  return written;
+}
+
 }  // namespace
 
 WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh) {
-  WrittenMesh written = noted(mesh);
-  const std::size_t cells = mesh.tets.size();
-  TextOut out;
-  out << "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << mesh.vertices.size()
-      << " double\n";
-  for (const Point& p : mesh.vertices) out << p.x() << " " << p.y() << " " << p.z() << "\n";
-  out << "CELLS " << cells << " " << 5 * cells << "\n";
-  for (const auto& [a, b, c, d] : mesh.tets) out << "4 " << a << " " << b << " " << c << " " << d << "\n";
-  out << "CELL_TYPES " << cells << "\n";
-  for (std::size_t t = 0; t < cells; ++t) out << tet_type << "\n";
-  if (!mesh.region.empty()) out << "CELL_DATA " << cells << "\nSCALARS region int 1\nLOOKUP_TABLE default\n";
-  for (const std::int64_t region : region_numbers(mesh)) out << region << "\n";
-  written.files = {{path.string(), out.take()}};
-  return written;
+  return write_legacy(path, mesh, false);
+}
+WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh) {
+  return write_legacy(path, mesh, true);
 }
 
 WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh) {

@@ -5,9 +5,10 @@
 
 namespace plica {
 
-/// VTK's legacy format 3.0 as text, and its XML format with raw appended arrays. Regions are numbers in the cells' array
+/// VTK's legacy format 3.0, text and binary, and its XML format with raw appended arrays. Regions are numbers in the cells' array
 /// "region"; neither has vertex sets.
 WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh);
+WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh);
 WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh);
 
 }  // namespace plica

@@ -49,6 +49,14 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   return summary;
 }
 
+// As the mesh file numbers them
+Diagnosis in_input_numbers(Diagnosis diagnosis, const Scene& scene) {
+  const Numbering& numbering = scene.numbering[static_cast<std::size_t>(std::max(diagnosis.level, 0))];
+  diagnosis.element = input_number(numbering.tet_ids, diagnosis.element);
+  diagnosis.vertex = input_number(numbering.vertex_ids, diagnosis.vertex);
+  return diagnosis;
+}
+
 ExitStatus status_of(const RunEnd& end) {
   if (end.diagnosis) return ExitStatus::diverged;
   return end.status == "interrupted" ? ExitStatus::interrupted : ExitStatus::done;
@@ -66,10 +74,11 @@ ExitStatus run(const RunArguments& arguments) {
     if (!arguments.quiet) announce(scene, simulation, machine);
     simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
     const double every = scene.output.every.value_or(scene.duration / 60);
-    const RunEnd end = [&] {
+    RunEnd end = [&] {
       Progress progress(scene.duration, arguments.quiet);
       return run_loop(simulation, scene.duration, every, files, progress);
     }();
+    if (end.diagnosis) end.diagnosis = in_input_numbers(*end.diagnosis, scene);
     Summary summary = summary_of(scene, simulation, machine, end);
     summary.setup_time = set_up_time;
     summary.frames = files.frames();

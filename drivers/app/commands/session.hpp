@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 #include <plica/drivers/app/commands/arguments.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <type_traits>
 
@@ -30,6 +31,7 @@ template <class Action>
 auto with_simulation(const SceneArguments& arguments, const Action& action) {
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = load_scene(arguments.scene, arguments.overrides);
+  for (const std::string& warning : scene.warnings) message(coloured("warning: ", Colour::yellow) + warning);
   const KokkosSession session(arguments.kokkos);
   const auto run = [&]<class B>(std::type_identity<B>) {
     std::optional<Simulation<B>> simulation;

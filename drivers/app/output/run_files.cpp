@@ -36,7 +36,8 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
 }  // namespace
 
 RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder)
-    : finest_(scene.problem.body.levels.front()),
+    : numbering_(scene.numbering.front()),
+      finest_(in_input_order(scene.problem.body.levels.front(), numbering_)),
       placement_(placement_of(scene.problem.body)),
       surface_frames_(folder, "surface", "frames.pvd"),
       history_(folder / "history.csv", vertex_masses(scene.problem.body)) {
@@ -50,6 +51,8 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder)
     BoundarySurface boundary = boundary_surface(finest_);
     skin_ = std::move(boundary.surface);
     skin_vertex_ = std::move(boundary.mesh_vertex);
+    if (const auto& vertices = numbering_.input.vertices; !vertices.empty())
+      for (int& v : skin_vertex_) v = vertices[static_cast<std::size_t>(v)];
   }
 }
 
@@ -75,12 +78,17 @@ void RunFiles::write_surface(const Snapshot& snapshot) {
 void RunFiles::write_volume(const Snapshot& snapshot) {
   VtuGrid grid;
   grid.time = snapshot.time;
-  grid.points = snapshot.positions;
+  const std::vector<int>& order = numbering_.input.vertices;
+  grid.points = in_input_order(snapshot.positions, order);
   grid.connectivity = flat(finest_.tets);
   grid.vertices_per_cell = 4;
-  grid.point_fields = {{"displacement", displacements(snapshot.positions, finest_.vertices, placement_)},
-                       {"velocity", snapshot.velocities}};
-  if (!finest_.region.empty()) grid.cell_fields = {{"region", finest_.region}};
+  grid.point_fields = {{"displacement", displacements(grid.points, finest_.vertices, placement_)},
+                       {"velocity", in_input_order(snapshot.velocities, order)}};
+  const bool has_numbers = !numbering_.tet_ids.empty();  // a reader must not take them for regions
+  if (!finest_.region.empty()) grid.cell_fields.push_back({"region", finest_.region});
+  if (finest_.region.empty() && has_numbers)
+    grid.cell_fields.push_back({"region", std::vector<int>(finest_.tets.size(), 0)});
+  if (has_numbers) grid.cell_fields.push_back({"number", in_input_order(numbering_.tet_ids, numbering_.input.tets)});
   volume_frames_->write(grid);
 }
 

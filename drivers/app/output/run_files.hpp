@@ -18,7 +18,8 @@ class RunFiles {
   void write_surface(const Snapshot& snapshot);
   void write_volume(const Snapshot& snapshot);
 
-  const TetMesh& finest_;
+  const Numbering& numbering_;    // of level 0
+  TetMesh finest_;                // level 0 as the input has it
   Point placement_;               // the body's translation at the start [m]
   TriangleSurface skin_;          // the embedded surface, else the boundary of level 0, at rest
   std::vector<int> skin_vertex_;  // of that boundary: its vertices' numbers in level 0

@@ -6,22 +6,46 @@
 
 namespace plica::app {
 
-void write_file(const std::filesystem::path& file, const std::string& content) {
-  std::filesystem::path draft = file;
-  draft += ".part";
+namespace {
+
+std::filesystem::path draft_of(const std::filesystem::path& file) { return file.string() + ".part"; }
+
+void write_draft(const std::filesystem::path& file, const std::string& content) {
   errno = 0;
-  std::ofstream stream(draft, std::ios::binary | std::ios::trunc);
+  std::ofstream stream(draft_of(file), std::ios::binary | std::ios::trunc);
   stream << content;
   stream.close();
-  if (!stream) {
-    const std::string reason = std::generic_category().message(errno);
+  if (stream) return;
+  const std::string reason = std::generic_category().message(errno);
+  std::error_code ignored;
+  std::filesystem::remove(draft_of(file), ignored);
+  throw FileError("cannot write " + file.string() + ": " + reason);
+}
+
+void put_in_place(const std::filesystem::path& file) {
+  std::error_code error, ignored;
+  std::filesystem::rename(draft_of(file), file, error);
+  if (!error) return;
+  std::filesystem::remove(draft_of(file), ignored);
+  throw FileError("cannot write " + file.string() + ": " + error.message());
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& file, const std::string& content) {
+  write_draft(file, content);
+  put_in_place(file);
+}
+
+void write_files(const std::vector<MemoryFile>& files) {
+  try {
+    for (const MemoryFile& file : files) write_draft(file.name, file.bytes);
+  } catch (const FileError&) {
     std::error_code ignored;
-    std::filesystem::remove(draft, ignored);
-    throw FileError("cannot write " + file.string() + ": " + reason);
+    for (const MemoryFile& file : files) std::filesystem::remove(draft_of(file.name), ignored);
+    throw;
   }
-  std::error_code error;
-  std::filesystem::rename(draft, file, error);
-  if (error) throw FileError("cannot write " + file.string() + ": " + error.message());
+  for (const MemoryFile& file : files) put_in_place(file.name);
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <filesystem>
+#include <plica/meshes/memory_file.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace plica::app {
 
@@ -14,6 +16,9 @@ class FileError : public std::runtime_error {
 
 /// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old content or the new.
 void write_file(const std::filesystem::path& file, const std::string& content);
+
+/// The same of several that belong together: all are written out before the first is replaced.
+void write_files(const std::vector<MemoryFile>& files);
 
 /// Makes the folder, and those above it, where they are missing.
 void make_folder(const std::filesystem::path& folder);

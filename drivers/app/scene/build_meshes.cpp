@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/app/scene/mesh_warnings.hpp>
 #include <plica/meshes/ball_mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/box_mesh.hpp>
 #include <plica/meshes/cylinder_mesh.hpp>
+#include <plica/meshes/merge_duplicates.hpp>
 #include <plica/meshes/read_mesh.hpp>
 #include <plica/meshes/read_surface.hpp>
 #include <plica/meshes/sphere_surface.hpp>
@@ -14,18 +17,70 @@
 namespace plica::app {
 namespace {
 
-std::filesystem::path existing(const std::string& name, const Scene& scene, const Where& where, const char* what) {
+// A generator knows nothing of files: what it refuses gets the place of its recipe
+template <class Make>
+auto placed(const Where& where, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    throw InputError(error.what(), where);
+  }
+}
+
+std::filesystem::path found(const std::string& kind, const std::string& name, const Scene& scene, const Where& where) {
   const std::filesystem::path file = std::filesystem::path(scene.file).parent_path() / name;
   if (!std::filesystem::exists(file))
-    throw InputError(fmt::format("there is no {} file '{}' (its name is relative to the scene)", what, file.string()),
+    throw InputError("there is no " + kind + " file '" + file.string() + "' (its name is relative to the scene)",
                      where);
   return file;
 }
 
-TetMesh from_file(const LevelRecipe& recipe, const Scene& scene, const Where& where) {
-  TetMesh mesh = read_mesh(existing(recipe.file, scene, where, "mesh"));
+void warn(Scene& scene, const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) scene.warnings.push_back(file.string() + ": " + warning);
+}
+
+// Numbers in the file, or, where one is too large, places in its order
+std::vector<int> ids_of(const std::vector<std::int64_t>& tags, const std::vector<int>& order) {
+  const auto fits = [](std::int64_t tag) { return tag >= 0 && tag <= std::numeric_limits<int>::max(); };
+  if (!std::ranges::all_of(tags, fits)) return order;
+  std::vector<int> ids;
+  for (const int old : order) ids.push_back(static_cast<int>(tags[static_cast<std::size_t>(old)]));
+  return ids;
+}
+
+// A file may be in a good order already, such as that of a grid
+Reordering better_order(const TetMesh& mesh) {
+  Reordering order = locality_order(mesh);
+  if (mean_vertex_span(reordered(mesh, order)) < mean_vertex_span(mesh)) return order;
+  std::ranges::sort(order.vertices), std::ranges::sort(order.tets);
+  return order;
+}
+
+// Scaled, glued and put in an order that is fast to simulate; `numbering` leads back to the file's
+TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where, Numbering& numbering) {
+  const std::filesystem::path file = found("mesh", recipe.file, scene, where);
+  MeshReport report;
+  TetMesh mesh = read_mesh(file, &report);
   for (Point& vertex : mesh.vertices) vertex *= recipe.scale;
-  return mesh;
+  if (recipe.merge_duplicates) {
+    MergedMesh merged = placed(where, [&] { return merge_duplicates(mesh, *recipe.merge_duplicates); });
+    mesh = std::move(merged.mesh);
+    report.vertex_tags = permuted(report.vertex_tags, merged.original_vertex);
+    if (merged.merged > 0) warn(scene, file, {fmt::format("merged {} duplicate vertices", merged.merged)});
+  }
+  warn(scene, file, mesh_warnings(mesh, report));
+  const Reordering order = better_order(mesh);
+  numbering = {inverse(order), ids_of(report.vertex_tags, order.vertices), ids_of(report.tet_tags, order.tets)};
+  return reordered(mesh, order);
+}
+
+TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where& where) {
+  const std::filesystem::path file = found("surface", recipe.file, scene, where);
+  SurfaceReport report;
+  TriangleSurface surface = read_surface(file, &report);
+  for (Point& vertex : surface.vertices) vertex *= recipe.scale;
+  warn(scene, file, surface_warnings(report));
+  return surface;
 }
 
 TetMesh generated(const LevelRecipe& recipe) {
@@ -35,15 +90,15 @@ TetMesh generated(const LevelRecipe& recipe) {
   return cylinder_mesh(cylinder.base, cylinder.radius, cylinder.length, cylinder.across, cylinder.along);
 }
 
-TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest) {
-  if (recipe.boundary) return boundary_surface(finest).surface;
+TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest, const Numbering& numbering) {
+  if (recipe.boundary) return boundary_surface(in_input_order(finest, numbering)).surface;
   const Box box = bounding_box(finest.vertices);
   const Point middle = (box.min + box.max) / 2;
   return sphere_surface(recipe.sphere->centre.value_or(middle), recipe.sphere->radius, recipe.sphere->subdivisions);
 }
 
 TriangleSurface tool_surface(const ToolRecipe& recipe, const Scene& scene, const Where& where) {
-  const std::filesystem::path file = existing(recipe.file, scene, where, "surface");
+  const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
   TriangleSurface surface = read_surface(file, &report);
   if (!report.closed())
@@ -57,16 +112,6 @@ TriangleSurface tool_surface(const ToolRecipe& recipe, const Scene& scene, const
       Eigen::AngleAxisd(angle, angle > 0 ? Point(recipe.rotation / angle) : Point::UnitZ()).toRotationMatrix();
   for (Point& vertex : surface.vertices) vertex = turn * (recipe.scale * vertex) + recipe.position;
   return surface;
-}
-
-// A generator knows nothing of files: what it refuses gets the place of its recipe
-template <class Make>
-auto placed(const Where& where, const Make& make) {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    throw InputError(error.what(), where);
-  }
 }
 
 void check_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known,
@@ -116,14 +161,19 @@ void check_names(const Body& body, const Tree& tree) {
 void build_meshes(Scene& scene, const Tree& tree) {
   Body& body = scene.problem.body;
   body.levels.clear();
+  scene.numbering.assign(scene.levels.size(), {});
   for (std::size_t i = 0; i < scene.levels.size(); ++i) {
     const LevelRecipe& recipe = scene.levels[i];
     const Where where = place_of(tree, fmt::format("body.levels.{}", i));
     body.levels.push_back(recipe.file.empty() ? placed(where, [&] { return generated(recipe); })
-                                              : from_file(recipe, scene, where));
+                                              : from_file(recipe, scene, where, scene.numbering[i]));
   }
-  if (scene.surface)
-    body.surface = placed(place_of(tree, "body.surface"), [&] { return surface_of(*scene.surface, body.levels[0]); });
+  if (scene.surface) {
+    const Where where = place_of(tree, "body.surface");
+    body.surface = scene.surface->file.empty()
+                       ? placed(where, [&] { return surface_of(*scene.surface, body.levels[0], scene.numbering[0]); })
+                       : from_file(*scene.surface, scene, where);
+  }
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
     if (const auto& tool = scene.obstacles[i].tool)
       std::get<SurfaceOptions>(scene.problem.contact.obstacles[i].shape).surface =

@@ -48,6 +48,8 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("cylinder", o.cylinder, CylinderRecipe{}, "a cylinder");
   v.alternative_value("file", o.file, Text{}, "a mesh file (.msh, .vtk, .vtu, .ele), relative to the scene");
   v("scale", o.scale, Quantity{number, positive}, "metres per unit of that file: 0.001 for millimetres");
+  v("merge_duplicates", o.merge_duplicates, Quantity{length, not_negative},
+    "vertices of that file at most this far apart, after scaling, become one; left out: they are reported");
 }
 
 template <class V>
@@ -62,6 +64,8 @@ void describe(V& v, SurfaceRecipe& o) {
   v.one_of();
   v.alternative("sphere", o.sphere, BallSurfaceRecipe{}, "a triangulated sphere");
   v.alternative_value("boundary", o.boundary, Flag{}, "true: the boundary of level 0");
+  v.alternative_value("file", o.file, Text{}, "a surface file (.obj, .stl, .msh), relative to the scene");
+  v("scale", o.scale, Quantity{number, positive}, "metres per unit of that file: 0.001 for millimetres");
 }
 
 template <class V>

@@ -23,6 +23,8 @@ InputError located(const InputError& error, const Tree& source);
 Scene read_scene(const Tree& tree);
 /// what they say together; InputError for contradictions.
 void check_scene(const Scene& scene, const Tree& tree);
+/// about what the meshes that it has generated will take of memory when it is set up [bytes];
+double generated_bytes(const Scene& scene);
 /// The meshes and the embedded surface, and the names of groups and regions checked against them.
 void build_meshes(Scene& scene, const Tree& tree);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/app/scene/numbering.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <string>
 #include <vector>
@@ -37,8 +38,9 @@ struct LevelRecipe {
   std::optional<BoxRecipe> box;
   std::optional<BallRecipe> ball;
   std::optional<CylinderRecipe> cylinder;
-  std::string file;  ///< relative to the scene
-  double scale = 1;  ///< metres per unit of the file > 0
+  std::string file;                        ///< relative to the scene
+  double scale = 1;                        ///< metres per unit of the file > 0
+  std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m] >= 0
 };
 
 struct BallSurfaceRecipe {
@@ -51,6 +53,8 @@ struct BallSurfaceRecipe {
 struct SurfaceRecipe {
   std::optional<BallSurfaceRecipe> sphere;
   bool boundary = false;  ///< the boundary of level 0
+  std::string file;       ///< relative to the scene
+  double scale = 1;       ///< metres per unit of the file > 0
 };
 
 /// A rigid solid of a file of triangles: scaled, turned about the file's origin, then moved.
@@ -75,9 +79,11 @@ struct OutputOptions {
 
 struct Scene {
   std::string file;
-  std::string name;     ///< none given: the file's
-  double duration = 0;  ///< [s] > 0
-  Problem problem;      ///< complete once its meshes are built
+  std::string name;                   ///< none given: the file's
+  double duration = 0;                ///< [s] > 0
+  Problem problem;                    ///< complete once its meshes are built
+  std::vector<Numbering> numbering;   ///< of each of these meshes
+  std::vector<std::string> warnings;  ///< about what was found in files, a sentence each
   std::vector<LevelRecipe> levels;
   std::optional<SurfaceRecipe> surface;
   std::vector<ObstacleRecipe> obstacles;

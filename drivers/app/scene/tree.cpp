@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <charconv>
 #include <fstream>
+#include <optional>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <sstream>
 
@@ -11,38 +14,80 @@ namespace {
 
 Where place(const std::string& file, const YAML::Mark& mark) { return {file, mark.is_null() ? 0 : mark.line + 1}; }
 
-Tree converted(const YAML::Node& node, const std::string& file);
+// From YAML's nodes, where an alias stands for a value, even for one around it, to a tree of values
+class Conversion {
+ public:
+  explicit Conversion(const std::string& file) : file_(file) {}
+  Tree operator()(const YAML::Node& node);
 
-void add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value, const std::string& file) {
-  const Where where = place(file, key.Mark());
+ private:
+  void add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value);
+
+  const std::string& file_;
+  int depth_ = 0, values_ = 0;
+};
+
+void Conversion::add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value) {
+  const Where where = place(file_, key.Mark());
   if (!key.IsScalar()) throw InputError("a key must be a word", where);
   if (const Tree* earlier = map.find(key.Scalar())) {
     throw InputError("the key '" + key.Scalar() + "' stands here for the second time; the first is in line " +
                          std::to_string(earlier->key_where.line),
                      where);
   }
-  Tree entry = converted(value, file);
+  Tree entry = (*this)(value);
   entry.key = key.Scalar();
   entry.key_where = where;
   if (entry.kind == Tree::Kind::nothing) entry.where = where;
   map.items.push_back(std::move(entry));
 }
 
-Tree converted(const YAML::Node& node, const std::string& file) {
+Tree Conversion::operator()(const YAML::Node& node) {
+  constexpr int deepest = 50, most = 100'000;
   Tree tree;
-  tree.where = tree.key_where = place(file, node.Mark());
+  tree.where = tree.key_where = place(file_, node.Mark());
+  if (++depth_ > deepest) throw InputError(fmt::format("nested more than {} deep", deepest), tree.where);
+  if (++values_ > most) throw InputError(fmt::format("more than {} values, aliases included", most), tree.where);
   if (node.IsScalar()) {
     tree.kind = Tree::Kind::scalar;
     tree.text = node.Scalar();
   } else if (node.IsSequence()) {
     tree.kind = Tree::Kind::list;
-    for (const YAML::Node& item : node) tree.items.push_back(converted(item, file));
+    for (const YAML::Node& item : node) tree.items.push_back((*this)(item));
   } else if (node.IsMap()) {
     tree.kind = Tree::Kind::map;
-    for (const auto& entry : node) add_entry(tree, entry.first, entry.second, file);
+    for (const auto& entry : node) add_entry(tree, entry.first, entry.second);
   }
+  --depth_;
   return tree;
 }
+
+// Only looks where documents begin. (YAML::LoadAll() of yaml-cpp 0.7 never comes back from a stray '}'.)
+class Documents final : public YAML::EventHandler {
+ public:
+  static std::optional<YAML::Mark> second_of(const std::string& text) {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    Documents documents;
+    const bool is_another = parser.HandleNextDocument(documents) && parser.HandleNextDocument(documents);
+    return is_another ? std::optional(documents.start_) : std::nullopt;
+  }
+
+ private:
+  using Mark = YAML::Mark;
+  using Text = const std::string&;
+  void OnDocumentStart(const Mark& mark) override { start_ = mark; }
+  void OnDocumentEnd() override {}
+  void OnNull(const Mark&, YAML::anchor_t) override {}
+  void OnAlias(const Mark&, YAML::anchor_t) override {}
+  void OnScalar(const Mark&, Text, YAML::anchor_t, Text) override {}
+  void OnSequenceStart(const Mark&, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const Mark&, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  Mark start_;
+};
 
 // The value that one part of a path leads to: the key of a map or the number of an entry
 Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
@@ -86,11 +131,11 @@ std::string Tree::shown() const {
 
 Tree parse_tree(const std::string& text, const std::string& file) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty() || documents[0].IsNull()) throw InputError("the scene is empty", {file});
-    if (documents.size() > 1)
-      throw InputError("a scene is one YAML document; here begins another", place(file, documents[1].Mark()));
-    return converted(documents[0], file);
+    const YAML::Node document = YAML::Load(text);
+    if (const auto second = Documents::second_of(text))
+      throw InputError("a scene is one YAML document; here begins another", place(file, *second));
+    if (document.IsNull()) throw InputError("the scene is empty", {file});
+    return Conversion(file)(document);
   } catch (const YAML::Exception& error) {
     throw InputError("not YAML: " + error.msg, place(file, error.mark));
   }
@@ -112,7 +157,7 @@ void override_value(Tree& root, const std::string& assignment, const std::string
   if (equals == 0 || equals == std::string::npos) throw InputError("expected key.path=value", where);
   Tree value;
   try {
-    value = converted(YAML::Load(assignment.substr(equals + 1)), where.file);
+    value = Conversion(where.file)(YAML::Load(assignment.substr(equals + 1)));
   } catch (const YAML::Exception& error) {
     throw InputError("not YAML: " + error.msg, where);
   }

@@ -79,7 +79,8 @@ TEST(MergeDuplicates, RefusesWhatItWouldBreak) {
   const TetMesh mesh = torn();
   EXPECT_THROW(merge_duplicates(mesh, -1.0), InputError);
   EXPECT_THROW(merge_duplicates(mesh, std::numeric_limits<double>::quiet_NaN()), InputError);
-  expect_refused([&] { merge_duplicates(mesh, 0.6); }, "tetrahedron 0 names a node twice", {"0"});
+  expect_refused([&] { merge_duplicates(mesh, 0.6); }, "vertices at most 0.6 m apart cannot be merged",
+                 {"tetrahedron 0 names a node twice"});
   TetMesh twice = box_mesh({Point(0, 0, 0), Point(1, 1, 1)}, {1, 1, 1});
   const std::size_t tets = twice.tets.size();
   const int first = static_cast<int>(twice.vertices.size());

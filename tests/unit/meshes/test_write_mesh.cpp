@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/read_any.hpp>
 #include <plica/meshes/write_mesh.hpp>
 
 #include "mesh_input.hpp"
@@ -34,37 +37,51 @@ class Folder {
   std::filesystem::path path_;
 };
 
+// Onto the disk; what was left out
+std::vector<std::string> store(const WrittenMesh& written) {
+  for (const MemoryFile& file : written.files) std::ofstream(file.name, std::ios::binary) << file.bytes;
+  return written.left_out;
+}
+
 TEST(WriteMesh, MshKeepsEverything) {
   const Folder folder;
   for (const std::string format : {"", "msh22", "msh41"})
-    for (const bool named : {true, false}) {
-      SCOPED_TRACE(format);
+    for (const auto& [named, binary] : {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
+      SCOPED_TRACE(format + (binary ? " binary" : " text"));
       TetMesh mesh = awkward();
       if (!named) mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();
-      EXPECT_TRUE(write_mesh(folder / "m.msh", mesh, format).empty());
+      EXPECT_TRUE(store(write_mesh(folder / "m.msh", mesh, format, binary)).empty());
       MeshReport report;
       expect_same(read_mesh(folder / "m.msh", &report), mesh);
-      EXPECT_EQ(report.format, format == "msh22" ? "Gmsh MSH 2.2 ASCII" : "Gmsh MSH 4.1 ASCII");
+      EXPECT_EQ(report.format,
+                std::string(format == "msh22" ? "Gmsh MSH 2.2 " : "Gmsh MSH 4.1 ") + (binary ? "binary" : "ASCII"));
     }
 }
 
 TEST(WriteMesh, OtherFormatsTellWhatTheyLeaveOut) {
   const Folder folder;
-  const std::map<std::string, std::string> prefixes = {
-      {"m.vtk", "region_"}, {"m.vtu", "region_"}, {"m.ele", "attribute_"}, {"m.node", "attribute_"}};
-  for (const auto& [name, prefix] : prefixes) {
+  struct Form {
+    std::string name, prefix;
+    bool binary;
+  };
+  const std::vector<Form> forms = {{"m.vtk", "region_", false},
+                                   {"m.vtk", "region_", true},
+                                   {"m.vtu", "region_", true},
+                                   {"m.ele", "attribute_", false},
+                                   {"m.node", "attribute_", false}};
+  for (const auto& [name, prefix, binary] : forms) {
     SCOPED_TRACE(name);
     TetMesh mesh = awkward();
-    EXPECT_GE(write_mesh(folder / name, mesh).size(), 2u + mesh.vertex_sets.size());
+    EXPECT_GE(store(write_mesh(folder / name, mesh, "", binary)).size(), 2u + mesh.vertex_sets.size());
     const TetMesh read = read_mesh(folder / name);
     EXPECT_EQ(read.vertices, mesh.vertices);
     EXPECT_EQ(read.tets, mesh.tets);
     EXPECT_EQ(read.region, mesh.region);
     EXPECT_EQ(read.region_names, (std::vector<std::string>{prefix + "1", prefix + "2"}));
-    EXPECT_TRUE(write_mesh(folder / name, read).empty());  // nothing more is lost
+    EXPECT_TRUE(store(write_mesh(folder / name, read, "", binary)).empty());  // nothing more is lost
     expect_same(read_mesh(folder / name), read);
     mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();
-    EXPECT_TRUE(write_mesh(folder / name, mesh).empty());
+    EXPECT_TRUE(store(write_mesh(folder / name, mesh, "", binary)).empty());
     expect_same(read_mesh(folder / name), mesh);
   }
 }
@@ -74,7 +91,7 @@ TEST(WriteMesh, TetGenHasOneMarkerPerVertex) {
   TetMesh mesh = read_mesh(sample("blocks_22.msh"));
   mesh.vertex_sets = {{"marker_3", {0, 1}}, {"marker_7", {1, 2}}};
   mesh.region_names = {"attribute_4", "attribute_9"};
-  EXPECT_EQ(write_mesh(folder / "m.ele", mesh),
+  EXPECT_EQ(store(write_mesh(folder / "m.ele", mesh)),
             (std::vector<std::string>{
                 "the vertex set 'marker_7' loses 1 vertices to others: this format has one per vertex"}));
   mesh.vertex_sets.at("marker_7") = {2};
@@ -86,10 +103,48 @@ TEST(WriteMesh, WrongNamesAreRefused) {
   expect_refused([&] { write_mesh("m.mesh", mesh); }, "m.mesh", {"'mesh'", "did you mean 'msh'"});
   expect_refused([&] { write_mesh("m.msh", mesh, "msh40"); }, "m.msh", {"'msh40'", "msh41, msh22"});
   expect_refused([&] { write_mesh("m.msh", mesh, "vtk"); }, "m.msh", {"'vtk'", "msh41, msh22"});
-  expect_refused([&] { write_mesh("no/such/folder/m.msh", mesh); }, "no/such/folder/m.msh", {"cannot be written"});
+  expect_refused([&] { write_mesh("m.ele", mesh, "", true); }, "m.ele", {"no binary form"});
+  expect_refused([&] { write_surface("m.vtk", {}); }, "m.vtk", {"unknown surface file extension 'vtk'", "obj, stl"});
   TetMesh lines = mesh;
   lines.region_names[0] = "two\nlines";
   expect_refused([&] { write_mesh("m.msh", lines); }, "m.msh", {"'two?lines'", "cannot be written"});
+}
+
+TEST(WriteSurface, IsReadAgain) {
+  const TriangleSurface surface = read_surface(sample("blocks.obj"));
+  for (const char* name : {"s.obj", "s.stl"}) {
+    const WrittenMesh written = write_surface(name, surface);
+    const TriangleSurface again = read_surface(written.files.at(0));
+    EXPECT_EQ(again.triangles.size(), surface.triangles.size()) << name;
+    EXPECT_NEAR(enclosed_volume(again), enclosed_volume(surface), 1e-15) << name;
+    EXPECT_TRUE(written.left_out.empty());
+  }
+  EXPECT_EQ(read_surface(write_surface("s.obj", surface).files.at(0)).vertices, surface.vertices);
+  const WrittenMesh binary = write_surface("s.stl", surface, "stl", true);
+  SurfaceReport report;
+  const TriangleSurface again = read_surface(binary.files.at(0), &report);
+  EXPECT_EQ(report.format, "STL binary");
+  EXPECT_TRUE(report.closed());
+  EXPECT_EQ(again.triangles.size(), surface.triangles.size());
+  EXPECT_NEAR(enclosed_volume(again), enclosed_volume(surface), 1e-6 * enclosed_volume(surface));
+  EXPECT_EQ(binary.left_out.size(), 1);
+  TriangleSurface far = surface;
+  far.vertices[0].x() = 1e39;
+  expect_refused([&] { write_surface("s.stl", far, "", true); }, "s.stl", {"too large"});
+}
+
+TEST(ReadAny, TellsMeshesFromSurfaces) {
+  const auto holds_surface = [](const char* name) {
+    return std::holds_alternative<ReadSurface>(
+        read_any(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes/data/formats" / name));
+  };
+  for (const char* name : {"blocks.obj", "blocks.stl", "blocks_binary.stl"}) EXPECT_TRUE(holds_surface(name)) << name;
+  for (const char* name : {"blocks_22.msh", "blocks_51.vtk", "blocks.ele"}) EXPECT_FALSE(holds_surface(name)) << name;
+  const Folder folder;
+  std::ofstream(folder / "s.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+                                     "$EndNodes\n$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
+  EXPECT_TRUE(std::holds_alternative<ReadSurface>(read_any(folder / "s.msh")));
+  expect_refused([&] { read_any("m.mesh"); }, "m.mesh", {"unknown mesh or surface file extension 'mesh'", "obj, stl"});
 }
 
 }  // namespace

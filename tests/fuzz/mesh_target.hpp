@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <filesystem>
+#include <plica/core/error.hpp>
+#include <plica/meshes/list.hpp>
+#include <plica/meshes/read_mesh.hpp>
+#include <plica/meshes/read_surface.hpp>
+#include <plica/meshes/sound_mesh.hpp>
+#include <plica/meshes/tetgen/parse_tetgen.hpp>
+#include <string>
+
+#include "target.hpp"
+
+namespace plica::fuzz {
+
+// Written and read again a mesh is the same, unless its names cannot be written
+inline void check_written(const TetMesh& mesh) {
+  for (const Writer<TetMesh>& writer : mesh_writers) {
+    if (std::string_view(writer.name) == "tetgen") continue;  // two files
+    WrittenMesh written;
+    try {
+      written = writer.write(std::string("m.") + writer.extension, mesh);
+    } catch (const InputError&) {
+      continue;
+    }
+    const TetMesh again = read_mesh(written.files.front());
+    require(again.vertices == mesh.vertices && again.tets == mesh.tets && again.region == mesh.region,
+            "a mesh that was written and read again");
+  }
+}
+
+inline void mesh(const char* name, std::string_view bytes) {
+  try {
+    const TetMesh mesh = read_mesh(MemoryFile{name, std::string(bytes)});
+    check(mesh);
+    check_written(mesh);
+  } catch (const InputError&) {
+  }
+}
+
+inline void surface(const char* name, std::string_view bytes) {
+  try {
+    SurfaceReport report;
+    const TriangleSurface surface = read_surface(MemoryFile{name, std::string(bytes)}, &report);
+    require(!surface.triangles.empty(), "no triangle");
+    for (const auto& triangle : surface.triangles)
+      for (const int v : triangle) static_cast<void>(surface.vertices.at(static_cast<std::size_t>(v)));
+  } catch (const InputError&) {
+  }
+}
+
+// Both files in one, the elements before a '%'
+inline void tetgen(std::string_view bytes) {
+  const std::size_t cut = std::min(bytes.find('%'), bytes.size());
+  const MemoryFile elements{"m.ele", std::string(bytes.substr(0, cut))};
+  const MemoryFile nodes{"m.node", std::string(bytes.substr(std::min(cut + 1, bytes.size())))};
+  try {
+    MeshReport report;
+    check(sound_mesh(parse_tetgen(elements, nodes, report), report));
+  } catch (const InputError&) {
+  }
+}
+
+inline constexpr Target mesh_targets[] = {
+    {"msh", [](std::string_view bytes) { mesh("m.msh", bytes), surface("m.msh", bytes); }},
+    {"vtk", [](std::string_view bytes) { mesh("m.vtk", bytes); }},
+    {"vtu", [](std::string_view bytes) { mesh("m.vtu", bytes); }},
+    {"tetgen", tetgen},
+    {"obj", [](std::string_view bytes) { surface("m.obj", bytes); }},
+    {"stl", [](std::string_view bytes) { surface("m.stl", bytes); }},
+};
+
+}  // namespace plica::fuzz

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/meshes/read_any.hpp>
+
+#include "unit/app/child.hpp"
+
+// plica mesh info and plica mesh convert, as a user has them
+namespace plica::app::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class MeshCommands : public testing::Test {
+ protected:
+  Child plica(std::vector<std::string> words) {
+    words.insert(words.begin(), {PLICA_EXECUTABLE, "mesh"});
+    return run_child(words, folder);
+  }
+  std::string at(const std::string& name) const { return folder / name; }
+  static std::string sample(const std::string& name) { return PLICA_SOURCE_DIR "/meshes/data/formats/" + name; }
+  Json info(std::vector<std::string> words) {
+    words.insert(words.begin(), "info");
+    words.emplace_back("--json");
+    const Child child = plica(words);
+    EXPECT_EQ(child.status, 0) << child.errors;
+    return Json::parse(child.output);
+  }
+  void expect_refused(const std::vector<std::string>& words, const std::string& message) {
+    const Child child = plica(words);
+    EXPECT_EQ(child.status, 2);
+    EXPECT_NE(child.errors.find(message), std::string::npos) << child.errors;
+    EXPECT_EQ(child.output, "");
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(MeshCommands, InfoOfAMesh) {
+  const Json json = info({sample("blocks_41.msh"), "--young-modulus", "80 kPa", "--model", "linear"});
+  EXPECT_EQ(json["vertices"], 23);
+  EXPECT_EQ(json["tets"], 48);
+  EXPECT_EQ(json["parts"], 1);
+  EXPECT_NEAR(json["volume"], 1.6e-5, 1e-18);
+  EXPECT_EQ(json["regions"].size(), 2);
+  EXPECT_EQ(json["vertex_sets"]["edge"], 3);
+  EXPECT_EQ(json["material"]["young_modulus"], 80e3);
+  EXPECT_EQ(json["material"]["density"], 1000);
+  EXPECT_EQ(json["worst"].size(), 10);
+  double least = 1e300;
+  for (const Json& tet : json["worst"]) {
+    EXPECT_GE(tet["critical_step"], json["element_bound"].get<double>() * (1 - 1e-12));
+    EXPECT_TRUE(tet["region"] == "tissue" || tet["region"] == "large tumour");
+    EXPECT_GT(tet["number"], 0);
+    least = std::min(least, tet["critical_step"].get<double>());
+  }
+  EXPECT_NEAR(least, json["element_bound"], 1e-12) << "the flattest one is the stiffest of this mesh";
+  EXPECT_GT(json["critical_step"], json["element_bound"]);
+  const Json softer = info({sample("blocks_41.msh"), "--young-modulus", "20kPa"});
+  EXPECT_NEAR(softer["critical_step"], 2 * json["critical_step"].get<double>(),
+              1e-3 * softer["critical_step"].get<double>());
+  const Json larger = info({sample("blocks_41.msh"), "--scale", "10", "--young-modulus", "80 kPa"});
+  EXPECT_NEAR(larger["critical_step"], 10 * json["critical_step"].get<double>(),
+              1e-2 * larger["critical_step"].get<double>());
+  EXPECT_NEAR(larger["edges"]["max"], 0.2, 1e-12);
+}
+
+TEST_F(MeshCommands, InfoForPeople) {
+  const Child child = plica({"info", sample("blocks_41.msh")});
+  ASSERT_EQ(child.status, 0) << child.errors;
+  for (const char* piece :
+       {"Gmsh MSH 4.1 ASCII", "1.6e-05 m^3 in 1 connected part", "large tumour", "critical step", "best: 70.5", "####",
+        "20 mm x 20 mm x 40 mm", "E 20 kPa, nu 0.4, 1000 kg/m^3", "by their numbers in the file"})
+    EXPECT_NE(child.output.find(piece), std::string::npos) << piece << "\n" << child.output;
+}
+
+TEST_F(MeshCommands, InfoOfASurface) {
+  const Json json = info({sample("blocks.obj"), "--scale", "2"});
+  EXPECT_EQ(json["triangles"], 40);
+  EXPECT_EQ(json["closed"], true);
+  EXPECT_NEAR(json["area"], 4 * 0.004, 1e-9);
+  EXPECT_NEAR(json["volume"], 8 * 1.6e-5, 1e-12);
+  std::ofstream(at("open.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const Json open = info({at("open.obj")});
+  EXPECT_EQ(open["closed"], false);
+  EXPECT_TRUE(open["volume"].is_null());
+  EXPECT_NEAR(open["edges"]["max"], std::sqrt(2.0), 1e-15);
+  EXPECT_NE(plica({"info", at("open.obj")}).output.find("3 open edges"), std::string::npos);
+}
+
+TEST_F(MeshCommands, ConvertKeepsTheMesh) {
+  ASSERT_EQ(plica({"convert", sample("blocks_41.msh"), at("a.msh"), "--format", "msh22", "--binary"}).status, 0);
+  const TetMesh input = read_mesh(sample("blocks_41.msh")), binary = read_mesh(at("a.msh"));
+  EXPECT_EQ(binary.vertices, input.vertices);
+  EXPECT_EQ(binary.vertex_sets, input.vertex_sets);
+  const Child onward = plica({"convert", at("a.msh"), at("b.ele")});
+  EXPECT_EQ(onward.status, 0);
+  EXPECT_NE(onward.errors.find("the region 'tissue' is now 'attribute_1'"), std::string::npos) << onward.errors;
+  EXPECT_TRUE(std::filesystem::exists(at("b.node")));
+  ASSERT_EQ(plica({"convert", at("b.node"), at("c.vtu")}).status, 0);
+  EXPECT_EQ(read_mesh(at("c.vtu")).tets, input.tets);
+  ASSERT_EQ(plica({"convert", at("c.vtu"), at("d.stl"), "--binary"}).status, 0);
+  EXPECT_EQ(read_surface(at("d.stl")).triangles.size(), 40);
+}
+
+TEST_F(MeshCommands, ConvertInPlace) {
+  ASSERT_EQ(plica({"convert", sample("blocks.obj"), at("s.obj")}).status, 0);
+  ASSERT_EQ(plica({"convert", at("s.obj"), at("s.obj"), "--scale", "0.5"}).status, 0);
+  const TriangleSurface once = read_surface(sample("blocks.obj")), half = read_surface(at("s.obj"));
+  ASSERT_EQ(half.triangles, once.triangles);
+  EXPECT_EQ(half.vertices.back(), once.vertices.back() / 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3) << "nothing but s.obj is left";
+}
+
+TEST_F(MeshCommands, ConvertLeavesTheOldFileWhereItFails) {
+  std::ofstream(at("b.ele")) << "old";
+  std::filesystem::create_directories(at("b.ele.part/in the way"));
+  const Child child = plica({"convert", sample("blocks_41.msh"), at("b.ele")});
+  EXPECT_EQ(child.status, 1);
+  EXPECT_NE(child.errors.find("cannot write"), std::string::npos) << child.errors;
+  EXPECT_EQ(content_of(at("b.ele")), "old");
+  EXPECT_FALSE(std::filesystem::exists(at("b.node"))) << "the first of the two files";
+  EXPECT_FALSE(std::filesystem::exists(at("b.node.part")));
+}
+
+TEST_F(MeshCommands, WrongArgumentsAreRefused) {
+  const std::string mesh = sample("blocks_41.msh");
+  expect_refused({"convert", mesh, at("a.mesh")}, "did you mean 'msh'? (choices: msh, vtk, vtu, ele, node, obj, stl)");
+  expect_refused({"convert", mesh, at("a.msh"), "--format", "msh40"}, "unknown format 'msh40'; did you mean 'msh41'?");
+  expect_refused({"convert", mesh, at("a.ele"), "--binary"}, "no binary form");
+  expect_refused({"convert", sample("blocks.obj"), at("a.vtk")}, "unknown surface file extension 'vtk'");
+  expect_refused({"convert", at("none.msh"), at("a.msh")}, "none.msh: cannot be opened");
+  expect_refused({"convert", mesh, at("a.msh"), "--scale", "0"}, "--scale: expected a number > 0, got '0'");
+  expect_refused({"convert", mesh, at("a.msh"), "--merge-duplicates", "1 m"}, "at most 1 m apart cannot be merged");
+  expect_refused({"convert", sample("blocks.obj"), at("a.obj"), "--merge-duplicates", "1 mm"}, "for meshes");
+  expect_refused({"info", mesh, "--young-modulus", "20kpa"}, "unknown unit 'kpa'; did you mean 'kPa'?");
+  expect_refused({"info", mesh, "--model", "neohookean"}, "did you mean 'neo_hookean'?");
+  expect_refused({"info", sample("blocks.obj"), "--density", "1"}, "--density: this file holds a surface");
+  expect_refused({"conver", mesh, at("a.msh")}, "unknown command 'conver'; did you mean 'convert'?");
+  EXPECT_FALSE(std::filesystem::exists(at("a.msh")));
+}
+
+}  // namespace
+}  // namespace plica::app::test
