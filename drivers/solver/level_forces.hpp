@@ -7,6 +7,7 @@
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/external_forces.hpp>
 #include <plica/drivers/solver/stage_clock.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
 
 namespace plica {
 
@@ -45,6 +46,7 @@ class LevelForces {
   long evaluations() const { return evaluations_; }
   /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at rest [m].
   void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);
+  void persist(StateArchive<B>& archive) { archive.number(evaluations_); }
   /// Evaluations are numbered from 1 in each macro step, for the element flags.
   void begin_macro_step() { evaluation_ = 0; }
 
