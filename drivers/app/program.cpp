@@ -52,6 +52,8 @@ class CommandLine {
     app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
     for (const std::string& set : sets_) arguments_.overrides.push_back({set, "--set " + set});
     if (!duration_.empty()) arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
+    if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
+      throw CLI::RequiredError("SCENE, or --resume FOLDER,");
     return action_();
   }
 
@@ -77,7 +79,7 @@ class CommandLine {
 
   CLI::App* add_scene_command(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
     CLI::App* command = add(name, help, std::move(action));
-    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")->required();
+    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")->required(name != "run");
     command->add_option("--set", sets_, "KEY.PATH=VALUE, instead of what the scene says; repeatable")
         ->allow_extra_args(false)
         ->take_all();
@@ -92,7 +94,11 @@ class CommandLine {
   void add_run() {
     CLI::App* command =
         add_scene_command("run", "simulate the scene and write its files", [this] { return run(arguments_); });
-    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)");
+    CLI::Option* folder = command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)");
+    command->add_option("--checkpoint", arguments_.checkpoint,
+                        "every=N macro steps or every=TIME of simulated time: write checkpoint.bin, to resume from");
+    command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint")
+        ->excludes(folder);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
     command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
   }

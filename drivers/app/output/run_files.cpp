@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {
@@ -10,12 +14,6 @@ std::vector<Point> displacements(const std::vector<Point>& positions, const std:
   std::vector<Point> result(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) result[i] = positions[i] - rest[i] - placement;
   return result;
-}
-
-Point placement_of(const Body& body) {
-  if (!body.initial.position) return Point::Zero();
-  const Box box = bounding_box(body.levels.front().vertices);
-  return *body.initial.position - (box.min + box.max) / 2;
 }
 
 std::vector<Point> gathered(const std::vector<Point>& values, const std::vector<int>& indices) {
@@ -33,34 +31,72 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
   return result;
 }
 
+std::string volume_name(int level) { return level == 0 ? "volume" : fmt::format("volume_level{}", level); }
+
+std::vector<int> written_levels(const Scene& scene) {
+  const VolumeLevels& chosen = scene.output.volume;
+  if (!chosen.all) return chosen.levels;
+  std::vector<int> levels(uses_coarse_levels(scene.problem.integration.cycle) ? scene.levels.size() : 1);
+  std::iota(levels.begin(), levels.end(), 0);
+  return levels;
+}
+
+// A checkpoint goes first: it must not outlive the files that it speaks of
+const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv"})
+    std::filesystem::remove(folder / file, ignored);
+  std::vector<std::string> films = {"volume"};
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".pvd" && entry.path().stem().string().starts_with("volume_level"))
+      films.push_back(entry.path().stem().string());
+  for (const std::string& film : films) Frames(folder, film, film + ".pvd");
+  return folder;
+}
+
 }  // namespace
 
-RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder)
-    : finest_(scene.problem.body.levels.front()),
-      placement_(placement_of(scene.problem.body)),
-      surface_frames_(folder, "surface", "frames.pvd"),
-      history_(folder / "history.csv", vertex_masses(scene.problem.body)) {
+Point placement_of(const Body& body) {
+  if (!body.initial.position) return Point::Zero();
+  const Box box = bounding_box(body.levels.front().vertices);
+  return *body.initial.position - (box.min + box.max) / 2;
+}
+
+RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from)
+    : body_(scene.problem.body),
+      placement_(placement_of(body_)),
+      volume_levels_(written_levels(scene)),
+      frame_times_(from ? from->frame_times : std::vector<double>{}),
+      surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
+      history_(folder / "history.csv", vertex_masses(body_), from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
-  Frames volume(folder, "volume", "volume.pvd");
-  if (scene.output.volume) volume_frames_ = std::move(volume);
-  if (scene.problem.body.surface) {
-    skin_ = *scene.problem.body.surface;
+  for (const int level : volume_levels_)
+    volume_frames_.emplace_back(folder, volume_name(level), volume_name(level) + ".pvd", frame_times_);
+  if (body_.surface) {
+    skin_ = *body_.surface;
   } else {
-    BoundarySurface boundary = boundary_surface(finest_);
+    BoundarySurface boundary = boundary_surface(body_.levels.front());
     skin_ = std::move(boundary.surface);
     skin_vertex_ = std::move(boundary.mesh_vertex);
   }
 }
 
 void RunFiles::write(const Snapshot& snapshot) {
-  write_surface(snapshot);
-  if (volume_frames_) write_volume(snapshot);
+  surface_frames_.write(surface_grid(snapshot));
+  for (std::size_t i = 0; i < volume_frames_.size(); ++i)
+    volume_frames_[i].write(volume_grid(snapshot.volumes[i], snapshot.time));
   history_.write(snapshot);
-  last_time_ = snapshot.time;
+  frame_times_.push_back(snapshot.time);
 }
 
-void RunFiles::write_surface(const Snapshot& snapshot) {
+void RunFiles::sync() {
+  surface_frames_.sync();
+  for (Frames& frames : volume_frames_) frames.sync();
+  history_.file().sync();
+}
+
+VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   const bool embedded = skin_vertex_.empty();
   VtuGrid grid;
   grid.time = snapshot.time;
@@ -69,19 +105,22 @@ void RunFiles::write_surface(const Snapshot& snapshot) {
   grid.point_fields = {
       {"displacement", displacements(grid.points, skin_.vertices, placement_)},
       {"velocity", embedded ? snapshot.surface_velocities : gathered(snapshot.velocities, skin_vertex_)}};
-  surface_frames_.write(grid);
+  return grid;
 }
 
-void RunFiles::write_volume(const Snapshot& snapshot) {
+VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, double time) const {
+  const TetMesh& mesh = body_.levels[static_cast<std::size_t>(volume.level)];
   VtuGrid grid;
-  grid.time = snapshot.time;
-  grid.points = snapshot.positions;
-  grid.connectivity = flat(finest_.tets);
+  grid.time = time;
+  grid.points = volume.positions;
+  grid.connectivity = flat(mesh.tets);
   grid.vertices_per_cell = 4;
-  grid.point_fields = {{"displacement", displacements(snapshot.positions, finest_.vertices, placement_)},
-                       {"velocity", snapshot.velocities}};
-  if (!finest_.region.empty()) grid.cell_fields = {{"region", finest_.region}};
-  volume_frames_->write(grid);
+  grid.point_fields = {{"displacement", displacements(volume.positions, mesh.vertices, placement_)},
+                       {"velocity", volume.velocities}};
+  grid.point_scalars = {{"mass", vertex_masses(body_, volume.level)}};
+  grid.cell_scalars = {{"von_mises", volume.elements.von_mises}, {"J", volume.elements.J}};
+  if (!mesh.region.empty()) grid.cell_fields = {{"region", mesh.region}};
+  return grid;
 }
 
 }  // namespace plica::app

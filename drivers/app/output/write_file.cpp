@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <fstream>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -6,7 +9,7 @@
 
 namespace plica::app {
 
-void write_file(const std::filesystem::path& file, const std::string& content) {
+void write_file(const std::filesystem::path& file, const std::string& content, Durable durable) {
   std::filesystem::path draft = file;
   draft += ".part";
   errno = 0;
@@ -19,9 +22,18 @@ void write_file(const std::filesystem::path& file, const std::string& content) {
     std::filesystem::remove(draft, ignored);
     throw FileError("cannot write " + file.string() + ": " + reason);
   }
+  if (durable == Durable::yes) sync_file(draft);
   std::error_code error;
   std::filesystem::rename(draft, file, error);
   if (error) throw FileError("cannot write " + file.string() + ": " + error.message());
+  if (durable == Durable::yes) sync_file(file.parent_path());
+}
+
+void sync_file(const std::filesystem::path& file) {
+  const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (handle < 0) throw FileError("cannot read " + file.string() + ": " + std::generic_category().message(errno));
+  fsync(handle);  // what cannot be synchronised is as safe as it gets
+  close(handle);
 }
 
 void make_folder(const std::filesystem::path& folder) {

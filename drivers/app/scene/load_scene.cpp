@@ -25,9 +25,15 @@ Scene read_scene(const Tree& tree) {
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Tree tree = read_tree(file);
   for (const Override& given : overrides) override_value(tree, given.assignment, given.label);
+  return load_scene(tree);
+}
+
+Scene load_scene(const Tree& tree) {
   Scene scene = read_scene(tree);
   check_scene(scene, tree);
   build_meshes(scene, tree);
+  check_probes(scene, tree);
+  scene.as_written = tree;
   return scene;
 }
 

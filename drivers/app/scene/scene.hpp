@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <map>
 #include <optional>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/app/scene/interval.hpp>
+#include <plica/drivers/app/scene/tree.hpp>
 #include <string>
 #include <vector>
 
@@ -52,9 +55,17 @@ struct SurfaceRecipe {
   bool boundary = false;  ///< the boundary of level 0
 };
 
+/// Levels whose tetrahedra are written.
+struct VolumeLevels {
+  bool all = false;         ///< every level in use
+  std::vector<int> levels;  ///< else these, 0: the finest
+};
+
 struct OutputOptions {
-  std::optional<double> every;  ///< simulated time between frames [s] > 0; none: a sixtieth of the duration
-  bool volume = false;          ///< level 0's tetrahedra as well
+  std::optional<Interval> every;  ///< between frames; none: a sixtieth of the duration
+  VolumeLevels volume;
+  std::map<std::string, Point> probes;  ///< points of the body at rest, in level 0 [m]
+  std::optional<Interval> probe_every;  ///< none: every macro step
   std::string format = "vtu";
 };
 
@@ -66,6 +77,8 @@ struct Scene {
   std::vector<LevelRecipe> levels;
   std::optional<SurfaceRecipe> surface;
   OutputOptions output;
+  Tree as_written;                    ///< with what the command line changed
+  std::vector<std::string> warnings;  ///< for whoever asked for it
 };
 
 }  // namespace plica::app
