@@ -30,6 +30,9 @@ std::string plural_of(const Dimension& dimension);
 /// "Pa", "m", "kg/m^3"; empty for a number.
 std::string unit_of(const Dimension& dimension);
 
+/// A regular expression for the units that a quantity of this dimension may have: one, or one times a power of another.
+std::string unit_pattern(const Dimension& dimension);
+
 /// A number in SI. No dimension: it was written without a unit.
 struct Measured {
   double value = 0;

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* bouncing_block = R"(duration: 2 s
+constexpr const char* bouncing_block = R"(duration: 1 s
 gravity: [0, 0, -9.81]
 body:
   levels:
@@ -106,8 +106,8 @@ TEST_F(Resume, InterruptedRunGoesOn) {
                               [&](pid_t id) { return has_frames() && kill(id, SIGINT) == 0; });
   ASSERT_EQ(stopped.status, 130);
   const long done = Json::parse(content_of(folder / "stopped/summary.json"))["macro_steps"];
-  if (done >= 2000) GTEST_SKIP() << "it was past the end before it could be stopped";
-  const Child rest = go_on("stopped", {"--duration", "2 s"});
+  if (done >= 1000) GTEST_SKIP() << "it was past the end before it could be stopped";
+  const Child rest = go_on("stopped", {"--duration", "1 s"});
   ASSERT_EQ(rest.status, 0) << rest.errors;
   expect_same_results("whole", "stopped");
 }
@@ -132,7 +132,7 @@ TEST_F(Resume, RefusesWhatIsNotTheRun) {
   EXPECT_EQ(refusal({"--set", "body.levels.1.box.cells.2=1"}),
             "error: cannot resume another scene: body.levels.1.box.cells.2: '2' became '1'; only the duration may "
             "change\n");
-  std::ofstream(scene) << std::string(bouncing_block).replace(0, 13, "duration: 2 s\nname: other");
+  std::ofstream(scene) << std::string(bouncing_block).replace(0, 13, "duration: 1 s\nname: other");
   EXPECT_EQ(plica({"run", scene, "--resume", folder / "run"}).status, 2);
   EXPECT_NE(refusal({"-o", folder / "elsewhere"}).find("excludes"), std::string::npos);
   EXPECT_EQ(go_on("nowhere").status, 2);
