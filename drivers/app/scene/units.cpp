@@ -2,9 +2,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/scene/units.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -158,6 +160,22 @@ std::string name_of(const Dimension& dimension) {
 std::string plural_of(const Dimension& dimension) {
   const Named* named = find_name(dimension);
   return named != nullptr ? named->plural : "quantities in " + unit_of(dimension);
+}
+
+std::vector<UnitInfo> unit_infos() {
+  std::string symbols;
+  for (const Prefix& prefix : prefixes) symbols += (symbols.empty() ? "" : " ") + std::string(prefix.symbol);
+  std::vector<UnitInfo> infos;
+  for (const Unit& unit : units) {
+    std::ostringstream factor;
+    factor << std::setprecision(9) << unit.factor;
+    const std::string si = unit_of(unit.dimension);
+    infos.push_back({unit.symbol, name_of(unit.dimension) + ", " + factor.str() + (si.empty() ? "" : " " + si) +
+                                      (unit.prefixed ? ", with prefixes" : "")});
+  }
+  infos.push_back({"prefixes", symbols});
+  infos.push_back({"products", "of these with * / and exponents: kg/m^3, N/mm2, 1/s"});
+  return infos;
 }
 
 std::string unit_pattern(const Dimension& dimension) {
