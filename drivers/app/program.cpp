@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <plica/drivers/app/commands/completion.hpp>
 #include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/app/commands/manual.hpp>
 #include <plica/drivers/app/commands/mesh_convert.hpp>
 #include <plica/drivers/app/commands/mesh_info.hpp>
 #include <plica/drivers/app/commands/options.hpp>
@@ -14,7 +16,7 @@
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
 #include <plica/drivers/app/scene/describe.hpp>
-#include <plica/drivers/app/scene/kinds.hpp>
+#include <plica/drivers/app/scene/schema.hpp>
 
 namespace plica::app {
 namespace {
@@ -35,6 +37,8 @@ class CommandLine {
     add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
     add_mesh();
     add_list();
+    add_schema();
+    add_completion();
     for (const char* name : planned_commands) {
       CLI::App* command = add(name, "", [name] {
         throw NotInThisBuild("plica " + std::string(name) + " is not in this build");
@@ -55,6 +59,8 @@ class CommandLine {
     app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
     for (const std::string& set : sets_) arguments_.overrides.push_back({set, "--set " + set});
     if (!duration_.empty()) arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
+    if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
+      throw CLI::RequiredError("SCENE, or --resume FOLDER,");
     return action_();
   }
 
@@ -66,6 +72,7 @@ class CommandLine {
  private:
   CLI::App* add(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
     CLI::App* command = app_.add_subcommand(name, help);
+    command->footer(manual_of(name));
     command->callback([this, action] { action_ = action; });
     return command;
   }
@@ -87,14 +94,18 @@ class CommandLine {
 
   CLI::App* add_scene_command(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
     CLI::App* command = add(name, help, std::move(action));
-    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")->required();
-    command->add_option("--set", sets_, "KEY.PATH=VALUE, instead of what the scene says; repeatable")
+    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")->required(name != "run");
+    command->add_option("--set", sets_, "instead of what the scene says; repeatable")
+        ->type_name("KEY.PATH=VALUE")
         ->allow_extra_args(false)
         ->take_all();
-    command->add_option("--duration", duration_, "simulated time, such as 0.2s, instead of the scene's");
-    command->add_option("--precision", arguments_.precision, "float or double")
+    command->add_option("--duration", duration_, "simulated time [s], instead of the scene's")->type_name("TIME");
+    command->add_option("--precision", arguments_.precision, "float or double (double)")
+        ->type_name("WORD")
         ->check(CLI::IsMember({"float", "double"}));
-    command->add_option("--threads", arguments_.kokkos.threads, "threads to use")->check(CLI::PositiveNumber);
+    command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
+        ->type_name("N")
+        ->check(CLI::PositiveNumber);
     if (name != "run") command->add_flag("--json", arguments_.json, "print JSON");
     return command;
   }
@@ -102,7 +113,15 @@ class CommandLine {
   void add_run() {
     CLI::App* command =
         add_scene_command("run", "simulate the scene and write its files", [this] { return run(arguments_); });
-    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)");
+    CLI::Option* folder = command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)");
+    folder->type_name("FOLDER");
+    command
+        ->add_option("--checkpoint", arguments_.checkpoint,
+                     "so many macro steps, or simulated time [s], to resume from")
+        ->type_name("every=N|TIME");
+    command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint")
+        ->type_name("FOLDER")
+        ->excludes(folder);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
     command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
   }
@@ -146,22 +165,32 @@ class CommandLine {
   }
 
   void add_list() {
-    CLI::App* command = add("list", "list what scenes can choose from", [this] { return list_or_families(); });
+    CLI::App* command = add("list", "list what scenes can choose from", [this] {
+      return family_.empty() ? list_families(arguments_.json) : list(family_, arguments_.json);
+    });
     command->add_option("FAMILY", family_, "what to list");
     command->add_flag("--json", arguments_.json, "print JSON");
-    command->footer("FAMILY is one of\n" + families_text());
   }
 
-  ExitStatus list_or_families() {
-    if (!family_.empty()) return list(family_, arguments_.json);
-    std::cout << families_text();
-    return ExitStatus::done;
+  void add_schema() {
+    add("schema", "print the JSON Schema of scenes, for editors", [] {
+      std::cout << scene_schema().dump(2) << "\n";
+      return ExitStatus::done;
+    });
+  }
+
+  void add_completion() {
+    CLI::App* command = add("completion", "print a script that completes command lines", [this] {
+      std::cout << completion_script(app_, shell_);
+      return ExitStatus::done;
+    });
+    command->add_option("SHELL", shell_, "bash or zsh")->required();
   }
 
   CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
   RunArguments arguments_;
   std::vector<std::string> sets_;
-  std::string duration_, family_;
+  std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;
   ConvertArguments convert_;
   std::function<ExitStatus()> action_;

@@ -4,6 +4,7 @@
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/elastic/elastic_energy.hpp>
 #include <plica/kernels/elastic/elastic_force.hpp>
+#include <plica/kernels/elastic/elastic_stress.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/materials/list.hpp>
 
@@ -32,6 +33,10 @@ class ElasticityOf final : public Elasticity<B> {
   void energy(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
               const Vectors<B>& partial) const override {
     elastic_energy<B, Material>(exec, patches, u, partial);
+  }
+  void stress(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Scalars<B>& von_mises,
+              const Scalars<B>& J) const override {
+    elastic_stress<B, Material>(exec, patches, u, von_mises, J);
   }
 };
 

@@ -21,6 +21,9 @@ class Elasticity {
   virtual void diagonal(const Exec&, const Patches<B>&, const Vectors<B>& u, int direction,
                         const Vectors<B>& partial) const = 0;
   virtual void energy(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& partial) const = 0;
+  /// Per tetrahedron of the mesh: von Mises' stress [Pa] and J.
+  virtual void stress(const Exec&, const Patches<B>&, const Vectors<B>& u, const Scalars<B>& von_mises,
+                      const Scalars<B>& J) const = 0;
 };
 
 /// Throws InputError for a name that is not in kernels/materials/list.hpp.

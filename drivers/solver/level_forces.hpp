@@ -7,6 +7,7 @@
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/external_forces.hpp>
 #include <plica/drivers/solver/stage_clock.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
 
 namespace plica {
 
@@ -48,6 +49,7 @@ class LevelForces {
   /// A constant force [N] that is part of every evaluation from now on; an empty one ends that.
   void set_correction(const Vectors<B>& force) { correction_ = force; }
   void add_correction(const Vectors<B>& f) const;
+  void persist(StateArchive<B>& archive) { archive.number(evaluations_); }
   /// Evaluations are numbered from 1 in each macro step, for the element flags.
   void begin_macro_step() { evaluation_ = 0; }
 

@@ -34,6 +34,12 @@ std::vector<Choice> linear_solvers() {
   return {{"conjugate_gradients", "matrix-free, preconditioned by the vertices' own 3x3 blocks"}};
 }
 
+bool uses_coarse_levels(std::string_view cycle) {
+  bool uses = false;
+  Cycles::visit(cycle, [&](auto member) { uses = decltype(member)::uses_coarse_levels; });
+  return uses;
+}
+
 std::vector<std::string> names(const std::vector<Choice>& choices) {
   std::vector<std::string> list;
   for (const Choice& choice : choices) list.push_back(choice.name);

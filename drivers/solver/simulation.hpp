@@ -60,6 +60,17 @@ struct Diagnosis {
   std::string text() const;  ///< one sentence with all of it
 };
 
+/// What a simulation carries from one macro step to the next, in bytes that only Simulation reads.
+struct SavedState {
+  std::vector<unsigned char> bytes;
+};
+
+/// Per tetrahedron of a level, in input order.
+struct ElementFields {
+  std::vector<double> von_mises;  ///< equivalent stress of the Cauchy stress [Pa]
+  std::vector<double> J;          ///< volume ratio
+};
+
 /// A deformable body, meshed at one or several resolutions, in motion. Not copyable; one object must not be used by two
 /// threads at a time. Kokkos must be initialised before and finalised after its life.
 template <class B>
@@ -128,6 +139,16 @@ class Simulation {
 
   /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts it to the others.
   void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
+
+  /// Everything to continue from here: all levels' states and histories, time, energy budget, counters. Waits. To be called
+  /// after a step that passed check(); what a caller's own forces remember is the caller's.
+  SavedState save() const;
+  /// Continues as the saved simulation would have: the same bits, given the same problem, precision and back end. InputError
+  /// for a state of another simulation or a damaged one, and then nothing has changed.
+  void restore(const SavedState& saved);
+
+  /// Stress and volume of a level's elements, computed on the device; waits.
+  ElementFields element_fields(int level = 0) const;
 
   /// From now on measure the wall time of each stage (this waits between stages).
   void time_stages(bool on);

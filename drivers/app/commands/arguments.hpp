@@ -17,13 +17,15 @@ struct KokkosArguments {
 struct SceneArguments {
   std::filesystem::path scene;
   std::vector<Override> overrides;
-  std::string precision = "double";
+  std::string precision;  ///< float or double; empty: double, or a checkpoint's
   bool json = false;
   KokkosArguments kokkos;
 };
 
 struct RunArguments : SceneArguments {
   std::filesystem::path folder;  ///< empty: out/SCENE
+  std::filesystem::path resume;  ///< the folder of the run to go on with; empty: a new run
+  std::string checkpoint;        ///< "every=100", "every=0.1s"; empty: none, or as the run to go on with
   bool quiet = false;
   bool time_stages = false;        ///< also where that slows the run
   std::vector<std::string> words;  ///< the command line as it was given

@@ -4,10 +4,13 @@
 #include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 
 namespace plica::app {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 template <class B>
 Plan plan_of(const Simulation<B>& simulation, const Machine& machine) {
@@ -29,16 +32,24 @@ ExitStatus check(const SceneArguments& arguments) {
   try {
     with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine&, double) {
       if (arguments.json)
-        std::cout << nlohmann::ordered_json{{"scene", scene.file}, {"sound", true}, {"error", nullptr}}.dump(2) << "\n";
+        std::cout << Json{{"scene", scene.file},
+                          {"sound", true},
+                          {"error", nullptr},
+                          {"warnings", scene.warnings},
+                          {"levels", levels_json(simulation.levels())}}
+                         .dump(2)
+                  << "\n";
       else
         std::cout << scene.file << ": sound, " << counted(static_cast<long>(simulation.levels().size()), "level")
                   << "\n";
     });
   } catch (const InputError& error) {
     if (arguments.json)
-      std::cout << nlohmann::ordered_json{{"scene", arguments.scene.string()},
-                                          {"sound", false},
-                                          {"error", error.what()}}
+      std::cout << Json{{"scene", arguments.scene.string()},
+                        {"sound", false},
+                        {"error", error.what()},
+                        {"warnings", Json::array()},
+                        {"levels", Json::array()}}
                        .dump(2)
                 << "\n";
     throw;

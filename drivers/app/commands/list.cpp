@@ -4,8 +4,10 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/commands/list.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/meshes/list.hpp>
 
 namespace plica::app {
 namespace {
@@ -17,12 +19,30 @@ struct Family {
   const char* summary;
   std::vector<Choice> (*choices)();
 };
+// Extensions of files, each with what is read
+template <class Formats>
+std::vector<Choice> formats(const Formats& known) {
+  std::vector<Choice> choices;
+  for (const auto& format : known) choices.push_back({format.extension, format.description});
+  return choices;
+}
+std::vector<Choice> unit_choices() {
+  std::vector<Choice> choices;
+  for (const UnitInfo& unit : unit_infos()) choices.push_back({unit.symbol, unit.summary});
+  return choices;
+}
+std::vector<Choice> meshes_read() { return formats(mesh_formats); }
+
 constexpr Family families[] = {{"materials", "constitutive laws", materials},
                                {"integrators", "how a level is stepped in time", integrators},
                                {"cycles", "how the levels take a macro step together", cycles},
                                {"distributions", "how they share its time", distributions},
                                {"shapes", "what a body can touch", obstacle_shapes},
-                               {"solvers", "of the implicit levels' linear systems", linear_solvers}};
+                               {"solvers", "of the implicit levels' linear systems", linear_solvers},
+                               {"outside", "what becomes of vertices outside another level's mesh", outside_rules},
+                               {"formats", "mesh files that are read", meshes_read},
+                               {"units", "of numbers in scenes and on the command line", unit_choices}};
+constexpr const char* keys_summary = "everything that a scene can say";
 
 void list_choices(const std::vector<Choice>& choices, bool json) {
   std::vector<std::vector<std::string>> rows;
@@ -51,20 +71,32 @@ void list_keys(bool json) {
 
 }  // namespace
 
+std::vector<std::string> list_names() {
+  std::vector<std::string> names;
+  for (const Family& family : families) names.emplace_back(family.name);
+  names.emplace_back("keys");
+  return names;
+}
+
 std::string families_text() {
   std::vector<std::vector<std::string>> rows;
   for (const Family& family : families) rows.push_back({family.name, family.summary});
-  rows.push_back({"keys", "everything that a scene can say"});
+  rows.push_back({"keys", keys_summary});
   return text_table(rows, "<<");
 }
 
+ExitStatus list_families(bool json) {
+  Json array = Json::array();
+  for (const Family& family : families) array.push_back({{"name", family.name}, {"summary", family.summary}});
+  array.push_back({{"name", "keys"}, {"summary", keys_summary}});
+  std::cout << (json ? array.dump(2) + "\n" : families_text());
+  return ExitStatus::done;
+}
+
 ExitStatus list(const std::string& name, bool json) {
-  std::vector<std::string> known = {"keys"};
-  for (const Family& family : families) {
-    known.emplace_back(family.name);
+  for (const Family& family : families)
     if (name == family.name) return list_choices(family.choices(), json), ExitStatus::done;
-  }
-  if (name != "keys") throw InputError(unknown_name("list", name, known));
+  if (name != "keys") throw InputError(unknown_name("list", name, list_names()));
   list_keys(json);
   return ExitStatus::done;
 }

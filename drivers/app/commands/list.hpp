@@ -2,13 +2,18 @@
 #pragma once
 #include <plica/drivers/app/commands/exit_status.hpp>
 #include <string>
+#include <vector>
 
 namespace plica::app {
 
 /// plica list: the members of a family, or all keys of a scene. InputError for an unknown family.
 ExitStatus list(const std::string& family, bool json);
 
-/// What can be listed, one line each.
+/// plica list without a family: what can be listed.
+ExitStatus list_families(bool json);
+
+/// The same, one line each, and the names alone.
 std::string families_text();
+std::vector<std::string> list_names();
 
 }  // namespace plica::app

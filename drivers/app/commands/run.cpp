@@ -3,12 +3,14 @@
 #include <sys/resource.h>
 
 #include <iostream>
+#include <plica/drivers/app/commands/resume.hpp>
 #include <plica/drivers/app/commands/run.hpp>
 #include <plica/drivers/app/commands/run_loop.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/version.hpp>
 
 namespace plica::app {
 namespace {
@@ -20,16 +22,19 @@ std::size_t peak_memory() {
 }
 
 template <class B>
-void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine) {
+void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& start) {
   std::string tets;
   for (const LevelReport& level : simulation.levels()) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
   message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {}", scene.name, tets,
                       scene.problem.integration.cycle, in_units(simulation.macro_step(), "s"), machine.precision,
                       machine.backend, counted(machine.threads, "thread")));
+  if (start.macro_steps > 0)
+    message(fmt::format("resumed after {} at {:.5g} s", counted(start.macro_steps, "macro step"), start.time));
 }
 
 template <class B>
-Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& end) {
+Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& end,
+                   const RunOutput<B>& output) {
   Summary summary;
   summary.status = end.status;
   summary.simulated_time = end.time;
@@ -42,7 +47,9 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.threads = machine.threads;
   summary.cycle = scene.problem.integration.cycle;
   summary.levels = simulation.levels();
-  summary.stages = simulation.stages();
+  summary.stages = output.stages();
+  summary.frames = output.files().frames();
+  summary.last_good_time = output.files().last_time();
   summary.counters = simulation.counters();
   summary.residual = simulation.worst_residual();
   summary.diagnosis = end.diagnosis;
@@ -62,33 +69,84 @@ ExitStatus status_of(const RunEnd& end) {
   return end.status == "interrupted" ? ExitStatus::interrupted : ExitStatus::done;
 }
 
+// What tells this run from others
+Checkpoint new_checkpoint(const Scene& scene, const RunArguments& arguments) {
+  Checkpoint checkpoint;
+  checkpoint.scene_file = scene.file;
+  checkpoint.scene_path = std::filesystem::absolute(scene.file).string();
+  checkpoint.scene = scene.source;
+  checkpoint.meshes = mesh_digest(scene.problem.body);
+  checkpoint.precision = arguments.precision.empty() ? "double" : arguments.precision;
+  checkpoint.frame_every = scene.output.every.value_or(Interval{scene.duration / 60, 0});
+  return checkpoint;
+}
+
+void take_over(Checkpoint& checkpoint, const Machine& machine) {
+  const std::string program = version() + std::string(" ") + git_revision();
+  const bool resumed = !checkpoint.program.empty();
+  if (resumed && (checkpoint.program != program || checkpoint.backend != machine.backend))
+    message(coloured("warning: ", Colour::yellow) +
+            fmt::format("the checkpoint was written by plica {} on {}, this is {} on {}: the last bits may differ",
+                        checkpoint.program, checkpoint.backend, program, machine.backend));
+  checkpoint.program = program, checkpoint.backend = machine.backend;
+}
+
+std::filesystem::path folder_of(const RunArguments& arguments) {
+  if (!arguments.resume.empty()) return arguments.resume;
+  return arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
+}
+
+// Where a run starts: at the beginning, or where the checkpoint stands
+template <class B>
+RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint, const std::filesystem::path& folder) {
+  RunEnd start;
+  if (checkpoint.state.bytes.empty()) return start;
+  try {
+    simulation.restore(checkpoint.state);
+  } catch (const InputError& error) {
+    throw InputError(error.what(), {(folder / "checkpoint.bin").string()});
+  }
+  start.macro_steps = checkpoint.macro_steps, start.time = simulation.time(), start.wall_time = checkpoint.wall_time;
+  return start;
+}
+
 }  // namespace
 
 ExitStatus run(const RunArguments& arguments) {
   catch_interrupts();
-  const auto simulate = [&]<class B>(const Scene& scene, Simulation<B>& simulation, const Machine& machine,
+  const auto start_of_set_up = Clock::now();
+  const bool resumed = !arguments.resume.empty();
+  const Interval every = arguments.checkpoint.empty() ? Interval{} : checkpoint_interval(arguments.checkpoint);
+  Checkpoint checkpoint;
+  if (resumed) checkpoint = read_checkpoint(arguments.resume);
+  const Scene scene =
+      resumed ? scene_to_resume(arguments, checkpoint) : load_scene(arguments.scene, arguments.overrides);
+  warn(scene);
+  if (!resumed) checkpoint = new_checkpoint(scene, arguments);
+  checkpoint.scene = scene.source;  // with a new duration
+  if (every != Interval{}) checkpoint.every = every;
+  const auto simulate = [&]<class B>(const Scene&, Simulation<B>& simulation, const Machine& machine,
                                      double set_up_time) {
-    const std::filesystem::path folder = arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
+    const std::filesystem::path folder = folder_of(arguments);
     make_folder(folder);
-    RunFiles files(scene, folder);
-    if (!arguments.quiet) announce(scene, simulation, machine);
+    take_over(checkpoint, machine);
+    const RunEnd start = start_of(simulation, checkpoint, folder);
+    RunOutput<B> output(scene, simulation, folder, checkpoint, resumed);
+    if (!arguments.quiet) announce(scene, simulation, machine, start);
     simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
-    const double every = scene.output.every.value_or(scene.duration / 60);
     RunEnd end = [&] {
-      Progress progress(scene.duration, arguments.quiet);
-      return run_loop(simulation, scene.duration, every, files, progress);
+      Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);
+      return run_loop(simulation, scene.duration, start, output, progress);
     }();
     if (end.diagnosis) end.diagnosis = in_input_numbers(*end.diagnosis, scene);
-    Summary summary = summary_of(scene, simulation, machine, end);
+    Summary summary = summary_of(scene, simulation, machine, end, output);
     summary.setup_time = set_up_time;
-    summary.frames = files.frames();
-    summary.last_good_time = files.last_time();
     write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
     if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
     if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
     return status_of(end);
   };
-  return with_simulation(arguments, simulate);
+  return with_simulation(scene, checkpoint.precision, arguments.kokkos, start_of_set_up, simulate);
 }
 
 }  // namespace plica::app

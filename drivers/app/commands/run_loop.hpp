@@ -3,30 +3,19 @@
 #include <chrono>
 #include <cmath>
 #include <plica/drivers/app/commands/interrupt.hpp>
+#include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/output/progress.hpp>
-#include <plica/drivers/app/output/run_files.hpp>
 
 namespace plica::app {
 
-/// How a run ended.
-struct RunEnd {
-  std::string status = "completed";  ///< completed | interrupted | diverged
-  long macro_steps = 0;              ///< that passed the checks
-  double time = 0;                   ///< after them [s]
-  double wall_time = 0;              ///< of the steps and their checks [s]
-  std::optional<Diagnosis> diagnosis;
-};
-
-/// Steps to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. Whole macro steps:
-/// the last one may reach beyond the duration; frames come at the first step at or after each multiple of `every`.
+/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. Whole macro steps:
+/// the last one may reach beyond the duration.
 template <class B>
-RunEnd run_loop(Simulation<B>& simulation, double duration, double every, RunFiles& files, Progress& progress) {
+RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutput<B>& output, Progress& progress) {
   constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
   const double step = simulation.macro_step();
   const long steps = std::lround(std::ceil(duration / step - rounding));
-  RunEnd end;
-  files.write(take_snapshot(simulation, 0));
-  long next_frame = 1;
+  if (end.macro_steps == 0) output.record(end);
   while (end.macro_steps < steps && !interrupted()) {
     const auto start = std::chrono::steady_clock::now();
     simulation.step();
@@ -35,10 +24,7 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, double every, RunFil
     if (end.diagnosis) break;
     ++end.macro_steps;
     end.time = static_cast<double>(end.macro_steps) * step;
-    if (end.time > static_cast<double>(next_frame) * every - rounding * step) {
-      files.write(take_snapshot(simulation, end.time));
-      next_frame = static_cast<long>(end.time / every + rounding) + 1;
-    }
+    output.record(end);
     progress.update(end.time, end.macro_steps);
   }
   double last = end.time;
@@ -47,7 +33,7 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, double every, RunFil
     last = simulation.time();
   }
   if (end.diagnosis || end.macro_steps < steps) end.status = end.diagnosis ? "diverged" : "interrupted";
-  if (files.last_time() < last) files.write(take_snapshot(simulation, last));
+  output.finish(end, last);
   return end;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdlib>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
 
 namespace plica::app {
 
@@ -15,6 +16,11 @@ KokkosSession::KokkosSession(const KokkosArguments& arguments) {
   pointers.push_back(nullptr);
   int count = static_cast<int>(words.size());
   Kokkos::initialize(count, pointers.data());
+}
+
+void warn(const Scene& scene) {
+  for (const std::string& warning : scene.warnings)
+    message(coloured("warning: ", Colour::yellow) + scene.file + ": " + warning);
 }
 
 }  // namespace plica::app

@@ -19,6 +19,9 @@ class KokkosSession {
   KokkosSession& operator=(const KokkosSession&) = delete;
 };
 
+/// What the scene's author should know, on the standard error.
+void warn(const Scene& scene);
+
 /// Where and how a simulation runs, for people.
 struct Machine {
   std::string backend;  ///< "OpenMP"
@@ -26,13 +29,13 @@ struct Machine {
   std::string precision;
 };
 
-/// Loads the scene, starts Kokkos and calls action(scene, simulation, machine, set-up time [s]).
+using Clock = std::chrono::steady_clock;
+
+/// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `start` [s]).
 template <class Action>
-auto with_simulation(const SceneArguments& arguments, const Action& action) {
-  const auto start = std::chrono::steady_clock::now();
-  const Scene scene = load_scene(arguments.scene, arguments.overrides);
-  for (const std::string& warning : scene.warnings) message(coloured("warning: ", Colour::yellow) + warning);
-  const KokkosSession session(arguments.kokkos);
+auto with_simulation(const Scene& scene, const std::string& precision, const KokkosArguments& kokkos,
+                     Clock::time_point start, const Action& action) {
+  const KokkosSession session(kokkos);
   const auto run = [&]<class B>(std::type_identity<B>) {
     std::optional<Simulation<B>> simulation;
     try {
@@ -41,13 +44,23 @@ auto with_simulation(const SceneArguments& arguments, const Action& action) {
       throw located(error, scene.source);
     }
     using Exec = typename B::Exec;
-    const Machine machine{Exec::name(), Exec().concurrency(), arguments.precision};
-    const std::chrono::duration<double> set_up = std::chrono::steady_clock::now() - start;
+    const Machine machine{Exec::name(), Exec().concurrency(),
+                          std::is_same_v<typename B::Real, float> ? "float" : "double"};
+    const std::chrono::duration<double> set_up = Clock::now() - start;
     return action(scene, *simulation, machine, set_up.count());
   };
   using Exec = Kokkos::DefaultExecutionSpace;
-  return arguments.precision == "float" ? run(std::type_identity<Backend<float, Exec>>{})
-                                        : run(std::type_identity<Backend<double, Exec>>{});
+  return precision == "float" ? run(std::type_identity<Backend<float, Exec>>{})
+                              : run(std::type_identity<Backend<double, Exec>>{});
+}
+
+/// The same for the scene that the arguments name.
+template <class Action>
+auto with_simulation(const SceneArguments& arguments, const Action& action) {
+  const auto start = Clock::now();
+  const Scene scene = load_scene(arguments.scene, arguments.overrides);
+  warn(scene);
+  return with_simulation(scene, arguments.precision, arguments.kokkos, start, action);
 }
 
 }  // namespace plica::app

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <plica/drivers/app/output/vtu.hpp>
+#include <vector>
 
 namespace plica::app {
 
@@ -9,15 +10,23 @@ namespace plica::app {
 /// every frame the collection on disk names the frames that are there.
 class Frames {
  public:
-  /// Writes folder/frames/NAME_0000.vtu ... and folder/COLLECTION; removes those of a former run.
-  Frames(std::filesystem::path folder, std::string name, std::string collection);
+  /// Writes folder/frames/NAME_0000.vtu ... and folder/NAME.pvd, or another COLLECTION. The first frames, at these `times`,
+  /// are there already; those of a former run behind them are removed. InputError where one is missing.
+  Frames(std::filesystem::path folder, std::string name, std::string collection, const std::vector<double>& times = {});
   void write(const VtuGrid& grid);
   std::size_t count() const { return entries_; }
+  /// Waits until the frames since the last call are on the disk.
+  void sync();
 
  private:
+  std::string file_of(std::size_t entry) const;
+  void enlist(double time);
+  void write_collection() const;
+  void remove_later();
+
   std::filesystem::path folder_;
   std::string name_, collection_, list_;
-  std::size_t entries_ = 0;
+  std::size_t entries_ = 0, synchronised_ = 0;
 };
 
 }  // namespace plica::app

@@ -3,12 +3,11 @@
 
 #include <cmath>
 #include <plica/drivers/app/output/history.hpp>
-#include <plica/drivers/app/output/write_file.hpp>
 
 namespace plica::app {
 
-std::vector<double> vertex_masses(const Body& body) {
-  const TetMesh& mesh = body.levels.front();
+std::vector<double> vertex_masses(const Body& body, int level) {
+  const TetMesh& mesh = body.levels[static_cast<std::size_t>(level)];
   std::vector<double> densities;
   for (const std::string& name : mesh.region_names) {
     const auto own = body.regions.find(name);
@@ -27,15 +26,16 @@ std::vector<double> vertex_masses(const Body& body) {
   return masses;
 }
 
-History::History(std::filesystem::path file, std::vector<double> masses)
-    : file_(std::move(file)),
-      masses_(std::move(masses)),
-      text_(
-          "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
-          "com_x,com_y,com_z,max_speed,rms_speed\n") {
-  std::error_code ignored;
-  std::filesystem::remove(file_, ignored);
-}
+namespace {
+
+constexpr const char* head =
+    "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
+    "com_x,com_y,com_z,max_speed,rms_speed\n";
+
+}  // namespace
+
+History::History(const std::filesystem::path& file, std::vector<double> masses, std::optional<std::uint64_t> kept)
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, head)), masses_(std::move(masses)) {}
 
 void History::write(const Snapshot& s) {
   double mass = 0, max_square = 0, sum_square = 0;
@@ -49,10 +49,9 @@ void History::write(const Snapshot& s) {
   }
   centre /= mass;
   const Energies& e = s.energies;
-  text_ += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", s.time,
-                       e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(), centre.z(),
-                       std::sqrt(max_square), std::sqrt(sum_square / mass));
-  write_file(file_, text_);  // all of it: a run that is killed leaves whole lines
+  file_.add(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", s.time,
+                        e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(), centre.z(),
+                        std::sqrt(max_square), std::sqrt(sum_square / mass)));
 }
 
 }  // namespace plica::app

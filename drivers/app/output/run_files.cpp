@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {
@@ -10,12 +14,6 @@ std::vector<Point> displacements(const std::vector<Point>& positions, const std:
   std::vector<Point> result(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) result[i] = positions[i] - rest[i] - placement;
   return result;
-}
-
-Point placement_of(const Body& body) {
-  if (!body.initial.position) return Point::Zero();
-  const Box box = bounding_box(body.levels.front().vertices);
-  return *body.initial.position - (box.min + box.max) / 2;
 }
 
 std::vector<Point> gathered(const std::vector<Point>& values, const std::vector<int>& indices) {
@@ -33,37 +31,75 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
   return result;
 }
 
+std::string volume_name(int level) { return level == 0 ? "volume" : fmt::format("volume_level{}", level); }
+
+std::vector<int> written_levels(const Scene& scene) {
+  const VolumeLevels& chosen = scene.output.volume;
+  if (!chosen.all) return chosen.levels;
+  std::vector<int> levels(uses_coarse_levels(scene.problem.integration.cycle) ? scene.levels.size() : 1);
+  std::iota(levels.begin(), levels.end(), 0);
+  return levels;
+}
+
+// A checkpoint goes first: it must not outlive the files that it speaks of
+const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv"})
+    std::filesystem::remove(folder / file, ignored);
+  std::vector<std::string> films = {"volume"};
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".pvd" && entry.path().stem().string().starts_with("volume_level"))
+      films.push_back(entry.path().stem().string());
+  for (const std::string& film : films) Frames(folder, film, film + ".pvd");
+  return folder;
+}
+
 }  // namespace
 
-RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder)
-    : numbering_(scene.numbering.front()),
-      finest_(in_input_order(scene.problem.body.levels.front(), numbering_)),
-      placement_(placement_of(scene.problem.body)),
-      surface_frames_(folder, "surface", "frames.pvd"),
-      history_(folder / "history.csv", vertex_masses(scene.problem.body)) {
+Point placement_of(const Body& body) {
+  if (!body.initial.position) return Point::Zero();
+  const Box box = bounding_box(body.levels.front().vertices);
+  return *body.initial.position - (box.min + box.max) / 2;
+}
+
+RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from)
+    : body_(scene.problem.body),
+      numbering_(scene.numbering),
+      placement_(placement_of(body_)),
+      volume_levels_(written_levels(scene)),
+      frame_times_(from ? from->frame_times : std::vector<double>{}),
+      surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
+      history_(folder / "history.csv", vertex_masses(body_), from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
-  Frames volume(folder, "volume", "volume.pvd");
-  if (scene.output.volume) volume_frames_ = std::move(volume);
-  if (scene.problem.body.surface) {
-    skin_ = *scene.problem.body.surface;
+  for (const int level : volume_levels_)
+    volume_frames_.emplace_back(folder, volume_name(level), volume_name(level) + ".pvd", frame_times_);
+  if (body_.surface) {
+    skin_ = *body_.surface;
   } else {
-    BoundarySurface boundary = boundary_surface(finest_);
+    BoundarySurface boundary = boundary_surface(in_input_order(body_.levels.front(), numbering_.front()));
     skin_ = std::move(boundary.surface);
     skin_vertex_ = std::move(boundary.mesh_vertex);
-    if (const auto& vertices = numbering_.input.vertices; !vertices.empty())
+    if (const auto& vertices = numbering_.front().input.vertices; !vertices.empty())
       for (int& v : skin_vertex_) v = vertices[static_cast<std::size_t>(v)];
   }
 }
 
 void RunFiles::write(const Snapshot& snapshot) {
-  write_surface(snapshot);
-  if (volume_frames_) write_volume(snapshot);
+  surface_frames_.write(surface_grid(snapshot));
+  for (std::size_t i = 0; i < volume_frames_.size(); ++i)
+    volume_frames_[i].write(volume_grid(snapshot.volumes[i], snapshot.time));
   history_.write(snapshot);
-  last_time_ = snapshot.time;
+  frame_times_.push_back(snapshot.time);
 }
 
-void RunFiles::write_surface(const Snapshot& snapshot) {
+void RunFiles::sync() {
+  surface_frames_.sync();
+  for (Frames& frames : volume_frames_) frames.sync();
+  history_.file().sync();
+}
+
+VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   const bool embedded = skin_vertex_.empty();
   VtuGrid grid;
   grid.time = snapshot.time;
@@ -72,24 +108,29 @@ void RunFiles::write_surface(const Snapshot& snapshot) {
   grid.point_fields = {
       {"displacement", displacements(grid.points, skin_.vertices, placement_)},
       {"velocity", embedded ? snapshot.surface_velocities : gathered(snapshot.velocities, skin_vertex_)}};
-  surface_frames_.write(grid);
+  return grid;
 }
 
-void RunFiles::write_volume(const Snapshot& snapshot) {
+VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, double time) const {
   VtuGrid grid;
-  grid.time = snapshot.time;
-  const std::vector<int>& order = numbering_.input.vertices;
-  grid.points = in_input_order(snapshot.positions, order);
-  grid.connectivity = flat(finest_.tets);
+  const auto level = static_cast<std::size_t>(volume.level);
+  const Numbering& numbering = numbering_[level];
+  const TetMesh mesh = in_input_order(body_.levels[level], numbering);
+  const std::vector<int>&vertices = numbering.input.vertices, &tets = numbering.input.tets;
+  grid.time = time;
+  grid.points = in_input_order(volume.positions, vertices);
+  grid.connectivity = flat(mesh.tets);
   grid.vertices_per_cell = 4;
-  grid.point_fields = {{"displacement", displacements(grid.points, finest_.vertices, placement_)},
-                       {"velocity", in_input_order(snapshot.velocities, order)}};
-  const bool has_numbers = !numbering_.tet_ids.empty();  // a reader must not take them for regions
-  if (!finest_.region.empty()) grid.cell_fields.push_back({"region", finest_.region});
-  if (finest_.region.empty() && has_numbers)
-    grid.cell_fields.push_back({"region", std::vector<int>(finest_.tets.size(), 0)});
-  if (has_numbers) grid.cell_fields.push_back({"number", in_input_order(numbering_.tet_ids, numbering_.input.tets)});
-  volume_frames_->write(grid);
+  grid.point_fields = {{"displacement", displacements(grid.points, mesh.vertices, placement_)},
+                       {"velocity", in_input_order(volume.velocities, vertices)}};
+  grid.point_scalars = {{"mass", in_input_order(vertex_masses(body_, volume.level), vertices)}};
+  grid.cell_scalars = {{"von_mises", in_input_order(volume.elements.von_mises, tets)},
+                       {"J", in_input_order(volume.elements.J, tets)}};
+  const bool has_numbers = !numbering.tet_ids.empty();  // a reader must not take them for regions
+  if (!mesh.region.empty() || has_numbers)
+    grid.cell_fields.push_back({"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});
+  if (has_numbers) grid.cell_fields.push_back({"number", in_input_order(numbering.tet_ids, tets)});
+  return grid;
 }
 
 }  // namespace plica::app

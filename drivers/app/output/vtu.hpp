@@ -12,6 +12,10 @@ struct VtuGrid {
     std::string name;
     std::vector<Point> values;
   };
+  struct ScalarField {
+    std::string name;
+    std::vector<double> values;
+  };
   struct CellField {
     std::string name;
     std::vector<int> values;
@@ -20,7 +24,9 @@ struct VtuGrid {
   std::vector<int> connectivity;  ///< the cells' vertices, one cell after the other
   int vertices_per_cell = 3;      ///< 3: triangles, 4: tetrahedra
   std::vector<PointField> point_fields;
+  std::vector<ScalarField> point_scalars;
   std::vector<CellField> cell_fields;
+  std::vector<ScalarField> cell_scalars;
   double time = 0;  ///< [s]
 };
 

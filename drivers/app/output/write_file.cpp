@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <fstream>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -32,9 +35,11 @@ void put_in_place(const std::filesystem::path& file) {
 
 }  // namespace
 
-void write_file(const std::filesystem::path& file, const std::string& content) {
+void write_file(const std::filesystem::path& file, const std::string& content, Durable durable) {
   write_draft(file, content);
+  if (durable == Durable::yes) sync_file(draft_of(file));
   put_in_place(file);
+  if (durable == Durable::yes) sync_file(file.parent_path());
 }
 
 void write_files(const std::vector<MemoryFile>& files) {
@@ -46,6 +51,13 @@ void write_files(const std::vector<MemoryFile>& files) {
     throw;
   }
   for (const MemoryFile& file : files) put_in_place(file.name);
+}
+
+void sync_file(const std::filesystem::path& file) {
+  const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (handle < 0) throw FileError("cannot read " + file.string() + ": " + std::generic_category().message(errno));
+  fsync(handle);  // what cannot be synchronised is as safe as it gets
+  close(handle);
 }
 
 void make_folder(const std::filesystem::path& folder) {

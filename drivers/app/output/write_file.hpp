@@ -14,8 +14,14 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old content or the new.
-void write_file(const std::filesystem::path& file, const std::string& content);
+enum class Durable { no, yes };
+
+/// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old content or the new; where it
+/// is durable also after the power failed.
+void write_file(const std::filesystem::path& file, const std::string& content, Durable durable = Durable::no);
+
+/// Waits until a file's content, or a folder's list of names, is on the disk.
+void sync_file(const std::filesystem::path& file);
 
 /// The same of several that belong together: all are written out before the first is replaced.
 void write_files(const std::vector<MemoryFile>& files);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/solver/registry.hpp>
 
 namespace plica::app {
 namespace {
@@ -108,6 +109,21 @@ void check_memory(const Scene& scene, const Tree& tree) {
   if (scene.surface) add(generated_bytes(*scene.surface), "body.surface");
 }
 
+void check_output(const Scene& scene, const Tree& tree) {
+  const OutputOptions& output = scene.output;
+  if (output.probe_every && output.probes.empty())
+    throw InputError("output.probe_every: there are no probes; give output.probes",
+                     place_of(tree, "output.probe_every"));
+  const std::string& cycle = scene.problem.integration.cycle;
+  const std::size_t in_use = uses_coarse_levels(cycle) ? scene.levels.size() : 1;
+  for (const int level : output.volume.levels)
+    if (static_cast<std::size_t>(level) >= in_use)
+      throw InputError(fmt::format("output.volume: there is no level {}: the cycle '{}' uses {} of {} in body.levels, "
+                                   "counted from 0",
+                                   level, cycle, in_use, scene.levels.size()),
+                       place_of(tree, "output.volume"));
+}
+
 }  // namespace
 
 double generated_bytes(const Scene& scene) {
@@ -122,6 +138,7 @@ void check_scene(const Scene& scene, const Tree& tree) {
   check_lengths(scene.problem.integration, scene.levels.size(), tree);
   check_shares(scene.problem.integration, tree);
   check_contact(scene, tree);
+  check_output(scene, tree);
 }
 
 }  // namespace plica::app

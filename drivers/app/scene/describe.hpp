@@ -312,8 +312,10 @@ void describe(V& v, ContactKeys& o) {
 
 template <class V>
 void describe(V& v, OutputOptions& o) {
-  v("every", o.every, Quantity{duration, positive}, "simulated time between frames; left out: duration / 60");
-  v("volume", o.volume, Flag{}, "write the tetrahedra of level 0 as well");
+  v("every", o.every, Every{}, "between frames and rows of history.csv; left out: duration / 60");
+  v("volume", o.volume, LevelChoice{}, "whose tetrahedra are written as well, with stress and volume ratio");
+  v("probes", o.probes, NamedPoints{}, "points of level 0 at rest whose motion goes to probes.csv");
+  v("probe_every", o.probe_every, Every{}, "between rows of probes.csv; left out: 1 step");
   v("format", o.format, Name{"format", frame_formats}, "of the frames");
 }
 

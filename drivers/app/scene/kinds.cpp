@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <plica/drivers/app/scene/kinds.hpp>
 #include <stdexcept>
@@ -181,6 +182,48 @@ void Shares::read(const Value& value, const Target& target) const {
     target.shares.resize(value.list(expects()).size());
     for (std::size_t i = 0; i < target.shares.size(); ++i)
       Quantity{number, not_negative}.read(value.item(i), target.shares[i]);
+  }
+}
+
+void Every::read(const Value& value, Interval& target) const {
+  try {
+    target = parse_interval(value.scalar(expects()));
+  } catch (const std::invalid_argument& problem) {
+    value.mismatch(expects(), problem.what());
+  }
+}
+
+void LevelChoice::read(const Value& value, VolumeLevels& target) const {
+  target = {};
+  if (value.tree.kind == Tree::Kind::list) {
+    for (std::size_t i = 0; i < value.tree.items.size(); ++i) {
+      const Value item = value.item(i);
+      Count{0}.read(item, target.levels.emplace_back());
+      if (std::ranges::count(target.levels, target.levels.back()) > 1) item.error("this level is in the list already");
+    }
+    if (target.levels.empty()) value.mismatch(expects());
+  } else if (value.scalar(expects()) == "all") {
+    target.all = true;
+  } else if (value.tree.text == "true") {
+    target.levels = {0};
+  } else if (value.tree.text != "false") {
+    value.mismatch(expects());
+  }
+}
+
+std::string LevelChoice::shown(const VolumeLevels& value) const {
+  return value.all ? "all" : value.levels.empty() ? "false" : fmt::format("[{}]", fmt::join(value.levels, ", "));
+}
+
+void NamedPoints::read(const Value& value, std::map<std::string, Point>& target) const {
+  if (value.tree.kind != Tree::Kind::map || value.tree.items.empty()) value.mismatch(expects());
+  for (const Tree& item : value.tree.items) {
+    const Value named{item, value.path + "." + item.key};
+    const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+    if (item.key.empty() || !std::ranges::all_of(item.key, plain))
+      throw InputError(fmt::format("{}: expected a name of letters, digits, _ and -, got '{}'", value.path, item.key),
+                       item.key_where);
+    Vector{length}.read(named, target[item.key]);
   }
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <plica/core/mesh.hpp>
+#include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/app/scene/units.hpp>
 #include <plica/drivers/solver/registry.hpp>
@@ -137,6 +139,27 @@ struct AutoCountPerLevel {
   void read(const Value& value, std::vector<int>& target) const;
   std::string expects() const { return "a whole number >= 1, or auto; or a list of them, finest level first"; }
   std::string shown(const std::vector<int>& value) const;
+};
+
+/// How often: in simulated time or in macro steps.
+struct Every {
+  void read(const Value& value, Interval& target) const;
+  std::string expects() const { return "a time (s) > 0, or macro steps such as 10 steps"; }
+  std::string shown(const Interval& value) const { return text_of(value); }
+};
+
+/// Which levels.
+struct LevelChoice {
+  void read(const Value& value, VolumeLevels& target) const;
+  std::string expects() const { return "true (level 0), false, all, or a list of levels counted from 0, the finest"; }
+  std::string shown(const VolumeLevels& value) const;
+};
+
+/// Points with names.
+struct NamedPoints {
+  void read(const Value& value, std::map<std::string, Point>& target) const;
+  std::string expects() const { return "a map of names to lists of 3 lengths (m)"; }
+  std::string shown(const std::map<std::string, Point>&) const { return {}; }
 };
 
 /// A rule by name, or the shares themselves.

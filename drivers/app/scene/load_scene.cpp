@@ -37,6 +37,10 @@ InputError located(const InputError& error, const Tree& source) {
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Tree tree = read_tree(file);
   for (const Override& given : overrides) override_value(tree, given.assignment, given.label);
+  return load_scene(tree);
+}
+
+Scene load_scene(const Tree& tree) {
   Scene scene = read_scene(tree);
   check_scene(scene, tree);
   build_meshes(scene, tree);
@@ -45,6 +49,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
   } catch (const InputError& error) {
     throw located(error, tree);
   }
+  check_probes(scene, tree);
   return scene;
 }
 

@@ -15,11 +15,14 @@ struct Override {
 /// A scene, read, checked, with its meshes built: ready for Simulation. InputError with file and line otherwise.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
+/// The same from a tree.
+Scene load_scene(const Tree& tree);
+
 /// An error of the library, which names options and knows no files, with the place where the scene gives the option that the
 /// message begins with.
 InputError located(const InputError& error, const Tree& source);
 
-/// Its three parts. What the keys say, each within its range:
+/// Its parts. What the keys say, each within its range:
 Scene read_scene(const Tree& tree);
 /// what they say together; InputError for contradictions.
 void check_scene(const Scene& scene, const Tree& tree);
@@ -27,5 +30,7 @@ void check_scene(const Scene& scene, const Tree& tree);
 double generated_bytes(const Scene& scene);
 /// The meshes and the embedded surface, and the names of groups and regions checked against them.
 void build_meshes(Scene& scene, const Tree& tree);
+/// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is taken to the surface.
+void check_probes(Scene& scene, const Tree& tree);
 
 }  // namespace plica::app

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <map>
 #include <optional>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/app/scene/interval.hpp>
 #include <plica/drivers/app/scene/numbering.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <string>
@@ -71,9 +73,17 @@ struct ObstacleRecipe {
   std::optional<ToolRecipe> tool;  ///< where the shape comes from a file
 };
 
+/// Levels whose tetrahedra are written.
+struct VolumeLevels {
+  bool all = false;         ///< every level in use
+  std::vector<int> levels;  ///< else these, 0: the finest
+};
+
 struct OutputOptions {
-  std::optional<double> every;  ///< simulated time between frames [s] > 0; none: a sixtieth of the duration
-  bool volume = false;          ///< level 0's tetrahedra as well
+  std::optional<Interval> every;  ///< between frames; none: a sixtieth of the duration
+  VolumeLevels volume;
+  std::map<std::string, Point> probes;  ///< points of the body at rest, in level 0 [m]
+  std::optional<Interval> probe_every;  ///< none: every macro step
   std::string format = "vtu";
 };
 
@@ -88,7 +98,7 @@ struct Scene {
   std::optional<SurfaceRecipe> surface;
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
-  Tree source;  ///< where what was said
+  Tree source;  ///< where what was said, with what the command line changed
 };
 
 }  // namespace plica::app

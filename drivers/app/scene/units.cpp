@@ -2,9 +2,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/scene/units.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -61,6 +63,10 @@ constexpr std::array units = {Unit{"m", 1, length, true},
                               Unit{"%", 1e-2, number, false},
                               Unit{"1", 1, number, false}};
 
+Dimension times(const Dimension& a, const Dimension& b, int n) {  // a b^n
+  return {a.mass + n * b.mass, a.length + n * b.length, a.time + n * b.time, a.angle + n * b.angle};
+}
+
 struct Prefix {
   const char* symbol;
   double factor;
@@ -106,9 +112,7 @@ void multiply(Measured& product, std::string_view factor, int sign) {
   }
   exponent *= sign;
   product.value *= std::pow(unit.value, exponent);
-  Dimension& d = *product.dimension;
-  d.mass += exponent * unit.dimension->mass, d.length += exponent * unit.dimension->length;
-  d.time += exponent * unit.dimension->time, d.angle += exponent * unit.dimension->angle;
+  product.dimension = times(*product.dimension, *unit.dimension, exponent);
 }
 
 Measured unit_product(std::string_view text) {
@@ -156,6 +160,42 @@ std::string name_of(const Dimension& dimension) {
 std::string plural_of(const Dimension& dimension) {
   const Named* named = find_name(dimension);
   return named != nullptr ? named->plural : "quantities in " + unit_of(dimension);
+}
+
+std::vector<UnitInfo> unit_infos() {
+  std::string symbols;
+  for (const Prefix& prefix : prefixes) symbols += (symbols.empty() ? "" : " ") + std::string(prefix.symbol);
+  std::vector<UnitInfo> infos;
+  for (const Unit& unit : units) {
+    std::ostringstream factor;
+    factor << std::setprecision(9) << unit.factor;
+    const std::string si = unit_of(unit.dimension);
+    infos.push_back({unit.symbol, name_of(unit.dimension) + ", " + factor.str() + (si.empty() ? "" : " " + si) +
+                                      (unit.prefixed ? ", with prefixes" : "")});
+  }
+  infos.push_back({"prefixes", symbols});
+  infos.push_back({"products", "of these with * / and exponents: kg/m^3, N/mm2, 1/s"});
+  return infos;
+}
+
+std::string unit_pattern(const Dimension& dimension) {
+  std::string prefix, pattern;
+  for (const Prefix& p : prefixes) prefix += (prefix.empty() ? "(" : "|") + std::string(p.symbol);
+  const auto add = [&pattern](const std::string& text) { pattern += (pattern.empty() ? "" : "|") + text; };
+  const auto power = [&prefix](const Unit& unit, int n) {
+    const std::string exponent = n > 1 ? "\\^?" + std::to_string(n) : "";
+    return (unit.prefixed ? prefix + ")?" : "") + unit.symbol + exponent;
+  };
+  for (const Unit& a : units) {
+    for (int n = 1; n <= 3; ++n)
+      if (a.symbol != std::string_view("1") && times(number, a.dimension, n) == dimension) add(power(a, n));
+    for (const Unit& b : units)
+      for (int n = 1; n <= 4 && dimension != number && b.dimension != number; ++n) {
+        if (times(a.dimension, b.dimension, -n) == dimension) add(power(a, 1) + " */ *" + power(b, n));
+        if (times(a.dimension, b.dimension, n) == dimension) add(power(a, 1) + " *\\* *" + power(b, n));
+      }
+  }
+  return pattern;
 }
 
 std::optional<double> parse_number(std::string_view text) {

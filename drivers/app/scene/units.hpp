@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plica::app {
 
@@ -31,6 +32,16 @@ std::string plural_of(const Dimension& dimension);
 
 /// "Pa", "m", "kg/m^3"; empty for a number.
 std::string unit_of(const Dimension& dimension);
+
+/// A unit that numbers may have.
+struct UnitInfo {
+  std::string symbol;
+  std::string summary;  ///< what it measures, in SI, and whether prefixes go with it
+};
+std::vector<UnitInfo> unit_infos();
+
+/// A regular expression for the units that a quantity of this dimension may have: one, or one times a power of another.
+std::string unit_pattern(const Dimension& dimension);
 
 /// A number in SI. No dimension: it was written without a unit.
 struct Measured {

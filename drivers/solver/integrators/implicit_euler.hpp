@@ -50,6 +50,10 @@ struct ImplicitEuler {
       return (6 + 15 + 6) * sizeof(typename B::Real) * at_start_.u.extent(0);
     }
     double residual() const override { return residual_; }
+    void persist(StateArchive<B>& archive) override {
+      for (long* count : {&solves_, &iterations_, &misses_, &indefinite_}) archive.number(*count);
+      archive.number(residual_);
+    }
 
    private:
     IntegratorOptions options_;

@@ -4,6 +4,7 @@
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/level_forces.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
 
 namespace plica {
 
@@ -26,6 +27,8 @@ class Integrator {
   virtual std::size_t bytes() const { return 0; }
   /// The largest relative residual that a linear solve of the last advance() ended with; 0 where there are none.
   virtual double residual() const { return 0; }
+  /// Names what it carries from one macro step to the next, for saving and restoring.
+  virtual void persist(StateArchive<B>&) {}
 };
 
 /// The stability limit of an integrator on u'' = -K u - D u' (K and D per mass): the largest h with

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -27,6 +29,9 @@ Snapshot moved(const Scene& scene, double time, const Point& by) {
     snapshot.positions.push_back(p + Point(-0.5, -0.5, 0.5) + by);
     snapshot.velocities.emplace_back(3, 0, 4);
   }
+  const std::size_t tets = scene.problem.body.levels[0].tets.size();
+  if (!scene.output.volume.levels.empty())
+    snapshot.volumes = {{0, snapshot.positions, snapshot.velocities, {std::vector(tets, 7.0), std::vector(tets, 0.9)}}};
   snapshot.energies = {.kinetic = 1, .elastic = 2, .potential = -4, .contact = 0.5};
   return snapshot;
 }
@@ -81,6 +86,54 @@ TEST(RunFiles, HistoryHasItsColumns) {
   const std::vector<double> expected = {0.25, 1, 2, -4, 0.5, -0.5, 0, 0, 1.5, 5, 5};
   ASSERT_EQ(numbers.size(), expected.size());
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_NEAR(numbers[i], expected[i], 1e-9) << i;
+}
+
+// A field of a .vtu file that is appended in doubles
+std::vector<double> field_of(const std::string& vtu, const std::string& name) {
+  const std::size_t entry = vtu.find("Name=\"" + name + "\""), offset = vtu.find("offset=\"", entry) + 8;
+  if (entry == std::string::npos) return {};
+  const std::size_t start = vtu.find("\n_") + 2 + std::stoul(vtu.substr(offset));
+  std::uint64_t size = 0;
+  std::memcpy(&size, vtu.data() + start, sizeof size);
+  std::vector<double> values(size / sizeof(double));
+  std::memcpy(values.data(), vtu.data() + start + sizeof size, size);
+  return values;
+}
+
+TEST(RunFiles, VolumesHaveTheirFields) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  RunFiles files(scene, folder.path());
+  files.write(moved(scene, 0.25, {0, 0, 0.5}));
+  const std::string vtu = content_of(folder / "frames/volume_0000.vtu");
+  EXPECT_EQ(field_of(vtu, "von_mises"), std::vector(48, 7.0));
+  EXPECT_EQ(field_of(vtu, "J"), std::vector(48, 0.9));
+  const std::vector<double> mass = field_of(vtu, "mass");
+  ASSERT_EQ(mass.size(), 27);
+  EXPECT_NEAR(std::accumulate(mass.begin(), mass.end(), 0.0), 1000, 1e-9);
+  EXPECT_EQ(field_of(vtu, "displacement").size(), 81);
+  EXPECT_EQ(field_of(vtu, "velocity").size(), 81);
+}
+
+TEST(RunFiles, GoOnFromTheirMark) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  FilesMark mark;
+  std::string kept;
+  {
+    RunFiles files(scene, folder.path());
+    files.write(moved(scene, 0, Point::Zero()));
+    files.write(moved(scene, 0.25, Point::Zero()));
+    mark = files.mark();
+    kept = content_of(folder / "history.csv") + content_of(folder / "frames.pvd") + content_of(folder / "volume.pvd");
+    for (const double time : {0.5, 0.75}) files.write(moved(scene, time, {0, 0, 1}));
+  }
+  write_file(folder / "frames/surface_0004.vtu.part", "half a frame");
+  const RunFiles files(scene, folder.path(), mark);
+  EXPECT_EQ(content_of(folder / "history.csv") + content_of(folder / "frames.pvd") + content_of(folder / "volume.pvd"),
+            kept);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "frames"), {}), 4);
+  EXPECT_EQ(files.last_time(), 0.25);
 }
 
 TEST(VertexMasses, AddUpToTheBody) {

@@ -204,6 +204,34 @@ TEST_F(Program, ListsFamilies) {
   EXPECT_EQ(plica({"list"}).status, 0);
 }
 
+TEST_F(Program, ProbesFollowTheBody) {
+  ASSERT_EQ(
+      plica({"run", scene, "-o", out, "--set", "output.probes={low: [0, 0, 0], out: [0.101, 0.05, 0.05]}"}).status, 0);
+  EXPECT_EQ(lines("out/probes.csv"), 22);
+  const std::string text = content_of(folder / "out/probes.csv");
+  EXPECT_TRUE(text.starts_with("time,low_x,low_y,low_z,low_vx,low_vy,low_vz,out_x,")) << text.substr(0, 80);
+  std::istringstream last(text.substr(text.rfind('\n', text.size() - 2) + 1));
+  std::vector<double> row;
+  for (std::string field; std::getline(last, field, ',');) row.push_back(std::stod(field));
+  const double fallen = -9.81 * 1e-6 * 20 * 21 / 2;  // symplectic Euler in free fall
+  const std::vector<double> expected = {0.02, 0, 0, fallen, 0, 0, -0.1962, 0.1, 0.05, 0.05 + fallen, 0, 0, -0.1962};
+  ASSERT_EQ(row.size(), expected.size());
+  for (std::size_t i = 0; i < row.size(); ++i) EXPECT_NEAR(row[i], expected[i], 1e-9) << i;
+}
+
+TEST_F(Program, WatchesWhatIsThere) {
+  EXPECT_NE(
+      plica({"check", scene, "--set", "output.probes.tip=[0.101, 0.05, 0.05]"})
+          .errors.find("output.probes.tip: [0.101, 0.05, 0.05] is 0.001 m outside level 0 at rest; the nearest point"),
+      std::string::npos);
+  const Child far = plica({"check", scene, "--set", "output.probes.tip=[10, 2, 2]"});
+  EXPECT_EQ(far.status, 2);
+  EXPECT_NE(far.errors.find("outside level 0 at rest, which lies in [0, 0, 0] to [0.1, 0.1, 0.1] m"), std::string::npos)
+      << far.errors;
+  EXPECT_EQ(plica({"check", scene, "--set", "output.volume=[1]"}).status, 2);
+  EXPECT_EQ(plica({"check", scene, "--set", "output.probe_every=2 steps"}).status, 2);
+}
+
 TEST_F(Program, RunsCanBeDrawn) {
   if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
   ASSERT_EQ(plica({"run", scene, "-o", out}).status, 0);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/app/commands/manual.hpp>
+
+namespace plica::app {
+namespace {
+
+constexpr const char* run_manual =
+    R"(SCENE says what is simulated; `plica list keys` prints all that it can say. Numbers are SI, or text with a
+unit: 20 kPa, 17 ms, 4 cm, 1000 kg/m^3.
+
+Files in the folder, SI units throughout; a killed run leaves whole ones:
+  summary.json     how it went: status, times [s], levels, counters, diagnosis; written at the end
+  history.csv      level 0: energies [J], centre of mass [m], speeds [m/s]; a row per frame
+  frames.pvd       for ParaView: the surface's displacement [m] and velocity [m/s] (frames/surface_*.vtu)
+  volume.pvd       where output.volume asks: the tetrahedra of level 0, with mass [kg], von Mises stress [Pa],
+                   volume ratio J and region; volume_levelN.pvd of level N
+  probes.csv       where output.probes asks: positions [m] and velocities [m/s] of named points
+  checkpoint.bin   where --checkpoint asks: at the start, then every so often, at the end and at Ctrl-C
+
+--resume goes on from checkpoint.bin with the same bits as a run that never stopped. The scene, --set and
+--precision are the run's own; given again they must say the same. Only --duration may change.
+
+Examples:
+  plica run ball.yaml -o out/ball
+  plica run ball.yaml --set integration.macro_step=1ms --set body.material.young_modulus="20 kPa"
+  plica run ball.yaml --checkpoint every=100      # macro steps; or every=0.1s of simulated time
+  plica run --resume out/ball
+  plica run --resume out/ball --duration 10s
+
+Exit status: 0 done, 1 a file cannot be written, 2 bad input, 3 diverged (the last good state is written),
+4 not in this build, 130 interrupted (Ctrl-C ends after the macro step; the files are complete))";
+
+constexpr const char* explain_manual =
+    R"(Prints levels with critical steps [s], shares and sub-steps, and each part that is in or out, why, and its bytes.
+
+Examples:
+  plica explain ball.yaml
+  plica explain ball.yaml --set integration.cycle=single --json
+
+Exit status: 0 done, 2 bad input, 4 not in this build)";
+
+constexpr const char* check_manual =
+    R"(Reads the scene and its meshes and sets the simulation up, as a run would, and stops there. Writes no file.
+
+Examples:
+  plica check ball.yaml
+  plica check ball.yaml --json      # {"sound": false, "error": "ball.yaml:18: ..."}
+
+Exit status: 0 sound, 2 not, 4 not in this build)";
+
+constexpr const char* schema_manual =
+    R"(Editors complete and check a scene by it. With the YAML language server, as in VS Code's YAML extension:
+  plica schema > plica.schema.json
+and as the scene's first line, with the path from the scene to that file:
+  # yaml-language-server: $schema=plica.schema.json
+
+Exit status: 0)";
+
+constexpr const char* completion_manual = R"(Examples:
+  source <(plica completion bash)       # in ~/.bashrc
+  source <(plica completion zsh)        # in ~/.zshrc, after compinit
+
+Exit status: 0 done, 2 another shell)";
+
+}  // namespace
+
+std::string manual_of(const std::string& command) {
+  if (command == "run") return run_manual;
+  if (command == "explain") return explain_manual;
+  if (command == "check") return check_manual;
+  if (command == "schema") return schema_manual;
+  if (command == "completion") return completion_manual;
+  if (command == "list")
+    return "FAMILY is one of\n" + families_text() +
+           "\nExamples:\n  plica list keys\n  plica list materials --json\n\n" + "Exit status: 0 done, 2 bad input";
+  return {};
+}
+
+}  // namespace plica::app

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/checkpoint.hpp>
+#include <plica/drivers/app/output/digest.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/scene/tree_json.hpp>
+#include <sstream>
+
+namespace plica::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr const char* title = "plica checkpoint ";
+constexpr int version_written = 1;
+
+Json interval_json(const Interval& interval) { return {interval.time, interval.steps}; }
+Interval interval_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<long>()}; }
+
+Json header_of(const Checkpoint& c) {
+  return {{"scene_file", c.scene_file},
+          {"scene_path", c.scene_path},
+          {"scene", json_of(c.scene)},
+          {"meshes", c.meshes},
+          {"precision", c.precision},
+          {"backend", c.backend},
+          {"program", c.program},
+          {"every", interval_json(c.every)},
+          {"frame_every", interval_json(c.frame_every)},
+          {"macro_steps", c.macro_steps},
+          {"wall_time", c.wall_time},
+          {"stages", c.stages},
+          {"frame_times", c.files.frame_times},
+          {"history_bytes", c.files.history_bytes},
+          {"probe_bytes", c.files.probe_bytes}};
+}
+
+Checkpoint checkpoint_of(const Json& json) {
+  Checkpoint c;
+  json.at("scene_file").get_to(c.scene_file);
+  json.at("scene_path").get_to(c.scene_path);
+  c.scene = tree_of(json.at("scene"), c.scene_path);
+  json.at("meshes").get_to(c.meshes);
+  json.at("precision").get_to(c.precision);
+  json.at("backend").get_to(c.backend);
+  json.at("program").get_to(c.program);
+  c.every = interval_of(json.at("every")), c.frame_every = interval_of(json.at("frame_every"));
+  json.at("macro_steps").get_to(c.macro_steps);
+  json.at("wall_time").get_to(c.wall_time);
+  json.at("stages").get_to(c.stages);
+  json.at("frame_times").get_to(c.files.frame_times);
+  json.at("history_bytes").get_to(c.files.history_bytes);
+  json.at("probe_bytes").get_to(c.files.probe_bytes);
+  return c;
+}
+
+std::uint64_t digest_of(const std::string& text) {
+  Digest digest;
+  digest.add(text.data(), text.size());
+  return digest.value();
+}
+
+// The next number of the text, up to a blank or the end of the line
+std::uint64_t next_number(const std::string& text, std::size_t& at, int base, const Where& where) {
+  std::uint64_t value = 0;
+  const auto [rest, error] = std::from_chars(text.data() + at, text.data() + text.size(), value, base);
+  const bool ends = rest != text.data() + text.size() && (*rest == ' ' || *rest == '\n');
+  if (error != std::errc{} || !ends) throw InputError("the checkpoint is damaged: its head cannot be read", where);
+  at = static_cast<std::size_t>(rest - text.data()) + 1;
+  return value;
+}
+
+}  // namespace
+
+std::uint64_t mesh_digest(const Body& body) {
+  Digest digest;
+  const auto add_points = [&digest](const std::vector<Point>& points) {
+    for (const Point& p : points) digest.add(p.data(), 3 * sizeof(double));
+  };
+  for (const TetMesh& mesh : body.levels) {
+    add_points(mesh.vertices);
+    digest.add(mesh.tets);
+    digest.add(mesh.region);
+    for (const std::string& name : mesh.region_names) digest.add(name);
+    for (const auto& [name, vertices] : mesh.vertex_sets) digest.add(name), digest.add(vertices);
+  }
+  if (body.surface) {
+    add_points(body.surface->vertices);
+    digest.add(body.surface->triangles);
+  }
+  return digest.value();
+}
+
+void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
+  const std::string header = header_of(checkpoint).dump();
+  std::string body = header;
+  body.append(checkpoint.state.bytes.begin(), checkpoint.state.bytes.end());
+  const std::string head = fmt::format("{}{}\n{} {} {:016x}\n", title, version_written, header.size(),
+                                       body.size() - header.size(), digest_of(body));
+  write_file(folder / "checkpoint.bin", head + body, Durable::yes);
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "checkpoint.bin";
+  const Where where{file.string()};
+  if (!std::filesystem::exists(file))
+    throw InputError("there is no checkpoint to resume from; a run leaves one where --checkpoint asks for it", where);
+  std::ostringstream read;
+  read << std::ifstream(file, std::ios::binary).rdbuf();
+  const std::string text = read.str();
+  if (!text.starts_with(title)) throw InputError("this is no checkpoint, or a damaged one", where);
+  std::size_t at = std::string_view(title).size();
+  if (const auto version = next_number(text, at, 10, where); version != version_written)
+    throw InputError(fmt::format("the checkpoint is of version {}; this program reads {}", version, version_written),
+                     where);
+  const std::uint64_t header = next_number(text, at, 10, where), state = next_number(text, at, 10, where),
+                      digest = next_number(text, at, 16, where), left = text.size() - at;
+  if (header > left || state != left - header)
+    throw InputError(
+        fmt::format("the checkpoint is damaged: {} bytes after its head, {} expected", left, header + state), where);
+  const std::string body = text.substr(at);
+  if (digest_of(body) != digest) throw InputError("the checkpoint is damaged: its checksum is wrong", where);
+  try {
+    Checkpoint checkpoint =
+        checkpoint_of(Json::parse(body.begin(), body.begin() + static_cast<std::ptrdiff_t>(header)));
+    checkpoint.state.bytes.assign(body.begin() + static_cast<std::ptrdiff_t>(header), body.end());
+    return checkpoint;
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("the checkpoint is damaged: ") + error.what(), where);
+  }
+}
+
+}  // namespace plica::app

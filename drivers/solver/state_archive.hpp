@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <plica/core/error.hpp>
+#include <plica/core/model.hpp>
+#include <string>
+#include <vector>
+
+namespace plica {
+
+/// Walks what a simulation carries from one macro step to the next. Whoever owns some of it names it once; the archive saves it,
+/// checks that saved bytes fit it, or restores it.
+template <class B>
+class StateArchive {
+ public:
+  enum class Task { save, check, restore };
+
+  StateArchive(Task task, std::vector<unsigned char>& bytes) : task_(task), bytes_(bytes) {}
+
+  template <class Number>
+  void number(Number& value) {
+    static_assert(std::is_arithmetic_v<Number>);
+    if (task_ == Task::save)
+      put(&value, sizeof value);
+    else if (const unsigned char* from = take(sizeof value); task_ == Task::restore)
+      std::memcpy(&value, from, sizeof value);
+  }
+
+  /// A number that must be as it was: InputError otherwise.
+  template <class Number>
+  void same(const std::string& what, Number value) {
+    Number saved = value;
+    if (task_ == Task::save) return number(saved);
+    std::memcpy(&saved, take(sizeof saved), sizeof saved);
+    if (saved != value) throw InputError("the saved state is that of another simulation: " + what + " differs");
+  }
+
+  /// A device field, which may be empty.
+  void field(const std::string& what, const Vectors<B>& view) {
+    const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), view);
+    const std::size_t size = host.span() * sizeof(typename B::Real);
+    same<std::uint64_t>("the size of " + what, size);
+    if (task_ == Task::save) {
+      Kokkos::deep_copy(host, view);
+      put(host.data(), size);
+    } else if (const unsigned char* from = take(size); task_ == Task::restore && size > 0) {
+      std::memcpy(host.data(), from, size);
+      Kokkos::deep_copy(view, host);
+    }
+  }
+  void state(const std::string& what, const State<B>& state) {
+    field(what + ".u", state.u);
+    field(what + ".v", state.v);
+  }
+
+  /// After all of it: whether bytes are left over.
+  void finish() const {
+    if (task_ != Task::save && at_ != bytes_.size())
+      throw InputError("the saved state is damaged: " + std::to_string(bytes_.size() - at_) + " bytes too many");
+  }
+
+ private:
+  void put(const void* data, std::size_t size) {
+    const auto* from = static_cast<const unsigned char*>(data);
+    bytes_.insert(bytes_.end(), from, from + size);
+  }
+  const unsigned char* take(std::size_t size) {
+    if (bytes_.size() - at_ < size) throw InputError("the saved state is damaged: it ends early");
+    at_ += size;
+    return bytes_.data() + (at_ - size);
+  }
+
+  Task task_;
+  std::vector<unsigned char>& bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace plica

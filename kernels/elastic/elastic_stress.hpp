@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/patches.hpp>
+#include <plica/kernels/materials/cauchy_stress.hpp>
+
+namespace plica {
+
+/// von Mises' stress [Pa] and volume ratio J of every tetrahedron, F = I + grad u; for output, one element at a time.
+template <class B, class Material>
+struct ElasticStress {
+  using Real = typename B::Real;
+  using Policy = Kokkos::TeamPolicy<typename B::Exec>;
+  static constexpr int lanes = B::lanes;
+  Patches<B> patches;
+  Vectors<B> u;
+  Scalars<B> equivalent, ratio;  ///< [tets of the mesh]
+
+  KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
+    const int p = team.league_rank(), first = patches.first_pack(p) * lanes, last = patches.first_pack(p + 1) * lanes;
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first, last), [&](int slot) {
+      if (const int tet = patches.element(slot); tet >= 0) element(p, slot / lanes, slot % lanes, tet);
+    });
+  }
+
+  KOKKOS_INLINE_FUNCTION void element(int patch, int pack, int lane, int tet) const {
+    int vertex[4];
+    for (int c = 0; c < 4; ++c) vertex[c] = patches.vertex(patches.first_vertex(patch) + patches.corner(pack, c, lane));
+    Mat3<Real> F = Mat3<Real>::identity();
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < 3; ++k)
+          F[r][k] += (u(vertex[c + 1], r) - u(vertex[0], r)) * patches.shape(pack, 3 * c + k, lane);
+    const Lame<Real> lame{patches.lame(patch, 0), patches.lame(patch, 1)};
+    equivalent(tet) = von_mises(cauchy_stress<Material>(F, lame));
+    ratio(tet) = determinant(F);
+  }
+};
+
+template <class B, class Material>
+void elastic_stress(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
+                    const Scalars<B>& von_mises, const Scalars<B>& J) {
+  if (patches.count == 0) return;
+  Kokkos::parallel_for("plica::elastic_stress",
+                       Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
+                       ElasticStress<B, Material>{patches, u, von_mises, J});
+}
+
+}  // namespace plica

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "unit/app/child.hpp"
+
+// Runs that stop, in whatever way, and go on.
+namespace plica::app::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* bouncing_block = R"(duration: 1 s
+gravity: [0, 0, -9.81]
+body:
+  levels:
+    - {box: {size: [0.1, 0.1, 0.1], cells: [3, 3, 3]}}
+    - {box: {size: [0.1, 0.1, 0.1], cells: [2, 2, 2]}}
+  surface: {sphere: {radius: 4 cm, subdivisions: 1}}
+  initial: {position: [0, 0, 0.055]}
+integration: {cycle: rsv, macro_step: 1 ms, integrator: implicit_euler}
+contact: {obstacles: [{plane: {point: [0, 0, 0.01]}, friction: 0.2}]}
+output: {every: 20 steps, volume: all, probes: {tip: [0.1, 0.02, 0.02], middle: [5 cm, 5 cm, 5 cm]}}
+)";
+
+class Resume : public testing::Test {
+ protected:
+  Resume() { std::ofstream(scene) << bouncing_block; }
+
+  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
+    words.insert(words.begin(), PLICA_EXECUTABLE);
+    return run_child(words, folder, meanwhile);
+  }
+  Child begin(const std::string& out, std::vector<std::string> more = {},
+              const std::function<bool(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> words = {"run", scene, "-o", folder / out, "--quiet", "--threads", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return plica(words, meanwhile);
+  }
+  Child go_on(const std::string& out, std::vector<std::string> more = {},
+              const std::function<bool(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> words = {"run", "--resume", folder / out, "--quiet", "--threads", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return plica(words, meanwhile);
+  }
+
+  /// All of a run that must not depend on how often it was interrupted.
+  std::map<std::string, std::string> results(const std::string& out) const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / out))
+      if (entry.is_regular_file() && entry.path().filename() != "checkpoint.bin")
+        files[std::filesystem::relative(entry.path(), folder / out).string()] = content_of(entry.path());
+    Json summary = Json::parse(files.at("summary.json"));
+    for (const char* changing : {"arguments", "wall_time", "setup_time", "peak_memory", "stages"})
+      summary.erase(changing);
+    files["summary.json"] = summary.dump();
+    return files;
+  }
+  void expect_same_results(const std::string& a, const std::string& b) const {
+    const auto first = results(a), second = results(b);
+    for (const auto& [file, content] : first) {
+      ASSERT_TRUE(second.contains(file)) << file;
+      EXPECT_TRUE(second.at(file) == content) << file;
+    }
+    EXPECT_EQ(first.size(), second.size());
+  }
+
+  TemporaryFolder folder;
+  std::string scene = folder / "block.yaml";
+};
+
+TEST_F(Resume, SurvivesFiftyKills) {
+  ASSERT_EQ(begin("whole").status, 0);
+  std::mt19937 random(std::random_device{}());
+  std::uniform_int_distribution<int> microseconds(0, 40000);
+  int kills = 0;
+  for (int lives = 0; kills < 50 && lives < 500; ++lives) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(microseconds(random));
+    const auto strike = [&](pid_t id) {
+      std::this_thread::sleep_until(end);
+      return kill(id, SIGKILL) == 0;
+    };
+    const bool anew = !std::filesystem::exists(folder / "killed/checkpoint.bin") ||
+                      std::filesystem::exists(folder / "killed/summary.json");
+    const Child life = anew ? begin("killed", {"--checkpoint", "every=17"}, strike) : go_on("killed", {}, strike);
+    ASSERT_TRUE(life.status == 128 + SIGKILL || life.status == 0) << life.errors;
+    kills += life.status == 0 ? 0 : 1;
+  }
+  EXPECT_EQ(kills, 50);
+  if (!std::filesystem::exists(folder / "killed/checkpoint.bin")) {
+    ASSERT_EQ(begin("killed", {"--checkpoint", "every=17"}).status, 0);
+  }
+  const Child last = go_on("killed");
+  ASSERT_EQ(last.status, 0) << last.errors;
+  expect_same_results("whole", "killed");
+}
+
+TEST_F(Resume, InterruptedRunGoesOn) {
+  ASSERT_EQ(begin("whole", {"--precision", "float"}).status, 0);
+  const auto has_frames = [&] { return std::filesystem::exists(folder / "stopped/frames/surface_0003.vtu"); };
+  const Child stopped = begin("stopped", {"--precision", "float", "--checkpoint", "every=100 s", "--duration", "40 s"},
+                              [&](pid_t id) { return has_frames() && kill(id, SIGINT) == 0; });
+  ASSERT_EQ(stopped.status, 130);
+  const long done = Json::parse(content_of(folder / "stopped/summary.json"))["macro_steps"];
+  if (done >= 1000) GTEST_SKIP() << "it was past the end before it could be stopped";
+  const Child rest = go_on("stopped", {"--duration", "1 s"});
+  ASSERT_EQ(rest.status, 0) << rest.errors;
+  expect_same_results("whole", "stopped");
+}
+
+TEST_F(Resume, LongerThanItWas) {
+  ASSERT_EQ(begin("whole").status, 0);
+  ASSERT_EQ(begin("longer", {"--duration", "0.33 s", "--checkpoint", "every=0.1 s"}).status, 0);
+  ASSERT_EQ(plica({"run", scene, "--resume", folder / "longer", "--quiet"}).status, 0);
+  expect_same_results("whole", "longer");
+}
+
+TEST_F(Resume, RefusesWhatIsNotTheRun) {
+  ASSERT_EQ(begin("run", {"--duration", "20 ms", "--checkpoint", "every=10"}).status, 0);
+  const auto refusal = [&](const std::vector<std::string>& more) {
+    const Child child = go_on("run", more);
+    EXPECT_EQ(child.status, 2);
+    return child.errors;
+  };
+  EXPECT_EQ(refusal({"--precision", "float"}), "error: cannot resume in float: the run is in double\n");
+  EXPECT_EQ(refusal({"--set", "body.material.density=900"}),
+            "error: cannot resume another scene: body.material: is new; only the duration may change\n");
+  EXPECT_EQ(refusal({"--set", "body.levels.1.box.cells.2=1"}),
+            "error: cannot resume another scene: body.levels.1.box.cells.2: '2' became '1'; only the duration may "
+            "change\n");
+  std::ofstream(scene) << std::string(bouncing_block).replace(0, 13, "duration: 1 s\nname: other");
+  EXPECT_EQ(plica({"run", scene, "--resume", folder / "run"}).status, 2);
+  EXPECT_NE(refusal({"-o", folder / "elsewhere"}).find("excludes"), std::string::npos);
+  EXPECT_EQ(go_on("nowhere").status, 2);
+  EXPECT_EQ(go_on("run").status, 0) << "refusals have left it as it was";
+}
+
+TEST_F(Resume, RefusesAnotherMesh) {
+  std::filesystem::copy(PLICA_SOURCE_DIR "/meshes/data/liver_coarse.msh", folder / "body.msh");
+  std::ofstream(scene) << "duration: 1 ms\nbody: {levels: [{file: body.msh}]}\n";
+  ASSERT_EQ(begin("run", {"--checkpoint", "every=1"}).status, 0);
+  EXPECT_EQ(go_on("run").status, 0);
+  std::filesystem::copy(PLICA_SOURCE_DIR "/meshes/data/liver_medium.msh", folder / "body.msh",
+                        std::filesystem::copy_options::overwrite_existing);
+  const Child child = go_on("run");
+  EXPECT_EQ(child.status, 2);
+  EXPECT_NE(child.errors.find("has a mesh file changed?"), std::string::npos) << child.errors;
+}
+
+TEST_F(Resume, RefusesDamage) {
+  ASSERT_EQ(begin("run", {"--duration", "10 ms", "--checkpoint", "every=10"}).status, 0);
+  const std::string file = folder / "run/checkpoint.bin", sound = content_of(file);
+  const auto expect_refused = [&](const std::string& content) {
+    std::ofstream(file, std::ios::binary) << content;
+    const Child child = go_on("run");
+    EXPECT_EQ(child.status, 2);
+    EXPECT_NE(child.errors.find("checkpoint.bin: "), std::string::npos) << child.errors;
+  };
+  for (const std::size_t size : {std::size_t(0), std::size_t(5), std::size_t(20), std::size_t(300), sound.size() - 1})
+    expect_refused(sound.substr(0, size));
+  for (const std::size_t at : {std::size_t(3), std::size_t(18), std::size_t(25), std::size_t(200), sound.size() - 9}) {
+    std::string damaged = sound;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    expect_refused(damaged);
+  }
+  expect_refused(sound + "x");
+  std::ofstream(file, std::ios::binary) << sound;
+  EXPECT_EQ(go_on("run").status, 0);
+}
+
+TEST_F(Resume, RefusesFilesThatWereCut) {
+  ASSERT_EQ(begin("run", {"--duration", "0.2 s", "--checkpoint", "every=10"}).status, 0);
+  std::filesystem::resize_file(folder / "run/probes.csv", 60);
+  EXPECT_NE(go_on("run").errors.find("probes.csv is not what the run left"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plica::app::test

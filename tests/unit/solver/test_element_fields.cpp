@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/gradients.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Stress of deformations for which it is known in closed form, for every material.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+using Matrix = Eigen::Matrix3d;
+
+constexpr double young = 20e3, poisson = 0.35;
+const Lame<double> law = lame_constants(young, poisson);
+
+/// Cauchy's stress in closed form; `R` is the rotation nearest to F.
+Matrix known_stress(const std::string& material, const Matrix& F, const Matrix& R) {
+  const Matrix I = Matrix::Identity(), E = (F.transpose() * F - I) / 2, e = (F + F.transpose()) / 2 - I;
+  const double J = F.determinant();
+  if (material == "st_venant_kirchhoff") return F * (2 * law.mu * E + law.lambda * E.trace() * I) * F.transpose() / J;
+  if (material == "linear") return (2 * law.mu * e + law.lambda * e.trace() * I) * F.transpose() / J;
+  if (material == "corotational") {
+    const Matrix U = R.transpose() * F;
+    return R * (2 * law.mu * (U - I) + law.lambda * (U - I).trace() * I) * F.transpose() / J;
+  }
+  if (material == "neo_hookean") {  // Simo & Hughes, eq. 9.2.7
+    const Matrix b = std::pow(J, -2.0 / 3) * F * F.transpose();
+    const double bulk = law.lambda + 2 * law.mu / 3;
+    return (bulk / 2 * (J * J - 1) * I + law.mu * (b - b.trace() / 3 * I)) / J;
+  }
+  ADD_FAILURE() << "no known stress of " << material;
+  return Matrix::Zero();
+}
+
+double equivalent(const Matrix& sigma) {
+  const Matrix s = (sigma + sigma.transpose()) / 2;
+  return std::sqrt(1.5) * (s - s.trace() / 3 * Matrix::Identity()).norm();
+}
+
+template <class B>
+void expect_everywhere(const Matrix& F, double stress, double J, const std::string& material) {
+  Problem p = body_of({with_regions(jittered_box(decimetre, {3, 4, 3}), 0.05, "left", "right")}, material);
+  p.body.material.poisson_ratio = poisson;
+  Simulation<B> simulation(p);
+  std::vector<Point> u;
+  for (const Point& X : p.body.levels[0].vertices) u.push_back((F - Matrix::Identity()) * X);
+  simulation.set_state(u, std::vector<Point>(u.size(), Point::Zero()));
+  const ElementFields fields = simulation.element_fields();
+  ASSERT_EQ(fields.von_mises.size(), p.body.levels[0].tets.size());
+  ASSERT_EQ(fields.J.size(), p.body.levels[0].tets.size());
+  using Real = typename B::Real;
+  for (std::size_t e = 0; e < fields.J.size(); ++e) {
+    EXPECT_NEAR(fields.von_mises[e], stress, round_off<Real>(500, young)) << e;
+    EXPECT_NEAR(fields.J[e], J, round_off<Real>(100)) << e;
+  }
+}
+
+template <class B>
+class ElementFieldsOn : public testing::Test {};
+TYPED_TEST_SUITE(ElementFieldsOn, EachBackend);
+
+TYPED_TEST(ElementFieldsOn, KnownDeformations) {
+  Materials::for_each([](auto material) {
+    const std::string name = decltype(material)::name;
+    SCOPED_TRACE(name);
+    for (const double stretch : {0.8, 1.3}) {
+      const Matrix F = Eigen::Vector3d(stretch, 1, 1).asDiagonal();
+      const Matrix sigma = known_stress(name, F, Matrix::Identity());
+      expect_everywhere<TypeParam>(F, std::abs(sigma(0, 0) - sigma(1, 1)), stretch, name);
+    }
+    const double shear = 0.4, angle = std::atan(shear / 2);
+    Matrix F = Matrix::Identity(), R = Matrix::Identity();
+    F(0, 1) = shear;
+    R.topLeftCorner<2, 2>() << std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle);
+    expect_everywhere<TypeParam>(F, equivalent(known_stress(name, F, R)), 1, name);
+  });
+}
+
+TEST(ElementFields, ShearInNumbers) {  // mu sqrt(g^4 + 3 g^2) where sigma = mu dev b
+  Matrix F = Matrix::Identity();
+  F(0, 1) = 0.4;
+  expect_everywhere<Host>(F, law.mu * std::sqrt(std::pow(0.4, 4) + 3 * 0.16), 1, "neo_hookean");
+}
+
+TEST(ElementFields, RotationFeelsNothing) {
+  std::mt19937 random(11);
+  Materials::for_each([&](auto material) {
+    if (decltype(material)::rotation_invariant)
+      expect_everywhere<Host>(random_rotation(random), 0, 1, decltype(material)::name);
+  });
+}
+
+}  // namespace
