@@ -31,12 +31,10 @@ constexpr const char* script = R"(_plica() {{
     list) words="{} " ;;
     completion) words="bash zsh" ;;
   esac
-  if [ -z "$words" ]; then
+  if [ -z "$words" ] || [ "${{word#-}}" != "$word" ]; then
     case "${{COMP_WORDS[1]}} ${{COMP_WORDS[2]}}" in
 {}    esac
     [ "$COMP_CWORD" -gt 1 ] || words="{}"
-  elif [ "${{word#-}}" != "$word" ]; then
-    return
   fi
   COMPREPLY=($(compgen -W "$words" -- "$word"))
 }}

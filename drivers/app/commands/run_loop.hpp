@@ -15,7 +15,7 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutpu
   constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
   const double step = simulation.macro_step();
   const long steps = std::lround(std::ceil(duration / step - rounding));
-  if (end.macro_steps == 0) output.record(end);
+  output.record(end);
   while (end.macro_steps < steps && !interrupted()) {
     const auto start = std::chrono::steady_clock::now();
     simulation.step();

@@ -24,6 +24,7 @@ class RunOutput {
       : simulation_(simulation),
         folder_(folder),
         checkpoint_(std::move(checkpoint)),
+        recorded_(resumed ? checkpoint_.macro_steps : -1),
         files_(scene, folder, resumed ? std::optional(checkpoint_.files) : std::nullopt),
         frames_(checkpoint_.frame_every, simulation.macro_step()),
         probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()) {
@@ -36,6 +37,8 @@ class RunOutput {
 
   /// After a macro step, and once before the first.
   void record(const RunEnd& now) {
+    if (now.macro_steps <= recorded_) return;  // where the run goes on: it is on the disk
+    recorded_ = now.macro_steps;
     if (frames_.due(now.macro_steps)) write_frame(now.time);
     if (probes_ && probing_.due(now.macro_steps)) probes_->write(simulation_, now.time);
     if (saving_ && saving_->due(now.macro_steps)) save(now);
@@ -74,6 +77,7 @@ class RunOutput {
   std::filesystem::path folder_;
   Checkpoint checkpoint_;
   std::map<std::string, double> stages_before_;
+  long recorded_;
   RunFiles files_;
   std::optional<Probes<B>> probes_;
   Schedule frames_, probing_;

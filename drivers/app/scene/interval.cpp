@@ -34,6 +34,7 @@ long Schedule::count(long macro_step) const {
   constexpr double rounding = 1e-9;  // of a step
   if (macro_step < 0) return 0;
   if (every_.steps > 0) return macro_step / every_.steps + 1;
+  if (every_.time < step_) return macro_step + 1;
   return static_cast<long>(std::floor((static_cast<double>(macro_step) + rounding) * step_ / every_.time)) + 1;
 }
 

@@ -189,10 +189,12 @@ std::string unit_pattern(const Dimension& dimension) {
   for (const Unit& a : units) {
     for (int n = 1; n <= 3; ++n)
       if (a.symbol != std::string_view("1") && times(number, a.dimension, n) == dimension) add(power(a, n));
+    if (a.symbol == std::string_view("%")) continue;
     for (const Unit& b : units)
       for (int n = 1; n <= 4 && dimension != number && b.dimension != number; ++n) {
         if (times(a.dimension, b.dimension, -n) == dimension) add(power(a, 1) + " */ *" + power(b, n));
-        if (times(a.dimension, b.dimension, n) == dimension) add(power(a, 1) + " *\\* *" + power(b, n));
+        if (a.dimension != number && times(a.dimension, b.dimension, n) == dimension)
+          add(power(a, 1) + " *\\* *" + power(b, n));
       }
   }
   return pattern;

@@ -39,6 +39,7 @@ TEST(Schedule, OfSteps) { EXPECT_EQ(due_steps({0, 4}, 0.1, 10), (std::vector<lon
 TEST(Schedule, TakesTheFirstStepAtOrAfterEachMultiple) {
   EXPECT_EQ(due_steps({0.25, 0}, 0.1, 10), (std::vector<long>{0, 3, 5, 8, 10}));
   EXPECT_EQ(due_steps({0.01, 0}, 0.1, 3), (std::vector<long>{0, 1, 2, 3}));
+  EXPECT_EQ(due_steps({1e-300, 0}, 0.1, 3), (std::vector<long>{0, 1, 2, 3}));
 }
 
 TEST(Schedule, RoundingLosesNoStep) {

@@ -159,7 +159,7 @@ TEST_F(Program, KilledRunLeavesWholeFiles) {
 }
 
 TEST_F(Program, HelpAndVersionAreResults) {
-  for (const char* command : {"run", "explain", "check", "mesh", "list"}) {
+  for (const char* command : {"run", "explain", "check", "mesh", "list", "schema", "completion"}) {
     const Child help = plica({command, "--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_NE(help.output.find("Usage"), std::string::npos);
@@ -197,11 +197,39 @@ TEST_F(Program, ChecksWithoutRunning) {
 }
 
 TEST_F(Program, ListsFamilies) {
-  for (const char* family : {"materials", "integrators", "cycles", "distributions", "shapes", "solvers", "keys"}) {
+  const Json families = Json::parse(plica({"list", "--json"}).output);
+  EXPECT_GE(families.size(), 10);
+  const std::string text = plica({"list"}).output;
+  for (const Json& one : families) {
+    const std::string family = one["name"];
+    EXPECT_NE(text.find("  " + family), std::string::npos) << family;
     EXPECT_NE(plica({"list", family}).output, "") << family;
-    EXPECT_FALSE(Json::parse(plica({"list", family, "--json"}).output).empty()) << family;
+    const Json members = Json::parse(plica({"list", family, "--json"}).output);
+    EXPECT_FALSE(members.empty()) << family;
+    for (const Json& member : members) EXPECT_FALSE(member[family == "keys" ? "help" : "summary"].empty()) << family;
   }
-  EXPECT_EQ(plica({"list"}).status, 0);
+}
+
+TEST_F(Program, PrintsTheSchema) {
+  EXPECT_EQ(Json::parse(plica({"schema"}).output)["properties"]["body"]["required"], Json({"levels"}));
+}
+
+TEST_F(Program, CompletesCommandLines) {
+  if (run_child({"bash", "-c", "true"}, folder).status != 0) GTEST_SKIP() << "no bash";
+  std::ofstream(folder / "completion") << plica({"completion", "bash"}).output;
+  const auto completed = [&](const std::string& line) {
+    const std::string body = "source " + std::string(folder / "completion") + "; COMP_WORDS=(" + line +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _plica; echo \"${COMPREPLY[*]}\"";
+    return run_child({"bash", "-c", body}, folder).output;
+  };
+  EXPECT_EQ(completed("plica r"), "run\n");
+  EXPECT_EQ(completed("plica run a.yaml --ch"), "--checkpoint\n");
+  EXPECT_EQ(completed("plica run --precision f"), "float\n");
+  EXPECT_EQ(completed("plica list ma"), "materials\n");
+  EXPECT_EQ(completed("plica list --j"), "--json\n");
+  EXPECT_EQ(completed("plica mesh i"), "info\n");
+  EXPECT_EQ(completed("plica stu"), "\n") << "what is only planned";
+  EXPECT_EQ(plica({"completion", "fish"}).status, 2);
 }
 
 TEST_F(Program, ProbesFollowTheBody) {

@@ -112,10 +112,18 @@ TEST_F(Resume, InterruptedRunGoesOn) {
   expect_same_results("whole", "stopped");
 }
 
+TEST_F(Resume, FromTheVeryStart) {
+  const std::vector<std::string> diverging = {"--set", "integration.integrator=symplectic_euler"};
+  ASSERT_EQ(begin("whole", diverging).status, 3);
+  ASSERT_EQ(begin("again", {diverging[0], diverging[1], "--checkpoint", "every=100 s"}).status, 3);
+  EXPECT_EQ(go_on("again").status, 3) << "nothing is saved after it went wrong";
+  expect_same_results("whole", "again");
+}
+
 TEST_F(Resume, LongerThanItWas) {
   ASSERT_EQ(begin("whole").status, 0);
   ASSERT_EQ(begin("longer", {"--duration", "0.33 s", "--checkpoint", "every=0.1 s"}).status, 0);
-  ASSERT_EQ(plica({"run", scene, "--resume", folder / "longer", "--quiet"}).status, 0);
+  ASSERT_EQ(plica({"run", scene, "--resume", folder / "longer", "--quiet", "--threads", "1"}).status, 0);
   expect_same_results("whole", "longer");
 }
 
