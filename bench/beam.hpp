@@ -25,7 +25,7 @@ inline Problem beam_problem(const std::vector<Cells>& levels, const std::string&
   Problem p;
   for (const Cells& cells : levels) p.body.levels.push_back(beam_mesh(cells));
   p.body.material = {material, 1e5, 0.45, 1000};
-  p.body.fixed.push_back({Box{Point::Zero(), Point(0.1, 0.1, 0)}, ""});
+  p.body.fixed.push_back(Box{Point::Zero(), Point(0.1, 0.1, 0)});
   p.gravity = Point(0, 0, -9.81);
   return p;
 }

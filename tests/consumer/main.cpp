@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   problem.gravity = {0, 0, -9.81};
   problem.body.levels = {plica::box_mesh(beam, {16, 4, 4})};
   problem.body.material = {"neo_hookean", 1e6, 0.3, 1000};
-  problem.body.fixed = {{plica::Box{{0, 0, 0}, {0, 0.1, 0.1}}, ""}};
+  problem.body.fixed = {plica::Box{{0, 0, 0}, {0, 0.1, 0.1}}};
   try {
     plica::Simulation<plica::Backend<double, Kokkos::DefaultExecutionSpace>> simulation(problem);
     while (simulation.time() < 0.1) {

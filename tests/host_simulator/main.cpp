@@ -35,7 +35,7 @@ plica::Problem block(const plica::Point& centre) {
   plica::Problem problem;
   problem.body.levels = {plica::box_mesh(box, {16, 16, 4}), plica::box_mesh(box, {12, 12, 3})};
   problem.body.material = {"corotational", 5e3, 0.4, 1000};
-  problem.body.fixed = {{plica::Box{{-1, -1, 0}, {1, 1, 0}}, ""}};
+  problem.body.fixed = {plica::Box{{-1, -1, 0}, {1, 1, 0}}};
   problem.body.damping.mass = 2;
   problem.body.initial.position = centre;
   problem.body.surface = plica::boundary_surface(problem.body.levels[0]).surface;

@@ -19,8 +19,7 @@ KokkosSession::KokkosSession(const KokkosArguments& arguments) {
 }
 
 void warn(const Scene& scene) {
-  for (const std::string& warning : scene.warnings)
-    message(coloured("warning: ", Colour::yellow) + scene.file + ": " + warning);
+  for (const std::string& warning : scene.warnings) message(coloured("warning: ", Colour::yellow) + warning);
 }
 
 }  // namespace plica::app

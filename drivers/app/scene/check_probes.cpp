@@ -28,7 +28,7 @@ void check_probes(Scene& scene, const Tree& tree) {
                                    box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()),
                        place_of(tree, path));
     }
-    scene.warnings.push_back(outside + "; the nearest point of it is watched");
+    scene.warnings.push_back(scene.file + ": " + outside + "; the nearest point of it is watched");
   }
 }
 

@@ -93,7 +93,7 @@ struct Scene {
   double duration = 0;                ///< [s] > 0
   Problem problem;                    ///< complete once its meshes are built
   std::vector<Numbering> numbering;   ///< of each of these meshes
-  std::vector<std::string> warnings;  ///< about what was found in files, a sentence each
+  std::vector<std::string> warnings;  ///< about what was found in it and its files, a sentence each
   std::vector<LevelRecipe> levels;
   std::optional<SurfaceRecipe> surface;
   std::vector<ObstacleRecipe> obstacles;

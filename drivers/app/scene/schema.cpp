@@ -40,7 +40,7 @@ class SchemaWriter {
   }
   template <class T>
   void list(const char* key, std::vector<T>&, const char* help) {
-    add(key, {{"type", "array"}, {"items", object_of<T>()}, {"minItems", 1}}, help);
+    add(key, list_of<T>(), help);
   }
   template <class T>
   void required_list(const char* key, std::vector<T>& member, const char* help) {
@@ -51,21 +51,33 @@ class SchemaWriter {
   void map(const char* key, std::map<std::string, T>&, const char* help) {
     add(key, {{"type", "object"}, {"additionalProperties", object_of<T>()}}, help);
   }
+  void one_of() { choices_.push_back({true, Json::array()}); }
+  void at_most_one() { choices_.push_back({false, Json::array()}); }
   template <class Target, class T>
   void alternative(const char* key, Target&, T alternative, const char* help) {
     add(key, object_of(alternative), help);
-    alternatives_.push_back({{"required", {key}}});
+    choose(key);
   }
   template <class T, class Kind>
   void alternative_value(const char* key, T&, const Kind& kind, const char* help) {
     add(key, schema_of(kind), said(help, kind));
-    alternatives_.push_back({{"required", {key}}});
+    choose(key);
+  }
+
+  template <class Target, class T, class Item>
+  void alternative_list(const char* key, Target&, const T&, std::vector<Item> T::*, const char* help) {
+    add(key, list_of<Item>(), help);
+    choose(key);
   }
 
   Json result() const {
     Json object = {{"type", "object"}, {"properties", properties_}, {"additionalProperties", false}};
     if (!required_.empty()) object["required"] = required_;
-    if (!alternatives_.empty()) object["oneOf"] = alternatives_;
+    for (const auto& [required, keys] : choices_) {
+      Json cases = keys;
+      if (!required) cases.push_back({{"not", {{"anyOf", keys}}}});
+      object["allOf"].push_back({{"oneOf", cases}});
+    }
     return object;
   }
 
@@ -77,6 +89,11 @@ class SchemaWriter {
   void add(const char* key, Json schema, const std::string& description) {
     schema["description"] = description;
     properties_[key] = std::move(schema);
+  }
+  void choose(const char* key) { choices_.back().second.push_back({{"required", {key}}}); }
+  template <class Item>
+  static Json list_of() {
+    return {{"type", "array"}, {"items", object_of<Item>()}, {"minItems", 1}};
   }
   template <class T>
   static Json object_of(T& member) {
@@ -90,7 +107,8 @@ class SchemaWriter {
     return object_of(member);
   }
 
-  Json properties_ = Json::object(), required_ = Json::array(), alternatives_ = Json::array();
+  Json properties_ = Json::object(), required_ = Json::array();
+  std::vector<std::pair<bool, Json>> choices_;  // whether one of them must be given
 };
 
 }  // namespace

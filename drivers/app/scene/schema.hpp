@@ -24,5 +24,9 @@ nlohmann::ordered_json schema_of(const Every& kind);
 nlohmann::ordered_json schema_of(const LevelChoice& kind);
 nlohmann::ordered_json schema_of(const NamedPoints& kind);
 nlohmann::ordered_json schema_of(const Shares& kind);
+template <class Alternative, class Member, class Kind>
+nlohmann::ordered_json schema_of(const As<Alternative, Member, Kind>& kind) {
+  return schema_of(kind.kind);
+}
 
 }  // namespace plica::app

@@ -55,7 +55,7 @@ TEST(Schema, HasEveryKey) {
     EXPECT_TRUE(at->contains("description")) << key.path;
   }
   EXPECT_EQ(schema["required"], Json({"duration", "body"}));
-  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("oneOf").size(), 4);
+  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 4);
 }
 
 bool fits(const Dimension& dimension, const std::string& unit) {

@@ -28,7 +28,7 @@ Problem busy(const std::string& cycle, const std::string& integrator) {
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 2);
   p.body.fixed = {left_face()};
   p.gravity = {0, 0, -9.81};
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, Point::Zero()});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, {}});
   p.integration.integrator = {integrator};
   return p;
 }

@@ -134,7 +134,7 @@ TYPED_TEST(CallersForces, OnTheSurfaceDoAsAnObstacleDoes) {
   p.integration.macro_step = 1e-3;
   const double height = -1e-3;
   Problem with_plane = p;
-  with_plane.contact.obstacles = {{PlaneOptions{{0, 0, height}, {0, 0, 1}}, std::nullopt, Point::Zero()}};
+  with_plane.contact.obstacles = {{PlaneOptions{{0, 0, height}, {0, 0, 1}}, std::nullopt, {}}};
   Simulation<TypeParam> obstacle(with_plane);
   p.surface_forces = true;
   Simulation<TypeParam> own(p);

@@ -21,9 +21,9 @@ Problem thrown(const std::string& cycle, const std::string& integrator) {
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
   p.body.initial.velocity = {0.3, 0, -0.5};
   p.body.initial.angular_velocity = {0, 3, 1};
-  p.body.prescribed = {{left_face(), {0, 0.1, 0}}};
+  p.body.prescribed = {{left_face(), SteadyMotion(Point(0, 0.1, 0))}};
   p.gravity = {0, 0, -9.81};
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, {0, 0, 0.01}});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, SteadyMotion(Point(0, 0, 0.01))});
   p.integration.integrator = {integrator};
   p.integration.macro_step = integrator == "implicit_euler" ? 2e-3 : 5e-4;
   p.integration.distribution = "equal";

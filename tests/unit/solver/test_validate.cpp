@@ -105,7 +105,10 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
   EXPECT_EQ(load({all, Traction{{1, 0, 0}}, {}}), "");
   EXPECT_EQ(load({all, Traction{{nan, 0, 0}}, {}}).substr(0, 25), "body.loads.0.traction is ");
   EXPECT_EQ(load({all, TotalForce{}, RampCourse{0}}), "body.loads.0.ramp is 0; expected a number above 0 s");
-  EXPECT_EQ(load({all, TotalForce{}, PolygonCourse{std::vector<PolygonCourse::Knot>{{1, 1}, {0, 0}}}}),
+  PolygonCourse backwards;
+  backwards.knots.resize(2);
+  backwards.knots[0].time = 1;
+  EXPECT_EQ(load({all, TotalForce{}, backwards}),
             "body.loads.0.course.1.time is 0; expected a time after that of the entry before, 1 s");
   EXPECT_NE(load({BallSelection{{0, 0, 0}, -1}, TotalForce{}, {}}).find("body.loads.0.sphere.radius is -1"),
             std::string::npos);
