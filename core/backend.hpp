@@ -11,9 +11,10 @@ namespace plica {
 /// Where and in which precision the device side runs: the one template parameter of everything that touches it.
 template <class RealType, class ExecType>
 struct Backend {
-  using Real = RealType;
-  using Exec = ExecType;
-  using Memory = typename Exec::memory_space;
+  using Real = RealType;                       ///< float or double
+  using Exec = ExecType;                       ///< a Kokkos execution space
+  using Memory = typename Exec::memory_space;  ///< where its fields live
+  /// Whether the host can read that memory.
   static constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
   /// Elements that one pass of a kernel takes at a time: a vector register's worth on a CPU, one on a GPU.
   static constexpr int lanes = on_host && PLICA_VECTOR_BYTES > static_cast<int>(sizeof(Real))
@@ -45,11 +46,13 @@ constexpr int team_size(int on_device) {
   return B::on_host ? 1 : on_device;
 }
 
-/// One value, or one vector, per vertex or point. Vectors lie interleaved (x y z) on every backend.
+/// One value per vertex or point.
 template <class B>
 using Scalars = Kokkos::View<typename B::Real*, Kokkos::LayoutRight, typename B::Memory>;
+/// One vector each; vectors lie interleaved (x y z) on every backend.
 template <class B>
 using Vectors = Kokkos::View<typename B::Real* [3], Kokkos::LayoutRight, typename B::Memory>;
+/// Numbers of vertices, elements ...
 template <class B>
 using Indices = Kokkos::View<int*, Kokkos::LayoutRight, typename B::Memory>;
 

@@ -34,6 +34,7 @@ class DeviceArray {
     view_ = Of<T>(view.data(), Kokkos::LayoutStride(view.extent(0), view.stride(0), 3, view.stride(1)));
   }
 
+  /// Its number of vectors.
   std::size_t size() const {
     return std::visit([](const auto& view) { return view.extent(0); }, view_);
   }
@@ -44,9 +45,10 @@ class DeviceArray {
   }
 };
 
-/// Where a simulation writes to, and where it reads from.
+/// Where a simulation writes to.
 template <class B>
 using DeviceOutput = DeviceArray<B, true>;
+/// What a simulation reads from.
 template <class B>
 using DeviceInput = DeviceArray<B, false>;
 

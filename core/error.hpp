@@ -10,13 +10,14 @@ namespace plica {
 /// Where in an input file something stands; no file: the input came through the interface. Lines count from 1, 0:
 /// unknown.
 struct Where {
-  std::string file;
-  int line = 0;
+  std::string file;  ///< as the user named it
+  int line = 0;      ///< from 1
 };
 
 /// The one exception of set-up: bad or unsupported input. what() is "file:line: message".
 class InputError : public std::runtime_error {
  public:
+  /// `message` with the place before it, where there is one.
   explicit InputError(const std::string& message, const Where& where = {});
 };
 

@@ -17,6 +17,7 @@ struct TotalForce {
   Point value = Point::Zero();  ///< [N]
 };
 
+/// 1 at all times.
 struct ConstantCourse {};
 
 /// From 0 to 1 over the duration, smoothly: (1 - cos(pi t / duration)) / 2.
@@ -26,9 +27,10 @@ struct RampCourse {
 
 /// Straight from one factor to the next; the first holds before it, the last after it.
 struct PolygonCourse {
+  /// A factor at a time.
   struct Knot {
-    double time = 0;  ///< [s] >= 0, each after the one before
-    double factor = 1;
+    double time = 0;    ///< [s] >= 0, each after the one before
+    double factor = 1;  ///< of the load
   };
   std::vector<Knot> knots;  ///< at least one
 };
@@ -42,10 +44,11 @@ struct SineCourse {
 /// A load's factor over time.
 using LoadCourse = std::variant<ConstantCourse, RampCourse, PolygonCourse, SineCourse>;
 
+/// A load on a part of the body.
 struct LoadOptions {
-  Selection where;
-  std::variant<Traction, TotalForce> load;
-  LoadCourse course;
+  Selection where;                          ///< of vertices
+  std::variant<Traction, TotalForce> load;  ///< what acts on them
+  LoadCourse course;                        ///< times this factor
 };
 
 }  // namespace plica

@@ -12,8 +12,8 @@ using Point = Eigen::Vector3d;  ///< a point or vector of set-up geometry, alway
 
 /// An axis-aligned box, both ends included.
 struct Box {
-  Point min = Point::Zero();
-  Point max = Point::Zero();
+  Point min = Point::Zero();  ///< lowest corner [m]
+  Point max = Point::Zero();  ///< highest corner [m]
 };
 
 /// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver every tetrahedron

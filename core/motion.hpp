@@ -7,15 +7,18 @@
 /// Given translations, of vertices or obstacles: displacement from where they are at rest, as a function of time.
 namespace plica {
 
+/// With one velocity from the start.
 struct SteadyMotion {
   Point velocity = Point::Zero();  ///< [m/s] from t = 0
   SteadyMotion() = default;
+  /// From any Eigen vector [m/s].
   template <class Expression>
   SteadyMotion(const Eigen::MatrixBase<Expression>& v) : velocity(v) {}
 };
 
 /// Straight from one displacement to the next, at rest before the first and after the last.
 struct PathMotion {
+  /// A displacement at a time.
   struct Knot {
     double time = 0;                     ///< [s] >= 0, each after the one before
     Point displacement = Point::Zero();  ///< [m]
@@ -31,6 +34,7 @@ struct SineMotion {
   double phase = 0;                 ///< [rad]
 };
 
+/// Any of them.
 using Motion = std::variant<SteadyMotion, PathMotion, SineMotion>;
 
 }  // namespace plica

@@ -33,13 +33,14 @@ struct CapsuleOptions {
   double radius = 1;           ///< [m] > 0
 };
 
+/// A solid box.
 struct BlockOptions {
   Point centre = Point::Zero();    ///< [m]
   Point size = Point::Ones();      ///< edges [m] > 0
   Point rotation = Point::Zero();  ///< about the centre: its direction is the axis, its length the angle [rad]
 };
 
-/// Its ends are flat.
+/// A solid cylinder with flat ends.
 struct CylinderOptions {
   Point from = Point::Zero();  ///< centre of one end [m]
   Point to = Point::UnitZ();   ///< of the other [m], another point
@@ -52,9 +53,10 @@ struct SurfaceOptions {
   int cells = 0;            ///< of the grid along the surface's longest extent, 4 to 512; 0: chosen from its shape
 };
 
+/// A shape, how rough it is and how it moves.
 struct ObstacleOptions {
   std::variant<PlaneOptions, SphereOptions, BowlOptions, CapsuleOptions, BlockOptions, CylinderOptions, SurfaceOptions>
-      shape;
+      shape;                       ///< at t = 0
   std::optional<double> friction;  ///< Coulomb's coefficient >= 0; none: frictionless
   Motion motion;                   ///< from where the shape says
 };

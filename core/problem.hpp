@@ -12,6 +12,7 @@
 /// value a scene gets that leaves the key out. Ranges are checked where the simulation is set up.
 namespace plica {
 
+/// What a body is made of.
 struct MaterialOptions {
   std::string model = "st_venant_kirchhoff";  ///< a name of kernels/materials/list.hpp
   double young_modulus = 20e3;                ///< [Pa] > 0
@@ -29,30 +30,33 @@ struct RegionOptions {
 
 /// Vertices whose motion is given.
 struct PrescribedMotion {
-  Selection where;
-  Motion motion;
+  Selection where;  ///< which
+  Motion motion;    ///< from where they are at rest
 };
 
+/// Forces against motion.
 struct DampingOptions {
   double mass = 0;  ///< mass-proportional damping [1/s] >= 0
 };
 
+/// The state at t = 0: at rest in shape, placed and moving.
 struct InitialOptions {
   std::optional<Point> position;   ///< where the centre of level 0's bounding box starts; none: where the mesh is [m]
   Point velocity = Point::Zero();  ///< of every free vertex [m/s]
   Point angular_velocity = Point::Zero();  ///< about that centre [rad/s]
 };
 
+/// A deformable body.
 struct Body {
-  std::vector<TetMesh> levels;  ///< finest first, at least one
-  MaterialOptions material;
-  std::map<std::string, RegionOptions> regions;
-  std::vector<Selection> fixed;
-  std::vector<PrescribedMotion> prescribed;
-  std::vector<LoadOptions> loads;
-  DampingOptions damping;
-  InitialOptions initial;
-  std::optional<TriangleSurface> surface;  ///< embedded in every level; contact acts on its vertices
+  std::vector<TetMesh> levels;                   ///< finest first, at least one
+  MaterialOptions material;                      ///< everywhere but where a region has its own
+  std::map<std::string, RegionOptions> regions;  ///< by name
+  std::vector<Selection> fixed;                  ///< vertices that stay where they are
+  std::vector<PrescribedMotion> prescribed;      ///< vertices whose motion is given
+  std::vector<LoadOptions> loads;                ///< forces from outside
+  DampingOptions damping;                        ///< of the whole body
+  InitialOptions initial;                        ///< state at t = 0
+  std::optional<TriangleSurface> surface;        ///< embedded in every level; contact acts on its vertices
 };
 
 /// How the linear systems of an implicit level are solved.
@@ -64,6 +68,7 @@ struct ImplicitOptions {
   double newton_tolerance = 1e-6;   ///< on |residual| relative to the first, where newton_iterations > 1
 };
 
+/// How a body is stepped in time.
 struct IntegrationOptions {
   std::string cycle = "single";           ///< a name of drivers/solver/cycles/list.hpp
   std::optional<double> macro_step;       ///< [s] > 0; none: 0.9 of the predicted limit
@@ -76,24 +81,25 @@ struct IntegrationOptions {
   bool allow_unstable = false;    ///< run explicit sub-steps above the limit all the same
   double switch_threshold = 0.1;  ///< epsilon of the switched mappings, > 0
   std::string outside = "clamp";  ///< clamp | extrapolate | keep: vertices outside the other mesh
-  ImplicitOptions implicit;
+  ImplicitOptions implicit;       ///< of implicit levels
 };
 
 /// Penalty contact of the embedded surface's vertices. The scales multiply, per surface point, the stiffness E A / h
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
-  std::vector<ObstacleOptions> obstacles;
-  double stiffness_scale = 1;           ///< > 0
-  double damping_scale = 1;             ///< >= 0
-  double tangential_damping_scale = 1;  ///< >= 0, caps what friction can do at small sliding speed
+  std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch
+  double stiffness_scale = 1;              ///< > 0
+  double damping_scale = 1;                ///< >= 0
+  double tangential_damping_scale = 1;     ///< >= 0, caps what friction can do at small sliding speed
 };
 
+/// A body, what acts on it, and how it is integrated.
 struct Problem {
-  Body body;
-  Point gravity = Point::Zero();  ///< [m/s^2]
-  IntegrationOptions integration;
-  ContactOptions contact;
-  bool surface_forces = false;  ///< the caller will put forces of its own on the surface: embed it in every level
+  Body body;                       ///< what moves
+  Point gravity = Point::Zero();   ///< [m/s^2]
+  IntegrationOptions integration;  ///< in time
+  ContactOptions contact;          ///< with obstacles
+  bool surface_forces = false;     ///< the caller will put forces of its own on the surface: embed it in every level
 };
 
 }  // namespace plica

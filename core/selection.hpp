@@ -8,6 +8,7 @@
 /// is there. Choosing nothing on a level is an error.
 namespace plica {
 
+/// What lies in a ball.
 struct BallSelection {
   Point centre = Point::Zero();  ///< [m]
   double radius = 1;             ///< [m] > 0, its surface included
@@ -21,12 +22,12 @@ struct HalfSpaceSelection {
 
 /// The mesh's vertex set of that name or, where there is none, its region.
 struct GroupSelection {
-  std::string name;
+  std::string name;  ///< as the mesh has it
 };
 
 /// A region of the mesh or of the options.
 struct RegionSelection {
-  std::string name;
+  std::string name;  ///< as they have it
 };
 
 /// The one nearest to a point; of several the one with the lowest number.
@@ -34,6 +35,7 @@ struct NearestSelection {
   Point to = Point::Zero();  ///< [m]
 };
 
+/// Any of them.
 using Selection =
     std::variant<Box, BallSelection, HalfSpaceSelection, GroupSelection, RegionSelection, NearestSelection>;
 

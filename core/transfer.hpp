@@ -8,9 +8,9 @@ namespace plica {
 /// without a row keeps its own value: constrained vertices, and those outside the other mesh where that is asked for.
 template <class B>
 struct Transfer {
-  int rows = 0;
-  Indices<B> target;  ///< [rows]
-  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> source;
+  int rows = 0;                                                                         ///< targets that have one
+  Indices<B> target;                                                                    ///< [rows]
+  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> source;               ///< vertices of the other mesh
   Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> weight;  ///< each row sums to 1
 };
 

@@ -12,9 +12,10 @@ std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh);
 
 /// The boundary as a surface of its own.
 struct BoundarySurface {
-  TriangleSurface surface;
+  TriangleSurface surface;       ///< its triangles, and their vertices only
   std::vector<int> mesh_vertex;  ///< per surface vertex its number in the mesh, ascending
 };
+/// Of a mesh.
 BoundarySurface boundary_surface(const TetMesh& mesh);
 
 /// The sum of the areas of the triangles. [m^2]

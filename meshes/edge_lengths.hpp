@@ -8,7 +8,7 @@ namespace plica {
 
 /// The edges of a mesh, each once, lower vertex first, ascending.
 std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh);
-std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface);
+std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface);  ///< the same of a surface
 
 /// Per vertex the mean length of the edges that meet there [m]; 0 for a vertex of no tetrahedron.
 std::vector<double> local_edge_lengths(const TetMesh& mesh);

@@ -20,15 +20,16 @@ enum class Outside {
 /// weight was held, where extrapolated.
 struct Embedding {
   std::vector<std::array<int, 4>> vertices;  ///< of the tetrahedron, also in kept rows
-  std::vector<Weights> weights;
-  std::vector<char> outside;                ///< 1 for a miss
-  int misses = 0;                           ///< points outside
-  int held = 0;                             ///< misses whose weights were held back (extrapolate)
-  double largest_distance_over_edge = 0.0;  ///< of a miss to the mesh, over the mean edge of its tetrahedron
+  std::vector<Weights> weights;              ///< of these vertices
+  std::vector<char> outside;                 ///< 1 for a miss
+  int misses = 0;                            ///< points outside
+  int held = 0;                              ///< misses whose weights were held back (extrapolate)
+  double largest_distance_over_edge = 0.0;   ///< of a miss to the mesh, over the mean edge of its tetrahedron
 };
 
 /// @param points   finite [m]; InputError otherwise, with the point's index
 /// @param locator  of the mesh; build it once when several sets of points hang on the same mesh
+/// @param outside  what becomes of points outside it
 Embedding embed(const std::vector<Point>& points, const TetLocator& locator, Outside outside);
 
 /// The same with a locator of its own.

@@ -7,7 +7,7 @@ namespace plica {
 
 /// A mesh whose duplicate vertices were merged.
 struct MergedMesh {
-  TetMesh mesh;
+  TetMesh mesh;                      ///< glued together
   int merged = 0;                    ///< vertices that became one with another
   std::vector<int> original_vertex;  ///< per vertex of the mesh its number before
 };

@@ -7,8 +7,8 @@ namespace plica {
 
 /// An order of vertices and tetrahedra: per new number the old one.
 struct Reordering {
-  std::vector<int> vertices;
-  std::vector<int> tets;
+  std::vector<int> vertices;  ///< old numbers
+  std::vector<int> tets;      ///< old numbers
 };
 
 /// Neighbours in space become neighbours in memory: tetrahedra along a Hilbert curve through their centroids, vertices as

@@ -23,12 +23,13 @@ class TetLocator {
   explicit TetLocator(const TetMesh& mesh);
   explicit TetLocator(TetMesh&&) = delete;
   ~TetLocator();
-  TetLocator(TetLocator&&) noexcept;
-  TetLocator& operator=(TetLocator&&) noexcept;
+  TetLocator(TetLocator&&) noexcept;             ///< takes over the tree
+  TetLocator& operator=(TetLocator&&) noexcept;  ///< likewise
 
   /// InputError for a point that is not finite, or beyond 1e100 m.
   Located locate(const Point& point) const;
 
+  /// The mesh it was made for.
   const TetMesh& mesh() const { return *mesh_; }
 
  private:

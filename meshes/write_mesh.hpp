@@ -8,6 +8,8 @@ namespace plica {
 
 /// What a file of a mesh holds, in the format that its extension names; coordinates keep every bit where nothing else is
 /// said. TetGen's format is two files, whichever of them is named. Nothing is written to disk.
+/// @param path    names the format; the written files have its name
+/// @param mesh    what to write
 /// @param format  the name of a format of that extension (see list.hpp); empty: the first one
 /// @param binary  the binary form of it
 /// @throw InputError for an unknown extension or format, and what the format can in no way hold

@@ -10,20 +10,24 @@ namespace plica {
 
 /// What a writer makes of a mesh.
 struct WrittenMesh {
-  std::vector<MemoryFile> files;
+  std::vector<MemoryFile> files;      ///< names and bytes
   std::vector<std::string> left_out;  ///< what the format cannot hold, a sentence each
 };
 
 /// Text in the making. Numbers are as short as they can be while they keep every bit.
 class TextOut {
  public:
+  /// As it is.
   TextOut& operator<<(std::string_view text) { return text_ += text, *this; }
-  TextOut& operator<<(double number);
-  TextOut& operator<<(std::int64_t number);
+  TextOut& operator<<(double number);        ///< in the fewest digits
+  TextOut& operator<<(std::int64_t number);  ///< in decimal
+  /// In decimal.
   TextOut& operator<<(int number) { return *this << std::int64_t{number}; }
+  /// In decimal.
   TextOut& operator<<(std::size_t number) { return *this << static_cast<std::int64_t>(number); }
   /// Three numbers with a blank before each
   TextOut& operator<<(const Point& point) { return *this << " " << point.x() << " " << point.y() << " " << point.z(); }
+  /// The text, once.
   std::string take() { return std::move(text_); }
 
  private:
@@ -39,6 +43,7 @@ std::vector<std::int64_t> region_numbers(const TetMesh& mesh);
 
 /// Notes which names of regions a format cannot hold that will read their numbers as "PREFIXnumber".
 void leave_out_region_names(const TetMesh& mesh, const std::string& prefix, WrittenMesh& written);
+/// Notes all vertex sets.
 void leave_out_vertex_sets(const TetMesh& mesh, WrittenMesh& written);
 
 }  // namespace plica

@@ -26,8 +26,9 @@ struct ForceRequest {
   Blocks<B> stiffness;  ///< [vertices][6] xx yy zz xy xz yz N/m, zero on entry: add -d(force)/d(position) where that is
                         ///< positive semi-definite, and 1/h times the same of the velocity
 
-  /// The embedded surface's points in this state, [points][3] m, and their velocities [m/s].
+  /// The embedded surface's points in this state, [points][3] m.
   void read_surface_positions(const DeviceOutput<B>& x) const;
+  /// Their velocities, [points][3] m/s.
   void read_surface_velocities(const DeviceOutput<B>& v) const;
   /// Adds forces on these points, [points][3] N, as the level's vertices feel them.
   void add_surface_forces(const Vectors<B>& on_points) const;

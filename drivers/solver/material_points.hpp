@@ -11,10 +11,11 @@ namespace plica {
 template <class B>
 class MaterialPoints {
  public:
-  using Exec = typename B::Exec;
-  /// Displacements [m] and velocities [m/s], in the order of the points.
+  using Exec = typename B::Exec;  ///< where they are gathered
+  /// In the order of the points.
   struct Motion {
-    std::vector<Point> displacement, velocity;
+    std::vector<Point> displacement;  ///< [m]
+    std::vector<Point> velocity;      ///< [m/s]
   };
 
   /// A point outside the mesh is taken to the nearest point of it. InputError for points that are not finite.

@@ -7,21 +7,23 @@
 /// The families a scene chooses from, as lists to print and to check names against. Each walks the family's own list.
 namespace plica {
 
+/// A member of a family.
 struct Choice {
-  std::string name;
+  std::string name;     ///< in scenes and options
   std::string summary;  ///< one line
 };
 
-std::vector<Choice> materials();
-std::vector<Choice> integrators();
-std::vector<Choice> cycles();
-std::vector<Choice> distributions();
-std::vector<Choice> obstacle_shapes();
-std::vector<Choice> linear_solvers();
+std::vector<Choice> materials();        ///< constitutive laws
+std::vector<Choice> integrators();      ///< one-level ODE solvers
+std::vector<Choice> cycles();           ///< ways to share a macro step
+std::vector<Choice> distributions();    ///< sizes of the shares
+std::vector<Choice> obstacle_shapes();  ///< for contact
+std::vector<Choice> linear_solvers();   ///< of implicit levels
 
 /// Whether that cycle uses more than the finest level; false for a name it does not know.
 bool uses_coarse_levels(std::string_view cycle);
 
+/// Their names alone, in the same order.
 std::vector<std::string> names(const std::vector<Choice>& choices);
 
 }  // namespace plica

@@ -14,55 +14,56 @@ namespace plica {
 
 /// A part that a scene may or may not need: in or out, why, and the device memory it takes.
 struct Part {
-  std::string name;
-  bool in = false;
-  std::string reason;
-  std::size_t bytes = 0;
+  std::string name;       ///< as `plica explain` prints it
+  bool in = false;        ///< whether the simulation has it
+  std::string reason;     ///< why, or why not
+  std::size_t bytes = 0;  ///< on the device
 };
 
 /// What was decided for one level.
 struct LevelReport {
-  int vertices = 0;
-  int tets = 0;
+  int vertices = 0;          ///< of its mesh
+  int tets = 0;              ///< of its mesh
   double mean_edge = 0;      ///< [m]
   double mass = 0;           ///< [kg]
   double critical_step = 0;  ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
   double element_bound = 0;  ///< the same from the worst single element: on the sure side, without contact [s]
   double share = 0;          ///< of the macro step
-  int substeps = 0;
-  std::string integrator;
-  bool explicit_integrator = true;
-  int outside_down = 0;     ///< its vertices outside the next finer mesh
-  int outside_up = 0;       ///< the next finer level's vertices outside its mesh
-  int massless = 0;         ///< its vertices without one of the next finer level in their elements (cycle fas)
-  double largest_miss = 0;  ///< their largest distance over the local edge length
+  int substeps = 0;          ///< in its share
+  std::string integrator;    ///< its name
+  bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
+  int outside_down = 0;             ///< its vertices outside the next finer mesh
+  int outside_up = 0;               ///< the next finer level's vertices outside its mesh
+  int massless = 0;                 ///< its vertices without one of the next finer level in their elements (cycle fas)
+  double largest_miss = 0;          ///< their largest distance over the local edge length
 };
 
-/// Energies of level 0 [J]; potential: gravity's, zero at the start.
+/// Energies of level 0.
 struct Energies {
-  double kinetic = 0;
-  double elastic = 0;
-  double potential = 0;
-  double contact = 0;
+  double kinetic = 0;    ///< of motion [J]
+  double elastic = 0;    ///< of deformation [J]
+  double potential = 0;  ///< gravity's, zero at the start [J]
+  double contact = 0;    ///< of the penalties [J]
+  /// Their sum [J].
   double total() const { return kinetic + elastic + potential + contact; }
 };
 
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
-  std::string kind;  ///< non_finite | inverted | energy
-  int level = -1;
-  int element = -1;
-  int vertex = -1;
-  std::string region;
+  std::string kind;                  ///< non_finite | inverted | energy
+  int level = -1;                    ///< 0: the finest
+  int element = -1;                  ///< tetrahedron of that level
+  int vertex = -1;                   ///< vertex of that level
+  std::string region;                ///< of the element; empty: nameless
   double J = 0;                      ///< volume ratio of the element
   double substep_over_critical = 0;  ///< of that level
-  std::string remedy;
-  std::string text() const;  ///< one sentence with all of it
+  std::string remedy;                ///< most likely to help
+  std::string text() const;          ///< one sentence with all of it
 };
 
 /// What a simulation carries from one macro step to the next, in bytes that only Simulation reads.
 struct SavedState {
-  std::vector<unsigned char> bytes;
+  std::vector<unsigned char> bytes;  ///< to be kept as they are
 };
 
 /// Per tetrahedron of a level, in input order.
@@ -76,7 +77,7 @@ struct ElementFields {
 template <class B>
 class Simulation {
  public:
-  using Exec = typename B::Exec;
+  using Exec = typename B::Exec;  ///< the execution space it runs on
 
   /// Sets everything up. Throws InputError with the values, the choices and the remedy.
   explicit Simulation(const Problem& problem, const Exec& exec = {});
@@ -99,8 +100,8 @@ class Simulation {
   double macro_step() const;                       ///< [s]
   long macro_steps() const;                        ///< done
   const std::vector<LevelReport>& levels() const;  ///< finest first; only those the cycle uses
-  std::vector<Part> parts() const;
-  Energies energies() const;  ///< waits
+  std::vector<Part> parts() const;                 ///< what it is made of, in and out
+  Energies energies() const;                       ///< waits
   std::map<std::string, double> stages()
       const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
   std::map<std::string, long> counters()
@@ -108,17 +109,21 @@ class Simulation {
   double residual() const;        ///< the largest relative residual an implicit solve of the last macro step ended with
   double worst_residual() const;  ///< of all macro steps so far
 
-  /// A level's fields as the device holds them, [vertices][3]: displacement from the placed rest mesh [m] and velocity
-  /// [m/s]. step() updates them in place; they may outlive the simulation.
+  /// A level's displacements from the placed rest mesh [m] as the device holds them, [vertices][3]. step() updates them in
+  /// place; the view may outlive the simulation.
   Vectors<B> displacement(int level = 0) const;
+  /// Likewise its velocities [m/s].
   Vectors<B> velocity(int level = 0) const;
 
-  /// Into views of the caller's on the device, [vertices][3] or [surface points][3], float or double, in any layout:
-  /// positions [m] and velocities [m/s] after the steps enqueued so far, in input order. Enqueues, does not wait; a level's
-  /// first call uploads its rest positions. Throws InputError where the sizes differ.
+  /// A level's positions [m] after the steps enqueued so far, in input order, into a view of the caller's on the device:
+  /// [vertices][3], float or double, in any layout. Enqueues, does not wait; a level's first call uploads its rest positions.
+  /// Throws InputError where the sizes differ.
   void read_positions(const DeviceOutput<B>& to, int level = 0) const;
+  /// Likewise its velocities [m/s].
   void read_velocities(const DeviceOutput<B>& to, int level = 0) const;
+  /// Likewise the positions [m] of the embedded surface's points, [points][3], as level 0 carries them.
   void read_surface_positions(const DeviceOutput<B>& to) const;
+  /// Likewise their velocities [m/s].
   void read_surface_velocities(const DeviceOutput<B>& to) const;
 
   /// The other way: replaces level 0's state by that in views of the caller's. The next cycle restricts it to the others.
@@ -131,11 +136,10 @@ class Simulation {
   /// energies.
   void set_external_forces(const ExternalForces<B>& forces);
 
-  /// Host copies; they wait. Positions [m] of a level's vertices, or of the embedded surface's, in input order.
-  std::vector<Point> positions(int level = 0) const;
-  std::vector<Point> velocities(int level = 0) const;
-  std::vector<Point> surface_positions() const;
-  std::vector<Point> surface_velocities() const;
+  std::vector<Point> positions(int level = 0) const;   ///< of a level's vertices, input order [m]; waits
+  std::vector<Point> velocities(int level = 0) const;  ///< likewise [m/s]
+  std::vector<Point> surface_positions() const;        ///< of the embedded surface's points [m]; waits
+  std::vector<Point> surface_velocities() const;       ///< likewise [m/s]
 
   /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts it to the others.
   void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
