@@ -6,6 +6,8 @@ import sys
 import numpy
 from matplotlib.colors import LinearSegmentedColormap, to_rgb, to_rgba
 
+from obstacles import BACK, FORWARD, FRONT, obstacles
+
 try:
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -16,70 +18,8 @@ except ImportError:
 
 BODY_MAP = LinearSegmentedColormap.from_list("deformation", ["#3d8fb3", "#8fcfb0", "#f6d365", "#f08a4b", "#b5233b"])
 OBSTACLE = "#6f8296"
-BACK, FRONT = 0.45, 0.10  # opacity of what is behind the body, and of what is between it and the eye
-# seen from the front, a little from the right and above
-FORWARD = numpy.array([-0.28, 0.88, -0.38]) / numpy.linalg.norm([-0.28, 0.88, -0.38])
 RIGHT = numpy.cross(FORWARD, [0, 0, 1]) / numpy.linalg.norm(numpy.cross(FORWARD, [0, 0, 1]))
 UP = numpy.cross(RIGHT, FORWARD)
-
-
-def patch(function, u, v):
-    """A grid of points function(u, v) as points and triangles."""
-    grid_u, grid_v = numpy.meshgrid(u, v, indexing="ij")
-    points = numpy.stack(function(grid_u, grid_v), axis=-1).reshape(-1, 3)
-    index = numpy.arange(len(u) * len(v)).reshape(len(u), len(v))
-    a, b, c, d = index[:-1, :-1].ravel(), index[1:, :-1].ravel(), index[1:, 1:].ravel(), index[:-1, 1:].ravel()
-    return points, numpy.concatenate([numpy.stack([a, b, c], 1), numpy.stack([a, c, d], 1)])
-
-
-def on_sphere(centre, radius):
-    return lambda polar, around: (
-        centre[0] + radius * numpy.sin(polar) * numpy.cos(around),
-        centre[1] + radius * numpy.sin(polar) * numpy.sin(around),
-        centre[2] - radius * numpy.cos(polar),
-    )
-
-
-def bowl(shape):
-    """The half behind its centre and the half in front, through which one looks in."""
-    steepest = numpy.arccos(1 - shape["rim"] / shape["radius"])
-    polar, facing = numpy.linspace(0, steepest, 40), numpy.arctan2(FORWARD[1], FORWARD[0])
-    half = numpy.linspace(-numpy.pi / 2, numpy.pi / 2, 80)
-    surface = on_sphere(shape["centre"], shape["radius"])
-    return [(*patch(surface, polar, facing + half), BACK), (*patch(surface, polar, facing + half + numpy.pi), FRONT)]
-
-
-def sphere(shape):
-    surface = on_sphere(shape["centre"], shape["radius"])
-    return [(*patch(surface, numpy.linspace(0, numpy.pi, 60), numpy.linspace(0, 2 * numpy.pi, 120)), BACK)]
-
-
-def plane(shape, low, high):
-    """A square of it, wide enough for the body."""
-    normal = numpy.array(shape["normal"]) / numpy.linalg.norm(shape["normal"])
-    along = numpy.cross(normal, [1, 0, 0] if abs(normal[0]) < 0.9 else [0, 1, 0])
-    along /= numpy.linalg.norm(along)
-    across = numpy.cross(normal, along)
-    middle = (low + high) / 2
-    middle = middle - normal * (normal @ (middle - shape["point"]))
-    half = 0.7 * numpy.linalg.norm(high - low)
-    size = numpy.array([-half, half])
-    points = lambda s, t: numpy.moveaxis(middle + s[..., None] * along + t[..., None] * across, -1, 0)
-    return [(*patch(points, size, size), BACK)]
-
-
-def obstacles(run):
-    """Those of the run where they stood at the start, as (points, triangles, opacity)."""
-    low, high = run.points.min(axis=(0, 1)), run.points.max(axis=(0, 1))
-    shapes = []
-    for entry in run.summary.get("obstacles", []):
-        if "bowl" in entry:
-            shapes += bowl(entry["bowl"])
-        elif "sphere" in entry:
-            shapes += sphere(entry["sphere"])
-        elif "plane" in entry:
-            shapes += plane(entry["plane"], low, high)
-    return shapes
 
 
 def normals(points, triangles):
@@ -129,7 +69,8 @@ class View:
         self.shapes = obstacles(run)
         body = run.points.reshape(-1, 3)
         extent = numpy.ptp(body, axis=0).max()
-        seen = [body] + [points for points, *_ in self.shapes if numpy.ptp(points, axis=0).max() < 8 * extent]
+        moved = [points + shift(time) for time in run.times for points, _, _, shift in self.shapes]
+        seen = [body] + [points for points in moved if numpy.ptp(points, axis=0).max() < 8 * extent]
         points = numpy.concatenate(seen)
         across, height, depth = points @ RIGHT, points @ UP, points @ FORWARD
         self.half_width, self.half_height = 0.52 * numpy.ptp(across), 0.52 * numpy.ptp(height)
@@ -142,18 +83,19 @@ class View:
     def aspect(self):
         return self.half_width / self.half_height
 
-    def picture(self, points, triangles, values, largest, height=620):
-        """An image array of the body, coloured by values in [0, largest]."""
+    def picture(self, time, points, triangles, values, largest, height=620):
+        """An image array of the body at a time [s], coloured by values in [0, largest]."""
         size = (int(height * self.aspect()), height)
-        return self.draw(points, triangles, values, largest, size)
+        shapes = [(corners + shift(time), cells, opacity) for corners, cells, opacity, shift in self.shapes]
+        return self.draw(points, triangles, shapes, values, largest, size)
 
-    def _by_vtk(self, points, triangles, values, largest, size):
+    def _by_vtk(self, points, triangles, shapes, values, largest, size):
         renderer = vtk.vtkRenderer()
         renderer.SetBackground(1, 1, 1)
         renderer.SetUseDepthPeeling(True)
         vtk.vtkLightKit().AddLightsToRenderer(renderer)
         renderer.AddActor(vtk_actor(points, triangles, BODY_MAP(values / largest)[:, :3]))
-        for shape_points, shape_triangles, opacity in self.shapes:
+        for shape_points, shape_triangles, opacity in shapes:
             shape = vtk_actor(shape_points, shape_triangles)
             shape.GetProperty().SetColor(to_rgb(OBSTACLE))
             shape.GetProperty().SetOpacity(opacity)
@@ -180,7 +122,7 @@ class View:
         image = pixels.reshape(size[1], 2, size[0], 2, 3)[::-1, ::-1]
         return image.mean(axis=(1, 3)).astype(numpy.uint8)
 
-    def _by_matplotlib(self, points, triangles, values, largest, size):
+    def _by_matplotlib(self, points, triangles, shapes, values, largest, size):
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
@@ -188,12 +130,12 @@ class View:
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(-self.half_width, self.half_width), ylim=(-self.half_height, self.half_height))
         axes.axis("off")
-        for vertices, cells, opacity in self.shapes:
+        for vertices, cells, opacity in shapes:
             if opacity == BACK:
                 self._add_triangles(axes, vertices, cells, to_rgba(OBSTACLE, opacity))
         facing = cells_facing(points, triangles)  # the others are hidden behind them
         self._add_triangles(axes, points, triangles[facing], BODY_MAP(values[triangles[facing]].mean(axis=1) / largest))
-        for vertices, cells, opacity in self.shapes:
+        for vertices, cells, opacity in shapes:
             if opacity == FRONT:
                 self._add_triangles(axes, vertices, cells, to_rgba(OBSTACLE, opacity))
         canvas = FigureCanvasAgg(figure)

@@ -40,7 +40,7 @@ def draw_bodies(figure, run, view, box):
                                wspace=0.03, hspace=0.1)
     for place, frame in zip(grid, chosen):
         axes = figure.add_subplot(place)
-        axes.imshow(view.picture(run.points[frame], run.triangles, moved[frame], largest))
+        axes.imshow(view.picture(run.times[frame], run.points[frame], run.triangles, moved[frame], largest))
         axes.set_title(f"{run.times[frame]:.3g} s", fontsize=11, pad=2)
         axes.axis("off")
     colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * largest), body.BODY_MAP)

@@ -9,7 +9,7 @@ namespace plica {
 
 namespace {
 
-bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
 Eigen::Matrix3d edges(const TetMesh& mesh, const std::array<int, 4>& t, const std::vector<Point>* moved) {
   const auto at = [&](std::size_t k) {
@@ -117,7 +117,7 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   d.kind = kind, d.level = 0;
   for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0; --i) {
     const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].level.state.u);
-    const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !finite(p); });
+    const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !is_finite(p); });
     if (bad != u.end()) d.level = i, d.vertex = static_cast<int>(bad - u.begin());
   }
   const auto i = static_cast<std::size_t>(d.level);

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The obstacles of a run as triangles, and where they are at a time."""
+import numpy
+
+BACK, FRONT = 0.45, 0.10  # opacity of what is behind the body, and of what is between it and the eye
+# seen from the front, a little from the right and above
+FORWARD = numpy.array([-0.28, 0.88, -0.38]) / numpy.linalg.norm([-0.28, 0.88, -0.38])
+
+
+def patch(function, u, v):
+    """A grid of points function(u, v) as points and triangles."""
+    grid_u, grid_v = numpy.meshgrid(u, v, indexing="ij")
+    points = numpy.stack(function(grid_u, grid_v), axis=-1).reshape(-1, 3)
+    index = numpy.arange(len(u) * len(v)).reshape(len(u), len(v))
+    a, b, c, d = index[:-1, :-1].ravel(), index[1:, :-1].ravel(), index[1:, 1:].ravel(), index[:-1, 1:].ravel()
+    return points, numpy.concatenate([numpy.stack([a, b, c], 1), numpy.stack([a, c, d], 1)])
+
+
+def on_sphere(centre, radius):
+    return lambda polar, around: (
+        centre[0] + radius * numpy.sin(polar) * numpy.cos(around),
+        centre[1] + radius * numpy.sin(polar) * numpy.sin(around),
+        centre[2] - radius * numpy.cos(polar),
+    )
+
+
+def bowl(shape):
+    """The half behind its centre and the half in front, through which one looks in."""
+    steepest = numpy.arccos(1 - shape["rim"] / shape["radius"])
+    polar, facing = numpy.linspace(0, steepest, 40), numpy.arctan2(FORWARD[1], FORWARD[0])
+    half = numpy.linspace(-numpy.pi / 2, numpy.pi / 2, 80)
+    surface = on_sphere(shape["centre"], shape["radius"])
+    return [(*patch(surface, polar, facing + half), BACK), (*patch(surface, polar, facing + half + numpy.pi), FRONT)]
+
+
+def sphere(shape):
+    surface = on_sphere(shape["centre"], shape["radius"])
+    return [(*patch(surface, numpy.linspace(0, numpy.pi, 60), numpy.linspace(0, 2 * numpy.pi, 120)), BACK)]
+
+
+def plane(shape, low, high):
+    """A square of it, wide enough for the body."""
+    normal = numpy.array(shape["normal"]) / numpy.linalg.norm(shape["normal"])
+    along = numpy.cross(normal, [1, 0, 0] if abs(normal[0]) < 0.9 else [0, 1, 0])
+    along /= numpy.linalg.norm(along)
+    across = numpy.cross(normal, along)
+    middle = (low + high) / 2
+    middle = middle - normal * (normal @ (middle - shape["point"]))
+    half = 0.7 * numpy.linalg.norm(high - low)
+    size = numpy.array([-half, half])
+    points = lambda s, t: numpy.moveaxis(middle + s[..., None] * along + t[..., None] * across, -1, 0)
+    return [(*patch(points, size, size), BACK)]
+
+
+def round_solid(shape, profile):
+    """Turns a profile of (along the axis, radius) about the axis from one end to the other."""
+    start, end = numpy.array(shape["from"]), numpy.array(shape["to"])
+    length = numpy.linalg.norm(end - start)
+    axis = (end - start) / length
+    side = numpy.cross(axis, [1, 0, 0] if abs(axis[0]) < 0.9 else [0, 1, 0])
+    side /= numpy.linalg.norm(side)
+    other = numpy.cross(axis, side)
+    along, radius = profile(length, shape["radius"])
+
+    def points(i, around):
+        a, r = along[i.astype(int)][..., None], radius[i.astype(int)][..., None]
+        ring = numpy.cos(around)[..., None] * side + numpy.sin(around)[..., None] * other
+        return numpy.moveaxis(start + a * axis + r * ring, -1, 0)
+
+    return [(*patch(points, numpy.arange(len(along)), numpy.linspace(0, 2 * numpy.pi, 60)), BACK)]
+
+
+def capsule(shape):
+    def profile(length, radius):
+        turn = numpy.linspace(0, numpy.pi / 2, 16)
+        return (numpy.concatenate([-radius * numpy.cos(turn), length + radius * numpy.sin(turn)]),
+                numpy.concatenate([radius * numpy.sin(turn), radius * numpy.cos(turn)]))
+    return round_solid(shape, profile)
+
+
+def cylinder(shape):
+    return round_solid(shape, lambda length, radius: (numpy.array([0, 0, length, length]),
+                                                      numpy.array([0, radius, radius, 0])))
+
+
+def box(shape):
+    """Its rotation is an axis times an angle (Rodrigues)."""
+    corners = numpy.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * shape["size"]
+    angle = numpy.linalg.norm(shape["rotation"])
+    if angle > 0:
+        k = numpy.array(shape["rotation"]) / angle
+        corners = (corners * numpy.cos(angle) + numpy.cross(k, corners) * numpy.sin(angle)
+                   + numpy.outer(corners @ k, k) * (1 - numpy.cos(angle)))
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    triangles = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
+    return [(corners + shape["centre"], numpy.array(triangles), BACK)]
+
+
+def surface(shape):
+    """Of a triangulated one the run keeps the bounding box."""
+    low, high = numpy.array(shape["min"]), numpy.array(shape["max"])
+    return box({"centre": (low + high) / 2, "size": high - low, "rotation": [0, 0, 0]})
+
+
+SHAPES = {"bowl": bowl, "sphere": sphere, "capsule": capsule, "cylinder": cylinder, "box": box, "surface": surface}
+
+
+def motion(entry):
+    """Displacement [m] as a function of time [s]."""
+    if "path" in entry:
+        times = [knot["time"] for knot in entry["path"]]
+        places = numpy.array([knot["displacement"] for knot in entry["path"]])
+        return lambda t: numpy.array([numpy.interp(t, times, places[:, k]) for k in range(3)])
+    if "sine" in entry:
+        sine = entry["sine"]
+        turn = lambda t: numpy.sin(2 * numpy.pi * sine["frequency"] * t + sine["phase"]) - numpy.sin(sine["phase"])
+        return lambda t: numpy.array(sine["amplitude"]) * turn(t)
+    return lambda t: numpy.array(entry.get("velocity", [0, 0, 0])) * t
+
+
+def obstacles(run):
+    """Those of the run, as (points at rest, triangles, opacity, displacement of a time)."""
+    low, high = run.points.min(axis=(0, 1)), run.points.max(axis=(0, 1))
+    shapes = []
+    for entry in run.summary.get("obstacles", []):
+        for name, draw in {**SHAPES, "plane": lambda shape: plane(shape, low, high)}.items():
+            if name in entry:
+                shapes += [(*part, motion(entry)) for part in draw(entry[name])]
+    return shapes
