@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
@@ -112,7 +113,18 @@ class HierarchyBuilder {
     }
     // the finest level carries the surface for whoever looks at it; the others only where something acts on it
     if (problem_.body.surface && (i == 0 || !problem_.contact.obstacles.empty() || problem_.surface_forces))
-      part.level.surface = build_surface<B>(surface_, embed(surface_.vertices, *locators_[i], Outside::clamp));
+      part.level.surface = build_surface<B>(surface_, embed_surface(i));
+  }
+
+  Embedding embed_surface(std::size_t i) const {
+    constexpr double far = 10;  // edges; a coarse mesh may well lie a little inside its skin
+    Embedding embedding = embed(surface_.vertices, *locators_[i], Outside::clamp);
+    if (embedding.largest_distance_over_edge > far)
+      throw InputError("body.surface: " + std::to_string(embedding.misses) + " of its " +
+                       std::to_string(surface_.vertices.size()) + " points lie outside level " + std::to_string(i) +
+                       ", by up to " + std::to_string(std::lround(embedding.largest_distance_over_edge)) +
+                       " of its edges; expected the body's own surface, in metres");
+    return embedding;
   }
 
   void embed_levels() {

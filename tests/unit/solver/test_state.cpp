@@ -46,6 +46,12 @@ TYPED_TEST(BodyState, StartsWhereAndAsFastAsItIsTold) {
   }
 }
 
+TYPED_TEST(BodyState, HasASurfaceOfItsOwn) {
+  Problem p = small_cube();
+  p.body.surface = sphere_surface({50, 50, 50}, 40, 1);  // as if in millimetres
+  EXPECT_THROW(Simulation<TypeParam>{p}, InputError);
+}
+
 TYPED_TEST(BodyState, SetIsReadBackAndReachesTheCoarseLevels) {
   using Real = typename TypeParam::Real;
   for (const char* cycle : {"single", "rs", "rv", "rsv", "rsv_sv"}) {
