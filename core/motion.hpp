@@ -16,7 +16,7 @@ struct SteadyMotion {
   SteadyMotion(const Eigen::MatrixBase<Expression>& v) : velocity(v) {}
 };
 
-/// Straight from one displacement to the next, at rest before the first and after the last.
+/// Straight from one displacement to the next; it stays at the first before, and at the last after.
 struct PathMotion {
   /// A displacement at a time.
   struct Knot {

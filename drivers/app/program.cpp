@@ -105,7 +105,7 @@ class CommandLine {
         ->check(CLI::IsMember({"float", "double"}));
     command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 512));  // what Kokkos can do with OpenMP
     if (name != "run") command->add_flag("--json", arguments_.json, "print JSON");
     return command;
   }
@@ -218,6 +218,11 @@ ExitStatus guarded(const std::vector<std::string>& words) {
 
 }  // namespace
 
-int program(int argc, char** argv) { return static_cast<int>(guarded({argv, argv + argc})); }
+int program(int argc, char** argv) {
+  ExitStatus status = guarded({argv, argv + argc});
+  if (!std::cout.flush() && status == ExitStatus::done)
+    status = failed("cannot write the standard output", ExitStatus::failed);
+  return static_cast<int>(status);
+}
 
 }  // namespace plica::app

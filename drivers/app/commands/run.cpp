@@ -7,6 +7,7 @@
 #include <plica/drivers/app/commands/run.hpp>
 #include <plica/drivers/app/commands/run_loop.hpp>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -131,6 +132,9 @@ ExitStatus run(const RunArguments& arguments) {
     make_folder(folder);
     take_over(checkpoint, machine);
     const RunEnd start = start_of(simulation, checkpoint, folder);
+    if (start.macro_steps > steps_to_cover(scene.duration, simulation.macro_step()))
+      throw InputError(fmt::format("the run is at {} already, beyond a duration of {}", in_units(start.time, "s"),
+                                   in_units(scene.duration, "s")));
     RunOutput<B> output(scene, simulation, folder, checkpoint, resumed);
     if (!arguments.quiet) announce(scene, simulation, machine, start);
     simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <chrono>
-#include <cmath>
 #include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/output/progress.hpp>
+#include <plica/drivers/app/output/step_count.hpp>
 
 namespace plica::app {
 
@@ -12,9 +12,8 @@ namespace plica::app {
 /// the last one may reach beyond the duration.
 template <class B>
 RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutput<B>& output, Progress& progress) {
-  constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
   const double step = simulation.macro_step();
-  const long steps = std::lround(std::ceil(duration / step - rounding));
+  const long steps = steps_to_cover(duration, step);
   output.record(end);
   while (end.macro_steps < steps && !interrupted()) {
     const auto start = std::chrono::steady_clock::now();

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 
 namespace plica::app {
 namespace {
-
-long step_count(const Scene& scene, const Plan& plan) {
-  return std::lround(std::ceil(scene.duration / plan.macro_step - 1e-9));
-}
 
 std::string head_text(const Scene& scene, const Plan& plan) {
   const MaterialOptions& m = scene.problem.body.material;
@@ -21,7 +17,8 @@ std::string head_text(const Scene& scene, const Plan& plan) {
       i.shift_to_coarsest > 0 ? fmt::format(", {:g} of each to the coarsest", i.shift_to_coarsest) : "";
   return fmt::format("{} ({})\n", scene.name, scene.file) +
          text_table(
-             {{"time", fmt::format("{:g} s in {} of {}", scene.duration, counted(step_count(scene, plan), "macro step"),
+             {{"time", fmt::format("{:g} s in {} of {}", scene.duration,
+                                   counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
                                    in_units(plan.macro_step, "s"))},
               {"cycle", fmt::format("{}, {} shares{}", i.cycle, i.distribution, shift)},
               {"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", m.model, in_units(m.young_modulus, "Pa"),
@@ -88,7 +85,7 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                      {"scene", scene.file},
                      {"duration", scene.duration},
                      {"macro_step", plan.macro_step},
-                     {"macro_steps", step_count(scene, plan)},
+                     {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
                      {"cycle", scene.problem.integration.cycle},
                      {"precision", plan.precision},
                      {"backend", plan.backend},

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {
@@ -29,6 +30,11 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
   result.reserve(N * cells.size());
   for (const auto& cell : cells) result.insert(result.end(), cell.begin(), cell.end());
   return result;
+}
+
+Body with_regions(Body body) {
+  for (std::size_t i = 0; i < body.levels.size(); ++i) add_regions(body.levels[i], body.regions, static_cast<int>(i));
+  return body;
 }
 
 std::string volume_name(int level) { return level == 0 ? "volume" : fmt::format("volume_level{}", level); }
@@ -63,7 +69,7 @@ Point placement_of(const Body& body) {
 }
 
 RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from)
-    : body_(scene.problem.body),
+    : body_(with_regions(scene.problem.body)),
       numbering_(scene.numbering),
       placement_(placement_of(body_)),
       volume_levels_(written_levels(scene)),

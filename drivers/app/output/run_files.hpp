@@ -34,7 +34,7 @@ class RunFiles {
   VtuGrid surface_grid(const Snapshot& snapshot) const;
   VtuGrid volume_grid(const VolumeSnapshot& volume, double time) const;
 
-  const Body& body_;
+  Body body_;                                // with the regions that are selected
   const std::vector<Numbering>& numbering_;  // of its levels
   Point placement_;
   TriangleSurface skin_;          // the embedded surface, else the boundary of level 0, at rest

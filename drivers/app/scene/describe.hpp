@@ -130,7 +130,7 @@ template <class V>
 void describe_motion(V& v, Motion& o) {
   v.alternative_value("velocity", o, As<SteadyMotion, Point, Vector>{{velocity}}, "with which it moves from the start");
   v.alternative_list("path", o, PathMotion{}, &PathMotion::knots,
-                     "displacements at given times, straight in between, at rest before and after");
+                     "displacements at given times, straight in between; before the first and after the last it stays");
   v.alternative("sine", o, SineMotion{}, "to and fro: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
 }
 
@@ -160,7 +160,7 @@ void describe(V& v, LoadOptions& o) {
   v.alternative_value("traction", o.load, As<Traction, Point, Vector>{{pressure}},
                       "force per area, on the boundary triangles at rest with all their vertices chosen");
   v.alternative_value("force", o.load, As<TotalForce, Point, Vector>{{force}},
-                      "of all chosen vertices together, each in proportion to its mass");
+                      "of all chosen vertices together, each in proportion to its mass; on a face, traction is evener");
   v.at_most_one();
   v.alternative_value("ramp", o.course, As<RampCourse, double, Quantity>{{duration, positive}},
                       "rises smoothly from nothing in this time");

@@ -4,6 +4,7 @@
 #include <plica/drivers/solver/set_up/expect.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/set_up/validate_inputs.hpp>
+#include <plica/drivers/solver/set_up/validate_mesh.hpp>
 
 namespace plica {
 
@@ -22,9 +23,7 @@ void check_constants(const std::string& at, double young, double poisson, double
 
 void check_body(const Body& body) {
   if (body.levels.empty()) throw InputError("body.levels is empty; expected at least one mesh, finest first");
-  for (std::size_t i = 0; i < body.levels.size(); ++i)
-    if (body.levels[i].tets.empty())
-      throw InputError("body.levels: level " + std::to_string(i) + " has no tetrahedron");
+  for (std::size_t i = 0; i < body.levels.size(); ++i) validate_mesh(body.levels[i], static_cast<int>(i));
   known("material", body.material.model, materials());
   const MaterialOptions& m = body.material;
   check_constants("body.material.", m.young_modulus, m.poisson_ratio, m.density);
@@ -46,6 +45,11 @@ void check_body(const Body& body) {
   for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
     validate_selection(numbered("body.prescribed", i), body.prescribed[i].where);
     validate_motion(numbered("body.prescribed", i), body.prescribed[i].motion);
+    if (const auto* path = std::get_if<PathMotion>(&body.prescribed[i].motion);
+        path && path->knots.front().displacement.norm() > 0)
+      throw InputError(numbered("body.prescribed", i) +
+                       ".path.0.displacement is not zero: the body would be torn at the "
+                       "start; expected [0, 0, 0] first");
   }
   for (std::size_t i = 0; i < body.loads.size(); ++i) validate_load(numbered("body.loads", i), body.loads[i]);
 }

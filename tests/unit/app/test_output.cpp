@@ -4,9 +4,12 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <plica/core/error.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <sstream>
 
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
@@ -50,6 +53,32 @@ TEST(WriteFile, FailsWithTheName) {
   write_file(folder / "a", "a file");
   EXPECT_THROW(make_folder(folder / "a/b"), FileError);
   EXPECT_THROW(make_folder(folder / "a"), FileError);
+}
+
+// a region that the scene selects weighs what it says, in every file
+TEST(RunFiles, KnowTheSelectedRegions) {
+  const TemporaryFolder folder;
+  const Scene scene =
+      scene_of(std::string(block) + "  # the upper half\n",
+               {"body.regions={heavy: {where: {box: {min: [0, 0, 0.5], max: [1, 1, 1]}}, density: 3000}}"});
+  RunFiles files(scene, folder.path());
+  files.write(moved(scene, 0, Point::Zero()));
+  EXPECT_NE(content_of(folder / "frames/volume_0000.vtu").find("\"region\""), std::string::npos);
+  std::istringstream history(content_of(folder / "history.csv"));
+  std::string head, row;
+  std::getline(history, head), std::getline(history, row);
+  std::vector<double> values;
+  std::istringstream columns(row);
+  for (std::string value; std::getline(columns, value, ',');) values.push_back(std::stod(value));
+  // centres of the halves at 0.75 and 1.25 m weigh 500 and 1500 kg; lumping takes some of it across
+  EXPECT_NEAR(values.at(8), 1.125, 0.03);
+}
+
+TEST(StepCount, CoversTheDuration) {
+  EXPECT_EQ(steps_to_cover(3, 0.03), 100);
+  EXPECT_EQ(steps_to_cover(3.0001, 0.03), 101);
+  EXPECT_EQ(steps_to_cover(1e-300, 0.03), 1);
+  EXPECT_THROW(steps_to_cover(1, 1e-300), InputError);
 }
 
 TEST(RunFiles, KeepOnlyThisRun) {

@@ -82,6 +82,29 @@ TEST(Validate, NamesEveryBadOption) {
   }
 }
 
+TEST(Validate, ChecksTheMeshesOfACaller) {
+  const auto after = [](const std::function<void(TetMesh&)>& spoil) {
+    Problem p = small_cube();
+    spoil(p.body.levels[0]);
+    return refusal(p);
+  };
+  EXPECT_EQ(after([](TetMesh& m) { m.tets[3][0] = 100000; }),
+            "body.levels: level 0: tetrahedron 3 has vertex 100000 of 64");
+  EXPECT_EQ(after([](TetMesh& m) { m.tets[3][0] = -1; }), "body.levels: level 0: tetrahedron 3 has vertex -1 of 64");
+  EXPECT_EQ(after([](TetMesh& m) { m.vertices[5][1] = nan; }),
+            "body.levels: level 0: vertex 5 is not at a finite place");
+  EXPECT_EQ(after([](TetMesh& m) { std::swap(m.tets[7][0], m.tets[7][1]); }),
+            "body.levels: level 0: tetrahedron 7 is flat or inside out; expected a positive volume");
+  EXPECT_EQ(after([](TetMesh& m) { m.vertices.emplace_back(9, 9, 9); }),
+            "body.levels: level 0: no tetrahedron has vertex 64");
+  EXPECT_EQ(after([](TetMesh& m) { m.region = {0}; }),
+            "body.levels: level 0 has regions for 1 of 162 tetrahedra; expected all or none");
+  EXPECT_EQ(after([](TetMesh& m) {
+              m.region.assign(m.tets.size(), 2), m.region_names = {"a", "b"};
+            }),
+            "body.levels: level 0: tetrahedron 0 is in region 2 of 2");
+}
+
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
   const Box all{{0, 0, 0}, {1, 1, 1}};
   const auto motion = [&](const Motion& m) {
@@ -90,6 +113,8 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
     return refusal(p);
   };
   EXPECT_EQ(motion(PathMotion{{{0, {0, 0, 0}}, {1, {0, 0, 1}}}}), "");
+  EXPECT_NE(motion(PathMotion{{{0, {0, 0, 1}}}}).find("body.prescribed.0.path.0.displacement is not zero"),
+            std::string::npos);
   EXPECT_EQ(motion(PathMotion{}), "body.prescribed.0.path is empty; expected at least one time");
   EXPECT_EQ(motion(PathMotion{{{0.5, {0, 0, 0}}, {0.5, {0, 0, 1}}}}),
             "body.prescribed.0.path.1.time is 0.5; expected a time after that of the entry before, 0.5 s");
