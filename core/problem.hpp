@@ -39,7 +39,7 @@ struct DampingOptions {
   double mass = 0;  ///< mass-proportional damping [1/s] >= 0
 };
 
-/// Initial velocity of a part of the body.
+/// Initial velocity of a part of the body, chosen on level 0.
 struct PartVelocity {
   Selection where;                 ///< its vertices
   Point velocity = Point::Zero();  ///< [m/s]

@@ -33,7 +33,8 @@ Problem about_rest(Problem p, const typename B::Exec& exec) {
   for (const PrescribedMotion& given : p.body.prescribed) p.body.fixed.push_back(given.where);
   p.body.prescribed.clear();
   p.body.initial = {};
-  p.integration.switch_threshold = 1e9;
+  p.integration.switch_threshold =
+      1e-3 * std::sqrt(std::numeric_limits<typename B::Real>::max());  // its square is finite
   p.integration.implicit = {.relative_residual = 1e-12};
   return p;
 }

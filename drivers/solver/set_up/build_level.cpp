@@ -71,7 +71,8 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     for (int v : t) c.mass[static_cast<std::size_t>(v)] += density * tet_volume(x(0), x(1), x(2), x(3)) / 4;
   }
   constrain(c, body, mesh, level);
-  c.velocity = initial_velocity(body.initial, mesh, middle, level);
+  c.velocity.assign(mesh.vertices.size(), Point::Zero());
+  if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);  // the others take it from there
   return c;
 }
 

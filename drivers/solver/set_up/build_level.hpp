@@ -15,7 +15,7 @@ struct LevelConstants {
   std::vector<char> constrained;       ///< per vertex: its motion is given
   std::vector<int> prescribed_vertex;  ///< those of them that may move
   std::vector<int> prescribed_motion;  ///< which of the body's motions each of them follows
-  std::vector<Point> velocity;         ///< per vertex, where it is free: at the start [m/s]
+  std::vector<Point> velocity;         ///< per vertex, where it is free: at the start, level 0 [m/s]
 };
 
 /// `mesh` at rest, before it is placed; `middle` is the point its angular velocity is about. Throws InputError where a

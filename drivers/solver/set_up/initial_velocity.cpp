@@ -4,7 +4,7 @@
 
 namespace plica {
 
-std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh, const Point& middle, int level) {
+std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh, const Point& middle) {
   std::vector<Point> velocity;
   for (const Point& x : mesh.vertices) {
     Point& v = velocity.emplace_back(o.velocity + o.angular_velocity.cross(x - middle));
@@ -14,7 +14,7 @@ std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh
     v += part * o.twist->angular_velocity * along.normalized().cross(from);
   }
   for (std::size_t i = 0; i < o.parts.size(); ++i)
-    for (int a : select_vertices(mesh, o.parts[i].where, {"body.initial.parts." + std::to_string(i), level}))
+    for (int a : select_vertices(mesh, o.parts[i].where, {"body.initial.parts." + std::to_string(i), 0}))
       velocity[static_cast<std::size_t>(a)] += o.parts[i].velocity;
   return velocity;
 }

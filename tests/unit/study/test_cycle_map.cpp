@@ -75,7 +75,7 @@ TEST(CycleMap, KrylovSpaceAgreesWithDenseEigenvalues) {
       for (const double over : {1.0, 2.5}) {
         const Map map(clamped(cycle, over, nested));
         const double dense = dense_radius(map.matrix());
-        const CycleGrowth growth = cycle_growth(map);
+        const CycleGrowth growth = cycle_growth(map, {.macro_steps = 5000});
         EXPECT_NEAR(growth.radius, dense, growth.converged ? 1e-5 * dense : 3e-3) << cycle << over << nested;
         EXPECT_LE(std::abs(growth.radius - dense), 10 * growth.uncertainty + 1e-5 * dense) << cycle << over << nested;
       }
@@ -108,6 +108,14 @@ TEST(CycleMap, IsWhatCyclesDoStepAfterStep) {
       // the threshold of rsv is 0.1 edges here, 1 cm: far away
       EXPECT_LE(difference, 1e-11 * x.norm() + 1e-15) << cycle << nested;
     }
+}
+
+// However fast it grows on the way.
+TEST(CycleMap, NeverSwitches) {
+  const CycleGrowth switched = cycle_growth(Map(clamped("rsv", 6, true))),
+                    variation = cycle_growth(Map(clamped("rv", 6, true)));
+  EXPECT_GT(variation.radius, 10);
+  EXPECT_NEAR(switched.radius, variation.radius, 1e-6 * variation.radius);
 }
 
 TEST(CycleMap, FasGrowsALittleEvenWhereEveryLevelIsStable) {
