@@ -42,6 +42,8 @@ TEST_F(Levels, RefusesWhatMakesNoSense) {
                  "body.initial.twist.to, as a distance from .from, is 0");
   expect_refusal({"body.initial={parts: [{sphere: {centre: [9, 9, 9], radius: 1}, velocity: [0, 0, 1]}]}"},
                  "body.initial.parts.0");
+  expect_refusal({"body.initial={parts: [{group: tip, velocity: [0, 0, 1]}]}"},
+                 "body.initial.parts.0.group: there is no group 'tip': the meshes name none");
 }
 
 TEST_F(Levels, WarnsWhereTheyDoNotCoarsen) {
