@@ -28,7 +28,7 @@ struct BentBeam {
   BentBeam(const Cells& cells, const std::string& material) : elasticity(make_elasticity<B>(material)) {
     const Problem problem = beam_problem({cells}, material);
     const TetMesh& mesh = problem.body.levels.front();
-    level = build_level<B>(problem.body, mesh, level_constants(problem.body, mesh, 0), Point::Zero());
+    level = build_level<B>(problem.body, mesh, level_constants(problem.body, mesh, Point::Zero(), 0));
     level.state.u = direction = to_field<B>(bent(mesh, 0.1 / cells[0]));
   }
 };

@@ -39,11 +39,27 @@ struct DampingOptions {
   double mass = 0;  ///< mass-proportional damping [1/s] >= 0
 };
 
-/// The state at t = 0: at rest in shape, placed and moving.
+/// Initial velocity of a part of the body, chosen on level 0.
+struct PartVelocity {
+  Selection where;                 ///< its vertices
+  Point velocity = Point::Zero();  ///< [m/s]
+};
+
+/// Initial rotation about the line between two points of the mesh at rest, before it is placed: none in the plane through the
+/// first across the line, growing linearly along it.
+struct TwistOptions {
+  Point from = Point::Zero();   ///< [m]
+  Point to = Point::UnitX();    ///< another one [m]
+  double angular_velocity = 0;  ///< at the second; seen from there, counter-clockwise where positive [rad/s]
+};
+
+/// The state at t = 0: at rest in shape, placed and moving. Velocities add up.
 struct InitialOptions {
   std::optional<Point> position;   ///< where the centre of level 0's bounding box starts; none: where the mesh is [m]
   Point velocity = Point::Zero();  ///< of every free vertex [m/s]
   Point angular_velocity = Point::Zero();  ///< about that centre [rad/s]
+  std::optional<TwistOptions> twist;       ///< a rotation that grows along an axis
+  std::vector<PartVelocity> parts;         ///< velocities of parts of the body
 };
 
 /// A deformable body.

@@ -154,6 +154,8 @@ void check_names(const Body& body, const Tree& tree) {
     check_names(body.prescribed[i].where, fmt::format("body.prescribed.{}", i), groups, regions, tree);
   for (std::size_t i = 0; i < body.loads.size(); ++i)
     check_names(body.loads[i].where, fmt::format("body.loads.{}", i), groups, regions, tree);
+  for (std::size_t i = 0; i < body.initial.parts.size(); ++i)
+    check_names(body.initial.parts[i].where, fmt::format("body.initial.parts.{}", i), groups, regions, tree);
 }
 
 }  // namespace

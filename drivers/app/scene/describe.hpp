@@ -175,10 +175,25 @@ void describe(V& v, DampingOptions& o) {
 }
 
 template <class V>
+void describe(V& v, PartVelocity& o) {
+  describe(v, o.where);
+  v.required("velocity", o.velocity, Vector{velocity}, "of these vertices, on top of all other");
+}
+
+template <class V>
+void describe(V& v, TwistOptions& o) {
+  v.required("from", o.from, Vector{length}, "point on the axis where nothing turns, of the mesh at rest");
+  v.required("to", o.to, Vector{length}, "another one: towards it and beyond, the rotation grows linearly");
+  v.required("angular_velocity", o.angular_velocity, Quantity{angular_velocity}, "there");
+}
+
+template <class V>
 void describe(V& v, InitialOptions& o) {
   v("position", o.position, Vector{length}, "centre of level 0's bounding box; left out: where the mesh is");
   v("velocity", o.velocity, Vector{velocity}, "of every free vertex");
   v("angular_velocity", o.angular_velocity, Vector{angular_velocity}, "about that centre");
+  v.group("twist", o.twist, "rotation that grows along an axis, on top of these");
+  v.list("parts", o.parts, "velocities of parts of the body, on top of these");
 }
 
 /// The key `body` fills the library's Body and the recipes of its meshes.

@@ -49,6 +49,7 @@ Scene load_scene(const Tree& tree) {
   } catch (const InputError& error) {
     throw located(error, tree);
   }
+  for (const std::string& doubt : doubts(scene.problem)) scene.warnings.push_back(scene.file + ": " + doubt);
   check_probes(scene, tree);
   return scene;
 }

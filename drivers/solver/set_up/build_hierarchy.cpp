@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
@@ -60,7 +62,6 @@ class HierarchyBuilder {
   BuiltHierarchy<B> built_;
   std::size_t levels_ = 1;
   bool switched_ = false, inherits_masses_ = false;
-  Point centre_ = Point::Zero();
   TriangleSurface surface_;  // placed
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;  // per level
@@ -79,25 +80,25 @@ class HierarchyBuilder {
     const Body& body = problem_.body;
     const Box box = bounding_box(body.levels.front().vertices);
     const Point middle = 0.5 * (box.min + box.max);
-    centre_ = body.initial.position.value_or(middle);
+    const Point shift = body.initial.position.value_or(middle) - middle;
     for (std::size_t i = 0; i < levels_; ++i) {
       TetMesh& mesh = built_.meshes.emplace_back(body.levels[i]);
       const int level = static_cast<int>(i);
       add_regions(mesh, body.regions, level);
-      constants_.push_back(level_constants(body, mesh, level));
+      constants_.push_back(level_constants(body, mesh, middle, level));
       loads_.push_back(
           assemble_loads(body, mesh, constants_[i], level, i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
-      for (Point& p : mesh.vertices) p += centre_ - middle;
+      for (Point& p : mesh.vertices) p += shift;
     }
     for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<TetLocator>(mesh));
     if (body.surface) surface_ = *body.surface;
-    for (Point& p : surface_.vertices) p += centre_ - middle;
+    for (Point& p : surface_.vertices) p += shift;
   }
 
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
     auto& part = built_.hierarchy->levels.emplace_back();
-    part.level = build_level<B>(problem_.body, mesh, constants_[i], centre_);
+    part.level = build_level<B>(problem_.body, mesh, constants_[i]);
     part.level.loads = device_loads<B>(problem_.body, loads_[i]);
     LevelReport& report = built_.reports.emplace_back();
     report.vertices = part.level.model.vertices, report.tets = part.level.model.tets;
@@ -133,9 +134,23 @@ class HierarchyBuilder {
     for (std::size_t i = 1; i < levels_; ++i) {
       down_.push_back(embed(built_.meshes[i].vertices, *locators_[i - 1], rule));
       up_.push_back(embed(built_.meshes[i - 1].vertices, *locators_[i], rule));
+      expect_overlap(i);
       std::vector<double>& mass = constants_[i].mass;
       if (inherits_masses_) mass = inherited_masses(up_[i], constants_[i - 1].mass, mass, massless_.emplace_back());
     }
+  }
+
+  void expect_overlap(std::size_t i) const {
+    const auto &coarse = built_.meshes[i].vertices, &fine = built_.meshes[i - 1].vertices;
+    if (down_[i].misses < static_cast<int>(coarse.size()) || up_[i].misses < static_cast<int>(fine.size())) return;
+    double distance = std::numeric_limits<double>::infinity();
+    for (const Point& p : coarse) distance = std::min(distance, locators_[i - 1]->locate(p).distance);
+    for (const Point& p : fine) distance = std::min(distance, locators_[i]->locate(p).distance);
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "body.levels: levels %zu and %zu do not overlap, they are %.4g m apart; expected meshes of one body",
+                  i - 1, i, distance);
+    throw InputError(text);
   }
 
   void connect(std::size_t i) {

@@ -3,6 +3,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
+#include <plica/drivers/solver/set_up/initial_velocity.hpp>
 #include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
@@ -52,7 +53,7 @@ PrescribedVertices<B> prescribed_vertices(const LevelConstants& c, const std::ve
 
 }  // namespace
 
-LevelConstants level_constants(const Body& body, const TetMesh& mesh, int level) {
+LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level) {
   LevelConstants c;
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
   for (std::size_t r = 0; r < regions; ++r) {
@@ -70,11 +71,13 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, int level)
     for (int v : t) c.mass[static_cast<std::size_t>(v)] += density * tet_volume(x(0), x(1), x(2), x(3)) / 4;
   }
   constrain(c, body, mesh, level);
+  c.velocity.assign(mesh.vertices.size(), Point::Zero());
+  if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);  // the others take it from there
   return c;
 }
 
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c, const Point& centre) {
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c) {
   using Real = typename B::Real;
   using Row = std::array<Real, 3>;
   const auto row = [](const Point& p) {
@@ -92,8 +95,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   for (std::size_t v = 0; v < n; ++v) {
     mass[v] = static_cast<Real>(c.mass[v]);
     inverse[v] = c.constrained[v] ? Real(0) : static_cast<Real>(1 / c.mass[v]);
-    if (!c.constrained[v])
-      velocity[v] = row(body.initial.velocity + body.initial.angular_velocity.cross(placed.vertices[v] - centre));
+    if (!c.constrained[v]) velocity[v] = row(c.velocity[v]);
   }
   std::vector<PathKnot> knots;
   std::vector<Path> paths;
@@ -121,7 +123,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                               \
   template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>(const Body&, const TetMesh&, \
-                                                                       const LevelConstants&, const Point&);
+                                                                       const LevelConstants&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -15,13 +15,15 @@ struct LevelConstants {
   std::vector<char> constrained;       ///< per vertex: its motion is given
   std::vector<int> prescribed_vertex;  ///< those of them that may move
   std::vector<int> prescribed_motion;  ///< which of the body's motions each of them follows
+  std::vector<Point> velocity;         ///< per vertex, where it is free: at the start, level 0 [m/s]
 };
 
-/// `mesh` at rest, before it is placed. Throws InputError where a selection chooses nothing on this level.
-LevelConstants level_constants(const Body& body, const TetMesh& mesh, int level);
+/// `mesh` at rest, before it is placed; `middle` is the point its angular velocity is about. Throws InputError where a
+/// selection chooses nothing on this level.
+LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level);
 
-/// Model, state and work arrays of a level; `centre` is the point its angular velocity is about. No transfers, no surface.
+/// Model, state and work arrays of a level. No transfers, no surface.
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants, const Point& centre);
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants);
 
 }  // namespace plica

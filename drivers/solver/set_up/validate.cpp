@@ -38,8 +38,7 @@ void check_body(const Body& body) {
   }
   not_negative("body.damping.mass", body.damping.mass, " 1/s");
   if (body.initial.position) finite("body.initial.position", *body.initial.position);
-  finite("body.initial.velocity", body.initial.velocity);
-  finite("body.initial.angular_velocity", body.initial.angular_velocity);
+  validate_velocities(body.initial);
   const auto numbered = [](const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i); };
   for (std::size_t i = 0; i < body.fixed.size(); ++i) validate_selection(numbered("body.fixed", i), body.fixed[i]);
   for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
@@ -109,6 +108,17 @@ void validate(const Problem& problem) {
   finite("gravity", problem.gravity);
   check_integration(problem.integration, problem.body.levels.size());
   check_contact(problem);
+}
+
+std::vector<std::string> doubts(const Problem& problem) {
+  std::vector<std::string> sentences;
+  const std::vector<TetMesh>& levels = problem.body.levels;
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    if (levels[i].tets.size() >= levels[i - 1].tets.size())
+      sentences.push_back("body.levels: level " + std::to_string(i) + " is not coarser than level " +
+                          std::to_string(i - 1) + ": " + std::to_string(levels[i].tets.size()) + " tetrahedra after " +
+                          std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
+  return sentences;
 }
 
 }  // namespace plica

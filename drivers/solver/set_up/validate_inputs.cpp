@@ -143,6 +143,23 @@ void validate_load(const std::string& option, const LoadOptions& load) {
   std::visit(CheckCourse{option}, load.course);
 }
 
+void validate_velocities(const InitialOptions& o) {
+  finite("body.initial.velocity", o.velocity);
+  finite("body.initial.angular_velocity", o.angular_velocity);
+  if (const auto& twist = o.twist) {
+    finite("body.initial.twist.from", twist->from);
+    finite("body.initial.twist.to", twist->to);
+    positive("body.initial.twist.to, as a distance from .from,", (twist->to - twist->from).norm(), " m");
+    expect(std::isfinite(twist->angular_velocity), "body.initial.twist.angular_velocity", twist->angular_velocity,
+           "a finite number, rad/s");
+  }
+  for (std::size_t i = 0; i < o.parts.size(); ++i) {
+    const std::string option = "body.initial.parts." + std::to_string(i);
+    validate_selection(option, o.parts[i].where);
+    finite(option + ".velocity", o.parts[i].velocity);
+  }
+}
+
 void validate_obstacle(const std::string& option, const ObstacleOptions& o) {
   std::visit(CheckShape{option}, o.shape);
   if (o.friction) not_negative(option + ".friction", *o.friction, "");

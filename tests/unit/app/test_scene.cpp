@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <numbers>
+#include <plica/drivers/solver/simulation.hpp>
 
+#include "support/backends.hpp"
 #include "unit/app/scene_text.hpp"
 
 namespace plica::app::test {
@@ -70,17 +74,44 @@ TEST(Override, ErrorsNameIt) {
   EXPECT_EQ(error("duration=[").substr(0, 28), "--set duration=[: not YAML: ");
 }
 
-class ShippedScene : public testing::TestWithParam<const char*> {};
+const std::filesystem::path scenes = PLICA_SOURCE_DIR "/drivers/scenes";
 
-TEST_P(ShippedScene, IsSound) {
-  EXPECT_NO_THROW(load_scene(std::string(PLICA_SOURCE_DIR) + "/drivers/scenes/" + GetParam() + ".yaml"));
+std::vector<std::string> shipped_scenes() {
+  std::vector<std::string> list;
+  for (const auto& file : std::filesystem::recursive_directory_iterator(scenes))
+    if (file.path().extension() == ".yaml")
+      list.push_back(file.path().lexically_relative(scenes).replace_extension().string());
+  std::ranges::sort(list);
+  return list;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene,
-                         testing::Values("ball_in_bowl", "ball_in_bowl_hybrid", "ball_in_bowl_single",
-                                         "ball_in_bowl_single_implicit", "ball_in_bowl_coarse", "beam", "smallest",
-                                         "poke", "pull"),
-                         [](const auto& one) { return std::string(one.param); });
+class ShippedScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedScene, IsSound) {
+  const Scene scene = load_scene(scenes / (GetParam() + ".yaml"));
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_NO_THROW(Simulation<plica::test::Host>{scene.problem});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()), [](const auto& one) {
+  std::string name = one.param;
+  std::ranges::replace(name, '/', '_');
+  return name;
+});
+
+TEST(StudyScenes, AreSoundOnAllTheirLevels) {
+  int count = 0;
+  for (const auto& file : std::filesystem::directory_iterator(scenes / "study")) {
+    SCOPED_TRACE(file.path());
+    Scene scene = load_scene(file.path(), {{"integration.cycle=rsv", "--set"}});
+    ASSERT_EQ(scene.problem.body.levels.size(), 3);
+    const Simulation<plica::test::Host> simulation(scene.problem);
+    EXPECT_EQ(simulation.levels().size(), 3);
+    EXPECT_GT(simulation.levels()[0].tets, 2 * simulation.levels()[1].tets);
+    ++count;
+  }
+  EXPECT_EQ(count, 8);
+}
 
 TEST(Scene, BallStartsWhereTheyAgreed) {
   const Scene scene = load_scene(std::string(PLICA_SOURCE_DIR) + "/drivers/scenes/ball_in_bowl.yaml");

@@ -100,9 +100,9 @@ class SchemaByPython : public testing::Test {
 
 TEST_F(SchemaByPython, TakesSoundScenes) {
   std::vector<Tree> scenes = {parse_tree(sound_scene, "sound")};
-  for (const auto& file : std::filesystem::directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes"))
+  for (const auto& file : std::filesystem::recursive_directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes"))
     if (file.path().extension() == ".yaml") scenes.push_back(read_tree(file.path()));
-  ASSERT_GT(scenes.size(), 5);
+  ASSERT_GT(scenes.size(), 15);
   const auto say = verdicts(scenes);
   if (say.empty()) GTEST_SKIP() << "no Python with jsonschema here";
   for (std::size_t i = 0; i < say.size(); ++i) EXPECT_EQ(say[i], "yes") << scenes[i].where.file;

@@ -62,4 +62,28 @@ TEST(CommittedMeshes, LiversFitEachOther) {
   }
 }
 
+TEST(CommittedMeshes, HornsAreGradedAndNotNested) {
+  std::vector<TetMesh> horns;
+  for (const char* name : {"fine", "medium", "coarse"}) {
+    const auto file = folder / "graded" / (std::string("horn_") + name + ".msh");
+    EXPECT_LE(std::filesystem::file_size(file), 400'000u);
+    MeshReport report;
+    horns.push_back(read_mesh(file, &report));
+    EXPECT_EQ(report.flipped + report.unreferenced, 0);
+    const MeshQuality quality = mesh_quality(horns.back());
+    EXPECT_EQ(quality.parts, 1);
+    EXPECT_LT(quality.height_ratios.max, 7.0);
+    EXPECT_GT(quality.edges.max, 7 * quality.edges.min);
+    EXPECT_GT(horns.back().vertex_sets.at("base").size(), 5u);
+    for (const int v : horns.back().vertex_sets.at("base"))
+      EXPECT_EQ(horns.back().vertices[static_cast<std::size_t>(v)].x(), 0.0);
+  }
+  for (std::size_t i = 1; i < horns.size(); ++i) {
+    EXPECT_GT(horns[i - 1].tets.size(), 4 * horns[i].tets.size());
+    const Embedding down = embed(horns[i].vertices, horns[i - 1], Outside::clamp);
+    EXPECT_GT(down.misses, 0);
+    EXPECT_LT(down.largest_distance_over_edge, 0.5);
+  }
+}
+
 }  // namespace

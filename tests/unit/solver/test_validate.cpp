@@ -36,6 +36,22 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.gravity[1] = infinite; }, {"gravity is inf"}},
     {[](Problem& p) { p.body.initial.velocity[2] = nan; }, {"body.initial.velocity"}},
     {[](Problem& p) { p.body.initial.position = Point(nan, 0, 0); }, {"body.initial.position"}},
+    {[](Problem& p) {
+       p.body.initial.twist = TwistOptions{{1, 0, 0}, {1, 0, 0}, 3};
+     },
+     {"body.initial.twist.to, as a distance from .from, is 0"}},
+    {[](Problem& p) {
+       p.body.initial.twist = TwistOptions{{1, 0, 0}, {2, 0, 0}, nan};
+     },
+     {"body.initial.twist.angular_velocity is"}},
+    {[](Problem& p) {
+       p.body.initial.parts.push_back({BallSelection{{0, 0, 0}, -1}, {0, 0, 0}});
+     },
+     {"body.initial.parts.0.sphere.radius is -1"}},
+    {[](Problem& p) {
+       p.body.initial.parts.push_back({BallSelection{{0, 0, 0}, 1}, {0, nan, 0}});
+     },
+     {"body.initial.parts.0.velocity is"}},
     {[](Problem& p) { p.integration.cycle = "rsvv"; }, {"did you mean 'rsv'?"}},
     {[](Problem& p) { p.integration.distribution = "equl"; }, {"did you mean 'equal'?"}},
     {[](Problem& p) { p.integration.integrator = {"rk5"}; }, {"did you mean 'rk4'?"}},
@@ -103,6 +119,17 @@ TEST(Validate, ChecksTheMeshesOfACaller) {
               m.region.assign(m.tets.size(), 2), m.region_names = {"a", "b"};
             }),
             "body.levels: level 0: tetrahedron 0 is in region 2 of 2");
+}
+
+TEST(Validate, DoubtsLevelsThatDoNotCoarsen) {
+  EXPECT_TRUE(doubts(cube_levels(3, 4, "rs")).empty());
+  Problem p = cube_levels(3, 4, "rs");
+  p.body.levels[1] = p.body.levels[0];
+  ASSERT_EQ(doubts(p).size(), 1);
+  EXPECT_EQ(doubts(p)[0],
+            "body.levels: level 1 is not coarser than level 0: 384 tetrahedra after 384; expected the finest first");
+  std::swap(p.body.levels[0], p.body.levels[2]);
+  EXPECT_EQ(doubts(p).size(), 2);  // 2, 4 and 4 cells a side
 }
 
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
