@@ -157,8 +157,11 @@ class Study {
 void check(const StudyOptions& o) {
   if (!(o.duration > 0)) throw InputError("study: the duration is " + std::to_string(o.duration) + "; expected > 0");
   if (o.samples < 1) throw InputError("study.samples: " + std::to_string(o.samples) + "; expected >= 1");
-  if (o.precision.empty() || o.threads.empty())
-    throw InputError("study: expected at least one precision and thread count");
+  if (o.precision.empty()) throw InputError("study.precision: expected float, double, or both");
+  for (const std::string& precision : o.precision)
+    if (precision != "float" && precision != "double")
+      throw InputError("study.precision: " + unknown_name("precision", precision, {"float", "double"}));
+  for (const int threads : o.threads) check_threads(threads);
   for (const auto& step : o.macro_steps)
     if (step && !(*step > 0)) throw InputError("study.macro_steps: " + std::to_string(*step) + "; expected > 0");
   if (!(o.reference_step > 0)) throw InputError("study: the reference's step is not above 0");

@@ -73,9 +73,10 @@ struct Builder {
   void add(StudyCase one, Step macro_step, int rank) {
     if (macro_step && *macro_step > options.duration) return;
     one.integration.macro_step = macro_step;
+    const std::vector<int> threads = options.threads.empty() ? std::vector<int>{0} : options.threads;
     for (std::size_t p = 0; p < options.precision.size(); ++p)
-      for (std::size_t t = 0; t < options.threads.size(); ++t) {
-        one.precision = options.precision[p], one.threads = options.threads[t];
+      for (std::size_t t = 0; t < threads.size(); ++t) {
+        one.precision = options.precision[p], one.threads = threads[t];
         one.rank = rank + 20 * static_cast<int>(p + t);
         one.predicted_evaluations = evaluations(one, levels, options.duration);
         const auto same = [&](const StudyCase& c) { return c.key() == one.key(); };

@@ -140,6 +140,8 @@ StudyRun run(const Problem& problem, const StudyRunOptions& options) {
 
 }  // namespace
 
+void check_threads(int threads) { instance(threads); }
+
 StudyRun study_run(const Problem& problem, const StudyRunOptions& options) {
   if (options.precision == "double") return run<double>(problem, options);
   if (options.precision == "float") return run<float>(problem, options);

@@ -16,7 +16,8 @@ struct StudyRunOptions {
   std::string precision = "double";  ///< float | double
   int threads = 0;                   ///< of the default execution space; 0: all that it has
   int timed_runs = 3;                ///< 0: only the sampled run, which is the one that is timed
-  std::function<bool(double)> go_on = {};  ///< asked from time to time with the part of the work that is done; false ends the run
+  std::function<bool(double)> go_on =
+      {};  ///< asked from time to time with the part of the work that is done; false ends the run
 };
 
 struct StudyRun {
@@ -35,6 +36,9 @@ struct StudyRun {
       energy_drift;  ///< (at the end - at the start) / the most there was of kinetic, elastic and contact
                      ///< energy; none where loads, given motions, damping or contact do unknown work
 };
+
+/// InputError where the default execution space cannot run with so many threads of its own; 0: all.
+void check_threads(int threads);
 
 /// Runs the problem on Kokkos' default execution space: once to warm up, sampling its states, then timed, from the same start. A
 /// set-up that refuses is a result too. Whole macro steps: the last one may reach beyond the duration. InputError for an unknown
