@@ -8,6 +8,8 @@ namespace plica {
 
 namespace {
 
+constexpr double rounding = 1e-12;  // of the body's size
+
 struct Squares {
   std::vector<double> difference;  // per vertex, summed over time
   double reference = 0;            // of all vertices
@@ -33,12 +35,19 @@ struct Squares {
 
 }  // namespace
 
+void expect_motion(const Trajectory& trajectory, const TetMesh& mesh) {
+  const Box box = bounding_box(mesh.vertices);
+  const double least = rounding * (box.max - box.min).norm();
+  for (const auto& field : trajectory.u)
+    for (const Point& u : field)
+      if (u.norm() > least) return;
+  throw InputError(
+      "study: nothing moves in the reference, so there is no error to measure; give the body gravity, a load or a "
+      "velocity");
+}
+
 StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference) {
   const Squares u(trajectory.u, reference.u), v(trajectory.v, reference.v);
-  if (!(u.reference > 0 && v.reference > 0))
-    throw InputError(
-        "study: nothing moves in the reference, so there is no error to measure; give the body gravity, a load "
-        "or a velocity");
   return {u.relative(), v.relative(), u.worst()};
 }
 

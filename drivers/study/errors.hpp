@@ -12,7 +12,10 @@ struct StudyErrors {
       0;  ///< the largest over vertices of |u - r| over time, to the vertices' root mean square of |r|
 };
 
-/// InputError where the reference does not move: then there is nothing to measure against.
+/// InputError where nothing of the body moves by more than rounding: then there is nothing to measure against.
+void expect_motion(const Trajectory& trajectory, const TetMesh& mesh);
+
+/// Of trajectories at the same times and vertices.
 StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace plica

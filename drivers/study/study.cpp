@@ -68,7 +68,7 @@ class Study {
   // of all its runs [s]; what rows of the same kind took corrects it
   double predicted(const StudyCase& one) {
     const double run = one.predicted_evaluations * result_.reference.seconds_per_evaluation * correction(one);
-    return run * (1 + (run < 1 && options_.timed_runs > 0 ? std::max(5, options_.timed_runs) : options_.timed_runs));
+    return run * (1 + timed_runs_of(run, options_.timed_runs));
   }
   double& correction(const StudyCase& one) {
     const std::string kind = one.method + (one.method.starts_with("cycle/") ? "" : " alone") + one.precision;

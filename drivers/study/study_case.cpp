@@ -100,7 +100,7 @@ struct Builder {
     }
     const double limit = limit_of(integrator, levels[static_cast<std::size_t>(one.level)].critical_step);
     add(one, {}, finest ? 0 : 1);
-    if (finest && limit > 0) add(one, 0.5 * limit, 3);
+    if (finest && limit > 0) add(one, 0.5 * limit, 4);
     for (const Step& step : options.macro_steps)
       if (step && *step < limit) add(one, step, 4);
   }
@@ -129,7 +129,7 @@ std::string StudyCase::label() const { return distribution.empty() ? method : me
 
 std::string StudyCase::key() const {
   char text[64] = "auto";
-  if (integration.macro_step) std::snprintf(text, sizeof text, "%.9g s", *integration.macro_step);
+  if (integration.macro_step) std::snprintf(text, sizeof text, "%.6g s", *integration.macro_step);
   return label() + ", " + text + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") + " threads";
 }
 

@@ -16,7 +16,7 @@ struct StudyOptions {
   std::vector<std::optional<double>> macro_steps;  ///< [s]; none: auto; empty: multiples of the finest critical step
   std::vector<std::string> precision = {"double"};
   std::vector<int> threads;      ///< empty: all there are
-  int timed_runs = 3;            ///< per row, after the warm-up; five where a run is shorter than a second
+  int timed_runs = 3;            ///< per row, after the warm-up; see timed_runs_of()
   std::optional<double> budget;  ///< wall time of all of it [s]; rows that do not fit are left out, and listed
   std::string reference_integrator = "rk4";  ///< of the finest level alone
   double reference_step = 0.5;  ///< its coarser step over the finest level's critical step; the other is half

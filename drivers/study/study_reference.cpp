@@ -68,6 +68,7 @@ StudyReference make_reference(const Problem& problem, const StudyOptions& option
   reference.critical_step = critical_step;
   Pair runs = run_both(problem, options, critical_step, go_on);
   if (runs.stopped()) return reference;
+  expect_motion(runs.fine.trajectory, problem.body.levels.front());
   const StudyErrors own = errors_of(runs.coarse.trajectory, runs.fine.trajectory);
   reference.macro_step = runs.fine.macro_step;
   reference.own_error = own.displacement, reference.own_error_velocity = own.velocity;

@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Exec = Kokkos::DefaultExecutionSpace;
 
-constexpr double short_run = 1;  // [s]
+constexpr double short_run = 0.2;  // [s]
 constexpr int runs_if_short = 5;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -59,7 +59,7 @@ class Measured {
       if (i == 0) wall_times_.clear();
       part_ = {i + 1, 1 + runs};
       timed();
-      if (i == 0 && !wall_times_.empty() && wall_times_[0] < short_run) runs = std::max(runs, runs_if_short);
+      if (i == 0 && !wall_times_.empty()) runs = timed_runs_of(wall_times_[0], runs);
     }
     if (!wall_times_.empty()) {
       std::ranges::sort(wall_times_);
@@ -139,6 +139,10 @@ StudyRun run(const Problem& problem, const StudyRunOptions& options) {
 }
 
 }  // namespace
+
+int timed_runs_of(double wall_time, int asked) {
+  return asked > 0 && wall_time < short_run ? std::max(asked, runs_if_short) : asked;
+}
 
 void check_threads(int threads) { instance(threads); }
 

@@ -30,12 +30,15 @@ struct StudyRun {
   double setup_time = 0;             ///< [s]
   double wall_time = 0;              ///< of the steps and their checks: the median of the timed runs [s]
   double wall_time_spread = 0;       ///< the longest less the shortest of them [s]
-  int timed_runs = 0;                ///< five where a run is shorter than a second
+  int timed_runs = 0;                ///< see timed_runs_of()
   long tet_evaluations = 0;          ///< forces of all levels' tetrahedra, in one run
   std::optional<double>
       energy_drift;  ///< (at the end - at the start) / the most there was of kinetic, elastic and contact
                      ///< energy; none where loads, given motions, damping or contact do unknown work
 };
+
+/// How often a run that takes so long [s] is timed where `asked` is asked for: short ones at least five times.
+int timed_runs_of(double wall_time, int asked);
 
 /// InputError where the default execution space cannot run with so many threads of its own; 0: all.
 void check_threads(int threads);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <plica/drivers/app/output/study_text.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/study/judgement.hpp>
@@ -65,12 +66,14 @@ std::string missing_text(const StudyResult& result) {
   if (count("diverged") + count("refused") > 0)
     text += fmt::format("Not to the end: {} diverged, {} refused; study.json says why.\n", count("diverged"),
                         count("refused"));
-  std::string keys;
-  for (const LeftOut& one : result.left_out) keys += (keys.empty() ? "" : "; ") + one.key;
-  if (!keys.empty())
+  std::map<std::string, int> left_out;
+  for (const LeftOut& one : result.left_out) ++left_out[one.key.substr(0, one.key.find(','))];
+  std::string names;
+  for (const auto& [name, runs] : left_out) names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", name, runs);
+  if (!names.empty())
     text += fmt::format("Left out, {} (study.json says why):\n",
                         counted(static_cast<long>(result.left_out.size()), "run")) +
-            wrapped(keys, width, "  ");
+            wrapped(names, width, "  ");
   return text;
 }
 

@@ -60,7 +60,7 @@ void expect_row(const Json& row) {
   expect_number_or_null(row, "macro_step_over_critical", true);
   expect_number_or_null(row, "setup_time", status != "refused");
   expect_number_or_null(row, "work", status != "refused");
-  if (completed) EXPECT_GE(row.at("timed_runs"), 3);
+  EXPECT_TRUE(!completed || row.at("timed_runs") >= 3);
 }
 
 TEST_F(StudyCommand, WritesWhatTheInterfaceSays) {
