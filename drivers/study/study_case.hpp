@@ -52,10 +52,10 @@ std::vector<std::string> study_methods(const Problem& problem);
 std::vector<StudyLevel> study_levels(const Problem& problem);
 
 /// All runs, in the order of their names. The default: the finest level alone, explicit at 0.9 and 0.5 of its limit and
-/// implicit at 4, 16 and 64 times it; each coarser level alone at 0.9 of its own; every cycle with every distribution at 1,
-/// 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step. Cycles keep the problem's integrators, sub-steps and
-/// all else. Of the options' macro steps an explicit level alone takes those below its limit. InputError for an unknown
-/// method, with the nearest.
+/// implicit at 4, 16 and 64 times it; each coarser level alone at 0.9 of its own; every cycle with every distribution at
+/// 1, 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step. Cycles keep the
+/// problem's integrators, sub-steps and all else. Of the options' macro steps an explicit level alone takes those below
+/// its limit. InputError for an unknown method, with the nearest.
 std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& options,
                                    const std::vector<StudyLevel>& levels);
 

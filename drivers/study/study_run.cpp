@@ -18,16 +18,17 @@ constexpr int runs_if_short = 5;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Exec instance(int threads) {
-  const int most = Exec().concurrency();
+template <class E>
+E instance(int threads) {
+  const int most = E().concurrency();
   if (threads == 0 || threads == most) return {};
   if (threads < 0 || threads > most)
-    throw InputError("study.threads: " + std::to_string(threads) + " threads; " + Exec::name() + " has " +
+    throw InputError("study.threads: " + std::to_string(threads) + " threads; " + E::name() + " has " +
                      std::to_string(most));
 #if defined(KOKKOS_ENABLE_OPENMP)
-  if constexpr (std::is_same_v<Exec, Kokkos::OpenMP>) return Exec(threads);
+  if constexpr (std::is_same_v<E, Kokkos::OpenMP>) return E(threads);
 #endif
-  throw InputError("study.threads: " + std::string(Exec::name()) + " runs with all it has; leave study.threads out");
+  throw InputError("study.threads: " + std::string(E::name()) + " runs with all it has; leave study.threads out");
 }
 
 // Nothing takes energy out or brings it in, other than gravity
@@ -128,7 +129,7 @@ class Measured {
 
 template <class Real>
 StudyRun run(const Problem& problem, const StudyRunOptions& options) {
-  const Exec exec = instance(options.threads);
+  const Exec exec = instance<Exec>(options.threads);
   try {
     return Measured<Backend<Real, Exec>>(problem, exec, options).all();
   } catch (const InputError& error) {
@@ -144,7 +145,7 @@ int timed_runs_of(double wall_time, int asked) {
   return asked > 0 && wall_time < short_run ? std::max(asked, runs_if_short) : asked;
 }
 
-void check_threads(int threads) { instance(threads); }
+void check_threads(int threads) { instance<Exec>(threads); }
 
 StudyRun study_run(const Problem& problem, const StudyRunOptions& options) {
   if (options.precision == "double") return run<double>(problem, options);

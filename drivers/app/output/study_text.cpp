@@ -15,6 +15,17 @@ constexpr std::size_t width = 110;
 
 std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
 
+// With what tells it from other rows of its name
+std::string name_of(const StudyRow& row, const StudyResult& result) {
+  const auto differs = [&](auto member) {
+    return std::ranges::any_of(result.rows, [&](const StudyRow& other) { return other.*member != row.*member; });
+  };
+  std::string name = row.label();
+  if (differs(&StudyRow::precision)) name += ", " + row.precision;
+  if (differs(&StudyRow::threads)) name += ", " + counted(row.threads, "thread");
+  return name;
+}
+
 std::string reference_text(const StudyResult& result) {
   const StudyReference& r = result.reference;
   std::string text = fmt::format("Reference: {} at {}; doubling that step moves it by {}.", r.method,
@@ -37,10 +48,9 @@ std::string pareto_text(const StudyResult& result) {
   std::vector<std::vector<std::string>> table = {
       {"the best for their time", "macro step", "x critical", "error", "of velocity", "time", "work"}};
   for (const StudyRow* row : front)
-    table.push_back({row->label() + (row->precision == "double" ? "" : ", " + row->precision),
-                     in_units(*row->macro_step, "s"), fmt::format("{:.3g}", *row->macro_step_over_critical),
-                     percent(*row->error), percent(*row->error_velocity), in_units(*row->wall_time, "s"),
-                     fmt::format("{:.3g}", *row->work)});
+    table.push_back({name_of(*row, result), in_units(*row->macro_step, "s"),
+                     fmt::format("{:.3g}", *row->macro_step_over_critical), percent(*row->error),
+                     percent(*row->error_velocity), in_units(*row->wall_time, "s"), fmt::format("{:.3g}", *row->work)});
   return text_table(table, "<>>>>>>");
 }
 
@@ -52,8 +62,9 @@ std::string fastest_text(const StudyResult& result, double threshold) {
                    width, "");
   const StudyRow* fastest = fastest_below(result.rows, threshold);
   if (fastest == nullptr) return head + "none.\n";
-  std::string text = head + fmt::format("{} at {}, {} for {}.", fastest->label(), in_units(*fastest->macro_step, "s"),
-                                        in_units(*fastest->wall_time, "s"), percent(*fastest->error));
+  std::string text =
+      head + fmt::format("{} at {}, {} for {}.", name_of(*fastest, result), in_units(*fastest->macro_step, "s"),
+                         in_units(*fastest->wall_time, "s"), percent(*fastest->error));
   if (fastest->method.starts_with("coarse/")) text += " A coarser mesh alone is enough here.";
   return wrapped(text, width, "");
 }

@@ -145,6 +145,15 @@ TEST_F(StudyCommand, BadInputIs2) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out/study.json"));
 }
 
+TEST_F(StudyCommand, CanBeDrawn) {
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  ASSERT_EQ(study({"--quiet"}).status, 0);
+  const Child draw = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", out}, folder);
+  EXPECT_EQ(draw.status, 0) << draw.errors;
+  EXPECT_GT(std::filesystem::file_size(folder / "out/study.png"), 10000U);
+  EXPECT_EQ(run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", folder / "none"}, folder).status, 1);
+}
+
 TEST(ReferenceFile, ReadsBackWhatItWroteAndNothingElse) {
   StudyReference r;
   r.method = "single/rk4", r.macro_step = 1e-3, r.own_error = 0.1 / 3, r.seconds_per_evaluation = 1e-8;
