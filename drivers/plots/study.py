@@ -51,6 +51,14 @@ def draw_completed(axes, rows, look):
     return [row for row in rows if row["status"] == "completed" and row["error"] > 0]
 
 
+def name_of(row, rows):
+    """With what tells it from other rows of its method."""
+    parts = [row["method"], row["distribution"]]
+    parts += [row["precision"]] if len({other["precision"] for other in rows}) > 1 else []
+    parts += [f"{row['threads']} thr."] if len({other["threads"] for other in rows}) > 1 else []
+    return ", ".join(part for part in parts if part)
+
+
 def draw_front(axes, rows):
     front = sorted((row for row in rows if row["pareto"] and row["error"] > 0), key=lambda row: row["wall_time"])
     axes.step([row["wall_time"] for row in front], [row["error"] for row in front], where="post", color="black",
@@ -58,8 +66,8 @@ def draw_front(axes, rows):
     for number, row in enumerate(front, 1):
         axes.annotate(str(number), (row["wall_time"], row["error"]), textcoords="offset points", xytext=(-9, -11),
                       fontsize=9, weight="bold", ha="center", zorder=4)
-    return "\n".join(f"{number}  {row['method']}{', ' + row['distribution'] if row['distribution'] else ''}: "
-                     f"{row['macro_step_over_critical']:.2g}×" for number, row in enumerate(front, 1))
+    return "\n".join(f"{number}  {name_of(row, rows)}: {row['macro_step_over_critical']:.2g}×"
+                     for number, row in enumerate(front, 1))
 
 
 def draw_failed(axes, rows, look, left):
@@ -79,9 +87,11 @@ def draw_failed(axes, rows, look, left):
 
 def draw_limits(axes, reference):
     """Below ten times its own error the reference tells nothing."""
-    axes.axhspan(0, 10 * reference["own_error"], color="#000000", alpha=0.07, zorder=0, linewidth=0)
-    axes.text(0.995, 10 * reference["own_error"], "below: not to be told by this reference ", ha="right", va="top",
-              fontsize=8, color=GREY, transform=axes.get_yaxis_transform())
+    told = 10 * reference["own_error"]
+    if told > axes.get_ylim()[0]:
+        axes.axhspan(0, told, color="#000000", alpha=0.07, zorder=0, linewidth=0)
+        axes.text(0.995, told, "below: not to be told by this reference ", ha="right", va="top", fontsize=8, color=GREY,
+                  transform=axes.get_yaxis_transform())
     if reference["space_error"]:
         axes.axhline(reference["space_error"], color=GREY, linestyle="--", linewidth=1, zorder=1)
         axes.text(0.005, reference["space_error"], "the finest mesh's own error in space", va="bottom", fontsize=8,
