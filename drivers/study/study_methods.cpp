@@ -59,6 +59,8 @@ std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOpti
     const bool is_family = std::ranges::find(families, name) != families.end();
     for (const std::string& method : all)
       if (is_family && family_of(method) == name) add_each(chosen, problem, {method, {}});
+    if (is_family && chosen.empty() && problem.body.levels.size() == 1)
+      throw InputError("study.methods: '" + name + "' needs coarser levels; the body has one level");
     if (is_family) continue;
     const ChosenMethod one = split(name);
     if (std::ranges::find(all, one.method) == all.end()) {

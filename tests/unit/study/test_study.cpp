@@ -61,6 +61,11 @@ TEST(StudyMethods, UnknownOnesGetTheNearest) {
   EXPECT_NE(message("cycle/rsv/custom").find("integration.distribution"), std::string::npos);
 }
 
+TEST(StudyMethods, CoarserLevelsMustBeThere) {
+  EXPECT_THROW(study(beam(1), quick({"coarse"})), InputError);
+  EXPECT_THROW(study(beam(1), quick({"cycle"})), InputError);
+}
+
 TEST(StudyCases, TheDefaultSetHasItsControlsAndEveryCycle) {
   const Problem p = beam();
   const auto levels = study_levels(p);
