@@ -11,6 +11,7 @@
 #include <plica/drivers/app/commands/mesh_info.hpp>
 #include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/run.hpp>
+#include <plica/drivers/app/commands/study.hpp>
 #include <plica/drivers/app/commands/version.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -21,7 +22,7 @@
 namespace plica::app {
 namespace {
 
-constexpr const char* planned_commands[] = {"study", "stability", "verify"};
+constexpr const char* planned_commands[] = {"stability", "verify"};
 
 // The command line, and what it asks for. CLI11 fills the members while it parses.
 class CommandLine {
@@ -35,6 +36,7 @@ class CommandLine {
     add_run();
     add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); });
     add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
+    add_study();
     add_mesh();
     add_list();
     add_schema();
@@ -106,7 +108,7 @@ class CommandLine {
     command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(1, 512));  // what Kokkos can do with OpenMP
-    if (name != "run") command->add_flag("--json", arguments_.json, "print JSON");
+    if (name != "run" && name != "study") command->add_flag("--json", arguments_.json, "print JSON");
     return command;
   }
 
@@ -124,6 +126,17 @@ class CommandLine {
         ->excludes(folder);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
     command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
+  }
+
+  void add_study() {
+    CLI::App* command = add_scene_command("study", "measure methods' errors against their run times",
+                                          [this] { return study(arguments_, study_); });
+    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)")->type_name("FOLDER");
+    command
+        ->add_option("--budget", study_.budget, "wall time of all of it [s]; what does not fit is left out, and listed")
+        ->type_name("TIME");
+    command->add_flag("--space", study_.space, "a second reference on a mesh twice as fine, for the error in space");
+    command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }
 
   void add_mesh() {
@@ -189,6 +202,7 @@ class CommandLine {
 
   CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
   RunArguments arguments_;
+  StudyArguments study_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;

@@ -41,7 +41,12 @@ std::map<std::string, long> Simulation<B>::counters() const {
   std::map<std::string, long> all;
   for (const auto& part : inside_->hierarchy().levels) {
     all["force_evaluations"] += part.forces->evaluations();
-    for (const auto& [name, count] : part.integrator->counters()) all[name] += count;
+    long passes = part.forces->evaluations();  // over the elements
+    for (const auto& [name, count] : part.integrator->counters()) {
+      all[name] += count;
+      if (name == "cg_iterations") passes += count;
+    }
+    all["tet_evaluations"] += passes * part.level.model.tets;
   }
   return all;
 }

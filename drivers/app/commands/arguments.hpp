@@ -31,4 +31,9 @@ struct RunArguments : SceneArguments {
   std::vector<std::string> words;  ///< the command line as it was given
 };
 
+struct StudyArguments {
+  std::string budget;  ///< wall time, "60s"; empty: as long as it takes
+  bool space = false;  ///< a second reference on a finer mesh
+};
+
 }  // namespace plica::app

@@ -31,6 +31,30 @@ Examples:
 Exit status: 0 done, 1 a file cannot be written, 2 bad input, 3 diverged (the last good state is written),
 4 not in this build, 130 interrupted (Ctrl-C ends after the macro step; the files are complete))";
 
+constexpr const char* study_manual =
+    R"(Runs the scene with many methods and macro steps and measures each one's error against its run time. Methods:
+  single/INTEGRATOR   the finest level alone
+  coarse/LEVEL        a coarser level alone, interpolated to the finest
+  cycle/NAME          the levels together, with each distribution of the macro step, or cycle/NAME/DISTRIBUTION
+Left out of the scene's section `study`, all but some integrators are run. Errors are relative, over all vertices of the
+finest level and all sampling times, against that level alone at a small step, which is itself checked at half of it.
+Times are of the steps alone: the median of at least three runs after one to warm up. States between two steps are
+interpolated by the cubic through the four nearest. `work` counts tetrahedra's force evaluations (an iteration of a
+linear solve as one), to those of the finest level alone at 0.9 of its limit.
+
+Files in the folder, SI units throughout; rows are written as they finish:
+  study.json       machine, reference, rows (one per method and macro step; diverged and refused ones too), what was left out
+  study.csv        the rows
+  reference.bin    what errors are measured against
+The same command goes on with what it finds there. drivers/plots/study.py FOLDER draws study.png.
+
+Examples:
+  plica study beam.yaml -o out/beam --budget 60s
+  plica study beam.yaml --set study.methods="[single, coarse, cycle/rsv]" --set study.macro_steps="[1 ms, 2 ms, auto]"
+  plica study beam.yaml --space         # the finest mesh's own error too, against one twice as fine: takes 16 times as long
+
+Exit status: 0 done, also with rows that diverged, 1 a file cannot be written, 2 bad input, 130 interrupted)";
+
 constexpr const char* explain_manual =
     R"(Prints levels with critical steps [s], shares and sub-steps, and each part that is in or out, why, and its bytes.
 
@@ -67,6 +91,7 @@ Exit status: 0 done, 2 another shell)";
 
 std::string manual_of(const std::string& command) {
   if (command == "run") return run_manual;
+  if (command == "study") return study_manual;
   if (command == "explain") return explain_manual;
   if (command == "check") return check_manual;
   if (command == "schema") return schema_manual;

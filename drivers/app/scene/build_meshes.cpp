@@ -160,6 +160,19 @@ void check_names(const Body& body, const Tree& tree) {
 
 }  // namespace
 
+TetMesh finer_mesh(const Scene& scene) {
+  LevelRecipe recipe = scene.levels.front();
+  const Where where = place_of(scene.source, "body.levels.0");
+  if (!recipe.file.empty())
+    throw InputError("--space needs a finest level that can be made finer: a box, a ball or a cylinder, got a file",
+                     where);
+  if (recipe.box)
+    for (int& cells : recipe.box->cells) cells *= 2;
+  if (recipe.ball) recipe.ball->cells *= 2;
+  if (recipe.cylinder) recipe.cylinder->across *= 2, recipe.cylinder->along *= 2;
+  return placed(where, [&] { return generated(recipe); });
+}
+
 void build_meshes(Scene& scene, const Tree& tree) {
   Body& body = scene.problem.body;
   body.levels.clear();

@@ -10,6 +10,7 @@ namespace plica::app {
 
 std::vector<Choice> outside_rules();
 std::vector<Choice> frame_formats();
+std::vector<Choice> precisions();
 
 template <class V>
 void describe(V& v, Box& o) {
@@ -335,6 +336,19 @@ void describe(V& v, OutputOptions& o) {
 }
 
 template <class V>
+void describe(V& v, StudyOptions& o) {
+  v("methods", o.methods, ListOf<Text>{},
+    "single, coarse, cycle, or one of them: single/rk4, coarse/1, cycle/rsv, cycle/rsv/equal; left out: the default "
+    "set");
+  v("macro_steps", o.macro_steps, ListOf<AutoQuantity>{{{duration, positive}}},
+    "of cycles and implicit methods, and of explicit ones those below their limit; left out: multiples of the finest "
+    "limit");
+  v("precision", o.precision, ListOf<Name>{{"precision", precisions}}, "in which each method runs");
+  v("threads", o.threads, ListOf<Count>{{1}}, "with which each method runs; left out: all there are");
+  v("samples", o.samples, Count{1}, "times, evenly over the duration, at which states are compared");
+}
+
+template <class V>
 void describe(V& v, Scene& o) {
   v("name", o.name, Text{}, "title; left out: the file's name");
   v.required("duration", o.duration, Quantity{duration, positive}, "simulated time");
@@ -345,6 +359,7 @@ void describe(V& v, Scene& o) {
   ContactKeys contact{o};
   v.group("contact", contact, "what it collides with");
   v.group("output", o.output, "what a run writes");
+  v.group("study", o.study, "what plica study compares");
 }
 
 }  // namespace plica::app

@@ -134,6 +134,26 @@ struct NamePerLevel {
   std::string shown(const std::vector<std::string>& value) const;
 };
 
+/// One or several values of a kind.
+template <class Kind>
+struct ListOf {
+  Kind kind;
+  template <class T>
+  void read(const Value& value, std::vector<T>& target) const {
+    const bool one = value.tree.kind == Tree::Kind::scalar;
+    target.resize(one ? 1 : value.list(expects()).size());
+    if (target.empty()) value.mismatch(expects());
+    for (std::size_t i = 0; i < target.size(); ++i) kind.read(one ? value : value.item(i), target[i]);
+  }
+  std::string expects() const { return kind.expects() + "; or a list of them"; }
+  template <class T>
+  std::string shown(const std::vector<T>& value) const {
+    std::string text;
+    for (const T& item : value) text += (text.empty() ? "" : ", ") + kind.shown(item);
+    return text;
+  }
+};
+
 /// One count for all levels, or one for each; `auto` is 0.
 struct AutoCountPerLevel {
   void read(const Value& value, std::vector<int>& target) const;

@@ -13,6 +13,8 @@ std::vector<Choice> outside_rules() {
 
 std::vector<Choice> frame_formats() { return {{"vtu", "VTK's XML format for unstructured grids"}}; }
 
+std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 bits"}}; }
+
 Scene read_scene(const Tree& tree) {
   Scene scene;
   scene.file = tree.where.file;

@@ -28,6 +28,8 @@ Scene read_scene(const Tree& tree);
 void check_scene(const Scene& scene, const Tree& tree);
 /// about what the meshes that it has generated will take of memory when it is set up [bytes];
 double generated_bytes(const Scene& scene);
+/// level 0 twice as fine along every edge. InputError where it comes from a file;
+TetMesh finer_mesh(const Scene& scene);
 /// The meshes and the embedded surface, and the names of groups and regions checked against them.
 void build_meshes(Scene& scene, const Tree& tree);
 /// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is taken to the surface.

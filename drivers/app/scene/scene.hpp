@@ -7,6 +7,7 @@
 #include <plica/drivers/app/scene/interval.hpp>
 #include <plica/drivers/app/scene/numbering.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
+#include <plica/drivers/study/study_case.hpp>
 #include <string>
 #include <vector>
 
@@ -98,7 +99,8 @@ struct Scene {
   std::optional<SurfaceRecipe> surface;
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
-  Tree source;  ///< where what was said, with what the command line changed
+  StudyOptions study;  ///< but for its duration, which is the scene's
+  Tree source;         ///< where what was said, with what the command line changed
 };
 
 }  // namespace plica::app

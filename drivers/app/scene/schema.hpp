@@ -28,5 +28,10 @@ template <class Alternative, class Member, class Kind>
 nlohmann::ordered_json schema_of(const As<Alternative, Member, Kind>& kind) {
   return schema_of(kind.kind);
 }
+template <class Kind>
+nlohmann::ordered_json schema_of(const ListOf<Kind>& kind) {
+  const nlohmann::ordered_json one = schema_of(kind.kind);
+  return {{"anyOf", {one, {{"type", "array"}, {"items", one}, {"minItems", 1}}}}};
+}
 
 }  // namespace plica::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <plica/drivers/app/commands/interrupt.hpp>
+#include <plica/drivers/app/commands/options.hpp>
+#include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/commands/study.hpp>
+#include <plica/drivers/app/output/study_files.hpp>
+#include <plica/drivers/app/output/study_text.hpp>
+
+namespace plica::app {
+namespace {
+
+StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const StudyArguments& more) {
+  StudyOptions options = scene.study;
+  options.duration = scene.duration;
+  if (!arguments.precision.empty()) options.precision = {arguments.precision};
+  if (!more.budget.empty())
+    read_option("--budget", more.budget, Quantity{duration, positive}, options.budget.emplace());
+  if (more.space) options.finer = finer_mesh(scene);
+  return options;
+}
+
+// How far the sweep is, on a terminal
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : on_(!quiet && on_terminal()) {}
+  ~ProgressLine() {
+    if (on_) std::cerr << "\r\033[K" << std::flush;
+  }
+  void update(const StudyProgress& p) const {
+    if (!on_) return;
+    const std::string line = fmt::format("{}/{}  {:3.0f} %  {}", p.done, p.of, 100 * p.part, p.doing);
+    const auto width = static_cast<std::size_t>(std::max(1, terminal_width() - 1));
+    std::cerr << "\r\033[K" << coloured(line.substr(0, width), Colour::cyan) << std::flush;
+  }
+
+ private:
+  bool on_;
+};
+
+StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files, bool quiet) {
+  StudyResult before = files.read();
+  if (!quiet && !before.rows.empty())
+    message(fmt::format("going on with {}: {} there", files.folder().string(),
+                        counted(static_cast<long>(before.rows.size()), "row")));
+  const ProgressLine line(quiet);
+  const StudyWatch watch = [&](const StudyProgress& p) {
+    if (p.new_reference) files.write_reference(p.so_far->reference);
+    if (p.new_reference || p.new_row) files.write(*p.so_far, "unfinished");
+    line.update(p);
+    return !interrupted();
+  };
+  StudyResult result = plica::study(scene.problem, options, watch, std::move(before));
+  if (!result.reference.trajectory.u.empty()) files.write(result, result.stopped ? "interrupted" : "completed");
+  return result;
+}
+
+}  // namespace
+
+ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
+  catch_interrupts();
+  const Scene scene = load_scene(arguments.scene, arguments.overrides);
+  warn(scene);
+  const StudyOptions options = options_of(scene, arguments, more);
+  const KokkosSession session(arguments.kokkos);
+  try {
+    check_study(scene.problem, options);
+    const auto folder = arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
+    make_folder(folder);
+    const StudyFiles files(scene, options, folder);
+    if (!arguments.quiet)
+      message(fmt::format("{}: {:g} s, {} tetrahedra; {} on {}, {}", scene.name, scene.duration,
+                          scene.problem.body.levels.front().tets.size(), fmt::join(options.precision, " and "),
+                          files.machine().backend, counted(files.machine().threads, "thread")));
+    const StudyResult result = run_study(scene, options, files, arguments.quiet);
+    if (!arguments.quiet) std::cout << study_text(scene, result, folder.string());
+    return result.stopped ? ExitStatus::interrupted : ExitStatus::done;
+  } catch (const InputError& error) {
+    throw located(error, scene.source);
+  }
+}
+
+}  // namespace plica::app

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/study_json.hpp>
+#include <plica/drivers/study/judgement.hpp>
+#include <plica/version.hpp>
+
+namespace plica::app {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// A row's members under their names in the file, once, for writing and for reading
+template <class Row, class Visit>
+void each_member(Row& row, const Visit& visit) {
+  visit("method", row.method);
+  visit("distribution", row.distribution);
+  visit("macro_step", row.macro_step);
+  visit("macro_step_over_critical", row.macro_step_over_critical);
+  visit("automatic", row.automatic);
+  visit("precision", row.precision);
+  visit("threads", row.threads);
+  visit("status", row.status);
+  visit("reason", row.reason);
+  visit("reached", row.reached);
+  visit("error", row.error);
+  visit("error_velocity", row.error_velocity);
+  visit("error_worst_vertex", row.error_worst_vertex);
+  visit("error_finer", row.error_finer);
+  visit("energy_drift", row.energy_drift);
+  visit("wall_time", row.wall_time);
+  visit("wall_time_spread", row.wall_time_spread);
+  visit("timed_runs", row.timed_runs);
+  visit("setup_time", row.setup_time);
+  visit("work", row.work);
+  visit("pareto", row.pareto);
+  visit("case", row.key);
+}
+
+template <class T>
+Json optional_json(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json row_json(const StudyRow& row) {
+  Json json;
+  each_member(row, [&](const char* name, const auto& value) {
+    if constexpr (requires { value.has_value(); })
+      json[name] = optional_json(value);
+    else
+      json[name] = value;
+  });
+  for (const char* name : {"distribution", "reason"})
+    if (json[name] == "") json[name] = nullptr;
+  return json;
+}
+
+StudyRow row_of(const Json& json) {
+  StudyRow row;
+  each_member(row, [&](const char* name, auto& value) {
+    const Json& from = json.at(name);
+    if constexpr (requires { value.has_value(); }) {
+      if (!from.is_null()) value = from.get<double>();
+    } else {
+      if (!from.is_null()) from.get_to(value);
+    }
+  });
+  return row;
+}
+
+Json reference_json(const StudyResult& result) {
+  const StudyReference& r = result.reference;
+  return {{"method", r.method},
+          {"macro_step", r.macro_step},
+          {"critical_step", r.critical_step},
+          {"own_error", r.own_error},
+          {"own_error_velocity", r.own_error_velocity},
+          {"smallest_error", optional_json(smallest_error(result.rows))},
+          {"good_enough", good_enough(result)},
+          {"space_error", optional_json(r.space_error)},
+          {"wall_time", r.wall_time}};
+}
+
+std::string csv_field(const Json& value) {
+  if (value.is_null()) return {};
+  if (!value.is_string()) return value.dump();
+  std::string text = value.get<std::string>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
+}  // namespace
+
+std::string study_json(const StudyHead& head, const StudyMachine& machine, const StudyResult& result,
+                       const std::string& status) {
+  Json json = {{"scene", head.scene},
+               {"name", head.name},
+               {"status", status},
+               {"duration", head.duration},
+               {"samples", head.samples},
+               {"tets", head.tets},
+               {"machine",
+                {{"cpu", machine.cpu},
+                 {"cores", machine.cores},
+                 {"backend", machine.backend},
+                 {"threads", machine.threads},
+                 {"compiler", compiler()},
+                 {"version", version()},
+                 {"git_revision", git_revision()}}},
+               {"digest", head.digest},
+               {"reference", reference_json(result)},
+               {"rows", Json::array()},
+               {"left_out", Json::array()}};
+  for (const StudyRow& row : result.rows) json["rows"].push_back(row_json(row));
+  for (const LeftOut& one : result.left_out) json["left_out"].push_back({{"case", one.key}, {"reason", one.reason}});
+  return json.dump(2) + "\n";
+}
+
+std::vector<StudyRow> rows_of_study(const std::string& text, const std::string& digest) try {
+  const Json json = Json::parse(text);
+  std::vector<StudyRow> rows;
+  if (json.at("digest") == digest)
+    for (const Json& row : json.at("rows")) rows.push_back(row_of(row));
+  return rows;
+} catch (const Json::exception&) {
+  return {};
+}
+
+std::string study_csv(const std::vector<StudyRow>& rows) {
+  std::string text;
+  const auto add_line = [&text](const Json& row, bool names) {
+    std::string line;
+    for (const auto& [name, value] : row.items()) line += (line.empty() ? "" : ",") + (names ? name : csv_field(value));
+    text += line + "\n";
+  };
+  add_line(row_json({}), true);
+  for (const StudyRow& row : rows) add_line(row_json(row), false);
+  return text;
+}
+
+}  // namespace plica::app

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws a study of plica: each method's error against its run time, both logarithmic.
+
+    study.py FOLDER          writes FOLDER/study.png
+"""
+import argparse
+import json
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot
+
+# Of a family: colour and marker. Their lightness differs too, so that a print in grey tells them apart.
+SINGLE = [("#000000", "o"), ("#5a2d82", "s"), ("#7a7a7a", "D"), ("#a05a9a", "h")]
+COARSE = [("#9a6700", "v"), ("#c78a00", "^"), ("#e0b040", "<"), ("#efd080", ">")]
+CYCLES = {"rs": ("#1f77b4", "P"), "rv": ("#d62728", "X"), "rsv": ("#2ca02c", "*"), "rsv_sv": ("#7fc8e8", "p"),
+          "fas": ("#f29ac0", "d")}
+SPARE = [("#444444", "8"), ("#bbbbbb", "H")]
+GREY = "#666666"
+
+
+def families(rows):
+    """method -> (colour, marker), in the order of the rows."""
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    spare = {"single": iter(SINGLE), "coarse": iter(COARSE), "cycle": iter(SPARE)}
+    look = {}
+    for method in methods:
+        kind, name = method.split("/")
+        look[method] = (CYCLES.get(name) if kind == "cycle" else None) or next(spare[kind], ("#444444", "."))
+    return look
+
+
+def seconds_per_work(rows):
+    """Of a row that came to its end; places rows that did not."""
+    rates = sorted(row["wall_time"] / row["work"] for row in rows if row["status"] == "completed" and row["work"])
+    return rates[len(rates) // 2] if rates else 1.0
+
+
+def draw_completed(axes, rows, look):
+    for method, (colour, marker) in look.items():
+        mine = [row for row in rows if row["method"] == method]
+        done = [row for row in mine if row["status"] == "completed" and row["error"] > 0]
+        failed = len(mine) - len(done)
+        label = method + (f" ({failed} of {len(mine)} not to the end)" if failed else "")
+        axes.scatter([row["wall_time"] for row in done], [row["error"] for row in done], s=95 if marker == "*" else 60,
+                     color=colour, marker=marker, edgecolors="black", linewidths=0.6, label=label, zorder=3)
+    return [row for row in rows if row["status"] == "completed" and row["error"] > 0]
+
+
+def name_of(row, rows):
+    """With what tells it from other rows of its method."""
+    parts = [row["method"], row["distribution"]]
+    parts += [row["precision"]] if len({other["precision"] for other in rows}) > 1 else []
+    parts += [f"{row['threads']} thr."] if len({other["threads"] for other in rows}) > 1 else []
+    return ", ".join(part for part in parts if part)
+
+
+def draw_front(axes, rows):
+    front = sorted((row for row in rows if row["pareto"] and row["error"] > 0), key=lambda row: row["wall_time"])
+    axes.step([row["wall_time"] for row in front], [row["error"] for row in front], where="post", color="black",
+              linewidth=1.4, zorder=2, label="the best for their time")
+    for number, row in enumerate(front, 1):
+        axes.annotate(str(number), (row["wall_time"], row["error"]), textcoords="offset points", xytext=(-9, -11),
+                      fontsize=9, weight="bold", ha="center", zorder=4)
+    return "\n".join(f"{number}  {name_of(row, rows)}: {row['macro_step_over_critical']:.2g}×"
+                     for number, row in enumerate(front, 1))
+
+
+def draw_failed(axes, rows, look, left):
+    """In the margin above, a line for each method: crosses where diverged runs would have been, bars for refused ones."""
+    rate = seconds_per_work(rows)
+    failed = [row for row in rows if row["status"] != "completed"]
+    methods = list(dict.fromkeys(row["method"] for row in failed))
+    for row in failed:
+        diverged = row["status"] == "diverged" and row["work"]
+        axes.plot([row["work"] * rate if diverged else left], [1.02 + 0.02 * methods.index(row["method"])],
+                  marker="x" if diverged else "|", color=look[row["method"]][0], markersize=7, markeredgewidth=2,
+                  transform=axes.get_xaxis_transform(), clip_on=False, linestyle="none")
+    kinds = [("× diverged", "diverged"), ("| refused", "refused")]
+    text = ", ".join(label for label, status in kinds if any(row["status"] == status for row in failed))
+    axes.text(1.01, 1.01 + 0.01 * len(methods), text, transform=axes.transAxes, fontsize=9, va="center", color=GREY)
+
+
+def draw_limits(axes, reference):
+    """Below ten times its own error the reference tells nothing."""
+    told = 10 * reference["own_error"]
+    if told > axes.get_ylim()[0]:
+        axes.axhspan(0, told, color="#000000", alpha=0.07, zorder=0, linewidth=0)
+        axes.text(0.995, told, "below: not to be told by this reference ", ha="right", va="top", fontsize=8, color=GREY,
+                  transform=axes.get_yaxis_transform())
+    if reference["space_error"]:
+        axes.axhline(reference["space_error"], color=GREY, linestyle="--", linewidth=1, zorder=1)
+        axes.text(0.005, reference["space_error"], "the finest mesh's own error in space", va="bottom", fontsize=8,
+                  color=GREY, transform=axes.get_yaxis_transform())
+
+
+def draw(folder):
+    study = json.loads((folder / "study.json").read_text())
+    rows, reference, machine = study["rows"], study["reference"], study["machine"]
+    look = families(rows)
+    figure, axes = pyplot.subplots(figsize=(11, 7.2))
+    figure.subplots_adjust(left=0.08, right=0.7, top=0.8, bottom=0.085)
+    axes.set(xscale="log", yscale="log", xlabel="run time of the steps [s]: less to the left",
+             ylabel="error of displacement (relative, all vertices and times): less below")
+    done = draw_completed(axes, rows, look)
+    if done:
+        errors, times = [row["error"] for row in done], [row["wall_time"] for row in done]
+        rate = seconds_per_work(rows)
+        times += [row["work"] * rate for row in rows if row["status"] == "diverged" and row["work"]]
+        axes.set_ylim(min(errors) / 3, min(max(errors) * 2, 100))
+        axes.set_xlim(min(times) / 1.6, max(times) * 1.6)
+    front = draw_front(axes, rows)
+    draw_limits(axes, reference)
+    draw_failed(axes, rows, look, axes.get_xlim()[0])
+    axes.grid(which="major", alpha=0.3)
+    axes.grid(which="minor", alpha=0.1)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 0.99), fontsize=9, frameon=False, labelspacing=0.8)
+    figure.text(0.715, 0.1, "The best for their time, and their macro\nstep over the finest critical step:\n" + front,
+                fontsize=8.5, va="bottom", linespacing=1.5)
+    threads = machine["threads"]
+    figure.text(0.08, 0.955, f"{study['name']}: error against run time", fontsize=16, weight="bold")
+    figure.text(0.08, 0.922, f"{study['duration']:g} s, {' / '.join(map(str, study['tets']))} tetrahedra; {machine['cpu']}, "
+                f"{machine['backend']}, {threads} thread{'s' if threads != 1 else ''}", fontsize=10, color="#444444")
+    path = folder / "study.png"
+    figure.savefig(path, dpi=110)
+    return path
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path, help="what plica study wrote")
+    try:
+        print(draw(parser.parse_args().folder))
+    except OSError as error:
+        sys.exit(f"error: {error.filename}: {error.strerror}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/study/judgement.hpp>
+#include <plica/drivers/study/study.hpp>
+
+namespace plica {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Study {
+ public:
+  Study(const Problem& problem, const StudyOptions& options, const StudyWatch& watch, StudyResult before)
+      : problem_(problem), options_(options), watch_(watch), result_(std::move(before)) {
+    result_.left_out.clear(), result_.stopped = false;
+    levels_ = study_levels(problem);
+    cases_ = study_cases(problem, options, levels_);
+    std::erase_if(result_.rows, [&](const StudyRow& row) {
+      return std::ranges::none_of(cases_, [&](const StudyCase& c) { return c.key() == row.key; });
+    });
+    const double step = 0.9 * levels_[0].critical_step;
+    unit_work_ = levels_[0].tets * std::ceil(options.duration / step - 1e-9);
+  }
+
+  StudyResult all() {
+    if (!have_reference()) return std::move(result_);
+    std::vector<StudyCase> by_rank = cases_;
+    std::ranges::stable_sort(by_rank, {}, &StudyCase::rank);
+    for (const StudyCase& one : by_rank) {
+      if (has(one)) continue;
+      if (result_.stopped)
+        result_.left_out.push_back({one.key(), "the study was stopped before"});
+      else if (!fits(one))
+        leave_out(one);
+      else
+        measure(one);
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  bool tell(const std::string& doing, double part, bool new_reference = false, bool new_row = false) {
+    if (watch_ && !watch_({doing, result_.rows.size(), cases_.size(), part, &result_, new_reference, new_row}))
+      result_.stopped = true;
+    return !result_.stopped;
+  }
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  bool has(const StudyCase& one) const {
+    return std::ranges::any_of(result_.rows, [&](const StudyRow& row) { return row.key == one.key(); });
+  }
+
+  bool have_reference() {
+    if (result_.reference.trajectory.u.empty() || (options_.finer && !result_.reference.finer))
+      result_.reference = make_reference(problem_, options_, levels_[0].critical_step,
+                                         [this](double part) { return tell("reference", part); });
+    if (result_.stopped) return false;
+    tell("reference", 1, true);
+    return true;
+  }
+
+  // of all its runs [s]; what rows of the same kind took corrects it
+  double predicted(const StudyCase& one) {
+    const double run = one.predicted_evaluations * result_.reference.seconds_per_evaluation * correction(one);
+    return run * (1 + timed_runs_of(run, options_.timed_runs));
+  }
+  double& correction(const StudyCase& one) {
+    const std::string kind = one.method + (one.method.starts_with("cycle/") ? "" : " alone") + one.precision;
+    return correction_.try_emplace(kind + std::to_string(one.threads), 1.0).first->second;
+  }
+  bool fits(const StudyCase& one) { return !options_.budget || elapsed() + predicted(one) <= *options_.budget; }
+
+  void leave_out(const StudyCase& one) {
+    char text[160];
+    std::snprintf(text, sizeof text, "predicted to take %.2g s, with %.2g s left of the budget of %.3g s",
+                  predicted(one), std::max(0.0, *options_.budget - elapsed()), *options_.budget);
+    result_.left_out.push_back({one.key(), text});
+  }
+
+  void measure(const StudyCase& one) {
+    if (!tell(one.key(), 0)) return result_.left_out.push_back({one.key(), "the study was stopped before"});
+    StudyRunOptions options{options_.duration, result_.reference.trajectory.times, one.precision, one.threads,
+                            options_.timed_runs};
+    options.go_on = [&](double part) { return tell(one.key(), part); };
+    const StudyRun run = study_run(problem_of(problem_, one), options);
+    if (run.status == "stopped") return result_.left_out.push_back({one.key(), "the study was stopped before"});
+    result_.rows.push_back(row_of(one, run));
+    if (run.status == "completed" && one.predicted_evaluations > 0)
+      correction(one) = run.wall_time / (one.predicted_evaluations * result_.reference.seconds_per_evaluation);
+    finish();
+    tell(one.key(), 1, false, true);
+  }
+
+  StudyRow row_of(const StudyCase& one, const StudyRun& run) const {
+    StudyRow row;
+    row.method = one.method, row.distribution = one.distribution, row.key = one.key();
+    row.precision = one.precision, row.status = run.status, row.reason = run.reason;
+    row.threads = one.threads > 0 ? one.threads : Kokkos::DefaultExecutionSpace().concurrency();
+    row.automatic = !one.integration.macro_step;
+    row.macro_step = one.integration.macro_step;
+    if (run.macro_step > 0) row.macro_step = run.macro_step;
+    if (row.macro_step) row.macro_step_over_critical = *row.macro_step / levels_[0].critical_step;
+    if (run.status != "refused") row.setup_time = run.setup_time;
+    if (run.status == "diverged") {
+      row.reached = run.reached;
+      if (one.predicted_evaluations > 0) row.work = one.predicted_evaluations / unit_work_;
+    }
+    if (run.status == "completed") add_measures(row, one, run);
+    return row;
+  }
+
+  void add_measures(StudyRow& row, const StudyCase& one, const StudyRun& run) const {
+    const Trajectory& reference = result_.reference.trajectory;
+    Trajectory found = run.trajectory;
+    if (one.level > 0) {
+      const auto& levels = problem_.body.levels;
+      found =
+          interpolated(found, embed(levels[0].vertices, levels[static_cast<std::size_t>(one.level)], Outside::clamp));
+    }
+    const StudyErrors errors = errors_of(found, reference);
+    if (!std::isfinite(errors.displacement + errors.velocity)) {
+      row.status = "diverged", row.reason = "a sampled value is not finite";
+      return;
+    }
+    row.error = errors.displacement, row.error_velocity = errors.velocity, row.error_worst_vertex = errors.worst_vertex;
+    if (result_.reference.finer) row.error_finer = errors_of(found, *result_.reference.finer).displacement;
+    row.energy_drift = run.energy_drift;
+    row.wall_time = run.wall_time, row.wall_time_spread = run.wall_time_spread, row.timed_runs = run.timed_runs;
+    row.work = static_cast<double>(run.tet_evaluations) / unit_work_;
+  }
+
+  void finish() {
+    const auto place = [&](const StudyRow& row) {
+      return std::ranges::find_if(cases_, [&](const StudyCase& c) { return c.key() == row.key; }) - cases_.begin();
+    };
+    std::ranges::stable_sort(result_.rows, {}, place);
+    mark_pareto(result_.rows);
+  }
+
+  const Problem& problem_;
+  const StudyOptions& options_;
+  const StudyWatch& watch_;
+  Clock::time_point start_ = Clock::now();
+  StudyResult result_;
+  std::vector<StudyLevel> levels_;
+  std::vector<StudyCase> cases_;
+  std::map<std::string, double> correction_;
+  double unit_work_ = 1;
+};
+
+void check(const StudyOptions& o) {
+  if (!(o.duration > 0)) throw InputError("study: the duration is " + std::to_string(o.duration) + "; expected > 0");
+  if (o.samples < 1) throw InputError("study.samples: " + std::to_string(o.samples) + "; expected >= 1");
+  if (o.precision.empty()) throw InputError("study.precision: expected float, double, or both");
+  for (const std::string& precision : o.precision)
+    if (precision != "float" && precision != "double")
+      throw InputError("study.precision: " + unknown_name("precision", precision, {"float", "double"}));
+  for (const int threads : o.threads) check_threads(threads);
+  for (const auto& step : o.macro_steps)
+    if (step && !(*step > 0)) throw InputError("study.macro_steps: " + std::to_string(*step) + "; expected > 0");
+  if (!(o.reference_step > 0)) throw InputError("study: the reference's step is not above 0");
+}
+
+}  // namespace
+
+StudyResult study(const Problem& problem, const StudyOptions& options, const StudyWatch& watch, StudyResult before) {
+  validate(problem);
+  check(options);
+  check_study(problem, options);
+  return Study(problem, options, watch, std::move(before)).all();
+}
+
+}  // namespace plica

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <plica/drivers/study/study_case.hpp>
+#include <plica/drivers/study/study_reference.hpp>
+
+namespace plica {
+
+/// One method at one macro step, measured. Errors are fractions, times [s] of the whole duration; what does not apply is empty.
+struct StudyRow {
+  std::string method, distribution;  ///< see StudyCase
+  std::optional<double> macro_step;  ///< [s]; none: refused before there was one
+  bool automatic = false;            ///< the macro step was `auto`
+  std::optional<double>
+      macro_step_over_critical;  ///< of the finest level under symplectic Euler, whatever the row runs
+  std::string precision;
+  int threads = 0;
+  std::string status;                                               ///< completed | diverged | refused
+  std::string reason;                                               ///< diagnosis or message, where it is not completed
+  std::optional<double> reached;                                    ///< diverged: simulated time until then [s]
+  std::optional<double> error, error_velocity, error_worst_vertex;  ///< see StudyErrors, against the reference
+  std::optional<double> error_finer;   ///< like error, against the finer mesh's reference: space and time together
+  std::optional<double> energy_drift;  ///< see StudyRun
+  std::optional<double> wall_time, wall_time_spread, setup_time;
+  int timed_runs = 0;
+  std::optional<double>
+      work;             ///< tetrahedra's force evaluations, to those of single/symplectic_euler at 0.9 of its limit;
+                        ///< diverged: what the whole duration would have taken, predicted
+  bool pareto = false;  ///< completed, and no other row is as fast with a smaller error
+  std::string key;      ///< StudyCase::key()
+  std::string label() const { return distribution.empty() ? method : method + "/" + distribution; }
+};
+
+/// A case that was not run, and why.
+struct LeftOut {
+  std::string key;
+  std::string reason;
+};
+
+struct StudyResult {
+  StudyReference reference;
+  std::vector<StudyRow> rows;  ///< in the order of study_cases()
+  std::vector<LeftOut> left_out;
+  bool stopped = false;  ///< by the caller, before all was done
+};
+
+/// How far a study is.
+struct StudyProgress {
+  std::string doing;             ///< "reference", or a case's key
+  std::size_t done = 0, of = 0;  ///< cases
+  double part = 0;               ///< of what it is doing
+  const StudyResult* so_far = nullptr;
+  bool new_reference = false, new_row = false;  ///< since the last call
+};
+
+/// Called after the reference, after every row, and some times a second; false stops the study.
+using StudyWatch = std::function<bool(const StudyProgress&)>;
+
+/// Measures the methods' errors against their run times. The problem's own integration is what cycles take their options from.
+/// @param before  what another study of the same problem and options has found: its reference and rows are taken over
+/// InputError for bad options or problems; methods that refuse or diverge are rows. Kokkos must be initialised.
+StudyResult study(const Problem& problem, const StudyOptions& options, const StudyWatch& watch = {},
+                  StudyResult before = {});
+
+}  // namespace plica

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/study_methods.hpp>
+
+namespace plica {
+
+namespace {
+
+using Step = std::optional<double>;  // none: auto
+
+constexpr double implicit_factors[] = {16, 4, 64};    // of the finest critical step, the most telling first
+constexpr double cycle_factors[] = {4, 1, 16, 2, 8};  // likewise
+constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
+
+bool is_explicit(const std::string& integrator) {
+  bool result = true;
+  Integrators::visit(integrator, [&](auto member) { result = decltype(member)::is_explicit; });
+  return result;
+}
+
+// The limit of an explicit integrator, undamped; 0 where it has none of this kind
+double limit_of(const std::string& integrator, double symplectic_limit) {
+  double radius = 0;
+  Integrators::visit(integrator, [&](auto member) {
+    if constexpr (decltype(member)::is_explicit) radius = decltype(member)::limit.radius;
+  });
+  return symplectic_limit * radius / 2;
+}
+
+std::string integrator_of(const IntegrationOptions& o, std::size_t i) {
+  return o.integrator.size() == 1 ? o.integrator.front() : o.integrator[i];
+}
+
+double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, double duration) {
+  const IntegrationOptions& o = one.integration;
+  const bool alone = o.cycle == "single";
+  std::vector<LevelLimits> limits;
+  for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
+    const std::string integrator = integrator_of(o, limits.size());
+    const bool stepped = is_explicit(integrator);
+    limits.push_back({levels[i].tets, integrator, stepped,
+                      stepped ? limit_of(integrator, levels[i].critical_step) : levels[i].critical_step});
+  }
+  try {
+    const StepPlan plan = plan_steps(o, limits);
+    double each = 0;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      double passes = 1;
+      const double factor = plan.share[i] * plan.macro_step / plan.substeps[i] / limits[i].critical_step;
+      if (!limits[i].is_explicit)
+        passes += o.implicit.newton_iterations *
+                  (o.implicit.iterations > 0 ? o.implicit.iterations : 2 + cg_iterations_per_factor * factor);
+      each += passes * plan.substeps[i] * limits[i].tets;
+    }
+    return each * std::ceil(duration / plan.macro_step - 1e-9);
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
+struct Builder {
+  const Problem& problem;
+  const StudyOptions& options;
+  const std::vector<StudyLevel>& levels;
+  std::vector<StudyCase> cases = {};
+
+  void add(StudyCase one, Step macro_step, int rank) {
+    if (macro_step && *macro_step > options.duration) return;
+    one.integration.macro_step = macro_step;
+    const std::vector<int> threads = options.threads.empty() ? std::vector<int>{0} : options.threads;
+    for (std::size_t p = 0; p < options.precision.size(); ++p)
+      for (std::size_t t = 0; t < threads.size(); ++t) {
+        one.precision = options.precision[p], one.threads = threads[t];
+        one.rank = rank + 20 * static_cast<int>(p + t);
+        one.predicted_evaluations = evaluations(one, levels, options.duration);
+        const auto same = [&](const StudyCase& c) { return c.key() == one.key(); };
+        if (std::ranges::none_of(cases, same)) cases.push_back(one);
+      }
+  }
+
+  void add_alone(StudyCase one, const std::string& integrator) {
+    IntegrationOptions& o = one.integration;
+    o.cycle = "single", o.integrator = {integrator}, o.substeps = {1}, o.shift_to_coarsest = 0;
+    o.distribution = "equal", o.shares = {};
+    const bool finest = one.level == 0;
+    if (!is_explicit(integrator)) {
+      int rank = 2;
+      for (const Step& step : options.macro_steps)
+        if (step) add(one, step, rank);
+      if (options.macro_steps.empty())
+        for (const double factor : implicit_factors) add(one, factor * levels[0].critical_step, rank), rank = 6;
+      if (options.macro_steps.empty()) add_own(one);
+      return;
+    }
+    const double limit = limit_of(integrator, levels[static_cast<std::size_t>(one.level)].critical_step);
+    add(one, {}, finest ? 0 : 1);
+    if (finest && limit > 0) add(one, 0.5 * limit, 4);
+    for (const Step& step : options.macro_steps)
+      if (step && *step < limit) add(one, step, 4);
+  }
+
+  void add_cycle(StudyCase one, const std::string& cycle) {
+    one.integration.cycle = cycle, one.integration.distribution = one.distribution;
+    int rank = one.distribution == "critical" ? 3 : 5;
+    if (!options.macro_steps.empty()) {
+      for (const Step& step : options.macro_steps) add(one, step, rank++);
+      return;
+    }
+    add(one, {}, rank);
+    add_own(one);
+    for (const double factor : cycle_factors) add(one, factor * levels[0].critical_step, ++rank);
+  }
+
+  // the problem's own macro step
+  void add_own(const StudyCase& one) {
+    if (problem.integration.macro_step) add(one, problem.integration.macro_step, 4);
+  }
+};
+
+}  // namespace
+
+std::string StudyCase::label() const { return distribution.empty() ? method : method + "/" + distribution; }
+
+std::string StudyCase::key() const {
+  char text[64] = "auto";
+  if (integration.macro_step) std::snprintf(text, sizeof text, "%.6g s", *integration.macro_step);
+  return label() + ", " + text + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") + " threads";
+}
+
+std::vector<StudyLevel> study_levels(const Problem& problem) {
+  using B = Backend<double, Kokkos::DefaultExecutionSpace>;
+  std::vector<StudyLevel> levels;
+  for (std::size_t i = 0; i < problem.body.levels.size(); ++i) {
+    StudyCase alone;
+    alone.level = static_cast<int>(i);
+    const LevelReport report = Simulation<B>(problem_of(problem, alone)).levels().front();
+    levels.push_back({report.tets, report.critical_step});
+  }
+  return levels;
+}
+
+std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& options,
+                                   const std::vector<StudyLevel>& levels) {
+  Builder builder{problem, options, levels};
+  for (const ChosenMethod& chosen : chosen_methods(problem, options)) {
+    StudyCase one;
+    one.method = chosen.method, one.distribution = chosen.distribution;
+    one.integration = problem.integration;
+    const std::string name = chosen.method.substr(chosen.method.find('/') + 1);
+    if (chosen.method.starts_with("cycle/")) {
+      builder.add_cycle(one, name);
+    } else if (chosen.method.starts_with("coarse/")) {
+      one.level = std::stoi(name);
+      builder.add_alone(one, "symplectic_euler");
+    } else {
+      builder.add_alone(one, name);
+    }
+  }
+  return std::move(builder.cases);
+}
+
+Problem problem_of(const Problem& problem, const StudyCase& one) {
+  Problem result = problem;
+  result.integration = one.integration;
+  if (one.integration.cycle != "single") return result;
+  result.body.levels = {problem.body.levels[static_cast<std::size_t>(one.level)]};
+  const auto centre = [](const TetMesh& mesh) {
+    const Box box = bounding_box(mesh.vertices);
+    return Point((box.min + box.max) / 2);
+  };
+  const Point shift = centre(result.body.levels.front()) - centre(problem.body.levels.front());
+  InitialOptions& initial = result.body.initial;
+  if (initial.position) *initial.position += shift;
+  initial.velocity += initial.angular_velocity.cross(shift);
+  return result;
+}
+
+}  // namespace plica

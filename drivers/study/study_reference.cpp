@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <plica/core/error.hpp>
+#include <plica/drivers/study/study_reference.hpp>
+
+namespace plica {
+
+namespace {
+
+struct Pair {
+  StudyRun coarse, fine;  // in time
+  bool stopped() const { return coarse.status == "stopped" || fine.status == "stopped"; }
+};
+
+StudyRun run_at(const Problem& problem, const StudyOptions& options, double step,
+                const std::function<bool(double)>& go_on) {
+  StudyCase one;
+  one.integration = problem.integration;
+  IntegrationOptions& o = one.integration;
+  o.cycle = "single", o.integrator = {options.reference_integrator}, o.substeps = {1};
+  o.distribution = "equal", o.shares = {}, o.macro_step = step;
+  StudyRunOptions run{options.duration, sampling_times(options.duration, options.samples)};
+  run.timed_runs = 0, run.go_on = go_on;
+  StudyRun result = study_run(problem_of(problem, one), run);
+  if (result.status == "diverged" || result.status == "refused")
+    throw InputError("study: the reference, single/" + options.reference_integrator + " at " +
+                     std::to_string(1e3 * step) + " ms, is not to be had: " + result.reason);
+  return result;
+}
+
+Pair run_both(const Problem& problem, const StudyOptions& options, double critical_step,
+              const std::function<bool(double)>& go_on) {
+  const double interval = options.duration / options.samples;
+  const double step = interval / std::ceil(interval / (options.reference_step * critical_step));
+  const auto part = [&go_on](double from, double size) {
+    return [&go_on, from, size](double p) { return !go_on || go_on(from + size * p); };
+  };
+  Pair runs;
+  runs.coarse = run_at(problem, options, step, part(0, 1.0 / 3));
+  if (!runs.stopped()) runs.fine = run_at(problem, options, step / 2, part(1.0 / 3, 2.0 / 3));
+  return runs;
+}
+
+// Half the length, half the limit, about
+void add_finer(StudyReference& reference, const Problem& problem, const StudyOptions& options,
+               const std::function<bool(double)>& go_on) {
+  Problem finer = problem;
+  finer.body.levels = {*options.finer};
+  const double critical = study_levels(finer).front().critical_step;
+  const double interval = options.duration / options.samples;
+  const double step = interval / std::ceil(interval / (options.reference_step * critical));
+  const StudyRun run = run_at(finer, options, step, go_on);
+  if (run.status == "stopped") {
+    reference.trajectory = {};
+    return;
+  }
+  const Embedding finest = embed(problem.body.levels.front().vertices, *options.finer, Outside::clamp);
+  reference.finer = interpolated(run.trajectory, finest);
+  reference.space_error = errors_of(reference.trajectory, *reference.finer).displacement;
+}
+
+}  // namespace
+
+StudyReference make_reference(const Problem& problem, const StudyOptions& options, double critical_step,
+                              const std::function<bool(double)>& go_on) {
+  StudyReference reference;
+  reference.method = "single/" + options.reference_integrator;
+  reference.critical_step = critical_step;
+  Pair runs = run_both(problem, options, critical_step, go_on);
+  if (runs.stopped()) return reference;
+  expect_motion(runs.fine.trajectory, problem.body.levels.front());
+  const StudyErrors own = errors_of(runs.coarse.trajectory, runs.fine.trajectory);
+  reference.macro_step = runs.fine.macro_step;
+  reference.own_error = own.displacement, reference.own_error_velocity = own.velocity;
+  reference.wall_time = runs.coarse.wall_time + runs.fine.wall_time;
+  reference.seconds_per_evaluation = runs.fine.wall_time / static_cast<double>(runs.fine.tet_evaluations);
+  reference.trajectory = std::move(runs.fine.trajectory);
+  if (options.finer) add_finer(reference, problem, options, go_on);
+  return reference;
+}
+
+}  // namespace plica

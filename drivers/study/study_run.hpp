@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <optional>
+#include <plica/core/problem.hpp>
+#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/trajectory.hpp>
+#include <string>
+
+namespace plica {
+
+/// How a problem is to be run and measured.
+struct StudyRunOptions {
+  double duration = 0;               ///< [s] > 0
+  std::vector<double> sample_times;  ///< within the duration [s]
+  std::string precision = "double";  ///< float | double
+  int threads = 0;                   ///< of the default execution space; 0: all that it has
+  int timed_runs = 3;                ///< 0: only the sampled run, which is the one that is timed
+  std::function<bool(double)> go_on =
+      {};  ///< asked from time to time with the part of the work that is done; false ends the run
+};
+
+struct StudyRun {
+  std::string status = "completed";  ///< completed | diverged | refused | stopped
+  std::string reason;                ///< diagnosis or message, where it is not completed
+  double macro_step = 0;             ///< [s]
+  long macro_steps = 0;              ///< for the whole duration
+  double reached = 0;                ///< simulated [s]
+  Trajectory trajectory;             ///< level 0's, where it is completed
+  double setup_time = 0;             ///< [s]
+  double wall_time = 0;              ///< of the steps and their checks: the median of the timed runs [s]
+  double wall_time_spread = 0;       ///< the longest less the shortest of them [s]
+  int timed_runs = 0;                ///< see timed_runs_of()
+  long tet_evaluations = 0;          ///< forces of all levels' tetrahedra, in one run
+  std::optional<double>
+      energy_drift;  ///< (at the end - at the start) / the most there was of kinetic, elastic and contact
+                     ///< energy; none where loads, given motions, damping or contact do unknown work
+};
+
+/// How often a run that takes so long [s] is timed where `asked` is asked for: short ones at least five times.
+int timed_runs_of(double wall_time, int asked);
+
+/// InputError where the default execution space cannot run with so many threads of its own; 0: all.
+void check_threads(int threads);
+
+/// Runs the problem on Kokkos' default execution space: once to warm up, sampling its states, then timed, from the same start. A
+/// set-up that refuses is a result too. Whole macro steps: the last one may reach beyond the duration. InputError for an unknown
+/// precision, or more threads than there are.
+StudyRun study_run(const Problem& problem, const StudyRunOptions& options);
+
+}  // namespace plica

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/study_reference_file.hpp>
+#include <set>
+
+#include "unit/app/child.hpp"
+
+namespace plica::app::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* small_beam = R"(duration: 50 ms
+gravity: [0, 0, -9.81]
+body:
+  levels:
+    - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
+    - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
+  material: {model: neo_hookean, young_modulus: 1 MPa, poisson_ratio: 0.3}
+  fixed: [{plane: {normal: [1, 0, 0]}}]
+study:
+  methods: [single/symplectic_euler, coarse, cycle/rs/equal]
+  macro_steps: [auto, 40 ms]
+  samples: 10
+)";
+
+class StudyCommand : public testing::Test {
+ protected:
+  StudyCommand() { std::ofstream(scene) << small_beam; }
+
+  Child study(std::vector<std::string> more = {}, const std::function<bool(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> words = {PLICA_EXECUTABLE, "study", scene, "-o", out};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_child(words, folder, meanwhile);
+  }
+  Json json() const { return Json::parse(content_of(folder / "out/study.json")); }
+
+  TemporaryFolder folder;
+  std::string scene = folder / "beam.yaml", out = folder / "out";
+};
+
+void expect_number_or_null(const Json& row, const char* name, bool number) {
+  ASSERT_TRUE(row.contains(name)) << name;
+  EXPECT_TRUE(number ? row[name].is_number() : row[name].is_null()) << name << ": " << row[name];
+}
+
+void expect_row(const Json& row) {
+  const std::string status = row.at("status");
+  EXPECT_TRUE(std::set<std::string>({"completed", "diverged", "refused"}).contains(status)) << status;
+  const bool completed = status == "completed";
+  for (const char* name : {"error", "error_velocity", "error_worst_vertex", "wall_time", "wall_time_spread"})
+    expect_number_or_null(row, name, completed);
+  EXPECT_TRUE(row.contains("energy_drift"));
+  EXPECT_TRUE(row.at("method").is_string() && row.at("precision") == "double" && row.at("threads").is_number_integer());
+  EXPECT_TRUE(row.at("pareto").is_boolean() && (completed || !row.at("pareto")));
+  EXPECT_EQ(row.at("reason").is_string(), !completed);
+  expect_number_or_null(row, "macro_step", true);
+  expect_number_or_null(row, "macro_step_over_critical", true);
+  expect_number_or_null(row, "setup_time", status != "refused");
+  expect_number_or_null(row, "work", status != "refused");
+  EXPECT_TRUE(!completed || row.at("timed_runs") >= 3);
+}
+
+TEST_F(StudyCommand, WritesWhatTheInterfaceSays) {
+  const Child run = study();
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const Json study = json();
+  for (const char* name : {"scene", "machine", "reference", "rows"}) EXPECT_TRUE(study.contains(name)) << name;
+  for (const char* name : {"cpu", "backend", "threads", "compiler", "git_revision"})
+    EXPECT_TRUE(study["machine"].contains(name)) << name;
+  EXPECT_GT(study["reference"].at("own_error"), 0);
+  EXPECT_TRUE(study["reference"].at("good_enough"));
+  EXPECT_EQ(study["status"], "completed");
+  std::vector<std::string> methods;
+  for (const Json& row : study["rows"]) {
+    expect_row(row);
+    methods.push_back(row["method"]);
+  }
+  EXPECT_EQ(methods, (std::vector<std::string>{"single/symplectic_euler", "single/symplectic_euler", "coarse/1",
+                                               "cycle/rs", "cycle/rs"}));
+  EXPECT_EQ(study["rows"][0]["work"], 1.0);
+  EXPECT_EQ(study["rows"][4]["distribution"], "equal");
+  for (const char* words : {"Reference: single/rk4", "Under 5 % error: ", "coarse/1", "study.py"})
+    EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
+  const std::string csv = content_of(folder / "out/study.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
+  EXPECT_EQ(csv.find("method,distribution,macro_step,"), 0U);
+}
+
+TEST_F(StudyCommand, GoesOnWithWhatIsThere) {
+  ASSERT_EQ(study({"--quiet"}).status, 0);
+  const Json first = json();
+  Json fewer = first;
+  fewer["rows"].erase(1);
+  std::ofstream(folder / "out/study.json") << fewer;
+  const Child again = study();
+  ASSERT_EQ(again.status, 0) << again.errors;
+  EXPECT_NE(again.errors.find("4 rows there"), std::string::npos) << again.errors;
+  const Json second = json();
+  ASSERT_EQ(second["rows"].size(), 5U);
+  EXPECT_EQ(second["rows"][0], first["rows"][0]) << "measured again";
+  EXPECT_NE(second["rows"][1]["wall_time"], first["rows"][1]["wall_time"]);
+  EXPECT_EQ(second["rows"][1]["error"], first["rows"][1]["error"]);
+  const Child other = study({"--set", "body.material.young_modulus=2 MPa"});
+  EXPECT_EQ(other.errors.find("going on"), std::string::npos) << "with another scene's rows";
+  EXPECT_NE(json()["rows"][0]["error"], first["rows"][0]["error"]);
+}
+
+TEST_F(StudyCommand, CtrlCEndsWithWholeFiles) {
+  const auto stop = [&](pid_t id) {
+    return std::filesystem::exists(folder / "out/study.csv") && kill(id, SIGINT) == 0;
+  };
+  const Child run = study({"--set", "study.methods=[single, coarse, cycle]", "--duration", "1 s"}, stop);
+  EXPECT_EQ(run.status, 130) << run.errors;
+  EXPECT_EQ(json()["status"], "interrupted");
+  EXPECT_FALSE(json()["left_out"].empty());
+  for (const Json& row : json()["rows"]) expect_row(row);
+}
+
+TEST_F(StudyCommand, TheBudgetLeavesOutAndSaysSo) {
+  const Child run = study({"--budget", "1us"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(json()["rows"].size(), 0U);
+  EXPECT_EQ(json()["left_out"].size(), 5U);
+  EXPECT_NE(run.output.find("Left out, 5 runs"), std::string::npos) << run.output;
+}
+
+TEST_F(StudyCommand, BadInputIs2) {
+  const auto refuses = [&](const std::vector<std::string>& more, const std::string& words) {
+    const Child run = study(more);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.errors.find(words), std::string::npos) << run.errors;
+  };
+  refuses({"--set", "study.methods=cycle/rvs"}, "did you mean 'cycle/rsv'");
+  refuses({"--set", "study.methods=[]"}, "study.methods");
+  refuses({"--set", "study.method=single"}, "did you mean 'methods'");
+  refuses({"--set", "study.macro_steps=[1 kg]"}, "study.macro_steps.0");
+  refuses({"--set", "study.precision=half"}, "precision 'half'");
+  refuses({"--set", "study.threads=4096"}, "4096 threads");
+  refuses({"--set", "study.samples=0"}, "study.samples");
+  refuses({"--budget", "soon"}, "--budget");
+  refuses({"--set", "gravity=[0, 0, 0]"}, "nothing moves");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/study.json"));
+}
+
+TEST_F(StudyCommand, CanBeDrawn) {
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  ASSERT_EQ(study({"--quiet"}).status, 0);
+  const Child draw = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", out}, folder);
+  EXPECT_EQ(draw.status, 0) << draw.errors;
+  EXPECT_GT(std::filesystem::file_size(folder / "out/study.png"), 10000U);
+  EXPECT_EQ(run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", folder / "none"}, folder).status, 1);
+}
+
+TEST(ReferenceFile, ReadsBackWhatItWroteAndNothingElse) {
+  StudyReference r;
+  r.method = "single/rk4", r.macro_step = 1e-3, r.own_error = 0.1 / 3, r.seconds_per_evaluation = 1e-8;
+  r.trajectory = {{0.5, 1}, {{{1, 2, 3}}, {{4, 5, 6}}}, {{{7, 8, 9}}, {{1, 0, 1}}}};
+  const std::string bytes = reference_bytes(r, 7);
+  const auto back = parse_reference(bytes, 7);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->own_error, r.own_error);
+  EXPECT_EQ(back->trajectory.times, r.trajectory.times);
+  EXPECT_EQ(back->trajectory.u, r.trajectory.u);
+  EXPECT_EQ(back->trajectory.v, r.trajectory.v);
+  EXPECT_FALSE(back->finer);
+  EXPECT_FALSE(parse_reference(bytes, 8)) << "of another problem";
+  EXPECT_FALSE(parse_reference(bytes.substr(0, bytes.size() - 8), 7));
+  EXPECT_FALSE(parse_reference({}, 7));
+  std::string damaged = bytes;
+  damaged.back() = static_cast<char>(damaged.back() ^ 1);
+  EXPECT_FALSE(parse_reference(damaged, 7));
+  r.finer = r.trajectory, r.space_error = 0.2;
+  EXPECT_EQ(parse_reference(reference_bytes(r, 7), 7)->finer->u, r.trajectory.u);
+}
+
+}  // namespace
+}  // namespace plica::app::test
