@@ -44,11 +44,6 @@ void check_body(const Body& body) {
   for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
     validate_selection(numbered("body.prescribed", i), body.prescribed[i].where);
     validate_motion(numbered("body.prescribed", i), body.prescribed[i].motion);
-    if (const auto* path = std::get_if<PathMotion>(&body.prescribed[i].motion);
-        path && path->knots.front().displacement.norm() > 0)
-      throw InputError(numbered("body.prescribed", i) +
-                       ".path.0.displacement is not zero: the body would be torn at the "
-                       "start; expected [0, 0, 0] first");
   }
   for (std::size_t i = 0; i < body.loads.size(); ++i) validate_load(numbered("body.loads", i), body.loads[i]);
 }
@@ -118,6 +113,11 @@ std::vector<std::string> doubts(const Problem& problem) {
       sentences.push_back("body.levels: level " + std::to_string(i) + " is not coarser than level " +
                           std::to_string(i - 1) + ": " + std::to_string(levels[i].tets.size()) + " tetrahedra after " +
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
+  for (std::size_t i = 0; i < problem.body.prescribed.size(); ++i)
+    if (const auto* path = std::get_if<PathMotion>(&problem.body.prescribed[i].motion);
+        path && path->knots.front().displacement.norm() > 0)
+      sentences.push_back("body.prescribed." + std::to_string(i) +
+                          ".path does not start at [0, 0, 0]: the body is torn from its rest at once");
   return sentences;
 }
 
