@@ -4,7 +4,6 @@
 
     run.py FOLDER          writes FOLDER/run.png
 """
-import argparse
 import pathlib
 import re
 import sys
@@ -17,6 +16,7 @@ import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import body
+import command
 import frames
 
 WIDTH = 14  # inches
@@ -130,14 +130,5 @@ def draw(folder):
     return path
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path, help="what plica run wrote")
-    try:
-        print(draw(parser.parse_args().folder))
-    except OSError as error:
-        sys.exit(f"error: {error.filename}: {error.strerror}")
-
-
 if __name__ == "__main__":
-    main()
+    command.draw_folder(draw, __doc__, "what plica run wrote")

@@ -4,7 +4,6 @@
 
     study.py FOLDER          writes FOLDER/study.png
 """
-import argparse
 import json
 import pathlib
 import sys
@@ -13,6 +12,9 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import command
 
 # Of a family: colour and marker. Their lightness differs too, so that a print in grey tells them apart.
 SINGLE = [("#000000", "o"), ("#5a2d82", "s"), ("#7a7a7a", "D"), ("#a05a9a", "h")]
@@ -130,14 +132,5 @@ def draw(folder):
     return path
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path, help="what plica study wrote")
-    try:
-        print(draw(parser.parse_args().folder))
-    except OSError as error:
-        sys.exit(f"error: {error.filename}: {error.strerror}")
-
-
 if __name__ == "__main__":
-    main()
+    command.draw_folder(draw, __doc__, "what plica study wrote")

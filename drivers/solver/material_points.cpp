@@ -22,9 +22,7 @@ MaterialPoints<B>::MaterialPoints(const TetMesh& mesh, const std::vector<Point>&
 template <class B>
 auto MaterialPoints<B>::sample(const Exec& exec, const Vectors<B>& displacement, const Vectors<B>& velocity) const
     -> Motion {
-  State<B> from;
-  from.u = displacement, from.v = velocity;
-  map_fields<B, MapState>(exec, "plica::material_points", transfer_, from, {}, {}, gathered_, {});
+  map_fields<B, MapState>(exec, "plica::material_points", transfer_, {displacement, velocity}, {}, {}, gathered_, {});
   return {to_host<B>(exec, gathered_.u), to_host<B>(exec, gathered_.v)};
 }
 

@@ -3,27 +3,13 @@
 
 #include <cmath>
 #include <plica/drivers/app/output/history.hpp>
+#include <plica/drivers/solver/set_up/lumped_masses.hpp>
 
 namespace plica::app {
 
 std::vector<double> vertex_masses(const Body& body, int level) {
   const TetMesh& mesh = body.levels[static_cast<std::size_t>(level)];
-  std::vector<double> densities;
-  for (const std::string& name : mesh.region_names) {
-    const auto own = body.regions.find(name);
-    densities.push_back(own == body.regions.end() ? body.material.density
-                                                  : own->second.density.value_or(body.material.density));
-  }
-  std::vector<double> masses(mesh.vertices.size(), 0.0);
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const auto corner = [&](std::size_t k) { return static_cast<std::size_t>(mesh.tets[e][k]); };
-    const double volume = tet_volume(mesh.vertices[corner(0)], mesh.vertices[corner(1)], mesh.vertices[corner(2)],
-                                     mesh.vertices[corner(3)]);
-    const double density =
-        mesh.region.empty() ? body.material.density : densities[static_cast<std::size_t>(mesh.region[e])];
-    for (std::size_t k = 0; k < 4; ++k) masses[corner(k)] += density * volume / 4;
-  }
-  return masses;
+  return lumped_masses(mesh, region_densities(body, mesh));
 }
 
 namespace {

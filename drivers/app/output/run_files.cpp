@@ -78,8 +78,12 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
       history_(folder / "history.csv", vertex_masses(body_), from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
-  for (const int level : volume_levels_)
+  for (const int level : volume_levels_) {
     volume_frames_.emplace_back(folder, volume_name(level), volume_name(level) + ".pvd", frame_times_);
+    const auto i = static_cast<std::size_t>(level);
+    volumes_.push_back({in_input_order(body_.levels[i], numbering_[i]),
+                        in_input_order(vertex_masses(body_, level), numbering_[i].input.vertices)});
+  }
   if (body_.surface) {
     skin_ = *body_.surface;
   } else {
@@ -94,7 +98,7 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
 void RunFiles::write(const Snapshot& snapshot) {
   surface_frames_.write(surface_grid(snapshot));
   for (std::size_t i = 0; i < volume_frames_.size(); ++i)
-    volume_frames_[i].write(volume_grid(snapshot.volumes[i], snapshot.time));
+    volume_frames_[i].write(volume_grid(snapshot.volumes[i], volumes_[i], snapshot.time));
   history_.write(snapshot);
   frame_times_.push_back(snapshot.time);
 }
@@ -117,11 +121,10 @@ VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   return grid;
 }
 
-VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, double time) const {
+VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& constant, double time) const {
   VtuGrid grid;
-  const auto level = static_cast<std::size_t>(volume.level);
-  const Numbering& numbering = numbering_[level];
-  const TetMesh mesh = in_input_order(body_.levels[level], numbering);
+  const Numbering& numbering = numbering_[static_cast<std::size_t>(volume.level)];
+  const TetMesh& mesh = constant.mesh;
   const std::vector<int>&vertices = numbering.input.vertices, &tets = numbering.input.tets;
   grid.time = time;
   grid.points = in_input_order(volume.positions, vertices);
@@ -129,7 +132,7 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, double time) const {
   grid.vertices_per_cell = 4;
   grid.point_fields = {{"displacement", displacements(grid.points, mesh.vertices, placement_)},
                        {"velocity", in_input_order(volume.velocities, vertices)}};
-  grid.point_scalars = {{"mass", in_input_order(vertex_masses(body_, volume.level), vertices)}};
+  grid.point_scalars = {{"mass", constant.mass}};
   grid.cell_scalars = {{"von_mises", in_input_order(volume.elements.von_mises, tets)},
                        {"J", in_input_order(volume.elements.J, tets)}};
   const bool has_numbers = !numbering.tet_ids.empty();  // a reader must not take them for regions

@@ -31,8 +31,12 @@ class RunFiles {
   void sync();
 
  private:
+  struct Volume {  // a written level: what stays the same, in input order
+    TetMesh mesh;
+    std::vector<double> mass;
+  };
   VtuGrid surface_grid(const Snapshot& snapshot) const;
-  VtuGrid volume_grid(const VolumeSnapshot& volume, double time) const;
+  VtuGrid volume_grid(const VolumeSnapshot& volume, const Volume& constant, double time) const;
 
   Body body_;                                // with the regions that are selected
   const std::vector<Numbering>& numbering_;  // of its levels
@@ -40,6 +44,7 @@ class RunFiles {
   TriangleSurface skin_;          // the embedded surface, else the boundary of level 0, at rest
   std::vector<int> skin_vertex_;  // of that boundary: its vertices' numbers in level 0
   std::vector<int> volume_levels_;
+  std::vector<Volume> volumes_;
   std::vector<double> frame_times_;
   Frames surface_frames_;
   std::vector<Frames> volume_frames_;

@@ -7,6 +7,8 @@
 namespace plica {
 
 void add_regions(TetMesh& mesh, const std::map<std::string, RegionOptions>& regions, int level) {
+  if (std::none_of(regions.begin(), regions.end(), [](const auto& entry) { return entry.second.where.has_value(); }))
+    return;
   const TetMesh given = mesh;
   std::vector<const std::string*> owner(mesh.tets.size(), nullptr);
   for (const auto& [name, options] : regions) {

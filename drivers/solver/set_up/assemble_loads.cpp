@@ -62,11 +62,8 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
   using Real = typename B::Real;
   std::vector<Load<B>> all;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    std::vector<std::array<Real, 3>> force;
-    for (const Point& f : loads[i].force)
-      force.push_back({static_cast<Real>(f[0]), static_cast<Real>(f[1]), static_cast<Real>(f[2])});
-    all.push_back({static_cast<int>(force.size()), to_device<Indices<B>>("load.vertex", loads[i].vertex),
-                   to_device<Vectors<B>>("load.force", force), body.loads[i].course});
+    all.push_back({static_cast<int>(loads[i].force.size()), to_device<Indices<B>>("load.vertex", loads[i].vertex),
+                   to_device<Vectors<B>>("load.force", rows<Real>(loads[i].force)), body.loads[i].course});
   }
   return all;
 }

@@ -4,6 +4,7 @@
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/initial_velocity.hpp>
+#include <plica/drivers/solver/set_up/lumped_masses.hpp>
 #include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
@@ -61,15 +62,9 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     const RegionOptions o = own == body.regions.end() ? RegionOptions{} : own->second;
     c.lame.push_back(lame_constants(o.young_modulus.value_or(body.material.young_modulus),
                                     o.poisson_ratio.value_or(body.material.poisson_ratio)));
-    c.density.push_back(o.density.value_or(body.material.density));
   }
-  c.mass.assign(mesh.vertices.size(), 0);
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const auto& t = mesh.tets[e];
-    const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-    const double density = c.density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])];
-    for (int v : t) c.mass[static_cast<std::size_t>(v)] += density * tet_volume(x(0), x(1), x(2), x(3)) / 4;
-  }
+  c.density = region_densities(body, mesh);
+  c.mass = lumped_masses(mesh, c.density);
   constrain(c, body, mesh, level);
   c.velocity.assign(mesh.vertices.size(), Point::Zero());
   if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);  // the others take it from there
@@ -79,10 +74,6 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
 template <class B>
 Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c) {
   using Real = typename B::Real;
-  using Row = std::array<Real, 3>;
-  const auto row = [](const Point& p) {
-    return Row{static_cast<Real>(p[0]), static_cast<Real>(p[1]), static_cast<Real>(p[2])};
-  };
   const std::size_t n = placed.vertices.size();
   Level<B> level;
   level.model.vertices = static_cast<int>(n);
@@ -91,11 +82,11 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.model.patches = build_patches<B>(placed, c.lame);
 
   std::vector<Real> mass(n), inverse(n);
-  std::vector<Row> velocity(n), displacement(n);
+  std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
   for (std::size_t v = 0; v < n; ++v) {
     mass[v] = static_cast<Real>(c.mass[v]);
     inverse[v] = c.constrained[v] ? Real(0) : static_cast<Real>(1 / c.mass[v]);
-    if (!c.constrained[v]) velocity[v] = row(c.velocity[v]);
+    if (!c.constrained[v]) velocity[v] = c.velocity[v];
   }
   std::vector<PathKnot> knots;
   std::vector<Path> paths;
@@ -104,15 +95,12 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   for (std::size_t i = 0; i < c.prescribed_vertex.size(); ++i) {
     const auto v = static_cast<std::size_t>(c.prescribed_vertex[i]);
     const PathPoint at = path_at(paths[static_cast<std::size_t>(c.prescribed_motion[i])], knots.data(), 0);
-    for (std::size_t k = 0; k < 3; ++k) {
-      displacement[v][k] = static_cast<Real>(at.displacement[static_cast<int>(k)]);
-      velocity[v][k] = static_cast<Real>(at.velocity[static_cast<int>(k)]);
-    }
+    for (int k = 0; k < 3; ++k) displacement[v][k] = at.displacement[k], velocity[v][k] = at.velocity[k];
   }
   level.model.mass = to_device<Scalars<B>>("model.mass", mass);
   level.model.inverse_mass = to_device<Scalars<B>>("model.inverse_mass", inverse);
-  level.state.u = to_device<Vectors<B>>("state.u", displacement);
-  level.state.v = to_device<Vectors<B>>("state.v", velocity);
+  level.state.u = to_device<Vectors<B>>("state.u", rows<Real>(displacement));
+  level.state.v = to_device<Vectors<B>>("state.v", rows<Real>(velocity));
   level.f = Vectors<B>("plica::work.f", n);
   level.partial = Vectors<B>("plica::work.partial", level.model.patches.vertex.extent(0));
   Materials::visit(body.material.model, [&](auto material) {
