@@ -91,6 +91,9 @@ void Simulation<B>::read_surface_velocities(const DeviceOutput<B>& to) const {
 template <class B>
 void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities) {
   const State<B>& state = inside_->level(0).state;
+  if (velocities.size() != positions.size())  // before anything is written
+    throw InputError(std::to_string(positions.size()) + " positions and " + std::to_string(velocities.size()) +
+                     " velocities");
   write_positions<B>(inside_->hierarchy().exec(), positions, inside_->rest_positions(0), state.u);
   write_vectors<B>(inside_->hierarchy().exec(), velocities, state.v);
   inside_->restart();

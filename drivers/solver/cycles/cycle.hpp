@@ -16,6 +16,12 @@ class Cycle {
   virtual void step(Hierarchy<B>& hierarchy, double time, double t) = 0;
 };
 
+/// Where motions are given, all levels are at the same time before any of them is looked at.
+template <class B>
+void prescribe_levels(Hierarchy<B>& hierarchy, double time) {
+  for (auto& part : hierarchy.levels) prescribe(hierarchy.exec(), part.level, part.level.state, time);
+}
+
 /// Level i's own part of a macro step, from `time` [s]; returns the time it ends at.
 template <class B>
 double integrate(Hierarchy<B>& hierarchy, int i, double time, double t) {

@@ -28,7 +28,10 @@ class FasCycle final : public Cycle<B> {
   }
 
   void step(Hierarchy<B>& h, double time, double t) override {
-    if (h.count() > 1) h[0].forces->evaluate(h[0].level, h[0].level.state, time, h[0].level.f);
+    if (h.count() > 1) {
+      prescribe_levels(h, time);
+      h[0].forces->evaluate(h[0].level, h[0].level.state, time, h[0].level.f);
+    }
     for (int i = 1; i < h.count(); ++i) {
       restrict_state(h, i);
       correct(h, i, time);

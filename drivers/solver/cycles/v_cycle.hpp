@@ -39,8 +39,7 @@ class VCycle final : public Cycle<B> {
 
   void step(Hierarchy<B>& h, double time, double t) override {
     const int coarsest = h.count() - 1;
-    // where motions are given all levels are at the same time before any of them is looked at
-    for (int i = 0; i <= coarsest && coarsest > 0; ++i) prescribe(h.exec(), h[i].level, h[i].level.state, time);
+    if (coarsest > 0) prescribe_levels(h, time);
     if (coarsest > 0) remember_start(h, 0);
     for (int i = 1; i <= coarsest; ++i) {
       restrict_state(h, i);

@@ -105,6 +105,9 @@ TYPED_TEST(DeviceArrays, OfAnotherSizeAreRefused) {
   EXPECT_THROW(simulation.read_velocities(few, 1), InputError);
   EXPECT_THROW(simulation.read_surface_positions(few), InputError);
   EXPECT_THROW(simulation.write_state(few, few), InputError);
+  const auto before = simulation.positions();
+  EXPECT_THROW(simulation.write_state(Vectors<TypeParam>("x", before.size()), few), InputError);
+  EXPECT_EQ(simulation.positions(), before);
   EXPECT_THROW(simulation.read_positions(simulation.velocity(1), 2), InputError);
   const Kokkos::View<float**, typename TypeParam::Memory> flat("flat", simulation.positions().size(), 2);
   EXPECT_THROW(simulation.read_positions(flat), InputError);

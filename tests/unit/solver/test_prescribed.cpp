@@ -74,6 +74,23 @@ TYPED_TEST(Prescribed, IsOnEveryLevelAtItsOwnTime) {
   }
 }
 
+// A body that moves as one of its sides is led stays free of stress on all levels.
+TYPED_TEST(Prescribed, LeadsABodyThatMovesAlong) {
+  using Real = typename TypeParam::Real;
+  for (const std::string& cycle : names(cycles())) {
+    SCOPED_TRACE(cycle);
+    const Point drift(0.2, -0.1, 0.3);
+    Problem p = cube_levels(3, 4, cycle);
+    p.body.prescribed = {{left_face(), SteadyMotion(drift)}};
+    p.body.initial.velocity = drift;
+    p.integration.macro_step = 4e-4;
+    Simulation<TypeParam> simulation(p);
+    advance(simulation, 20);
+    for (const Point& u : displacements(simulation, p.body.levels[0]))
+      EXPECT_LE((u - simulation.time() * drift).norm(), round_off<Real>(1000, 0.1));
+  }
+}
+
 // A body whose one side is pulled follows, at first by elastic forces only.
 TEST(Prescribed, PullsTheBodyAlong) {
   for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
