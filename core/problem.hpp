@@ -84,6 +84,13 @@ struct ImplicitOptions {
   double newton_tolerance = 1e-6;   ///< on |residual| relative to the first, where newton_iterations > 1
 };
 
+/// Of the cycle `him`.
+struct HimOptions {
+  double sigma = 0.8;                 ///< part of the stability limit that steps use at rest, in (0, 1)
+  std::optional<double> dissipation;  ///< of slowed motion, per step, in [0, 1); none: by how fast the body turns
+  bool smoothing = true;              ///< of its transfers
+};
+
 /// How a body is stepped in time.
 struct IntegrationOptions {
   std::string cycle = "single";           ///< a name of drivers/solver/cycles/list.hpp
@@ -98,6 +105,7 @@ struct IntegrationOptions {
   double switch_threshold = 0.1;  ///< epsilon of the switched mappings, > 0
   std::string outside = "clamp";  ///< clamp | extrapolate | keep: vertices outside the other mesh
   ImplicitOptions implicit;       ///< of implicit levels
+  HimOptions him;                 ///< of the hierarchical inverse mass
 };
 
 /// Penalty contact of the embedded surface's vertices. The scales multiply, per surface point, the stiffness E A / h

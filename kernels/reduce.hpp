@@ -30,7 +30,7 @@ template <class B>
 class BlockSums {
  public:
   static constexpr int block = 512;  ///< items added up by one team, whatever the number of threads
-  static constexpr int widest = 8;
+  static constexpr int widest = 16;
   BlockSums() = default;
   explicit BlockSums(int items) : sums_("plica::block_sums", (items + block - 1) / block + 1) {}
   const Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory>& view() const { return sums_; }

@@ -48,6 +48,13 @@ class ObstacleOf final : public Obstacle<B> {
                  double ahead, bool first, const ContactPoints<B>& points) const override {
     launch<true>(exec, surface, s, time, h, ahead, first, points);
   }
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
+            const TouchingPoints<B>& points) const override {
+    const PathPoint now = at(time, 0);
+    Kokkos::parallel_for("plica::find_touching", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
+                         FindTouching<B, Shape>{surface, s, shape_, rounded(now.displacement), rounded(now.velocity),
+                                                law_, first, points});
+  }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
               const BlockSums<B>& blocks, const Kokkos::View<double*, typename B::Memory>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
@@ -67,7 +74,7 @@ Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& materi
   stiffness_ = options.stiffness_scale * material.young_modulus * per_point / edge;
   const double critical = std::sqrt(stiffness_ * material.density * per_point * edge);  // 2 * 0.5 * sqrt(k m)
   const double normal = options.damping_scale * critical, tangential = options.tangential_damping_scale * critical;
-  damping_ = normal;
+  damping_ = normal_damping_ = normal;
   for (const ObstacleOptions& o : options.obstacles) {
     if (o.friction) damping_ = std::max(damping_, tangential);
     const PenaltyLaw<Real> law{static_cast<Real>(stiffness_), static_cast<Real>(normal),
@@ -105,6 +112,12 @@ void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<
   for (std::size_t i = 0; i < obstacles_.size(); ++i)
     obstacles_[i]->linearise(exec, level.surface, s, time, h, ahead, i == 0, points);
   scatter_to_vertices<B>(exec, level.surface, points.force, f);
+}
+
+template <class B>
+void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+                      const TouchingPoints<B>& points) const {
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i]->find(exec, level.surface, s, time, i == 0, points);
 }
 
 template <class B>

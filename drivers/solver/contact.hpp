@@ -3,6 +3,7 @@
 #include <memory>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/implicit/newton_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
@@ -29,6 +30,9 @@ class Obstacle {
   /// The same with the blocks of an implicit step h; contact is predicted `ahead` of the state [s].
   virtual void linearise(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double h, double ahead,
                          bool first, const ContactPoints<B>&) const = 0;
+  /// Makes it the nearest obstacle of the points that it is the nearest of, so far.
+  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, bool first,
+                    const TouchingPoints<B>&) const = 0;
   /// Energy stored in its penalties [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const BlockSums<B>&,
                       const Kokkos::View<double*, typename B::Memory>& result) const = 0;
@@ -52,6 +56,8 @@ class Contact {
                   const Vectors<B>& f) const;
   void linearise(const Exec&, const Level<B>&, const State<B>&, double time, double h, double ahead,
                  const ContactPoints<B>&, const Vectors<B>& f) const;
+  /// The nearest obstacle of every point of a state.
+  void find(const Exec&, const Level<B>&, const State<B>&, double time, const TouchingPoints<B>&) const;
   /// q += W^T block W p, and diagonal += its vertex blocks
   void add_product(const Exec&, const Level<B>&, const Vectors<B>& p, const ContactPoints<B>&,
                    const Vectors<B>& q) const;
@@ -60,11 +66,13 @@ class Contact {
 
   double stiffness() const { return stiffness_; }  ///< of a point [N/m]
   double damping() const { return damping_; }      ///< the larger of its coefficients [N s/m]
-  std::size_t grid_bytes() const;                  ///< of sampled distances
+  double normal_damping() const { return normal_damping_; }
+  int points() const { return points_; }
+  std::size_t grid_bytes() const;  ///< of sampled distances
 
  private:
   int points_;
-  double stiffness_, damping_;
+  double stiffness_, normal_damping_, damping_;
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
 };
 

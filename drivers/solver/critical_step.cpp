@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <plica/drivers/solver/critical_step.hpp>
+#include <plica/drivers/solver/tridiagonal.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/spectrum/scaled_operator.hpp>
@@ -51,9 +51,9 @@ class Lanczos {
       alphas.push_back(alpha);
       const bool last = !(beta > 1e-12 * std::abs(alpha));
       if (k % 5 == 4 || last) {
-        double residual = 0;
-        value = top(alphas, betas, beta, residual);
-        if (residual < 1e-3 * value || last) return value + residual;
+        const RitzBound top = largest_ritz_bound(alphas, betas, beta);
+        value = top.value;
+        if (top.residual < 1e-3 * value || last) return value + top.residual;
       }
       betas.push_back(beta);
       scale = 1 / beta;
@@ -96,20 +96,6 @@ class Lanczos {
     }
     return sum("plica::lanczos_product", LanczosProduct<B>{level_.model, level_.partial, contact_, v_, before_, w_,
                                                            static_cast<Real>(beta), stiffness_ > 0});
-  }
-
-  /// The largest eigenvalue of the tridiagonal matrix, and how far it can be from one of the operator's.
-  static double top(const std::vector<double>& alphas, const std::vector<double>& betas, double beta,
-                    double& residual) {
-    const Eigen::VectorXd diagonal =
-        Eigen::Map<const Eigen::VectorXd>(alphas.data(), static_cast<Eigen::Index>(alphas.size()));
-    const Eigen::VectorXd beside =
-        Eigen::Map<const Eigen::VectorXd>(betas.data(), static_cast<Eigen::Index>(betas.size()));
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(diagonal, beside);
-    const Eigen::Index last = diagonal.size() - 1;
-    residual = beta * std::abs(solver.eigenvectors()(last, last));
-    return solver.eigenvalues()(last);
   }
 };
 

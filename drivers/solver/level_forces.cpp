@@ -35,9 +35,15 @@ void LevelForces<B>::add_loads(const Level<B>& level, double time, const Vectors
 
 template <class B>
 void LevelForces<B>::evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f) {
+  evaluate_without_contact(level, state, time, f);
+  if (contact_) book("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
+}
+
+template <class B>
+void LevelForces<B>::evaluate_without_contact(const Level<B>& level, const State<B>& state, double time,
+                                              const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
   add_loads(level, time, f);
-  if (contact_) book("contact", [&] { contact_->add_forces(clock_->exec(), level, state, time, points_, f); });
   if (external_) book("external", [&] { ask_caller(level, state, time, 0, 0, f); });
   add_correction(f);
 }

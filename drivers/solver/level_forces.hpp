@@ -22,6 +22,8 @@ class LevelForces {
 
   /// f = the forces of a state of this level at a time [s].
   void evaluate(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f);
+  /// The same but for contact.
+  void evaluate_without_contact(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f);
 
   /// Linearises about a state for an implicit step h: f as above with loads and contact `ahead` of it [s].
   void linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,

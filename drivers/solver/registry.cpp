@@ -40,6 +40,12 @@ bool uses_coarse_levels(std::string_view cycle) {
   return uses;
 }
 
+bool integrates_coarse_levels(std::string_view cycle) {
+  bool integrates = false;
+  Cycles::visit(cycle, [&](auto member) { integrates = decltype(member)::integrates_coarse_levels; });
+  return integrates;
+}
+
 std::vector<std::string> names(const std::vector<Choice>& choices) {
   std::vector<std::string> list;
   for (const Choice& choice : choices) list.push_back(choice.name);

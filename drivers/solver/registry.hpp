@@ -22,6 +22,8 @@ std::vector<Choice> linear_solvers();   ///< of implicit levels
 
 /// Whether that cycle uses more than the finest level; false for a name it does not know.
 bool uses_coarse_levels(std::string_view cycle);
+/// Whether coarser levels have states of their own there, and shares of the macro step.
+bool integrates_coarse_levels(std::string_view cycle);
 
 /// Their names alone, in the same order.
 std::vector<std::string> names(const std::vector<Choice>& choices);

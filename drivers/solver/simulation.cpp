@@ -20,18 +20,13 @@ Simulation<B>::~Simulation() = default;
 
 template <class B>
 void Simulation<B>::step() {
-  Inside& s = *inside_;
-  for (auto& part : s.hierarchy().levels) part.forces->begin_macro_step();
-  s.built.cycle->step(s.hierarchy(), s.time, s.built.macro_step);
-  s.time = static_cast<double>(++s.steps) * s.built.macro_step;
-  s.residual = 0;
-  for (const auto& part : s.hierarchy().levels) s.residual = std::max(s.residual, part.integrator->residual());
-  s.worst_residual = std::max(s.worst_residual, s.residual);
+  inside_->step();
 }
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
   Inside& s = *inside_;
+  if (s.built.cycle->alarmed(s.hierarchy()) && !s.repair()) return locate_failure<B>("stability", s.built, s.kept);
   if (s.budget_opens) s.open_budget();
   const Energies e = s.meter.motion();
   if (auto inverted = find_inverted<B>(s.built)) return inverted;
@@ -48,14 +43,7 @@ std::optional<Diagnosis> Simulation<B>::check() {
 
 template <class B>
 void Simulation<B>::return_to_last_good() {
-  Inside& s = *inside_;
-  for (std::size_t i = 0; i < s.kept.size(); ++i) {
-    Level<B>& level = s.hierarchy().levels[i].level;
-    level.state.copy(s.hierarchy().exec(), s.kept[i]);
-    level.flags.clear(s.hierarchy().exec());
-  }
-  s.built.cycle->begin(s.hierarchy());
-  s.time = s.kept_time, s.steps = s.kept_steps;
+  inside_->go_back();
 }
 
 template <class B>

@@ -28,7 +28,8 @@ struct LevelReport {
   double mass = 0;           ///< [kg]
   double critical_step = 0;  ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
   double element_bound = 0;  ///< the same from the worst single element: on the sure side, without contact [s]
-  double share = 0;          ///< of the macro step
+  double share = 0;          ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
+  double inertia = 1;        ///< cycle him: how many times too heavy motion is that only this level represents
   int substeps = 0;          ///< in its share
   std::string integrator;    ///< its name
   bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
@@ -36,6 +37,14 @@ struct LevelReport {
   int outside_up = 0;               ///< the next finer level's vertices outside its mesh
   int massless = 0;                 ///< its vertices without one of the next finer level in their elements (cycle fas)
   double largest_miss = 0;          ///< their largest distance over the local edge length
+};
+
+/// How far the cycle `him` is from its limit at rest.
+struct HimReport {
+  double product = 0;      ///< t^2 times the largest eigenvalue of A K; below 4 is stable
+  double bound = 0;        ///< of that, from each level's own eigenvalue: never less
+  int coarsest = 0;        ///< vertices of the coarsest level
+  bool all_modes = false;  ///< whether each of its modes has its own frequency
 };
 
 /// Energies of level 0.
@@ -100,6 +109,7 @@ class Simulation {
   double macro_step() const;                       ///< [s]
   long macro_steps() const;                        ///< done
   const std::vector<LevelReport>& levels() const;  ///< finest first; only those the cycle uses
+  std::optional<HimReport> him() const;            ///< of that cycle
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
   std::map<std::string, double> stages()

@@ -55,9 +55,36 @@ struct Simulation<B>::Inside {
     return x;
   }
 
+  void step() {
+    for (auto& part : hierarchy().levels) part.forces->begin_macro_step();
+    built.cycle->step(hierarchy(), time, built.macro_step);
+    time = static_cast<double>(++steps) * built.macro_step;
+    residual = 0;
+    for (const auto& part : hierarchy().levels) residual = std::max(residual, part.integrator->residual());
+    worst_residual = std::max(worst_residual, residual);
+  }
+
   void keep() {
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].level.state);
     kept_time = time, kept_steps = steps;
+  }
+  void go_back() {
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      Level<B>& level = hierarchy().levels[i].level;
+      level.state.copy(hierarchy().exec(), kept[i]);
+      level.flags.clear(hierarchy().exec());
+    }
+    built.cycle->begin(hierarchy());
+    time = kept_time, steps = kept_steps;
+  }
+  /// From the last kept state once more to where it is, by a cycle that has lost stability since; false where it cannot.
+  bool repair() {
+    for (const long there = steps; built.cycle->alarmed(hierarchy());) {
+      go_back();
+      if (!built.cycle->repair(hierarchy(), built.macro_step)) return false;
+      while (steps < there) step();
+    }
+    return true;
   }
   void open_budget() {
     const Energies e = meter.all(time);

@@ -26,6 +26,7 @@ void persist(Inside& s, StateArchive<B>& archive) {
     part.forces->persist(archive);
     part.integrator->persist(archive);
   }
+  s.built.cycle->persist(archive);
   archive.finish();
 }
 

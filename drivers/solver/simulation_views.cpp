@@ -23,6 +23,10 @@ const std::vector<LevelReport>& Simulation<B>::levels() const {
   return inside_->built.reports;
 }
 template <class B>
+std::optional<HimReport> Simulation<B>::him() const {
+  return inside_->built.him;
+}
+template <class B>
 std::vector<Part> Simulation<B>::parts() const {
   return list_parts<B>(inside_->problem, inside_->built);
 }
@@ -38,7 +42,7 @@ std::map<std::string, double> Simulation<B>::stages() const {
 
 template <class B>
 std::map<std::string, long> Simulation<B>::counters() const {
-  std::map<std::string, long> all;
+  std::map<std::string, long> all = inside_->built.cycle->counters();
   for (const auto& part : inside_->hierarchy().levels) {
     all["force_evaluations"] += part.forces->evaluations();
     long passes = part.forces->evaluations();  // over the elements

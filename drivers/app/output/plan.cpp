@@ -20,11 +20,27 @@ std::string head_text(const Scene& scene, const Plan& plan) {
              {{"time", fmt::format("{:g} s in {} of {}", scene.duration,
                                    counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
                                    in_units(plan.macro_step, "s"))},
-              {"cycle", fmt::format("{}, {} shares{}", i.cycle, i.distribution, shift)},
+              {"cycle",
+               fmt::format("{}{}", i.cycle, plan.him ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
               {"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", m.model, in_units(m.young_modulus, "Pa"),
                                        m.poisson_ratio, m.density)},
               {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
              "<<");
+}
+
+// What cycle him does with the levels
+std::string inertia_text(const Plan& plan) {
+  std::vector<std::vector<std::string>> rows = {{"level", "inertia of its own detail", "macro step / critical step"}};
+  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
+    const LevelReport& level = plan.levels[i];
+    const bool limited = level.critical_step > 0;
+    rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia),
+                    limited ? fmt::format("{:.3g}", plan.macro_step / level.critical_step) : ""});
+  }
+  return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>") +
+         fmt::format(
+             "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the levels' own: {:.3f}\n",
+             plan.him->product, plan.him->bound);
 }
 
 // Two tables: what a level is, then what it does in a macro step
@@ -35,17 +51,20 @@ std::string levels_text(const Plan& plan) {
       {"level", "share", "time", "sub-steps", "of", "of / critical", "integrator"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
-    const double time = level.share * plan.macro_step, substep = time / level.substeps;
     meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets),
-                      in_units(level.mean_edge, "m"), in_units(level.mass, "kg"), in_units(level.critical_step, "s"),
+                      in_units(level.mean_edge, "m"), in_units(level.mass, "kg"),
+                      level.critical_step > 0 ? in_units(level.critical_step, "s") : "",
                       in_units(level.element_bound, "s")});
+    if (level.share == 0) continue;
+    const double time = level.share * plan.macro_step, substep = time / level.substeps;
     steps.push_back({std::to_string(i), fmt::format("{:.4f}", level.share), in_units(time, "s"),
                      std::to_string(level.substeps), in_units(substep, "s"),
                      fmt::format("{:.2f}", substep / level.critical_step),
                      level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
   }
-  return "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") +
-         "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
+  const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>");
+  if (plan.him) return list + inertia_text(plan);
+  return list + "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
 }
 
 std::string transfers_text(const Plan& plan) {
@@ -91,6 +110,11 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                      {"backend", plan.backend},
                      {"threads", plan.threads},
                      {"levels", levels_json(plan.levels)},
+                     {"him", plan.him ? Json{{"product", plan.him->product},
+                                             {"bound", plan.him->bound},
+                                             {"coarsest_vertices", plan.him->coarsest},
+                                             {"all_modes", plan.him->all_modes}}
+                                      : Json(nullptr)},
                      {"parts", parts}};
   return json.dump(2) + "\n";
 }

@@ -14,6 +14,7 @@ struct Plan {
   int threads = 0;
   std::string precision;
   std::vector<LevelReport> levels;
+  std::optional<HimReport> him;
   std::vector<Part> parts;
 };
 

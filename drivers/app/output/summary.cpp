@@ -40,6 +40,7 @@ Json levels_json(const std::vector<LevelReport>& levels) {
                     {"share", level.share},
                     {"substeps", level.substeps},
                     {"integrator", level.integrator},
+                    {"inertia", level.inertia},
                     {"outside_down", level.outside_down},
                     {"outside_up", level.outside_up},
                     {"largest_miss", level.largest_miss}});

@@ -115,13 +115,14 @@ void check_output(const Scene& scene, const Tree& tree) {
     throw InputError("output.probe_every: there are no probes; give output.probes",
                      place_of(tree, "output.probe_every"));
   const std::string& cycle = scene.problem.integration.cycle;
-  const std::size_t in_use = uses_coarse_levels(cycle) ? scene.levels.size() : 1;
+  const std::size_t in_use = integrates_coarse_levels(cycle) ? scene.levels.size() : 1;
   for (const int level : output.volume.levels)
     if (static_cast<std::size_t>(level) >= in_use)
-      throw InputError(fmt::format("output.volume: there is no level {}: the cycle '{}' uses {} of {} in body.levels, "
-                                   "counted from 0",
-                                   level, cycle, in_use, scene.levels.size()),
-                       place_of(tree, "output.volume"));
+      throw InputError(
+          fmt::format("output.volume: there is no level {}: the cycle '{}' integrates {} of {} in body.levels, "
+                      "counted from 0",
+                      level, cycle, in_use, scene.levels.size()),
+          place_of(tree, "output.volume"));
 }
 
 }  // namespace

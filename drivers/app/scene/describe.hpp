@@ -227,8 +227,17 @@ void describe(V& v, ImplicitOptions& o) {
 }
 
 template <class V>
+void describe(V& v, HimOptions& o) {
+  v("sigma", o.sigma, Quantity{number, {.min = 0, .max = 1, .min_excluded = true, .max_excluded = true}},
+    "part of its stability limit that a step uses at rest; the rest is room for stiffening");
+  v("dissipation", o.dissipation, AutoQuantity{{number, {.min = 0, .max = 1, .max_excluded = true}}},
+    "of slowed motion, per step; auto: by how fast the body turns, at most 0.05");
+  v("smoothing", o.smoothing, Flag{}, "of its transfers between the levels");
+}
+
+template <class V>
 void describe(V& v, IntegrationOptions& o) {
-  v("cycle", o.cycle, Name{"cycle", cycles, {"him"}}, "how the levels share a macro step");
+  v("cycle", o.cycle, Name{"cycle", cycles}, "how the levels share a macro step");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
   v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
@@ -244,6 +253,7 @@ void describe(V& v, IntegrationOptions& o) {
     "of the switched mappings: drift over the local edge length");
   v("outside", o.outside, Name{"rule", outside_rules}, "for vertices outside the other level's mesh");
   v.group("implicit", o.implicit, "how implicit levels are solved");
+  v.group("him", o.him, "of the cycle him");
 }
 
 template <class V>

@@ -42,10 +42,6 @@ const Tree* Reader::take_alternative(const char* key) {
 }
 
 void Reader::unknown(const Tree& entry) const {
-  const std::string path = at(entry).path;
-  const std::vector<std::string> planned = {"integration.him"};
-  if (std::ranges::find(planned, path) != planned.end())
-    throw NotInThisBuild("the key '" + path + "' is not in this build", entry.key_where);
   const std::string section = map_.path.empty() ? "" : map_.path + ": ";
   const std::string homes = homes_of(entry.key);
   if (!homes.empty())

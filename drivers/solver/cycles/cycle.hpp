@@ -12,6 +12,17 @@ class Cycle {
   virtual ~Cycle() = default;
   /// Makes the coarser levels' states follow level 0's, which was just set.
   virtual void begin(Hierarchy<B>& hierarchy) = 0;
+  /// The same at the very start, where it may also change level 0's velocities into what it can carry.
+  virtual void start(Hierarchy<B>& hierarchy) { begin(hierarchy); }
+  /// Whether steps so far have lost stability, though the state may still look sound. Waits.
+  virtual bool alarmed(const Hierarchy<B>&) const { return false; }
+  /// Makes steps of `t` [s] stable again at the state as it is; false where it cannot.
+  virtual bool repair(Hierarchy<B>&, double) { return false; }
+  virtual std::map<std::string, long> counters() const { return {}; }
+  /// Device memory of its own.
+  virtual std::size_t bytes() const { return 0; }
+  /// Names what it carries from one macro step to the next, besides the levels' states.
+  virtual void persist(StateArchive<B>&) {}
   /// From `time` over `t` [s].
   virtual void step(Hierarchy<B>& hierarchy, double time, double t) = 0;
 };

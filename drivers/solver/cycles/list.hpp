@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/type_list.hpp>
 #include <plica/drivers/solver/cycles/fas.hpp>
+#include <plica/drivers/solver/cycles/him.hpp>
 #include <plica/drivers/solver/cycles/v_cycle.hpp>
 
 namespace plica {
@@ -10,7 +11,8 @@ namespace plica {
 struct Single {
   static constexpr const char* name = "single";
   static constexpr const char* summary = "the finest level alone";
-  static constexpr bool uses_coarse_levels = false, switched = false, inherits_masses = false;
+  static constexpr bool uses_coarse_levels = false, integrates_coarse_levels = false;
+  static constexpr bool switched = false, inherits_masses = false;
   template <class B>
   using Of = VCycle<B, MapState, MapState>;
 };
@@ -18,7 +20,7 @@ struct Single {
 /// The paper's V-cycle with one of its mappings each way.
 template <class Down, class Up>
 struct PaperCycle {
-  static constexpr bool uses_coarse_levels = true, inherits_masses = false;
+  static constexpr bool uses_coarse_levels = true, integrates_coarse_levels = true, inherits_masses = false;
   static constexpr bool switched =
       (Down::needs_state && Down::needs_variation) || (Up::needs_state && Up::needs_variation);
   template <class B>
@@ -45,12 +47,23 @@ struct RsvSv : PaperCycle<MapState, MapVariation> {
 struct Fas {
   static constexpr const char* name = "fas";
   static constexpr const char* summary = "state down, variation up, coarse forces corrected to the finest level's";
-  static constexpr bool uses_coarse_levels = true, switched = false, inherits_masses = true;
+  static constexpr bool uses_coarse_levels = true, integrates_coarse_levels = true;
+  static constexpr bool switched = false, inherits_masses = true;
   template <class B>
   using Of = FasCycle<B>;
 };
 
+struct Him {
+  static constexpr const char* name = "him";
+  static constexpr const char* summary =
+      "hierarchical inverse mass: one force of the finest level per step, answered by all levels";
+  static constexpr bool uses_coarse_levels = true, integrates_coarse_levels = false;
+  static constexpr bool switched = false, inherits_masses = false;
+  template <class B>
+  using Of = HimCycle<B>;
+};
+
 /// Every cycle there is. One more: its struct above or its own file, its name here.
-using Cycles = TypeList<Single, Rs, Rv, Rsv, RsvSv, Fas>;
+using Cycles = TypeList<Single, Rs, Rv, Rsv, RsvSv, Fas, Him>;
 
 }  // namespace plica

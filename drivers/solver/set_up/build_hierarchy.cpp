@@ -14,6 +14,7 @@
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/inherit_masses.hpp>
+#include <plica/drivers/solver/set_up/make_him.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -23,7 +24,9 @@ namespace plica {
 
 namespace {
 
-Outside outside_rule(const std::string& name) {
+Outside outside_rule(const IntegrationOptions& o) {
+  if (o.cycle == Him::name) return Outside::extrapolate;
+  const std::string& name = o.outside;
   return name == "clamp" ? Outside::clamp : name == "extrapolate" ? Outside::extrapolate : Outside::keep;
 }
 
@@ -36,7 +39,8 @@ class HierarchyBuilder {
   HierarchyBuilder(const Problem& problem, const Exec& exec) : problem_(problem), built_{} {
     built_.hierarchy = std::make_unique<Hierarchy<B>>(exec);
     Cycles::visit(problem.integration.cycle, [&](auto cycle) {
-      levels_ = decltype(cycle)::uses_coarse_levels ? problem.body.levels.size() : 1;
+      meshes_ = decltype(cycle)::uses_coarse_levels ? problem.body.levels.size() : 1;
+      levels_ = decltype(cycle)::integrates_coarse_levels ? meshes_ : 1;
       switched_ = decltype(cycle)::switched && levels_ > 1;
       inherits_masses_ = decltype(cycle)::inherits_masses;
     });
@@ -45,22 +49,26 @@ class HierarchyBuilder {
   BuiltHierarchy<B> build() {
     place_meshes();
     embed_levels();
+    for (std::size_t i = 0; i < meshes_; ++i) report_mesh(i);
     for (std::size_t i = 0; i < levels_; ++i) add_level(i);
     for (std::size_t i = 1; i < levels_; ++i) connect(i);
     add_contact();
     plan();
     Cycles::visit(problem_.integration.cycle, [&](auto cycle) {
       using Of = typename decltype(cycle)::template Of<B>;
-      built_.cycle = std::make_unique<Of>(*built_.hierarchy);
+      if constexpr (std::is_same_v<decltype(cycle), Him>)
+        built_.cycle = make_him<B>(problem_, constants_, up_, elasticity_, contact_, built_);
+      else
+        built_.cycle = std::make_unique<Of>(*built_.hierarchy);
     });
-    built_.cycle->begin(*built_.hierarchy);
+    built_.cycle->start(*built_.hierarchy);
     return std::move(built_);
   }
 
  private:
   const Problem& problem_;
   BuiltHierarchy<B> built_;
-  std::size_t levels_ = 1;
+  std::size_t levels_ = 1, meshes_ = 1;  // that are integrated; that are used
   bool switched_ = false, inherits_masses_ = false;
   TriangleSurface surface_;  // placed
   std::vector<LevelConstants> constants_;
@@ -81,7 +89,7 @@ class HierarchyBuilder {
     const Box box = bounding_box(body.levels.front().vertices);
     const Point middle = 0.5 * (box.min + box.max);
     const Point shift = body.initial.position.value_or(middle) - middle;
-    for (std::size_t i = 0; i < levels_; ++i) {
+    for (std::size_t i = 0; i < meshes_; ++i) {
       TetMesh& mesh = built_.meshes.emplace_back(body.levels[i]);
       const int level = static_cast<int>(i);
       add_regions(mesh, body.regions, level);
@@ -95,17 +103,25 @@ class HierarchyBuilder {
     for (Point& p : surface_.vertices) p += shift;
   }
 
+  void report_mesh(std::size_t i) {
+    const TetMesh& mesh = built_.meshes[i];
+    LevelReport& report = built_.reports.emplace_back();
+    report.vertices = static_cast<int>(mesh.vertices.size()), report.tets = static_cast<int>(mesh.tets.size());
+    report.mean_edge = mean_edge_length(mesh);
+    report.mass = std::accumulate(constants_[i].mass.begin(), constants_[i].mass.end(), 0.0);
+    report.element_bound = element_bound(mesh, constants_[i].lame, constants_[i].density);
+    report.integrator = integrator_of(i);
+    if (i == 0) return;
+    report.outside_down = down_[i].misses, report.outside_up = up_[i].misses;
+    report.massless = inherits_masses_ ? massless_[i] : 0;
+    report.largest_miss = std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
+  }
+
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
     auto& part = built_.hierarchy->levels.emplace_back();
     part.level = build_level<B>(problem_.body, mesh, constants_[i]);
     part.level.loads = device_loads<B>(problem_.body, loads_[i]);
-    LevelReport& report = built_.reports.emplace_back();
-    report.vertices = part.level.model.vertices, report.tets = part.level.model.tets;
-    report.mean_edge = mean_edge_length(mesh);
-    report.mass = std::accumulate(constants_[i].mass.begin(), constants_[i].mass.end(), 0.0);
-    report.element_bound = element_bound(mesh, constants_[i].lame, constants_[i].density);
-    report.integrator = integrator_of(i);
     if (switched_) {
       std::vector<typename B::Real> limit;
       for (double edge : local_edge_lengths(mesh))
@@ -129,9 +145,9 @@ class HierarchyBuilder {
   }
 
   void embed_levels() {
-    const Outside rule = outside_rule(problem_.integration.outside);
+    const Outside rule = outside_rule(problem_.integration);
     down_.resize(1), up_.resize(1);
-    for (std::size_t i = 1; i < levels_; ++i) {
+    for (std::size_t i = 1; i < meshes_; ++i) {
       down_.push_back(embed(built_.meshes[i].vertices, *locators_[i - 1], rule));
       up_.push_back(embed(built_.meshes[i - 1].vertices, *locators_[i], rule));
       expect_overlap(i);
@@ -154,7 +170,7 @@ class HierarchyBuilder {
   }
 
   void connect(std::size_t i) {
-    const Outside rule = outside_rule(problem_.integration.outside);
+    const Outside rule = outside_rule(problem_.integration);
     Level<B>& level = built_.hierarchy->levels[i].level;
     const Embedding &down = down_[i], &up = up_[i];
     if (rule == Outside::keep && down.misses + up.misses > 0)
@@ -167,10 +183,6 @@ class HierarchyBuilder {
     else
       level.from_finer = build_transfer<B>("restriction", down, constants_[i].constrained);
     level.to_finer = build_transfer<B>("interpolation", up, constants_[i - 1].constrained);
-    LevelReport& report = built_.reports[i];
-    report.outside_down = down.misses, report.outside_up = up.misses;
-    report.massless = inherits_masses_ ? massless_[i] : 0;
-    report.largest_miss = std::max(down.largest_distance_over_edge, up.largest_distance_over_edge);
   }
 
   void add_contact() {
@@ -205,6 +217,7 @@ class HierarchyBuilder {
       h.levels[i].forces = std::make_unique<LevelForces<B>>(elasticity_, problem_.gravity, contact_,
                                                             !report.explicit_integrator, &h.clock, static_cast<int>(i));
     }
+    if (problem_.integration.cycle == Him::name) return;  // plans for itself
     const StepPlan steps = plan_steps(problem_.integration, limits);
     built_.macro_step = steps.macro_step;
     for (std::size_t i = 0; i < levels_; ++i) {

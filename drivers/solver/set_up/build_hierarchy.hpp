@@ -16,6 +16,7 @@ struct BuiltHierarchy {
   std::vector<TetMesh> meshes;  ///< placed, of the levels in use
   std::vector<LevelReport> reports;
   double macro_step = 0;  ///< [s]
+  std::optional<HimReport> him;
 };
 
 /// Builds a valid problem's levels, transfers, contact, step plan, integrators and cycle. Throws InputError.

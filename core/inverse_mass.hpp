@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/transfer.hpp>
+#include <vector>
+
+/// The arrays of the hierarchical inverse mass, see cmake/docs/him.md.
+namespace plica {
+
+/// A sparse matrix of numbers that acts on vectors, by rows in compressed form.
+template <class B>
+struct SparseRows {
+  int rows = 0;
+  Indices<B> first;   ///< [rows + 1] into the others
+  Indices<B> column;  ///< of an entry
+  Scalars<B> value;
+};
+
+/// A coarser level, as the inverse mass sees it: a space of motions of the finest mesh, without elements or state.
+template <class B>
+struct MassLevel {
+  int vertices = 0;
+  SparseRows<B> up;             ///< P: values at this level's vertices -> at the next finer one's
+  SparseRows<B> down;           ///< its transpose
+  SparseRows<B> mass;           ///< M D^-1, M = P^T (the finer level's M) P; empty on the coarsest level
+  Scalars<B> inverse_diagonal;  ///< D^-1, D = the sum of |M| along a row [1/kg]; 0: no motion here
+  Vectors<B> force;             ///< restricted [N]
+  Vectors<B> acceleration;      ///< of this level and those below it [m/s^2]
+};
+
+/// What the coarsest level answers forces with: the modes of its own linear problem, in axes that turn with the body.
+template <class B>
+struct CoarseFilter {
+  static constexpr int block = 16;  ///< rows that lie together
+  int vertices = 0;
+  Scalars<B> matrix;        ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
+  Vectors<B> turned;        ///< R^T force
+  Transfer<B> sample;       ///< its vertices' displacements in the finest mesh
+  Vectors<B> displacement;  ///< [m]
+  Indices<B> first, tet;    ///< the elements of each vertex, in order
+  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;               ///< of each element
+  Kokkos::View<typename B::Real* [12], Kokkos::LayoutRight, typename B::Memory> shape;  ///< inverse edges (9), volume
+  Vectors<B> rotation;  ///< R, [3 vertices][3], three rows each
+};
+
+}  // namespace plica

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <plica/drivers/solver/him/inertia.hpp>
+#include <plica/drivers/solver/him/spectrum.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/him/product_lanczos.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double least_scale = 1e-4, parts_tolerance = 1e-3, fit_tolerance = 1e-2;
+constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
+
+std::vector<double> weights_of(const std::vector<double>& alpha) {
+  std::vector<double> weights = alpha;
+  for (std::size_t i = alpha.size(); i-- > 1;) weights[i] -= alpha[i - 1];
+  return weights;
+}
+
+}  // namespace
+
+template <class B>
+InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level,
+                                std::shared_ptr<const Elasticity<B>> elasticity, InverseMass<B>& inverse_mass,
+                                std::optional<CoarseModes> modes)
+    : exec_(exec),
+      level_(level),
+      elasticity_(std::move(elasticity)),
+      inverse_mass_(inverse_mass),
+      modes_(std::move(modes)) {
+  const auto levels = static_cast<std::size_t>(inverse_mass_.levels());
+  const Vectors<B> rest("plica::him.rest", static_cast<std::size_t>(level.model.vertices));
+  const auto n = modes_ ? static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices) : 0;
+  inverse_mass_.set_answer(Eigen::MatrixXd::Zero(n, n));
+  for (std::size_t i = 0; i + 1 < std::max<std::size_t>(levels, 2); ++i) {
+    std::vector<double> alone(levels, 0.0);
+    alone[i] = 1;
+    inverse_mass_.set_weights(alone);
+    critical_.push_back(2 / std::sqrt(largest(rest, parts_tolerance)));
+  }
+}
+
+template <class B>
+double InertiaFitter<B>::largest(const Vectors<B>& u, double tolerance) const {
+  const VectorMap<B> A = [this](const Vectors<B>& x, const Vectors<B>& y) { inverse_mass_.apply(exec_, x, y); };
+  const VectorMap<B> K = [&](const Vectors<B>& x, const Vectors<B>& y) {
+    elasticity_->tangent(exec_, level_.model.patches, u, x, level_.partial);
+    update_vertices<B>(exec_, "plica::him_stiffness", level_.model.vertices,
+                       GatherStiffness<B>{level_.model, level_.partial, y});
+  };
+  return largest_of_product<B>(exec_, level_, A, K, tolerance);
+}
+
+template <class B>
+std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
+  std::vector<double> alpha;
+  double before = 0;
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(inverse_mass_.levels()); ++i) {
+    before = std::max(before, std::min(1.0, scale * std::pow(critical_[i] / t, 2)));
+    alpha.push_back(before);
+  }
+  alpha.push_back(1);
+  return alpha;
+}
+
+template <class B>
+std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u, double scale) {
+  const double limit = 4 * sigma * sigma, kappa = 0.4 * limit;
+  if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa));
+  InertiaFit fit;
+  const auto fits = [&](double gamma) {
+    inverse_mass_.set_weights(weights_of(alphas(t, gamma)));
+    fit.scale = gamma, fit.product = t * t * largest(u, fit_tolerance);
+    return fit.product <= limit;
+  };
+  const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
+  if (!(plain <= scale && fits(plain)) && !fits(scale)) {
+    double low = least_scale, high = scale;
+    if (!modes_ || !fits(low)) return {};
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = std::sqrt(low * high);
+      (fits(middle) ? low : high) = middle;
+    }
+    if (fit.scale != low) fits(low);
+  }
+  const std::vector<double> alpha = alphas(t, fit.scale), weights = weights_of(alpha);
+  fit.step = t;
+  fit.bound = modes_ ? weights.back() * modes_->largest(t, kappa) : 0;
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    fit.inertia.push_back(1 / alpha[i]);
+    if (i < critical_.size()) fit.bound += weights[i] * 4 * std::pow(t / critical_[i], 2);
+  }
+  return fit;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class InertiaFitter<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <optional>
+#include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/him/coarse_modes.hpp>
+#include <plica/drivers/solver/him/inverse_mass.hpp>
+#include <vector>
+
+namespace plica {
+
+/// How a hierarchical inverse mass was fitted to a step.
+struct InertiaFit {
+  double step = 0;              ///< t [s]
+  double product = 0;           ///< t^2 lambda_max(A K) at the state it was fitted to; below 4 is stable
+  double bound = 0;             ///< of it at rest: the sum over the levels of weight times the part's own, never less
+  double scale = 0;             ///< gamma: alpha_i = min(1, gamma (critical step of part i / t)^2)
+  std::vector<double> inertia;  ///< 1 / alpha_i, finest first: how many times too heavy a level's own detail is
+};
+
+/// Fits the weights of an inverse mass to a step.
+template <class B>
+class InertiaFitter {
+ public:
+  InertiaFitter(const typename B::Exec& exec, const Level<B>& level, std::shared_ptr<const Elasticity<B>> elasticity,
+                InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
+
+  /// Sets weights and answer so that t^2 lambda_max(A K) = 4 sigma^2 at the state u, axes turned as they are, with gamma at
+  /// most `scale`; nothing fits: none, and the weights are of no use.
+  std::optional<InertiaFit> fit(double t, double sigma, const Vectors<B>& u, double scale = 1);
+
+  /// 2 / sqrt(lambda_max) of each part of the inverse mass alone at rest, finest first, without the coarsest [s].
+  const std::vector<double>& critical_steps() const { return critical_; }
+
+ private:
+  typename B::Exec exec_;
+  const Level<B>& level_;
+  std::shared_ptr<const Elasticity<B>> elasticity_;
+  InverseMass<B>& inverse_mass_;
+  std::optional<CoarseModes> modes_;
+  std::vector<double> critical_;
+
+  std::vector<double> alphas(double t, double scale) const;
+  double largest(const Vectors<B>& u, double tolerance) const;
+};
+
+}  // namespace plica

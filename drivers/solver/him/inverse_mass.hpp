@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/inverse_mass.hpp>
+#include <plica/core/level.hpp>
+#include <plica/drivers/solver/him/mass_spaces.hpp>
+#include <plica/kernels/reduce.hpp>
+#include <vector>
+
+namespace plica {
+
+/// a = A f: what a step of the hierarchical inverse mass makes of forces on the finest level. A is symmetric and positive
+/// definite; up and down through the levels, on the device, in the order of an instance.
+template <class B>
+class InverseMass {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+  using Count = Kokkos::View<double*, typename B::Memory>;
+
+  /// @param coarsest  its mesh, placed like the finest
+  InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, const TetMesh& coarsest,
+              const std::vector<MassSpace>& spaces);
+
+  int levels() const { return static_cast<int>(coarser_.size()) + 1; }
+  /// The levels' weights b, finest first; they sum to 1.
+  void set_weights(const std::vector<double>& weights) { weights_ = weights; }
+  /// The coarsest level's answer S, see CoarseModes.
+  void set_answer(const Eigen::MatrixXd& S);
+
+  /// Turns the coarsest level's axes with the finest mesh's state. Into moved: the sum of the squares of their angles since the
+  /// last time [rad^2], and their number.
+  void turn(const Exec& exec, const Vectors<B>& u, const Kokkos::View<double*, typename B::Memory>& moved) const;
+  /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that is above 0.
+  void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Count& count = {}) const;
+
+  const CoarseFilter<B>& filter() const { return filter_; }
+  std::size_t bytes() const;
+
+ private:
+  int vertices_;
+  Scalars<B> inverse_mass_;
+  std::vector<MassLevel<B>> coarser_;
+  CoarseFilter<B> filter_;
+  Scalars<B> filtered_;
+  BlockSums<B> blocks_;
+  std::vector<double> weights_;
+
+  void build_axes(const TetMesh& finest, const TetMesh& coarsest);
+  void answer_coarsest(const Exec& exec, const Count& count) const;
+};
+
+}  // namespace plica

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <algorithm>
+#include <plica/drivers/solver/him/mass_spaces.hpp>
+
+namespace plica {
+
+namespace {
+
+RowMatrix barycentric_transfer(const Embedding& up, std::size_t coarse_vertices) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t a = 0; a < up.vertices.size(); ++a)
+    for (std::size_t c = 0; c < 4; ++c)
+      if (up.weights[a][c] != 0) entries.emplace_back(static_cast<int>(a), up.vertices[a][c], up.weights[a][c]);
+  RowMatrix P(static_cast<Eigen::Index>(up.vertices.size()), static_cast<Eigen::Index>(coarse_vertices));
+  P.setFromTriplets(entries.begin(), entries.end());
+  return P;
+}
+
+std::vector<double> inverse_row_sums(const RowMatrix& M) {
+  std::vector<double> inverse(static_cast<std::size_t>(M.rows()), 0.0);
+  for (Eigen::Index a = 0; a < M.rows(); ++a) {
+    double sum = 0;
+    for (RowMatrix::InnerIterator entry(M, a); entry; ++entry) sum += std::abs(entry.value());
+    if (sum > 0) inverse[static_cast<std::size_t>(a)] = 1 / sum;
+  }
+  return inverse;
+}
+
+}  // namespace
+
+std::vector<MassSpace> mass_spaces(const std::vector<MassMesh>& levels, const std::vector<double>& mass, bool smooth) {
+  RowMatrix M(static_cast<Eigen::Index>(mass.size()), static_cast<Eigen::Index>(mass.size()));
+  M.setIdentity();
+  M.diagonal() = Eigen::Map<const Eigen::VectorXd>(mass.data(), M.rows());
+  std::vector<MassSpace> spaces;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const MassMesh &fine = levels[i - 1], &coarse = levels[i];
+    RowMatrix P = barycentric_transfer(coarse.up, coarse.mesh.vertices.size());
+    if (smooth) P = RowMatrix(ring_smoothing(fine.mesh) * P);
+    P.prune([&](Eigen::Index a, Eigen::Index b, double value) {
+      return !fine.constrained[static_cast<std::size_t>(a)] && !coarse.constrained[static_cast<std::size_t>(b)] &&
+             std::abs(value) > 1e-6;
+    });
+    M = RowMatrix(P.transpose()) * M * P;
+    spaces.push_back({std::move(P), M, inverse_row_sums(M)});
+  }
+  return spaces;
+}
+
+RowMatrix to_finest(const std::vector<MassSpace>& spaces) {
+  RowMatrix all = spaces.front().up;
+  for (std::size_t i = 1; i < spaces.size(); ++i) all = RowMatrix(all * spaces[i].up);
+  return all;
+}
+
+namespace {
+
+/// The coarse functions that live in one element of the finest mesh, and their gradients there.
+struct CoarseGradients {
+  std::vector<Eigen::Index> column;
+  std::vector<Point> gradient;  // [1/m]
+
+  void gather(const std::array<int, 4>& tet, const Eigen::Matrix<double, 4, 3>& shape, const RowMatrix& all) {
+    column.clear(), gradient.clear();
+    for (int c = 0; c < 4; ++c)
+      for (RowMatrix::InnerIterator entry(all, tet[static_cast<std::size_t>(c)]); entry; ++entry) {
+        const auto at = std::find(column.begin(), column.end(), entry.col()) - column.begin();
+        if (at == static_cast<std::ptrdiff_t>(column.size()))
+          column.push_back(entry.col()), gradient.emplace_back(Point::Zero());
+        gradient[static_cast<std::size_t>(at)] += entry.value() * shape.row(c).transpose();
+      }
+  }
+};
+
+}  // namespace
+
+Eigen::MatrixXd coarse_stiffness(const TetMesh& finest, const std::vector<std::array<double, 2>>& lame,
+                                 const RowMatrix& all) {
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(3 * all.cols(), 3 * all.cols());
+  CoarseGradients here;
+  for (std::size_t e = 0; e < finest.tets.size(); ++e) {
+    Eigen::Matrix3d edges;
+    const auto corner = [&](std::size_t c) { return finest.vertices[static_cast<std::size_t>(finest.tets[e][c])]; };
+    for (int c = 0; c < 3; ++c) edges.row(c) = (corner(static_cast<std::size_t>(c + 1)) - corner(0)).transpose();
+    const double volume = edges.determinant() / 6;
+    Eigen::Matrix<double, 4, 3> shape;
+    shape.bottomRows<3>() = edges.inverse().transpose();
+    shape.row(0) = -shape.bottomRows<3>().colwise().sum();
+    here.gather(finest.tets[e], shape, all);
+    const auto [lambda, mu] = lame[finest.region.empty() ? 0 : static_cast<std::size_t>(finest.region[e])];
+    for (std::size_t i = 0; i < here.column.size(); ++i)
+      for (std::size_t j = 0; j < here.column.size(); ++j) {
+        if (here.column[j] > here.column[i]) continue;  // the lower triangle
+        const Point &gi = here.gradient[i], &gj = here.gradient[j];
+        Eigen::Matrix3d block = lambda * gi * gj.transpose() + mu * gj * gi.transpose();
+        block.diagonal().array() += mu * gi.dot(gj);
+        K.block<3, 3>(3 * here.column[i], 3 * here.column[j]) += volume * block;
+      }
+  }
+  return K.selfadjointView<Eigen::Lower>();
+}
+
+}  // namespace plica

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/him/smoothing.hpp>
+#include <plica/meshes/embedding.hpp>
+#include <vector>
+
+namespace plica {
+
+/// A coarser level as a space of motions of the finest mesh.
+struct MassSpace {
+  RowMatrix up;                          ///< P, [finer level's vertices x vertices]
+  RowMatrix mass;                        ///< M = P^T (the finer level's M) P [kg]
+  std::vector<double> inverse_diagonal;  ///< of D = sum of |M| along a row [1/kg]; 0: no motion here
+};
+
+/// A level's mesh, which of its vertices have a given motion, and the next finer level's vertices in it.
+struct MassMesh {
+  const TetMesh& mesh;
+  const std::vector<char>& constrained;
+  const Embedding& up;  ///< extrapolated outside; of the finest level not looked at
+};
+
+/// The coarser levels' spaces, finest first. Transfers are the embeddings, smoothed on the finer mesh where asked for. Vertices whose motion is given have no part in them.
+/// @param mass  of the finest level's vertices [kg]
+std::vector<MassSpace> mass_spaces(const std::vector<MassMesh>& levels, const std::vector<double>& mass, bool smooth);
+
+/// The product of all transfers: the coarsest level's space in the finest mesh.
+RowMatrix to_finest(const std::vector<MassSpace>& spaces);
+
+/// K = Pi^T (the rest stiffness of the finest mesh) Pi, [3 vertices x 3 vertices], xyz interleaved [N/m].
+/// @param lame  per region of the mesh [Pa]
+Eigen::MatrixXd coarse_stiffness(const TetMesh& finest, const std::vector<std::array<double, 2>>& lame,
+                                 const RowMatrix& to_finest);
+
+}  // namespace plica
