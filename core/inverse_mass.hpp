@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/transfer.hpp>
+#include <plica/core/backend.hpp>
 #include <vector>
 
 /// The arrays of the hierarchical inverse mass, see cmake/docs/him.md.
@@ -32,14 +32,26 @@ template <class B>
 struct CoarseFilter {
   static constexpr int block = 16;  ///< rows that lie together
   int vertices = 0;
-  Scalars<B> matrix;        ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
-  Vectors<B> turned;        ///< R^T force
-  Transfer<B> sample;       ///< its vertices' displacements in the finest mesh
-  Vectors<B> displacement;  ///< [m]
-  Indices<B> first, tet;    ///< the elements of each vertex, in order
-  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;               ///< of each element
-  Kokkos::View<typename B::Real* [12], Kokkos::LayoutRight, typename B::Memory> shape;  ///< inverse edges (9), volume
+  Scalars<B> matrix;    ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
+  Vectors<B> turned;    ///< R^T force
   Vectors<B> rotation;  ///< R, [3 vertices][3], three rows each
+};
+
+/// How the coarsest level's axes follow the body: u_C = E u; D = the volumes' sum of deformation gradients around a vertex;
+/// R = the rotation nearest to W D. And the force by which they act back, g on u_C.
+template <class B>
+struct CoarseAxes {
+  SparseRows<B> restriction, spread;       ///< E, from the finest mesh, and its transpose
+  SparseRows<B> smoothing, smoothing_of;   ///< W, and its transpose
+  SparseRows<B> response;                  ///< Pi^T E^T: coarse momentum per momentum on u_C
+  Indices<B> first, tet;                   ///< the elements of each vertex, in order
+  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;               ///< of each element
+  Kokkos::View<typename B::Real* [10], Kokkos::LayoutRight, typename B::Memory> shape;  ///< inverse edges, volume / mean
+  Vectors<B> displacement;                 ///< u_C [m]
+  Vectors<B> gradient;                     ///< D, later what turns it, [3 vertices][3]
+  Vectors<B> stiffness;                    ///< (tr U 1 - U)^-1, U = R^T W D, [3 vertices][3]; 0: R is not the nearest
+  Vectors<B> torque;                       ///< what W D is turned by, [3 vertices][3]
+  Vectors<B> force;                        ///< g [N]
 };
 
 }  // namespace plica

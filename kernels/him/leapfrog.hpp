@@ -4,8 +4,8 @@
 #include <plica/core/small.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// One step of the hierarchical inverse mass on the finest level: drift by half a step, kick by a = A (f + (c/t - d) m v),
-// v = (1 - c) v + t a, drift by half a step. c damps only what is slowed; d [1/s] is the body's mass damping.
+// One step of the hierarchical inverse mass on the finest level: drift by half a step, p += t (f - d m v) - c (p - m v), v = A p,
+// drift by half a step. c damps only what is slowed; d [1/s] is the body's mass damping.
 namespace plica {
 
 /// u += h v, of vertices that forces move.
@@ -20,7 +20,7 @@ struct Drift {
   }
 };
 
-/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turn, at most 0.05.
+/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turn, at most 1e-4.
 template <class B>
 struct ChooseLoss {
   using Values = Kokkos::View<double*, typename B::Memory>;
@@ -28,53 +28,86 @@ struct ChooseLoss {
   double given;  ///< < 0: chosen
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const double angle = moved(1) > 0 ? Kokkos::sqrt(moved(0) / moved(1)) : 0.0;
-    loss(0) = given >= 0 ? given : Kokkos::min(0.05, 0.3 * angle);
+    loss(0) = given >= 0 ? given : Kokkos::min(1e-4, 0.3 * angle);
   }
 };
 
-/// g = f + (c/t - d) m v
+/// p = m v, of vertices that forces move.
 template <class B>
-struct AddLoss {
-  using Real = typename B::Real;
+struct PlainMomentum {
   Model<B> model;
-  Vectors<B> f, v, g;
-  Kokkos::View<double*, typename B::Memory> loss;
-  Real per_step, damping;  ///< 1/t, d
+  Vectors<B> v, p;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = (static_cast<Real>(loss(0)) * per_step - damping) * model.mass(a);
-    for (int k = 0; k < 3; ++k) g(a, k) = f(a, k) + w * v(a, k);
+    for (int k = 0; k < 3; ++k) p(a, k) = model.inverse_mass(a) > 0 ? model.mass(a) * v(a, k) : 0;
   }
 };
 
-/// v = a, of vertices that forces move.
+/// v of vertices that forces move.
 template <class B>
 struct StartVelocity {
   Scalars<B> inverse_mass;
-  Vectors<B> a, v;
+  Vectors<B> answer, v;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     if (inverse_mass(i) > 0)
-      for (int k = 0; k < 3; ++k) v(i, k) = a(i, k);
+      for (int k = 0; k < 3; ++k) v(i, k) = answer(i, k);
   }
 };
 
-/// The kick and the second drift; sums up t^2 da.df and -dx.df of the guard, d: since the last step.
+/// g = p - m v: the momentum of what is slowed.
+template <class B>
+struct SlowedMomentum {
+  Model<B> model;
+  Vectors<B> v, p, g;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) g(a, k) = model.inverse_mass(a) > 0 ? p(a, k) - model.mass(a) * v(a, k) : 0;
+  }
+};
+
+/// p += t (f - d m v) - c g
+template <class B>
+struct KickMomentum {
+  using Real = typename B::Real;
+  Model<B> model;
+  Vectors<B> f, v, g, p;
+  Kokkos::View<double*, typename B::Memory> loss;
+  Real t, damping;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    if (!(model.inverse_mass(a) > 0)) return;
+    const Real c = static_cast<Real>(loss(0)), d = damping * model.mass(a);
+    for (int k = 0; k < 3; ++k) p(a, k) += t * (f(a, k) - d * v(a, k)) - c * g(a, k);
+  }
+};
+
+/// answer = (answer - v) / t: from A p to the acceleration.
+template <class B>
+struct MeanAcceleration {
+  using Real = typename B::Real;
+  Vectors<B> v, answer;
+  Real per_step;  ///< 1/t
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) answer(a, k) = (answer(a, k) - v(a, k)) * per_step;
+  }
+};
+
+/// The kick of the velocities, contact's of both, and the second drift; sums up t^2 da.df and -dx.df of the guard, d: since the
+/// last step.
 template <class B>
 struct KickAndDrift {
   using Real = typename B::Real;
   Scalars<B> inverse_mass;
   State<B> state;
-  Vectors<B> f, a, f_before, a_before;
-  Vectors<B> contact;  ///< its accelerations, empty without obstacles
-  Kokkos::View<double*, typename B::Memory> touching, loss;
+  Vectors<B> p, f, a, f_before, a_before;
+  Vectors<B> contact, contact_force;  ///< its accelerations and forces, empty without obstacles
+  Kokkos::View<double*, typename B::Memory> touching;
   Real t;
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     if (!(inverse_mass(i) > 0)) return {};
-    const Real keep = Real(1) - static_cast<Real>(loss(0));
     const bool touches = contact.extent(0) > 0 && touching(0) > 0;
     double answer = 0, work = 0;
     for (int k = 0; k < 3; ++k) {
       const Real v = state.v(i, k), df = f(i, k) - f_before(i, k),
-                 kicked = keep * v + t * (touches ? a(i, k) + contact(i, k) : a(i, k));
+                 kicked = v + t * (touches ? a(i, k) + contact(i, k) : a(i, k));
+      if (touches) p(i, k) += t * contact_force(i, k);
       answer += static_cast<double>(t * t * (a(i, k) - a_before(i, k))) * static_cast<double>(df);
       work -= static_cast<double>(t * v) * static_cast<double>(df);
       f_before(i, k) = f(i, k), a_before(i, k) = a(i, k);
@@ -86,19 +119,20 @@ struct KickAndDrift {
 };
 
 /// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over what the last step did: as stability is lost at
-/// 4 the fastest motions take over, and with them the mean. `state`: how often running it was above 3.4, whether that was twice,
-/// the largest.
+/// 4 the fastest motions take over, and with them the mean. `state`: how often running it was above 3.4, whether that was twice
+/// or the axes' force was not found (to 1 %, see DecideToGoOn), the largest.
 template <class B>
 struct WatchSpectrum {
   using Values = Kokkos::View<double*, typename B::Memory>;
-  Values sums, state;
+  Values sums, open, state;
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const double answer = sums(0), work = sums(1);
     const bool counts = !first && work > 0;
     if (counts) state(2) = Kokkos::max(state(2), answer / work);
     state(0) = counts && answer > 3.4 * work ? state(0) + 1 : 0.0;
-    if (state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
+    const bool lost = open.extent(0) > 0 && open(0) > 0.01;
+    if (lost || state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
   }
 };
 

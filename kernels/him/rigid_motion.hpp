@@ -4,16 +4,14 @@
 #include <plica/core/small.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// A free body's rigid motion, taken out of the inverse mass and answered exactly: linear and angular momentum then change by
-// nothing but the forces' sum and moment, whatever A is.
+// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the rigid part of momenta that are to
+// change neither sum p nor sum x x p.
 namespace plica {
 
 /// About the body's centre as it is now, in double.
 struct RigidFrame {
-  double mass, centre[3];
-  double turning[9];                ///< inverse of the inertia [1/(kg m^2)]
-  double linear[3], angular[3];     ///< the forces' rigid acceleration [m/s^2], [rad/s^2]
-  double left[3], left_turning[3];  ///< what the inverse mass's answer lacks to it
+  double centre[3];
+  double linear[3], angular[3];  ///< of momenta [m/s], [rad/s]
 };
 
 template <class B>
@@ -22,29 +20,26 @@ template <class B>
 using Totals = Kokkos::View<double*, typename B::Memory>;
 
 KOKKOS_INLINE_FUNCTION Vec3<double> vector_of(const double* x) { return {x[0], x[1], x[2]}; }
-KOKKOS_INLINE_FUNCTION Vec3<double> turned_by(const double* A, const Vec3<double>& x) {
-  return {dot(vector_of(A), x), dot(vector_of(A + 3), x), dot(vector_of(A + 6), x)};
-}
 
-/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of the forces: 16 sums.
+/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of momenta p: 16 sums.
 template <class B>
 struct BodyMoments {
   Scalars<B> mass;
-  Vectors<B> rest, u, f;
+  Vectors<B> rest, u, p;
   KOKKOS_INLINE_FUNCTION Sums<16> operator()(int a) const {
-    Vec3<double> x, force;
+    Vec3<double> x, part;
     for (int k = 0; k < 3; ++k) {
       x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k));
-      force[k] = static_cast<double>(f(a, k));
+      part[k] = static_cast<double>(p(a, k));
     }
     const double m = static_cast<double>(mass(a));
-    const Vec3<double> moment = cross(x, force);
+    const Vec3<double> moment = cross(x, part);
     return {{m, m * x[0], m * x[1], m * x[2], m * x[0] * x[0], m * x[1] * x[1], m * x[2] * x[2], m * x[0] * x[1],
-             m * x[0] * x[2], m * x[1] * x[2], force[0], force[1], force[2], moment[0], moment[1], moment[2]}};
+             m * x[0] * x[2], m * x[1] * x[2], part[0], part[1], part[2], moment[0], moment[1], moment[2]}};
   }
 };
 
-/// Centre, inverse inertia and the rigid acceleration from those sums; a body on one line turns with none about it.
+/// Centre and rigid motion from those sums; a body on one line does not turn.
 template <class B>
 struct SetRigidFrame {
   Totals<B> sums;
@@ -52,80 +47,77 @@ struct SetRigidFrame {
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     RigidFrame& r = frame();
     const double m = sums(0);
-    Vec3<double> c{sums(1) / m, sums(2) / m, sums(3) / m}, F{sums(10), sums(11), sums(12)};
+    Vec3<double> c{sums(1) / m, sums(2) / m, sums(3) / m}, P{sums(10), sums(11), sums(12)};
     const double xx = sums(4) - m * c[0] * c[0], yy = sums(5) - m * c[1] * c[1], zz = sums(6) - m * c[2] * c[2],
                  xy = sums(7) - m * c[0] * c[1], xz = sums(8) - m * c[0] * c[2], yz = sums(9) - m * c[1] * c[2];
     const Mat3<double> inertia{Vec3<double>{yy + zz, -xy, -xz}, Vec3<double>{-xy, xx + zz, -yz},
                                Vec3<double>{-xz, -yz, xx + yy}};
     const double det = determinant(inertia), size = trace(inertia);
     const Mat3<double> inverse = (det > 1e-12 * size * size * size ? 1 / det : 0.0) * transpose(cofactor(inertia));
-    const Vec3<double> moment = Vec3<double>{sums(13), sums(14), sums(15)} - cross(c, F), angular = inverse * moment;
-    r.mass = m;
-    for (int k = 0; k < 3; ++k) r.centre[k] = c[k], r.linear[k] = F[k] / m, r.angular[k] = angular[k];
-    for (int k = 0; k < 9; ++k) r.turning[k] = inverse[k / 3][k % 3];
+    const Vec3<double> moment = Vec3<double>{sums(13), sums(14), sums(15)} - cross(c, P), angular = inverse * moment;
+    for (int k = 0; k < 3; ++k) r.centre[k] = c[k], r.linear[k] = P[k] / m, r.angular[k] = angular[k];
   }
 };
 
-/// f -= m (its rigid acceleration)
+/// p -= m (its rigid motion)
 template <class B>
-struct TakeRigidForce {
+struct TakeRigidMotion {
   using Real = typename B::Real;
   Scalars<B> mass;
-  Vectors<B> rest, u, f;
+  Vectors<B> rest, u, p;
   RigidFrameOf<B> frame;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     Vec3<double> x;
     for (int k = 0; k < 3; ++k)
       x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k)) - frame().centre[k];
     const Vec3<double> rigid = vector_of(frame().linear) + cross(vector_of(frame().angular), x);
-    for (int k = 0; k < 3; ++k) f(a, k) -= mass(a) * static_cast<Real>(rigid[k]);
+    for (int k = 0; k < 3; ++k) p(a, k) -= mass(a) * static_cast<Real>(rigid[k]);
   }
 };
 
-/// m a and its moment about the centre
+/// m and p, each summed
 template <class B>
-struct MomentumOfAnswer {
+struct SumOfMomenta {
   Scalars<B> mass;
-  Vectors<B> rest, u, a;
-  RigidFrameOf<B> frame;
-  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
-    Vec3<double> x, p;
-    for (int k = 0; k < 3; ++k) {
-      x[k] = static_cast<double>(rest(i, k)) + static_cast<double>(u(i, k)) - frame().centre[k];
-      p[k] = static_cast<double>(mass(i)) * static_cast<double>(a(i, k));
-    }
-    const Vec3<double> moment = cross(x, p);
-    return {{p[0], p[1], p[2], moment[0], moment[1], moment[2]}};
+  Vectors<B> p;
+  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
+    return {{static_cast<double>(mass(a)), static_cast<double>(p(a, 0)), static_cast<double>(p(a, 1)),
+             static_cast<double>(p(a, 2))}};
   }
 };
 
-/// What the answer's rigid part lacks to the forces'.
+/// m and m v, each summed
 template <class B>
-struct SetRigidRest {
-  Totals<B> sums;
-  RigidFrameOf<B> frame;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
-    RigidFrame& r = frame();
-    const Vec3<double> turning = turned_by(r.turning, {sums(3), sums(4), sums(5)});
-    for (int k = 0; k < 3; ++k) {
-      r.left[k] = r.linear[k] - sums(k) / r.mass;
-      r.left_turning[k] = r.angular[k] - turning[k];
-    }
+struct SumOfMotion {
+  Scalars<B> mass;
+  Vectors<B> v;
+  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
+    const double m = static_cast<double>(mass(a));
+    return {
+        {m, m * static_cast<double>(v(a, 0)), m * static_cast<double>(v(a, 1)), m * static_cast<double>(v(a, 2))}};
   }
 };
 
-/// a += that
+/// rest = p - m (its mean velocity)
 template <class B>
-struct AddRigidRest {
+struct TakeTranslation {
   using Real = typename B::Real;
-  Vectors<B> rest, u, a;
-  RigidFrameOf<B> frame;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    Vec3<double> x;
-    for (int k = 0; k < 3; ++k)
-      x[k] = static_cast<double>(rest(i, k)) + static_cast<double>(u(i, k)) - frame().centre[k];
-    const Vec3<double> left = vector_of(frame().left) + cross(vector_of(frame().left_turning), x);
-    for (int k = 0; k < 3; ++k) a(i, k) += static_cast<Real>(left[k]);
+  Scalars<B> mass;
+  Vectors<B> p, rest;
+  Totals<B> sums;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) rest(a, k) = p(a, k) - mass(a) * static_cast<Real>(sums(k + 1) / sums(0));
+  }
+};
+
+/// v += what its mean lacks to the momenta's
+template <class B>
+struct PutTranslation {
+  using Real = typename B::Real;
+  Vectors<B> v;
+  Totals<B> wanted, sums;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) v(a, k) += static_cast<Real>((wanted(k + 1) - sums(k + 1)) / sums(0));
   }
 };
 

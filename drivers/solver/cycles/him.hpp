@@ -2,8 +2,9 @@
 #pragma once
 #include <plica/drivers/solver/cycles/cycle.hpp>
 #include <plica/drivers/solver/him/contact_response.hpp>
+#include <plica/drivers/solver/him/free_motion.hpp>
 #include <plica/drivers/solver/him/inertia.hpp>
-#include <plica/drivers/solver/him/rigid_part.hpp>
+#include <plica/drivers/solver/him/momentum_of.hpp>
 #include <plica/kernels/him/leapfrog.hpp>
 
 namespace plica {
@@ -15,7 +16,7 @@ struct HimParts {
   double mass_damping = 0;  ///< of the body [1/s]
   std::unique_ptr<InverseMass<B>> inverse_mass;
   std::unique_ptr<InertiaFitter<B>> fitter;
-  std::optional<RigidPart<B>> rigid;            ///< of a body that nothing holds
+  std::optional<FreeMotion<B>> free;            ///< of a body that nothing holds
   std::unique_ptr<ContactResponse<B>> contact;  ///< of a body with obstacles
   InertiaFit fit;
 };
@@ -23,10 +24,13 @@ struct HimParts {
 /// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per macro step. Forces go down to
 /// the coarser levels, each answers them with the inertia of what it can move, and their accelerations come back up: motion
 /// that coarse levels represent keeps its own inertia, finer detail gets more of it, and so is slowed and allows the step.
-/// Static equilibrium is the finest mesh's. Second order where the axes of the coarsest level do not turn. See cmake/docs/him.md.
+/// Static equilibrium is the finest mesh's. Second order. See cmake/docs/him.md.
 ///
-/// A step that leaves the state at t_n and t_n+1 takes forces half way (position Verlet). Where the body has stiffened so far
-/// that stability is lost, alarmed() tells; repair() fits the inertia to the state as it is.
+/// Momenta p are what is stepped, v = A p follows: symplectic Euler of the energy p.A(x) p/2 + V(x), seen half a step off the
+/// forces, so that the state at t_n and t_n+1 is that of position Verlet. The energy stays bounded and, of a free body, sum p =
+/// sum m v and sum x x p stay; sum x x m v wavers. A start from given velocities takes p = m v and v = A m v; a state that is put
+/// in later keeps its v, with p = A^-1 v, where the axes were when it was written. Where the body has stiffened so far that
+/// stability is lost, alarmed() tells; repair() fits the inertia to the state as it is.
 template <class B>
 class HimCycle final : public Cycle<B> {
   using Real = typename B::Real;
@@ -35,6 +39,7 @@ class HimCycle final : public Cycle<B> {
   HimCycle(Hierarchy<B>& h, HimParts<B>&& parts)
       : parts_(std::move(parts)),
         n_(h[0].level.model.vertices),
+        p_("plica::him.p", n_),
         g_("plica::him.g", n_),
         a_("plica::him.a", n_),
         f_before_("plica::him.f_before", n_),
@@ -48,17 +53,25 @@ class HimCycle final : public Cycle<B> {
   void start(Hierarchy<B>& h) override {
     const Level<B>& level = h[0].level;
     const auto& exec = h.exec();
-    Kokkos::deep_copy(exec, loss_, 1.0);
-    Kokkos::deep_copy(exec, g_, Real(0));
-    update_vertices<B>(exec, "plica::him_momenta", n_, AddLoss<B>{level.model, g_, level.state.v, g_, loss_, 1, 0});
-    h.clock.time("answer", 0, [&] { answer(exec, level, g_, a_); });
+    parts_.inverse_mass->turn(exec, level.state.u, moved_);
+    update_vertices<B>(exec, "plica::him_momenta", n_, PlainMomentum<B>{level.model, level.state.v, p_});
+    answer(exec, level.model, p_, a_);
     update_vertices<B>(exec, "plica::him_start", n_, StartVelocity<B>{level.model.inverse_mass, a_, level.state.v});
-    begin(h);
+    forget(exec);
   }
 
   void begin(Hierarchy<B>& h) override {
-    first_ = true;
-    Kokkos::deep_copy(h.exec(), watch_, 0.0);
+    const Level<B>& level = h[0].level;
+    const auto& exec = h.exec();
+    Kokkos::deep_copy(exec, a_, level.state.u);
+    const auto half = static_cast<Real>(0.5 * parts_.fit.step);
+    update_vertices<B>(exec, "plica::him_back", n_,
+                       Drift<B>{level.model.inverse_mass, {a_, level.state.v}, -half});
+    parts_.inverse_mass->turn(exec, a_, moved_);
+    momentum_of<B>(
+        exec, level.model, [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); },
+        level.state.v, p_);
+    forget(exec);
   }
 
   void step(Hierarchy<B>& h, double time, double t) override {
@@ -73,7 +86,6 @@ class HimCycle final : public Cycle<B> {
   bool repair(Hierarchy<B>& h, double t) override {
     constexpr int most_substeps = 64;
     const Vectors<B>& u = h[0].level.state.u;
-    parts_.inverse_mass->turn(h.exec(), u, moved_);
     double scale = 0.5 * parts_.fit.scale;
     for (++repairs_; substeps_ <= most_substeps; substeps_ *= 2, scale = 1)
       if (const auto fit = parts_.fitter->fit(t / substeps_, parts_.options.sigma, u, scale)) {
@@ -84,18 +96,23 @@ class HimCycle final : public Cycle<B> {
     return false;
   }
 
+  /// p [kg m/s], 0 where the motion is given.
+  const Vectors<B>& momenta() const { return p_; }
+
   std::map<std::string, long> counters() const override {
     return {{"inertia_refits", repairs_}, {"him_substeps", substeps_}};
   }
 
   std::size_t bytes() const override {
-    return parts_.inverse_mass->bytes() + 4 * g_.span() * sizeof(Real) + (parts_.rigid ? g_.span() * sizeof(Real) : 0) +
+    return parts_.inverse_mass->bytes() + 5 * g_.span() * sizeof(Real) + (parts_.free ? g_.span() * sizeof(Real) : 0) +
            (parts_.contact ? parts_.contact->bytes() : 0);
   }
 
   void persist(StateArchive<B>& archive) override {
     archive.same("the fit of its inertia", parts_.fit.scale);
     archive.number(first_);
+    archive.field("the momenta", p_);
+    archive.field("the axes' share of them", parts_.inverse_mass->axes().share());
     archive.field("the last force", f_before_);
     archive.field("the last answer", a_before_);
     archive.field("the coarsest axes", parts_.inverse_mass->filter().rotation);
@@ -104,7 +121,7 @@ class HimCycle final : public Cycle<B> {
  private:
   HimParts<B> parts_;
   int n_;
-  Vectors<B> g_, a_, f_before_, a_before_;
+  Vectors<B> p_, g_, a_, f_before_, a_before_;
   BlockSums<B> blocks_;
   Kokkos::View<double*, typename B::Memory> moved_, loss_, sums_, watch_;
   bool first_ = true;
@@ -113,12 +130,37 @@ class HimCycle final : public Cycle<B> {
 
   using Count = typename InverseMass<B>::Count;
 
-  /// a = A g, changing g; with a count only where that is above 0.
-  void answer(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& g, const Vectors<B>& a,
+  /// What the next step takes from the last, but for momenta.
+  void forget(const typename B::Exec& exec) {
+    first_ = true;
+    Kokkos::deep_copy(exec, watch_, 0.0);
+    Kokkos::deep_copy(exec, parts_.inverse_mass->axes().share(), Real(0));
+  }
+
+  /// v = A p; with a count only where that is above 0.
+  void answer(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& p, const Vectors<B>& v,
               const Count& count = {}) const {
-    if (parts_.rigid) parts_.rigid->take(exec, level.model, level.state.u, g);
-    parts_.inverse_mass->apply(exec, g, a, count);
-    if (parts_.rigid) parts_.rigid->put(exec, level.model, level.state.u, a);
+    parts_.inverse_mass->apply(exec, without_translation(exec, model, p), v, count);
+    if (parts_.free) parts_.free->put_translation(exec, model, v);
+  }
+
+  /// Momenta as the levels get to see them, in g_ where that differs.
+  const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& p) const {
+    if (!parts_.free) return p;
+    parts_.free->take_translation(exec, model, p, g_);
+    return g_;
+  }
+
+  void kick(const typename B::Exec& exec, const Level<B>& level, double t) {
+    parts_.inverse_mass->turn(exec, level.state.u, moved_);
+    update_vertices<B>(exec, "plica::him_loss", 1,
+                       ChooseLoss<B>{moved_, loss_, parts_.options.dissipation.value_or(-1)});
+    update_vertices<B>(exec, "plica::him_slowed", n_, SlowedMomentum<B>{level.model, level.state.v, p_, g_});
+    if (parts_.free) parts_.free->take_rigid(exec, level.model, level.state.u, g_);
+    update_vertices<B>(exec, "plica::him_momenta", n_,
+                       KickMomentum<B>{level.model, level.f, level.state.v, g_, p_, loss_, static_cast<Real>(t),
+                                       static_cast<Real>(parts_.mass_damping)});
+    parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
   }
 
   void one(Hierarchy<B>& h, double time, double t) {
@@ -128,31 +170,30 @@ class HimCycle final : public Cycle<B> {
     update_vertices<B>(exec, "plica::him_drift", n_, Drift<B>{inverse_mass, level.state, static_cast<Real>(t / 2)});
     prescribe(exec, level, level.state, time + t / 2);
     h[0].forces->evaluate_without_contact(level, level.state, time + t / 2, level.f);
-    h.clock.time("turn", 0, [&] { parts_.inverse_mass->turn(exec, level.state.u, moved_); });
-    update_vertices<B>(exec, "plica::him_loss", 1,
-                       ChooseLoss<B>{moved_, loss_, parts_.options.dissipation.value_or(-1)});
-    update_vertices<B>(exec, "plica::him_add_loss", n_,
-                       AddLoss<B>{level.model, level.f, level.state.v, g_, loss_, static_cast<Real>(1 / t),
-                                  static_cast<Real>(parts_.mass_damping)});
-    h.clock.time("answer", 0, [&] { answer(exec, level, g_, a_); });
+    h.clock.time("turn", 0, [&] { kick(exec, level, t); });
+    h.clock.time("answer", 0, [&] { answer(exec, level.model, p_, a_); });
+    update_vertices<B>(exec, "plica::him_acceleration", n_,
+                       MeanAcceleration<B>{level.state.v, a_, static_cast<Real>(1 / t)});
     if (parts_.contact)
       h.clock.time("contact", 0, [&] {
-        parts_.contact->resolve(exec, level, time + t / 2, t, a_, [&](const auto& f, const auto& a, const auto& count) {
-          answer(exec, level, f, a, count);
-        });
+        parts_.contact->resolve(
+            exec, level, time + t / 2, t, a_,
+            [&](const auto& f, const auto& a, const auto& count) { answer(exec, level.model, f, a, count); });
       });
-    const KickAndDrift<B> kick{.inverse_mass = inverse_mass,
-                               .state = level.state,
-                               .f = level.f,
-                               .a = a_,
-                               .f_before = f_before_,
-                               .a_before = a_before_,
-                               .contact = parts_.contact ? parts_.contact->answer() : Vectors<B>{},
-                               .touching = parts_.contact ? parts_.contact->count() : Count{},
-                               .loss = loss_,
-                               .t = static_cast<Real>(t)};
-    reduce<B, 2>(exec, "plica::him_kick", n_, kick, blocks_, sums_);
-    update_vertices<B>(exec, "plica::him_watch", 1, WatchSpectrum<B>{sums_, watch_, first_});
+    const KickAndDrift<B> finish{.inverse_mass = inverse_mass,
+                                 .state = level.state,
+                                 .p = p_,
+                                 .f = level.f,
+                                 .a = a_,
+                                 .f_before = f_before_,
+                                 .a_before = a_before_,
+                                 .contact = parts_.contact ? parts_.contact->answer() : Vectors<B>{},
+                                 .contact_force = parts_.contact ? parts_.contact->force() : Vectors<B>{},
+                                 .touching = parts_.contact ? parts_.contact->count() : Count{},
+                                 .t = static_cast<Real>(t)};
+    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_);
+    update_vertices<B>(exec, "plica::him_watch", 1,
+                       WatchSpectrum<B>{sums_, parts_.inverse_mass->axes().open(), watch_, first_});
     prescribe(exec, level, level.state, time + t);
     first_ = false;
   }

@@ -13,7 +13,7 @@ class ContactResponse {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
-  /// answer = A force, where `count` is above 0.
+  /// answer = A force, where `count` is above 0; force stays.
   using Apply = std::function<void(const Vectors<B>& force, const Vectors<B>& answer,
                                    const Kokkos::View<double*, typename B::Memory>& count)>;
 
@@ -23,6 +23,7 @@ class ContactResponse {
   void resolve(const Exec& exec, const Level<B>& level, double time, double t, const Vectors<B>& smooth,
                const Apply& apply) const;
   const Vectors<B>& answer() const { return answer_; }
+  const Vectors<B>& force() const { return force_; }  ///< of the vertices, which has that answer [N]
   /// [1]: how many points touch; 0: answer() is not to be looked at.
   const Kokkos::View<double*, typename B::Memory>& count() const { return points_.count; }
   std::size_t bytes() const;

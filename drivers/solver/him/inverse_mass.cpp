@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/LU>
 #include <plica/drivers/solver/him/inverse_mass.hpp>
-#include <plica/drivers/solver/set_up/build_surface.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/him/sparse_rows.hpp>
 #include <plica/kernels/contact/where_touching.hpp>
 #include <plica/kernels/him/coarse_filter.hpp>
 #include <plica/kernels/him/sparse_rows.hpp>
@@ -10,21 +8,6 @@
 namespace plica {
 
 namespace {
-
-template <class B>
-SparseRows<B> sparse_rows(const std::string& name, const RowMatrix& A) {
-  std::vector<int> first{0}, column;
-  std::vector<typename B::Real> value;
-  for (Eigen::Index a = 0; a < A.rows(); ++a) {
-    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) {
-      column.push_back(static_cast<int>(entry.col()));
-      value.push_back(static_cast<typename B::Real>(entry.value()));
-    }
-    first.push_back(static_cast<int>(column.size()));
-  }
-  return {static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", first),
-          to_device<Indices<B>>(name + ".column", column), to_device<Scalars<B>>(name + ".value", value)};
-}
 
 template <class B>
 MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
@@ -45,16 +28,6 @@ MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
   return level;
 }
 
-template <class... Views>
-std::size_t bytes_of_views(const Views&... views) {
-  return (0 + ... + (views.span() * sizeof(typename Views::value_type)));
-}
-
-template <class B>
-std::size_t bytes_of_rows(const SparseRows<B>& A) {
-  return bytes_of_views(A.first, A.column, A.value);
-}
-
 }  // namespace
 
 template <class B>
@@ -62,46 +35,17 @@ InverseMass<B>::InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, 
                             const std::vector<MassSpace>& spaces)
     : vertices_(finest.model.vertices), inverse_mass_(finest.model.inverse_mass), weights_{1} {
   for (std::size_t i = 0; i < spaces.size(); ++i) coarser_.push_back(mass_level<B>(spaces[i], i + 1 == spaces.size()));
-  if (!spaces.empty()) build_axes(finest_mesh, coarsest);
-}
-
-template <class B>
-void InverseMass<B>::build_axes(const TetMesh& finest, const TetMesh& coarsest) {
+  if (spaces.empty()) return;
+  std::vector<double> mass;
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), finest.model.mass);
+  for (std::size_t a = 0; a < host.extent(0); ++a) mass.push_back(static_cast<double>(host(a)));
+  const RowMatrix all = to_finest(spaces);
+  axes_ = TurningAxes<B>(coarsest, axes_shape(finest_mesh, coarsest, all, mass), all);
+  constexpr std::size_t block = CoarseFilter<B>::block;
   filter_.vertices = static_cast<int>(coarsest.vertices.size());
-  const auto n = static_cast<std::size_t>(filter_.vertices);
-  filter_.sample = build_transfer<B>("him.sample", embed(coarsest.vertices, finest, Outside::extrapolate), {});
-  filter_.turned = Vectors<B>("plica::him.turned", n);
-  filter_.displacement = Vectors<B>("plica::him.displacement", n);
-  std::vector<std::array<Real, 3>> axes(3 * n);
-  for (std::size_t k = 0; k < axes.size(); ++k) axes[k][k % 3] = 1;
-  filter_.rotation = to_device<Vectors<B>>("him.rotation", axes);
-  const std::size_t block = CoarseFilter<B>::block;
-  filtered_ = Scalars<B>("plica::him.filtered", (3 * n + block - 1) / block * block);
-  blocks_ = BlockSums<B>(filter_.vertices);
-
-  std::vector<std::vector<int>> around(n);
-  std::vector<std::array<Real, 12>> shapes;
-  for (std::size_t e = 0; e < coarsest.tets.size(); ++e) {
-    const auto& tet = coarsest.tets[e];
-    Eigen::Matrix3d edges;
-    for (std::size_t s = 0; s < 3; ++s)
-      edges.col(static_cast<Eigen::Index>(s)) =
-          coarsest.vertices[static_cast<std::size_t>(tet[s + 1])] - coarsest.vertices[static_cast<std::size_t>(tet[0])];
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> inverse = edges.inverse();
-    std::array<Real, 12> shape{};
-    for (std::size_t k = 0; k < 9; ++k) shape[k] = static_cast<Real>(inverse.data()[k]);
-    shape[9] = static_cast<Real>(edges.determinant() / 6);
-    shapes.push_back(shape);
-    for (const int v : tet) around[static_cast<std::size_t>(v)].push_back(static_cast<int>(e));
-  }
-  std::vector<int> first{0}, tets;
-  for (const auto& own : around) {
-    tets.insert(tets.end(), own.begin(), own.end());
-    first.push_back(static_cast<int>(tets.size()));
-  }
-  filter_.first = to_device<Indices<B>>("him.first", first), filter_.tet = to_device<Indices<B>>("him.tet", tets);
-  filter_.corner = to_device<decltype(filter_.corner)>("him.corner", coarsest.tets);
-  filter_.shape = to_device<decltype(filter_.shape)>("him.shape", shapes);
+  filter_.turned = Vectors<B>("plica::him.turned", coarsest.vertices.size());
+  filter_.rotation = axes_.rotation();
+  filtered_ = Scalars<B>("plica::him.filtered", (3 * coarsest.vertices.size() + block - 1) / block * block);
 }
 
 template <class B>
@@ -118,32 +62,47 @@ void InverseMass<B>::set_answer(const Eigen::MatrixXd& S) {
 }
 
 template <class B>
-void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u,
-                          const Kokkos::View<double*, typename B::Memory>& moved) const {
+void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u, const Count& moved) const {
+  if (!coarser_.empty()) axes_.turn(exec, u, moved);
+}
+
+template <class B>
+void InverseMass<B>::push(const Exec& exec, const Vectors<B>& q, double t, const Model<B>& model,
+                          const Vectors<B>& p) const {
   if (coarser_.empty()) return;
-  update_vertices<B>(exec, "plica::him_sample", filter_.vertices,
-                     SampleDisplacement<B>{filter_.sample, u, filter_.displacement});
-  reduce<B, 2>(exec, "plica::him_turn", filter_.vertices, TurnAxes<B>{filter_}, blocks_, moved);
+  go_down(exec, q, {});
+  const auto filter = [&](const Vectors<B>& momentum, const Count& open) -> const Scalars<B>& {
+    filter_forces(exec, momentum, open);
+    return filtered_;
+  };
+  axes_.push(exec, coarser_.back().force, filter, weights_.back(), t, model, p);
 }
 
 template <class B>
-void InverseMass<B>::answer_coarsest(const Exec& exec, const Count& count) const {
-  const MassLevel<B>& level = coarser_.back();
-  where_touching<B>(exec, count, "plica::him_turn_forces", level.vertices, TurnForces<B>{filter_, level.force});
-  where_touching<B>(exec, count, "plica::him_filter", static_cast<int>(filtered_.extent(0)) / FilterForces<B>::rows,
-                    FilterForces<B>{filter_, filtered_});
-  where_touching<B>(exec, count, "plica::him_turn_back", level.vertices,
-                    TurnBack<B>{filter_, filtered_, level.acceleration, static_cast<Real>(weights_.back())});
-}
-
-template <class B>
-void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Count& count) const {
+void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, const Count& count) const {
   Vectors<B> finer = f;
   for (const MassLevel<B>& level : coarser_) {
     where_touching<B>(exec, count, "plica::him_down", level.vertices, MultiplyRows<B>{level.down, finer, level.force});
     finer = level.force;
   }
-  if (!coarser_.empty()) answer_coarsest(exec, count);
+}
+
+template <class B>
+void InverseMass<B>::filter_forces(const Exec& exec, const Vectors<B>& force, const Count& count) const {
+  where_touching<B>(exec, count, "plica::him_turn_forces", filter_.vertices, TurnForces<B>{filter_, force});
+  where_touching<B>(exec, count, "plica::him_filter", static_cast<int>(filtered_.extent(0)) / FilterForces<B>::rows,
+                    FilterForces<B>{filter_, filtered_});
+}
+
+template <class B>
+void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Count& count) const {
+  go_down(exec, f, count);
+  if (!coarser_.empty()) {
+    const MassLevel<B>& level = coarser_.back();
+    filter_forces(exec, level.force, count);
+    where_touching<B>(exec, count, "plica::him_turn_back", level.vertices,
+                      TurnBack<B>{filter_, filtered_, level.acceleration, static_cast<Real>(weights_.back())});
+  }
   for (std::size_t i = coarser_.size(); i-- > 1;) {
     const MassLevel<B>&level = coarser_[i - 1], &below = coarser_[i];
     where_touching<B>(exec, count, "plica::him_up", level.vertices,
@@ -158,8 +117,7 @@ void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<
 
 template <class B>
 std::size_t InverseMass<B>::bytes() const {
-  std::size_t total = bytes_of_views(filter_.matrix, filter_.turned, filter_.displacement, filter_.rotation,
-                                     filter_.first, filter_.tet, filter_.corner, filter_.shape, filtered_);
+  std::size_t total = bytes_of_views(filter_.matrix, filter_.turned, filtered_) + axes_.bytes();
   for (const MassLevel<B>& level : coarser_)
     total += bytes_of_rows(level.up) + bytes_of_rows(level.down) + bytes_of_rows(level.mass) +
              bytes_of_views(level.inverse_diagonal, level.force, level.acceleration);

@@ -2,8 +2,7 @@
 #pragma once
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/level.hpp>
-#include <plica/drivers/solver/him/mass_spaces.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/drivers/solver/him/turning_axes.hpp>
 #include <vector>
 
 namespace plica {
@@ -27,13 +26,15 @@ class InverseMass {
   /// The coarsest level's answer S, see CoarseModes.
   void set_answer(const Eigen::MatrixXd& S);
 
-  /// Turns the coarsest level's axes with the finest mesh's state. Into moved: the sum of the squares of their angles since the
-  /// last time [rad^2], and their number.
-  void turn(const Exec& exec, const Vectors<B>& u, const Kokkos::View<double*, typename B::Memory>& moved) const;
+  /// Turns the coarsest level's axes with the finest mesh's state, see TurningAxes.
+  void turn(const Exec& exec, const Vectors<B>& u, const Count& moved) const;
+  /// p += t times the force by which the axes act on the momenta q, with that force in them.
+  void push(const Exec& exec, const Vectors<B>& q, double t, const Model<B>& model, const Vectors<B>& p) const;
   /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that is above 0.
   void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Count& count = {}) const;
 
   const CoarseFilter<B>& filter() const { return filter_; }
+  const TurningAxes<B>& axes() const { return axes_; }
   std::size_t bytes() const;
 
  private:
@@ -41,11 +42,12 @@ class InverseMass {
   Scalars<B> inverse_mass_;
   std::vector<MassLevel<B>> coarser_;
   CoarseFilter<B> filter_;
+  TurningAxes<B> axes_;
   Scalars<B> filtered_;
-  BlockSums<B> blocks_;
   std::vector<double> weights_;
 
-  void build_axes(const TetMesh& finest, const TetMesh& coarsest);
+  void go_down(const Exec& exec, const Vectors<B>& f, const Count& count) const;
+  void filter_forces(const Exec& exec, const Vectors<B>& force, const Count& count) const;
   void answer_coarsest(const Exec& exec, const Count& count) const;
 };
 

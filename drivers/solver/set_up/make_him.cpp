@@ -55,7 +55,7 @@ HimParts<B> him_parts(const Problem& problem, const std::vector<LevelConstants>&
     const Box box = bounding_box(meshes.front().vertices);
     std::vector<Point> rest = meshes.front().vertices;
     for (Point& p : rest) p -= (box.min + box.max) / 2;
-    parts.rigid.emplace(to_device<Vectors<B>>("him.rest", rows<typename B::Real>(rest)));
+    parts.free.emplace(to_device<Vectors<B>>("him.rest", rows<typename B::Real>(rest)));
   }
   return parts;
 }

@@ -4,91 +4,20 @@
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/cycles/him.hpp>
-#include <plica/drivers/solver/set_up/lumped_masses.hpp>
 
-#include "support/backends.hpp"
-#include "support/bodies.hpp"
-#include "support/level_probe.hpp"
+#include "support/him_pieces.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// The hierarchical inverse mass: what A is, what it conserves, whose equilibrium it keeps, when it gives in.
+// The hierarchical inverse mass: what A is, whose equilibrium it keeps, when it gives in.
 namespace {
 
 using namespace plica;
 using namespace plica::test;
 
-Problem beam(const std::string& cycle, bool nested, const std::string& material = "linear") {
-  std::vector<TetMesh> levels = {box_mesh(beam_box, {8, 4, 4})};
-  levels.push_back(nested ? box_mesh(beam_box, {4, 2, 2}) : jittered_box(beam_box, {5, 3, 3}));
-  levels.push_back(nested ? box_mesh(beam_box, {2, 1, 1}) : jittered_box(beam_box, {3, 2, 2}));
-  Problem p = body_of(std::move(levels), material);
-  p.integration.cycle = cycle;
-  return p;
-}
-
-/// Level 0, the inverse mass above it and its fit, put together by hand.
-struct Pieces {
-  explicit Pieces(const Problem& problem)
-      : levels(problem.body.levels), probe([&] {
-          Problem alone = problem;
-          alone.integration.cycle = "single", alone.integration.macro_step = 1e-9;
-          return alone;
-        }()) {
-    const Level<Host>& level = probe.at(0).level;
-    std::vector<std::vector<char>> constrained;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-      constrained.emplace_back(levels[i].vertices.size(), 0);
-      for (std::size_t a = 0; a < levels[i].vertices.size() && !problem.body.fixed.empty(); ++a)
-        constrained[i][a] = levels[i].vertices[a][0] < 1e-9;
-      up.push_back(i == 0 ? Embedding{} : embed(levels[i - 1].vertices, levels[i], Outside::extrapolate));
-    }
-    std::vector<MassMesh> meshes;
-    for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({levels[i], constrained[i], up[i]});
-    const auto spaces = mass_spaces(meshes, probe.mass(), true);
-    const MaterialOptions& m = problem.body.material;
-    const Lame<double> lame = lame_constants(m.young_modulus, m.poisson_ratio);
-    const Eigen::MatrixXd K = coarse_stiffness(levels[0], {{lame.lambda, lame.mu}}, to_finest(spaces));
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(K.rows(), K.cols());
-    for (Eigen::Index a = 0; a < spaces.back().mass.rows(); ++a)
-      for (RowMatrix::InnerIterator e(spaces.back().mass, a); e; ++e)
-        for (int k = 0; k < 3; ++k) M(3 * a + k, 3 * e.col() + k) = e.value();
-    inverse_mass = std::make_unique<InverseMass<Host>>(level, levels.front(), levels.back(), spaces);
-    fitter = std::make_unique<InertiaFitter<Host>>(typename Host::Exec{}, level,
-                                                   make_elasticity<Host>(problem.body.material.model), *inverse_mass,
-                                                   CoarseModes(K, M));
-  }
-
-  Eigen::MatrixXd matrix() {
-    const auto n = static_cast<Eigen::Index>(3 * levels[0].vertices.size());
-    Eigen::MatrixXd A(n, n);
-    std::vector<Point> f(levels[0].vertices.size(), Point::Zero());
-    const Vectors<Host> a("a", f.size());
-    for (Eigen::Index j = 0; j < n; ++j) {
-      f[static_cast<std::size_t>(j / 3)][j % 3] = 1;
-      inverse_mass->apply({}, device_field<Host>(f), a);
-      f[static_cast<std::size_t>(j / 3)][j % 3] = 0;
-      const auto column = to_host<Host>({}, a);
-      for (Eigen::Index r = 0; r < n; ++r) A(r, j) = column[static_cast<std::size_t>(r / 3)][r % 3];
-    }
-    return A;
-  }
-
-  std::optional<InertiaFit> fit(double over_critical, double sigma = 0.8) {
-    const Vectors<Host> rest("rest", levels[0].vertices.size());
-    return fitter->fit(over_critical * fitter->critical_steps()[0], sigma, rest);
-  }
-
-  std::vector<TetMesh> levels;
-  LevelProbe<Host> probe;
-  std::vector<Embedding> up;
-  std::unique_ptr<InverseMass<Host>> inverse_mass;
-  std::unique_ptr<InertiaFitter<Host>> fitter;
-};
-
 TEST(InverseMass, IsSymmetricPositiveAndBoundedByTheMass) {
   for (const bool nested : {true, false}) {
-    Pieces pieces(beam("him", nested));
+    Pieces pieces(him_beam(nested));
     ASSERT_TRUE(pieces.fit(6));
     const Eigen::MatrixXd A = pieces.matrix();
     EXPECT_LE((A - A.transpose()).norm(), 1e-12 * A.norm());
@@ -110,7 +39,7 @@ TEST(InverseMass, IsSymmetricPositiveAndBoundedByTheMass) {
 
 TEST(InverseMass, IsFittedToTheStepItsSpectrumAllows) {
   for (const bool nested : {true, false}) {
-    Problem p = beam("him", nested);
+    Problem p = him_beam(nested);
     p.body.fixed = {left_face()};
     Pieces pieces(p);
     const double t = 6 * pieces.fitter->critical_steps()[0];
@@ -133,7 +62,7 @@ TEST(InverseMass, IsFittedToTheStepItsSpectrumAllows) {
 
 // A is fixed, the step shrinks: the error of a linear swing falls like its square.
 TEST(Him, IsOfSecondOrderAtAFixedInverseMass) {
-  Problem p = beam("him", true);
+  Problem p = him_beam(true);
   p.body.fixed = {left_face()};
   const auto end_after = [&](int steps) {
     Pieces pieces(p);
@@ -179,34 +108,10 @@ TEST(Him, WithOneLevelIsCentralDifference) {
   EXPECT_LE(largest_difference(him.positions(), x), 1e-13);
 }
 
-template <class B>
-class HimOnEachBackend : public testing::Test {};
-TYPED_TEST_SUITE(HimOnEachBackend, EachBackend);
-
-TYPED_TEST(HimOnEachBackend, KeepsTheMomentaOfAFreeBody) {
-  using Real = typename TypeParam::Real;
-  Problem p = beam("him", false, "corotational");
-  p.body.initial.angular_velocity = {2, 5, -3};
-  p.body.initial.velocity = {0.3, -0.2, 0.1};
-  Simulation<TypeParam> simulation(p);
-  const auto m = lumped_masses(p.body.levels[0], {p.body.material.density});
-  const auto momenta = [&] {
-    const auto x = simulation.positions(), v = simulation.velocities();
-    std::pair<Point, Point> sum{Point::Zero(), Point::Zero()};
-    for (std::size_t a = 0; a < v.size(); ++a) sum.first += m[a] * v[a], sum.second += m[a] * x[a].cross(v[a]);
-    return sum;
-  };
-  const auto before = momenta();
-  advance(simulation, 100);
-  const auto after = momenta();
-  EXPECT_LE((after.first - before.first).norm(), round_off<Real>(1000, before.first.norm()));
-  EXPECT_LE((after.second - before.second).norm(), round_off<Real>(1000, before.second.norm()));
-  EXPECT_GT((simulation.positions()[0] - p.body.levels[0].vertices[0]).norm(), 0.05);  // it did turn
-}
-
 // What hangs still under its weight does so as the finest level alone does.
 TEST(Him, KeepsTheEquilibriumOfTheFinestLevel) {
-  Problem p = beam("single", false, "neo_hookean");
+  Problem p = him_beam(false, "neo_hookean");
+  p.integration.cycle = "single";
   p.body.fixed = {left_face()};
   p.body.damping.mass = 30;
   p.gravity = {0, 0, -1};
@@ -222,7 +127,8 @@ TEST(Him, KeepsTheEquilibriumOfTheFinestLevel) {
 }
 
 TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
-  Problem p = beam("single", true, "corotational");
+  Problem p = him_beam(true, "corotational");
+  p.integration.cycle = "single";
   p.body.fixed = {left_face()};
   p.gravity = {0, 0, -9.81};
   p.body.material.young_modulus = 300e3;
@@ -251,7 +157,7 @@ TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
 }
 
 TEST(Him, LosesNoStabilityUnnoticed) {
-  Problem p = beam("him", true, "st_venant_kirchhoff");
+  Problem p = him_beam(true, "st_venant_kirchhoff");
   p.body.fixed = {left_face()};
   p.body.material.young_modulus = 15e3;
   p.body.material.poisson_ratio = 0.45;
@@ -270,7 +176,7 @@ TEST(Him, LosesNoStabilityUnnoticed) {
 
 TEST(Him, RefusesWhatItCannotDo) {
   const auto message = [](const auto& change) {
-    Problem p = beam("him", true);
+    Problem p = him_beam(true);
     p.body.fixed = {left_face()};
     change(p);
     try {

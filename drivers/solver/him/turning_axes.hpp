@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <plica/core/inverse_mass.hpp>
+#include <plica/core/model.hpp>
+#include <plica/drivers/solver/him/axes_shape.hpp>
+#include <plica/kernels/reduce.hpp>
+
+namespace plica {
+
+/// The axes of the coarsest level, which turn with the body, and the force by which they act back on it.
+template <class B>
+class TurningAxes {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+  using Values = Kokkos::View<double*, typename B::Memory>;
+  /// Into its own view: S R^T (what q is), where `open` is above 0.
+  using Filter = std::function<const Scalars<B>&(const Vectors<B>& q, const Values& open)>;
+
+  TurningAxes() = default;
+  TurningAxes(const TetMesh& coarsest, const AxesShape& shape, const RowMatrix& all);
+
+  /// R at a state. Into moved: the sum of the squares of their angles since the last time [rad^2], and their number.
+  void turn(const Exec& exec, const Vectors<B>& u, const Values& moved) const;
+
+  /// p += t times the force by which the axes act on momenta, at the momenta that this gives: repeated until it changes by less
+  /// than 1e-4 of itself, eight times at most, warm from the last step.
+  /// @param q       coarse momenta without it
+  /// @param weight  of the coarsest level in the inverse mass
+  void push(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight, double t, const Model<B>& model,
+            const Vectors<B>& p) const;
+
+  const Vectors<B>& rotation() const { return rotation_; }
+  /// What the force added to the coarse momenta in the last step.
+  const Vectors<B>& share() const { return share_; }
+  /// [1]: by how much of itself that force still changed where it was not found, else 0.
+  const Values& open() const { return open_; }
+  std::size_t bytes() const;
+
+ private:
+  int vertices_ = 0;
+  CoarseAxes<B> axes_;
+  Vectors<B> rotation_, share_, momentum_;
+  BlockSums<B> blocks_;
+  Values open_, sums_;
+};
+
+}  // namespace plica

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/inverse_mass.hpp>
+#include <plica/core/small.hpp>
+#include <plica/kernels/him/sparse_rows.hpp>
+#include <plica/kernels/reduce.hpp>
+
+// The axes of the coarsest level, and the force by which they act back. The kinetic energy p.A(x)p/2 depends on where the body
+// is through R alone; p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. With q the coarse momentum and
+// y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a); R = polar(G), G = W D, turns by
+// R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
+namespace plica {
+
+template <class Real, class View>
+KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
+  Mat3<Real> A;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) A[i][j] = x(3 * a + i, j);
+  return A;
+}
+
+template <class Real, class View>
+KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) x(3 * a + i, j) = A[i][j];
+}
+
+/// A row of A times matrices.
+template <class B>
+KOKKOS_INLINE_FUNCTION Mat3<typename B::Real> row_of_matrices(const SparseRows<B>& A, int row, const Vectors<B>& x) {
+  using Real = typename B::Real;
+  Mat3<Real> sum;
+  for (int s = A.first(row); s < A.first(row + 1); ++s)
+    sum = sum + A.value(s) * matrix_at<Real>(x, A.column(s));
+  return sum;
+}
+
+/// The rotation nearest to A (its polar factor), by Newton's iteration (Higham 1986) scaled to determinant 1, to round-off;
+/// where A is turned inside out or flat, `before`, and false.
+template <class Real>
+KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Real>& before, Mat3<Real>& Q) {
+  const Real det = determinant(A), size = inner(A, A);
+  Q = before;
+  if (!(det > Real(1e-3) * size * Kokkos::sqrt(size))) return false;
+  Q = (Real(1) / Kokkos::cbrt(det)) * A;
+  for (int i = 0; i < 10; ++i) {
+    const Mat3<Real> next = Real(0.5) * (Q + (Real(1) / determinant(Q)) * cofactor(Q)), change = next - Q;
+    Q = next;
+    if (inner(change, change) < Real(1e-14)) break;  // quadratic: the next change is its square
+  }
+  return true;
+}
+
+/// D: the deformation gradients of each coarse vertex's elements, times their volumes.
+template <class B>
+struct SumGradients {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    Mat3<Real> D;
+    for (int n = axes.first(a); n < axes.first(a + 1); ++n) {
+      const int e = axes.tet(n);
+      Mat3<Real> F = Mat3<Real>::identity();
+      for (int s = 0; s < 3; ++s)
+        for (int i = 0; i < 3; ++i) {
+          const Real edge = axes.displacement(axes.corner(e, s + 1), i) - axes.displacement(axes.corner(e, 0), i);
+          for (int j = 0; j < 3; ++j) F[i][j] += edge * axes.shape(e, 3 * s + j);
+        }
+      D = D + axes.shape(e, 9) * F;
+    }
+    set_matrix(axes.gradient, a, D);
+  }
+};
+
+/// R and (tr U 1 - U)^-1. Returns the square of the angle since the last time [rad^2], and 1.
+template <class B>
+struct TurnAxes {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  Vectors<B> rotation;
+  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int a) const {
+    const Mat3<Real> G = row_of_matrices<B>(axes.smoothing, a, axes.gradient), before = matrix_at<Real>(rotation, a);
+    Mat3<Real> R, inverse;
+    if (nearest_rotation(G, before, R)) {
+      Mat3<Real> U = transpose(R) * G;
+      U = Real(0.5) * (U + transpose(U));
+      const Mat3<Real> Z = Mat3<Real>::diagonal(trace(U)) - U;
+      inverse = (Real(1) / determinant(Z)) * cofactor(Z);  // symmetric
+    }
+    set_matrix(rotation, a, R);
+    set_matrix(axes.stiffness, a, inverse);
+    return {{static_cast<double>(Kokkos::max(Real(0), Real(3) - inner(R, before))), 1.0}};
+  }
+};
+
+/// torque = R [h]x, h = (tr U 1 - U)^-1 R^T (q x y), y = weight R x
+template <class B>
+struct TorqueOnAxes {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  Vectors<B> rotation, q;
+  Scalars<B> x;  ///< S R^T q
+  Real weight;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const Mat3<Real> R = matrix_at<Real>(rotation, a);
+    const Vec3<Real> turned = transpose(R) * Vec3<Real>{q(a, 0), q(a, 1), q(a, 2)};
+    const Vec3<Real> h =
+        matrix_at<Real>(axes.stiffness, a) * (weight * cross(turned, {x(3 * a), x(3 * a + 1), x(3 * a + 2)}));
+    const Mat3<Real> across{Vec3<Real>{Real(0), -h[2], h[1]}, Vec3<Real>{h[2], Real(0), -h[0]},
+                            Vec3<Real>{-h[1], h[0], Real(0)}};
+    set_matrix(axes.torque, a, R * across);
+  }
+};
+
+/// The same of D: through the transpose of W.
+template <class B>
+struct TorqueOnGradients {
+  CoarseAxes<B> axes;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_matrix(axes.gradient, a, row_of_matrices<B>(axes.smoothing_of, a, axes.torque));
+  }
+};
+
+/// g, through the transpose of D(u_C).
+template <class B>
+struct ForceOfAxes {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    Vec3<Real> g;
+    for (int n = axes.first(a); n < axes.first(a + 1); ++n) {
+      const int e = axes.tet(n);
+      Mat3<Real> Z;
+      Vec3<Real> slope;  // of this vertex's shape function
+      for (int s = 0; s < 4; ++s) Z = Z + matrix_at<Real>(axes.gradient, axes.corner(e, s));
+      for (int s = 0; s < 3; ++s)
+        for (int j = 0; j < 3; ++j) {
+          if (axes.corner(e, s + 1) == a) slope[j] += axes.shape(e, 3 * s + j);
+          if (axes.corner(e, 0) == a) slope[j] -= axes.shape(e, 3 * s + j);
+        }
+      g += axes.shape(e, 9) * (Z * slope);
+    }
+    for (int k = 0; k < 3; ++k) axes.force(a, k) = g[k];
+  }
+};
+
+/// The coarse momentum with that force in it, towards what it itself depends on. Returns the squares of its change and of the
+/// force's whole share.
+template <class B>
+struct NextMomentum {
+  using Real = typename B::Real;
+  SparseRows<B> response;
+  Vectors<B> force, given, share;  ///< g; without it; what it adds
+  Vectors<B> q;                    ///< their sum
+  Kokkos::View<double*, typename B::Memory> open;
+  Real t;
+  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int a) const {
+    Sums<2> sums;
+    if (!(open(0) > 0)) return sums;
+    const Vec3<Real> answer = row_product<B>(response, a, force);
+    for (int k = 0; k < 3; ++k) {
+      const Real next = t * answer[k], change = next - share(a, k);
+      sums[0] += static_cast<double>(change) * static_cast<double>(change);
+      sums[1] += static_cast<double>(next) * static_cast<double>(next);
+      share(a, k) = next, q(a, k) = given(a, k) + next;
+    }
+    return sums;
+  }
+};
+
+/// q = given + share: where to start from.
+template <class B>
+struct WarmMomentum {
+  Vectors<B> given, share, q;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) q(a, k) = given(a, k) + share(a, k);
+  }
+};
+
+/// Whether to go on: the change over the share while that is more than `tolerance`, else 0.
+template <class B>
+struct DecideToGoOn {
+  using Values = Kokkos::View<double*, typename B::Memory>;
+  Values sums, open;
+  double tolerance;
+  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+    const double change = sums(1) > 0 ? Kokkos::sqrt(sums(0) / sums(1)) : 0.0;
+    if (open(0) > 0) open(0) = change > tolerance ? change : 0.0;
+  }
+};
+
+/// p += t E^T g, of vertices that forces move.
+template <class B>
+struct PushByAxes {
+  using Real = typename B::Real;
+  SparseRows<B> spread;
+  Scalars<B> inverse_mass;
+  Vectors<B> force, p;
+  Real t;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    if (!(inverse_mass(a) > 0)) return;
+    const Vec3<Real> f = row_product<B>(spread, a, force);
+    for (int k = 0; k < 3; ++k) p(a, k) += t * f[k];
+  }
+};
+
+}  // namespace plica

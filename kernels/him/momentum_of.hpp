@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/kernels/reduce.hpp>
+
+// Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m; residuals r in r.m r.
+namespace plica {
+
+/// r = v - answer
+template <class B>
+struct StartResidual {
+  Model<B> model;
+  Vectors<B> v, answer, r;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      r(a, k) = model.inverse_mass(a) > 0 ? v(a, k) - answer(a, k) : 0;
+      square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) * static_cast<double>(r(a, k));
+    }
+    return {{square}};
+  }
+};
+
+/// s = m r + beta s
+template <class B>
+struct NextDirection {
+  using Real = typename B::Real;
+  Model<B> model;
+  Vectors<B> r, s;
+  Real beta;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) s(a, k) = model.mass(a) * r(a, k) + beta * s(a, k);
+  }
+};
+
+template <class B>
+struct DotFree {
+  Model<B> model;
+  Vectors<B> x, y;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double sum = 0;
+    for (int k = 0; k < 3 && model.inverse_mass(a) > 0; ++k)
+      sum += static_cast<double>(x(a, k)) * static_cast<double>(y(a, k));
+    return {{sum}};
+  }
+};
+
+/// p += alpha s, r -= alpha A s
+template <class B>
+struct MoveAlong {
+  using Real = typename B::Real;
+  Model<B> model;
+  Vectors<B> s, answer, p, r;
+  Real alpha;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double square = 0;
+    for (int k = 0; k < 3 && model.inverse_mass(a) > 0; ++k) {
+      p(a, k) += alpha * s(a, k), r(a, k) -= alpha * answer(a, k);
+      square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) * static_cast<double>(r(a, k));
+    }
+    return {{square}};
+  }
+};
+
+}  // namespace plica
