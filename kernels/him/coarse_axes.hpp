@@ -29,10 +29,12 @@ KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A
 template <class B>
 KOKKOS_INLINE_FUNCTION Mat3<typename B::Real> row_of_matrices(const SparseRows<B>& A, int row, const Vectors<B>& x) {
   using Real = typename B::Real;
-  Mat3<Real> sum;
-  for (int s = A.first(row); s < A.first(row + 1); ++s)
-    sum = sum + A.value(s) * matrix_at<Real>(x, A.column(s));
-  return sum;
+  Real sum[9] = {};
+  for (int s = A.first(row); s < A.first(row + 1); ++s) {
+    const Real w = A.value(s), *m = x.data() + 9 * A.column(s);
+    for (int k = 0; k < 9; ++k) sum[k] += w * m[k];
+  }
+  return {Vec3<Real>{sum[0], sum[1], sum[2]}, Vec3<Real>{sum[3], sum[4], sum[5]}, Vec3<Real>{sum[6], sum[7], sum[8]}};
 }
 
 /// The rotation nearest to A (its polar factor), by Newton's iteration (Higham 1986) scaled to determinant 1, to round-off;
@@ -51,23 +53,30 @@ KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Rea
   return true;
 }
 
-/// D: the deformation gradients of each coarse vertex's elements, times their volumes.
+/// Deformation gradients times volumes.
+template <class B>
+struct GradientsOfTets {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  KOKKOS_INLINE_FUNCTION void operator()(int e) const {
+    Mat3<Real> F = Mat3<Real>::identity();
+    for (int s = 0; s < 3; ++s)
+      for (int i = 0; i < 3; ++i) {
+        const Real edge = axes.displacement(axes.corner(e, s + 1), i) - axes.displacement(axes.corner(e, 0), i);
+        for (int j = 0; j < 3; ++j) F[i][j] += edge * axes.shape(e, 3 * s + j);
+      }
+    set_matrix(axes.of_tet, e, axes.shape(e, 9) * F);
+  }
+};
+
+/// D: their sums around each vertex.
 template <class B>
 struct SumGradients {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     Mat3<Real> D;
-    for (int n = axes.first(a); n < axes.first(a + 1); ++n) {
-      const int e = axes.tet(n);
-      Mat3<Real> F = Mat3<Real>::identity();
-      for (int s = 0; s < 3; ++s)
-        for (int i = 0; i < 3; ++i) {
-          const Real edge = axes.displacement(axes.corner(e, s + 1), i) - axes.displacement(axes.corner(e, 0), i);
-          for (int j = 0; j < 3; ++j) F[i][j] += edge * axes.shape(e, 3 * s + j);
-        }
-      D = D + axes.shape(e, 9) * F;
-    }
+    for (int n = axes.first(a); n < axes.first(a + 1); ++n) D = D + matrix_at<Real>(axes.of_tet, axes.place(n) / 4);
     set_matrix(axes.gradient, a, D);
   }
 };
@@ -121,31 +130,37 @@ struct TorqueOnGradients {
   }
 };
 
-/// g, through the transpose of D(u_C).
+/// The forces on corners 1, 2, 3 of an element, a row each: through the transpose of D(u_C).
 template <class B>
-struct ForceOfAxes {
+struct ForcesOfTets {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  KOKKOS_INLINE_FUNCTION void operator()(int e) const {
+    Mat3<Real> Z, inverse;
+    for (int s = 0; s < 4; ++s) Z = Z + matrix_at<Real>(axes.gradient, axes.corner(e, s));
+    for (int k = 0; k < 9; ++k) inverse[k / 3][k % 3] = axes.shape(e, 9) * axes.shape(e, k);
+    set_matrix(axes.of_tet, e, inverse * transpose(Z));
+  }
+};
+
+/// g
+template <class B>
+struct SumForces {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     Vec3<Real> g;
     for (int n = axes.first(a); n < axes.first(a + 1); ++n) {
-      const int e = axes.tet(n);
-      Mat3<Real> Z;
-      Vec3<Real> slope;  // of this vertex's shape function
-      for (int s = 0; s < 4; ++s) Z = Z + matrix_at<Real>(axes.gradient, axes.corner(e, s));
-      for (int s = 0; s < 3; ++s)
-        for (int j = 0; j < 3; ++j) {
-          if (axes.corner(e, s + 1) == a) slope[j] += axes.shape(e, 3 * s + j);
-          if (axes.corner(e, 0) == a) slope[j] -= axes.shape(e, 3 * s + j);
-        }
-      g += axes.shape(e, 9) * (Z * slope);
+      const int corner = axes.place(n) % 4;
+      const Mat3<Real> forces = matrix_at<Real>(axes.of_tet, axes.place(n) / 4);
+      g = corner == 0 ? g - (forces[0] + forces[1] + forces[2]) : g + forces[corner - 1];
     }
     for (int k = 0; k < 3; ++k) axes.force(a, k) = g[k];
   }
 };
 
-/// The coarse momentum with that force in it, towards what it itself depends on. Returns the squares of its change and of the
-/// force's whole share.
+/// The coarse momentum with that force in it, towards what it itself depends on. Returns the squares of its change, of the
+/// force's whole share and of all of it.
 template <class B>
 struct NextMomentum {
   using Real = typename B::Real;
@@ -154,8 +169,8 @@ struct NextMomentum {
   Vectors<B> q;                    ///< their sum
   Kokkos::View<double*, typename B::Memory> open;
   Real t;
-  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int a) const {
-    Sums<2> sums;
+  KOKKOS_INLINE_FUNCTION Sums<3> operator()(int a) const {
+    Sums<3> sums;
     if (!(open(0) > 0)) return sums;
     const Vec3<Real> answer = row_product<B>(response, a, force);
     for (int k = 0; k < 3; ++k) {
@@ -163,6 +178,7 @@ struct NextMomentum {
       sums[0] += static_cast<double>(change) * static_cast<double>(change);
       sums[1] += static_cast<double>(next) * static_cast<double>(next);
       share(a, k) = next, q(a, k) = given(a, k) + next;
+      sums[2] += static_cast<double>(q(a, k)) * static_cast<double>(q(a, k));
     }
     return sums;
   }
@@ -177,14 +193,15 @@ struct WarmMomentum {
   }
 };
 
-/// Whether to go on: the change over the share while that is more than `tolerance`, else 0.
+/// Whether to go on: the change over the share while that is more than `tolerance`, and the change more than `least` of all.
 template <class B>
 struct DecideToGoOn {
   using Values = Kokkos::View<double*, typename B::Memory>;
   Values sums, open;
-  double tolerance;
+  double tolerance, least;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
-    const double change = sums(1) > 0 ? Kokkos::sqrt(sums(0) / sums(1)) : 0.0;
+    const bool matters = sums(0) > least * least * sums(2);
+    const double change = matters ? Kokkos::sqrt(sums(0) / sums(1)) : 0.0;
     if (open(0) > 0) open(0) = change > tolerance ? change : 0.0;
   }
 };

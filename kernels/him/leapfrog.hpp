@@ -63,7 +63,7 @@ struct SlowedMomentum {
   }
 };
 
-/// p += t (f - d m v) - c g
+/// p += t (f - d m v) - c g; no g: p - m v
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
@@ -73,8 +73,11 @@ struct KickMomentum {
   Real t, damping;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
-    const Real c = static_cast<Real>(loss(0)), d = damping * model.mass(a);
-    for (int k = 0; k < 3; ++k) p(a, k) += t * (f(a, k) - d * v(a, k)) - c * g(a, k);
+    const Real c = static_cast<Real>(loss(0)), m = model.mass(a);
+    for (int k = 0; k < 3; ++k) {
+      const Real slowed = g.extent(0) > 0 ? g(a, k) : p(a, k) - m * v(a, k);
+      p(a, k) += t * (f(a, k) - damping * m * v(a, k)) - c * slowed;
+    }
   }
 };
 

@@ -155,11 +155,13 @@ class HimCycle final : public Cycle<B> {
     parts_.inverse_mass->turn(exec, level.state.u, moved_);
     update_vertices<B>(exec, "plica::him_loss", 1,
                        ChooseLoss<B>{moved_, loss_, parts_.options.dissipation.value_or(-1)});
-    update_vertices<B>(exec, "plica::him_slowed", n_, SlowedMomentum<B>{level.model, level.state.v, p_, g_});
-    if (parts_.free) parts_.free->take_rigid(exec, level.model, level.state.u, g_);
+    if (parts_.free) {
+      update_vertices<B>(exec, "plica::him_slowed", n_, SlowedMomentum<B>{level.model, level.state.v, p_, g_});
+      parts_.free->take_rigid(exec, level.model, level.state.u, g_);
+    }
     update_vertices<B>(exec, "plica::him_momenta", n_,
-                       KickMomentum<B>{level.model, level.f, level.state.v, g_, p_, loss_, static_cast<Real>(t),
-                                       static_cast<Real>(parts_.mass_damping)});
+                       KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
+                                       static_cast<Real>(t), static_cast<Real>(parts_.mass_damping)});
     parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
   }
 

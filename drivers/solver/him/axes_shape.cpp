@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/LU>
+#include <algorithm>
 #include <plica/drivers/solver/him/axes_shape.hpp>
 
 namespace plica {
@@ -8,24 +9,27 @@ namespace {
 
 constexpr int smoothings = 6;
 constexpr double least_mass = 1e-6, least_volume = 1e-4;  // of the largest, of the mesh's own
+constexpr double least_mean = 1e-3;                       // left out of means
 
-/// Where next to nothing of the finest mesh reaches a vertex, as where its motion is given: the mesh's motion there.
-RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, const RowMatrix& all,
-                              const std::vector<double>& mass) {
-  const Eigen::Map<const Eigen::VectorXd> m(mass.data(), static_cast<Eigen::Index>(mass.size()));
-  const Eigen::VectorXd carried = all.transpose() * m;
-  const auto reached = [&](Eigen::Index a) { return carried[a] > least_mass * carried.maxCoeff(); };
+/// Where nothing of the finest mesh reaches a vertex: the mesh's motion there.
+RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
+  const Embedding in = embed(finest.vertices, coarsest, Outside::clamp);
+  std::vector<double> carried(coarsest.vertices.size(), 0.0);
+  const auto each = [&](const auto& use) {
+    for (std::size_t i = 0; i < mass.size(); ++i)
+      for (std::size_t c = 0; c < 4; ++c) use(i, static_cast<std::size_t>(in.vertices[i][c]), mass[i] * in.weights[i][c]);
+  };
+  each([&](std::size_t, std::size_t a, double m) { carried[a] += m; });
+  const double least = least_mass * *std::max_element(carried.begin(), carried.end());
   std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index i = 0; i < all.rows(); ++i)
-    for (RowMatrix::InnerIterator entry(all, i); entry; ++entry)
-      if (reached(entry.col()))
-        entries.emplace_back(static_cast<int>(entry.col()), static_cast<int>(i),
-                             m[i] * entry.value() / carried[entry.col()]);
+  each([&](std::size_t i, std::size_t a, double m) {
+    if (carried[a] > least && m > 0) entries.emplace_back(static_cast<int>(a), static_cast<int>(i), m / carried[a]);
+  });
   const Embedding at = embed(coarsest.vertices, finest, Outside::extrapolate);
-  for (std::size_t a = 0; a < at.vertices.size(); ++a)
-    for (std::size_t c = 0; c < 4 && !reached(static_cast<Eigen::Index>(a)); ++c)
+  for (std::size_t a = 0; a < carried.size(); ++a)
+    for (std::size_t c = 0; c < 4 && !(carried[a] > least); ++c)
       entries.emplace_back(static_cast<int>(a), at.vertices[a][c], at.weights[a][c]);
-  RowMatrix E(all.cols(), all.rows());
+  RowMatrix E(static_cast<Eigen::Index>(carried.size()), static_cast<Eigen::Index>(mass.size()));
   E.setFromTriplets(entries.begin(), entries.end());
   return E;
 }
@@ -57,10 +61,9 @@ RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& vol
 
 }  // namespace
 
-AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const RowMatrix& all,
-                     const std::vector<double>& mass) {
+AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
   AxesShape result;
-  result.restriction = restriction_by_mass(finest, coarsest, all, mass);
+  result.restriction = restriction_by_mass(finest, coarsest, mass);
   std::vector<Point> x(coarsest.vertices.size(), Point::Zero());
   for (Eigen::Index a = 0; a < result.restriction.rows(); ++a)
     for (RowMatrix::InnerIterator entry(result.restriction, a); entry; ++entry)
@@ -83,6 +86,7 @@ AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const RowMa
   const RowMatrix once = neighbourhood_mean(coarsest, volume, sum);
   RowMatrix all_of_it = once;
   for (int i = 1; i < smoothings; ++i) all_of_it = RowMatrix(all_of_it * once);
+  all_of_it.prune([](Eigen::Index, Eigen::Index, double value) { return value > least_mean; });
   const Eigen::VectorXd sums = all_of_it * Eigen::Map<const Eigen::VectorXd>(sum.data(), once.rows());
   for (Eigen::Index a = 0; a < once.rows(); ++a)
     for (RowMatrix::InnerIterator entry(all_of_it, a); entry; ++entry)

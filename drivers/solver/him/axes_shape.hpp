@@ -6,14 +6,12 @@ namespace plica {
 
 /// What the axes of the coarsest level are found from, see CoarseAxes.
 struct AxesShape {
-  RowMatrix restriction;  ///< E: means by mass over what a coarse vertex carries; rows sum to 1
+  RowMatrix restriction;  ///< E: means by mass over what hangs on a coarse vertex; rows sum to 1
   RowMatrix smoothing;    ///< W: six averages over the elements' neighbourhoods, over the volumes; W D = 1 at rest
   std::vector<std::array<double, 10>> tets;  ///< inverse edges between restricted rest positions, volume / mean; 0: flat
 };
 
-/// @param all   the coarsest level's space in the finest mesh
 /// @param mass  of the finest level's vertices [kg]
-AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const RowMatrix& all,
-                     const std::vector<double>& mass);
+AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass);
 
 }  // namespace plica

@@ -39,8 +39,7 @@ InverseMass<B>::InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, 
   std::vector<double> mass;
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), finest.model.mass);
   for (std::size_t a = 0; a < host.extent(0); ++a) mass.push_back(static_cast<double>(host(a)));
-  const RowMatrix all = to_finest(spaces);
-  axes_ = TurningAxes<B>(coarsest, axes_shape(finest_mesh, coarsest, all, mass), all);
+  axes_ = TurningAxes<B>(coarsest, axes_shape(finest_mesh, coarsest, mass), to_finest(spaces));
   constexpr std::size_t block = CoarseFilter<B>::block;
   filter_.vertices = static_cast<int>(coarsest.vertices.size());
   filter_.turned = Vectors<B>("plica::him.turned", coarsest.vertices.size());

@@ -8,17 +8,18 @@ namespace plica {
 
 namespace {
 
-constexpr int most_rounds = 8;
-constexpr double round_tolerance = 1e-4;
+constexpr int most_rounds = 6;
+constexpr double round_tolerance = 1e-3, least_share = 1e-6;  // of the momenta that the force adds, of all of them
 
 }  // namespace
 
 template <class B>
 TurningAxes<B>::TurningAxes(const TetMesh& coarsest, const AxesShape& shape, const RowMatrix& all)
     : vertices_(static_cast<int>(coarsest.vertices.size())),
+      tets_(static_cast<int>(coarsest.tets.size())),
       blocks_(vertices_),
       open_("plica::axes.open", 1),
-      sums_("plica::axes.sums", 2) {
+      sums_("plica::axes.sums", 3) {
   const RowMatrix spread = shape.restriction.transpose();
   axes_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
   axes_.spread = sparse_rows<B>("axes.spread", spread);
@@ -38,14 +39,16 @@ TurningAxes<B>::TurningAxes(const TetMesh& coarsest, const AxesShape& shape, con
   std::vector<std::array<Real, 10>> shapes(coarsest.tets.size());
   for (std::size_t e = 0; e < coarsest.tets.size(); ++e) {
     for (std::size_t k = 0; k < 10; ++k) shapes[e][k] = static_cast<Real>(shape.tets[e][k]);
-    for (const int v : coarsest.tets[e]) around[static_cast<std::size_t>(v)].push_back(static_cast<int>(e));
+    for (std::size_t c = 0; c < 4; ++c)
+      around[static_cast<std::size_t>(coarsest.tets[e][c])].push_back(static_cast<int>(4 * e + c));
   }
-  std::vector<int> first{0}, tets;
+  axes_.of_tet = Vectors<B>("plica::axes.matrices", 3 * coarsest.tets.size());
+  std::vector<int> first{0}, places;
   for (const auto& own : around) {
-    tets.insert(tets.end(), own.begin(), own.end());
-    first.push_back(static_cast<int>(tets.size()));
+    places.insert(places.end(), own.begin(), own.end());
+    first.push_back(static_cast<int>(places.size()));
   }
-  axes_.first = to_device<Indices<B>>("axes.first", first), axes_.tet = to_device<Indices<B>>("axes.tet", tets);
+  axes_.first = to_device<Indices<B>>("axes.first", first), axes_.place = to_device<Indices<B>>("axes.place", places);
   axes_.corner = to_device<decltype(axes_.corner)>("axes.corner", coarsest.tets);
   axes_.shape = to_device<decltype(axes_.shape)>("axes.shape", shapes);
 }
@@ -54,6 +57,7 @@ template <class B>
 void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u, const Values& moved) const {
   update_vertices<B>(exec, "plica::axes_restrict", vertices_,
                      MultiplyRows<B>{axes_.restriction, u, axes_.displacement});
+  update_vertices<B>(exec, "plica::axes_gradients", tets_, GradientsOfTets<B>{axes_});
   update_vertices<B>(exec, "plica::axes_gradients", vertices_, SumGradients<B>{axes_});
   reduce<B, 2>(exec, "plica::axes_turn", vertices_, TurnAxes<B>{axes_, rotation_}, blocks_, moved);
 }
@@ -64,16 +68,16 @@ void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& f
   const auto h = static_cast<Real>(t);
   Kokkos::deep_copy(exec, open_, 1.0);
   update_vertices<B>(exec, "plica::axes_momentum", vertices_, WarmMomentum<B>{q, share_, momentum_});
-  static const int most = getenv("RN") ? atoi(getenv("RN")) : most_rounds; static const double tol = getenv("RT") ? atof(getenv("RT")) : round_tolerance;
-  for (int round = 0; round < most; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const Scalars<B>& x = filter(momentum_, open_);
     where_touching<B>(exec, open_, "plica::axes_torque", vertices_,
                       TorqueOnAxes<B>{axes_, rotation_, momentum_, x, static_cast<Real>(weight)});
     where_touching<B>(exec, open_, "plica::axes_torque", vertices_, TorqueOnGradients<B>{axes_});
-    where_touching<B>(exec, open_, "plica::axes_force", vertices_, ForceOfAxes<B>{axes_});
-    reduce<B, 2>(exec, "plica::axes_momentum", vertices_,
+    where_touching<B>(exec, open_, "plica::axes_force", tets_, ForcesOfTets<B>{axes_});
+    where_touching<B>(exec, open_, "plica::axes_force", vertices_, SumForces<B>{axes_});
+    reduce<B, 3>(exec, "plica::axes_momentum", vertices_,
                  NextMomentum<B>{axes_.response, axes_.force, q, share_, momentum_, open_, h}, blocks_, sums_);
-    update_vertices<B>(exec, "plica::axes_decide", 1, DecideToGoOn<B>{sums_, open_, tol});
+    update_vertices<B>(exec, "plica::axes_decide", 1, DecideToGoOn<B>{sums_, open_, round_tolerance, least_share});
   }
   update_vertices<B>(exec, "plica::axes_push", model.vertices,
                      PushByAxes<B>{axes_.spread, model.inverse_mass, axes_.force, p, h});
@@ -81,7 +85,7 @@ void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& f
 
 template <class B>
 std::size_t TurningAxes<B>::bytes() const {
-  std::size_t total = bytes_of_views(axes_.first, axes_.tet, axes_.corner, axes_.shape, axes_.displacement,
+  std::size_t total = bytes_of_views(axes_.first, axes_.place, axes_.of_tet, axes_.corner, axes_.shape, axes_.displacement,
                                      axes_.gradient, axes_.stiffness, axes_.torque, axes_.force, rotation_, share_,
                                      momentum_);
   for (const SparseRows<B>* one :

@@ -25,7 +25,7 @@ class TurningAxes {
   void turn(const Exec& exec, const Vectors<B>& u, const Values& moved) const;
 
   /// p += t times the force by which the axes act on momenta, at the momenta that this gives: repeated until it changes by less
-  /// than 1e-4 of itself, eight times at most, warm from the last step.
+  /// than a thousandth of itself or a millionth of q, six times at most, warm from the last step.
   /// @param q       coarse momenta without it
   /// @param weight  of the coarsest level in the inverse mass
   void push(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight, double t, const Model<B>& model,
@@ -39,7 +39,7 @@ class TurningAxes {
   std::size_t bytes() const;
 
  private:
-  int vertices_ = 0;
+  int vertices_ = 0, tets_ = 0;
   CoarseAxes<B> axes_;
   Vectors<B> rotation_, share_, momentum_;
   BlockSums<B> blocks_;
