@@ -41,18 +41,19 @@ struct CoarseFilter {
 /// R = the rotation nearest to W D. And the force by which they act back, g on u_C.
 template <class B>
 struct CoarseAxes {
-  SparseRows<B> restriction, spread;       ///< E, from the finest mesh, and its transpose
-  SparseRows<B> smoothing, smoothing_of;   ///< W, and its transpose
-  SparseRows<B> response;                  ///< Pi^T E^T: coarse momentum per momentum on u_C
-  Indices<B> first, place;                 ///< of each vertex in its elements, in order: 4 element + corner
-  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;               ///< of each element
-  Kokkos::View<typename B::Real* [10], Kokkos::LayoutRight, typename B::Memory> shape;  ///< inverse edges, volume / mean
-  Vectors<B> displacement;                 ///< u_C [m]
-  Vectors<B> of_tet;                       ///< volume times deformation gradient, later the force's, [3 elements][3]
-  Vectors<B> gradient;                     ///< D, later what turns it, [3 vertices][3]
-  Vectors<B> stiffness;                    ///< (tr U 1 - U)^-1, U = R^T W D, [3 vertices][3]; 0: R is not the nearest
-  Vectors<B> torque;                       ///< what W D is turned by, [3 vertices][3]
-  Vectors<B> force;                        ///< g [N]
+  SparseRows<B> restriction, spread;      ///< E, from the finest mesh, and its transpose
+  SparseRows<B> smoothing, smoothing_of;  ///< W, and its transpose
+  SparseRows<B> response;                 ///< Pi^T E^T: coarse momentum per momentum on u_C
+  Indices<B> first, place;                ///< of each vertex in its elements, in order: 4 element + corner
+  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;  ///< of each element
+  Kokkos::View<typename B::Real* [10], Kokkos::LayoutRight, typename B::Memory>
+      shape;                ///< inverse edges, volume / mean
+  Vectors<B> displacement;  ///< u_C [m]
+  Vectors<B> of_tet;        ///< volume times deformation gradient, later the force's, [3 elements][3]
+  Vectors<B> gradient;      ///< D, later what turns it, [3 vertices][3]
+  Vectors<B> stiffness;     ///< (tr U 1 - U)^-1, U = R^T W D, [3 vertices][3]; 0: R is not the nearest
+  Vectors<B> torque;        ///< what W D is turned by, [3 vertices][3]
+  Vectors<B> force;         ///< g [N]
 };
 
 }  // namespace plica

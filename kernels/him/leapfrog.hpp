@@ -4,7 +4,7 @@
 #include <plica/core/small.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// One step of the hierarchical inverse mass on the finest level: drift by half a step, p += t (f - d m v) - c (p - m v), v = A p,
+// One step of the hierarchical inverse mass on the finest level: drift by half a step, p = (p + t f - c (p - m v)) / (1 + t d), v = A p,
 // drift by half a step. c damps only what is slowed; d [1/s] is the body's mass damping.
 namespace plica {
 
@@ -63,20 +63,20 @@ struct SlowedMomentum {
   }
 };
 
-/// p += t (f - d m v) - c g; no g: p - m v
+/// p = (p + t f - c g) / (1 + t d); no g: p - m v
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, v, g, p;
   Kokkos::View<double*, typename B::Memory> loss;
-  Real t, damping;
+  Real t, keep;  ///< keep = 1/(1 + t d)
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
     const Real c = static_cast<Real>(loss(0)), m = model.mass(a);
     for (int k = 0; k < 3; ++k) {
       const Real slowed = g.extent(0) > 0 ? g(a, k) : p(a, k) - m * v(a, k);
-      p(a, k) += t * (f(a, k) - damping * m * v(a, k)) - c * slowed;
+      p(a, k) = keep * (p(a, k) + t * f(a, k) - c * slowed);
     }
   }
 };
@@ -122,8 +122,8 @@ struct KickAndDrift {
 };
 
 /// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over what the last step did: as stability is lost at
-/// 4 the fastest motions take over, and with them the mean. `state`: how often running it was above 3.4, whether that was twice
-/// or the axes' force was not found (to 1 %, see DecideToGoOn), the largest.
+/// 4 the fastest motions take over, and with them the mean. `state`: how often running it was above 3.4, 1 where that was twice,
+/// 2 where the axes' force was not found (to 1 %, see DecideToGoOn), the largest.
 template <class B>
 struct WatchSpectrum {
   using Values = Kokkos::View<double*, typename B::Memory>;
@@ -135,7 +135,8 @@ struct WatchSpectrum {
     if (counts) state(2) = Kokkos::max(state(2), answer / work);
     state(0) = counts && answer > 3.4 * work ? state(0) + 1 : 0.0;
     const bool lost = open.extent(0) > 0 && open(0) > 0.01;
-    if (lost || state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
+    if (state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
+    if (lost) state(1) = 2;
   }
 };
 

@@ -93,8 +93,7 @@ struct SumOfMotion {
   Vectors<B> v;
   KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
     const double m = static_cast<double>(mass(a));
-    return {
-        {m, m * static_cast<double>(v(a, 0)), m * static_cast<double>(v(a, 1)), m * static_cast<double>(v(a, 2))}};
+    return {{m, m * static_cast<double>(v(a, 0)), m * static_cast<double>(v(a, 1)), m * static_cast<double>(v(a, 2))}};
   }
 };
 

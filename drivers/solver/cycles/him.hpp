@@ -62,11 +62,11 @@ class HimCycle final : public Cycle<B> {
 
   void begin(Hierarchy<B>& h) override {
     const Level<B>& level = h[0].level;
+    lost_ = watched(h.exec()) > 1;
     const auto& exec = h.exec();
     Kokkos::deep_copy(exec, a_, level.state.u);
     const auto half = static_cast<Real>(0.5 * parts_.fit.step);
-    update_vertices<B>(exec, "plica::him_back", n_,
-                       Drift<B>{level.model.inverse_mass, {a_, level.state.v}, -half});
+    update_vertices<B>(exec, "plica::him_back", n_, Drift<B>{level.model.inverse_mass, {a_, level.state.v}, -half});
     parts_.inverse_mass->turn(exec, a_, moved_);
     momentum_of<B>(
         exec, level.model, [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); },
@@ -78,15 +78,13 @@ class HimCycle final : public Cycle<B> {
     for (int s = 0; s < substeps_; ++s) one(h, time + s * t / substeps_, t / substeps_);
   }
 
-  bool alarmed(const Hierarchy<B>& h) const override {
-    h.exec().fence("plica::him_watch");
-    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1) > 0;
-  }
+  bool alarmed(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
 
   bool repair(Hierarchy<B>& h, double t) override {
     constexpr int most_substeps = 64;
     const Vectors<B>& u = h[0].level.state.u;
     double scale = 0.5 * parts_.fit.scale;
+    if (lost_) scale = 1, substeps_ *= 2;  // only a shorter step helps there
     for (++repairs_; substeps_ <= most_substeps; substeps_ *= 2, scale = 1)
       if (const auto fit = parts_.fitter->fit(t / substeps_, parts_.options.sigma, u, scale)) {
         parts_.fit = *fit;
@@ -125,10 +123,17 @@ class HimCycle final : public Cycle<B> {
   BlockSums<B> blocks_;
   Kokkos::View<double*, typename B::Memory> moved_, loss_, sums_, watch_;
   bool first_ = true;
+  bool lost_ = false;  // before the last begin(): the axes' force was not found
   int substeps_ = 1;
   long repairs_ = 0;
 
   using Count = typename InverseMass<B>::Count;
+
+  /// 0, or what is wrong: 1 the spectrum, 2 the axes' force. Waits.
+  double watched(const typename B::Exec& exec) const {
+    exec.fence("plica::him_watch");
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1);
+  }
 
   /// What the next step takes from the last, but for momenta.
   void forget(const typename B::Exec& exec) {
@@ -145,7 +150,8 @@ class HimCycle final : public Cycle<B> {
   }
 
   /// Momenta as the levels get to see them, in g_ where that differs.
-  const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& p) const {
+  const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model,
+                                        const Vectors<B>& p) const {
     if (!parts_.free) return p;
     parts_.free->take_translation(exec, model, p, g_);
     return g_;
@@ -161,7 +167,7 @@ class HimCycle final : public Cycle<B> {
     }
     update_vertices<B>(exec, "plica::him_momenta", n_,
                        KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
-                                       static_cast<Real>(t), static_cast<Real>(parts_.mass_damping)});
+                                       static_cast<Real>(t), static_cast<Real>(1 / (1 + t * parts_.mass_damping))});
     parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
   }
 
@@ -178,9 +184,9 @@ class HimCycle final : public Cycle<B> {
                        MeanAcceleration<B>{level.state.v, a_, static_cast<Real>(1 / t)});
     if (parts_.contact)
       h.clock.time("contact", 0, [&] {
-        parts_.contact->resolve(
-            exec, level, time + t / 2, t, a_,
-            [&](const auto& f, const auto& a, const auto& count) { answer(exec, level.model, f, a, count); });
+        parts_.contact->resolve(exec, level, time + t / 2, t, a_, [&](const auto& f, const auto& a, const auto& count) {
+          answer(exec, level.model, f, a, count);
+        });
       });
     const KickAndDrift<B> finish{.inverse_mass = inverse_mass,
                                  .state = level.state,

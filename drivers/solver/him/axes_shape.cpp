@@ -17,7 +17,8 @@ RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, co
   std::vector<double> carried(coarsest.vertices.size(), 0.0);
   const auto each = [&](const auto& use) {
     for (std::size_t i = 0; i < mass.size(); ++i)
-      for (std::size_t c = 0; c < 4; ++c) use(i, static_cast<std::size_t>(in.vertices[i][c]), mass[i] * in.weights[i][c]);
+      for (std::size_t c = 0; c < 4; ++c)
+        use(i, static_cast<std::size_t>(in.vertices[i][c]), mass[i] * in.weights[i][c]);
   };
   each([&](std::size_t, std::size_t a, double m) { carried[a] += m; });
   const double least = least_mass * *std::max_element(carried.begin(), carried.end());
@@ -37,7 +38,8 @@ RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, co
 double edges_inverted(const std::vector<Point>& x, const std::array<int, 4>& tet, std::array<double, 10>& shape) {
   Eigen::Matrix3d edges;
   for (std::size_t s = 0; s < 3; ++s)
-    edges.col(static_cast<Eigen::Index>(s)) = x[static_cast<std::size_t>(tet[s + 1])] - x[static_cast<std::size_t>(tet[0])];
+    edges.col(static_cast<Eigen::Index>(s)) =
+        x[static_cast<std::size_t>(tet[s + 1])] - x[static_cast<std::size_t>(tet[0])];
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(shape.data()) = edges.inverse();
   return edges.determinant() / 6;
 }
@@ -51,7 +53,8 @@ RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& vol
   for (std::size_t e = 0; e < mesh.tets.size(); ++e)
     for (const int a : mesh.tets[e]) {
       const auto row = static_cast<std::size_t>(a);
-      for (const int b : mesh.tets[e]) entries.emplace_back(a, b, (sum[row] > 0 ? volume[e] / sum[row] : 1 / own[row]) / 4);
+      for (const int b : mesh.tets[e])
+        entries.emplace_back(a, b, (sum[row] > 0 ? volume[e] / sum[row] : 1 / own[row]) / 4);
     }
   const auto n = static_cast<Eigen::Index>(sum.size());
   RowMatrix A(n, n);

@@ -34,8 +34,7 @@ class FreeMotion {
   void take_rigid(const Exec& exec, const Model<B>& model, const Vectors<B>& u, const Vectors<B>& p) const {
     reduce<B, 16>(exec, "plica::free_moments", model.vertices, BodyMoments<B>{model.mass, rest_, u, p}, blocks_, sums_);
     update_vertices<B>(exec, "plica::free_frame", 1, SetRigidFrame<B>{sums_, frame_});
-    update_vertices<B>(exec, "plica::free_take", model.vertices,
-                       TakeRigidMotion<B>{model.mass, rest_, u, p, frame_});
+    update_vertices<B>(exec, "plica::free_take", model.vertices, TakeRigidMotion<B>{model.mass, rest_, u, p, frame_});
   }
 
  private:

@@ -85,9 +85,9 @@ void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& f
 
 template <class B>
 std::size_t TurningAxes<B>::bytes() const {
-  std::size_t total = bytes_of_views(axes_.first, axes_.place, axes_.of_tet, axes_.corner, axes_.shape, axes_.displacement,
-                                     axes_.gradient, axes_.stiffness, axes_.torque, axes_.force, rotation_, share_,
-                                     momentum_);
+  std::size_t total =
+      bytes_of_views(axes_.first, axes_.place, axes_.of_tet, axes_.corner, axes_.shape, axes_.displacement,
+                     axes_.gradient, axes_.stiffness, axes_.torque, axes_.force, rotation_, share_, momentum_);
   for (const SparseRows<B>* one :
        {&axes_.restriction, &axes_.spread, &axes_.smoothing, &axes_.smoothing_of, &axes_.response})
     total += bytes_of_rows(*one);

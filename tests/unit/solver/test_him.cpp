@@ -128,6 +128,7 @@ TEST(Him, KeepsTheEquilibriumOfTheFinestLevel) {
 
 TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
   Problem p = him_beam(true, "corotational");
+  p.body.levels.pop_back();  // 12 vertices are too few to turn with the body
   p.integration.cycle = "single";
   p.body.fixed = {left_face()};
   p.gravity = {0, 0, -9.81};
