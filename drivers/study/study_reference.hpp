@@ -20,7 +20,8 @@ struct StudyReference {
   std::optional<Trajectory> finer;               ///< of the finer mesh's reference, at the finest level's vertices
 };
 
-/// Runs it, and the one on options.finer where there is one. Empty trajectory where go_on ended it. InputError where it diverges.
+/// Runs it, and the one on options.finer where there is one. Empty trajectory where go_on ended it. InputError where it diverges, also at
+/// an eighth of the step.
 StudyReference make_reference(const Problem& problem, const StudyOptions& options, double critical_step,
                               const std::function<bool(double)>& go_on);
 

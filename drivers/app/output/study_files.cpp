@@ -56,6 +56,9 @@ std::uint64_t study_digest(const Scene& scene, const StudyOptions& o, const Stud
                            std::uint64_t reference) {
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study"}));
+  const Tree* section = scene.source.find("study");
+  if (const Tree* variants = section ? section->find("variants") : nullptr) digest.add(json_of(*variants).dump());
+  for (const auto& [name, p] : o.probes) digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
   digest.add(fmt::format("{} {} {} {} {} {} {} {}", reference, o.timed_runs, machine.cpu, machine.backend,
                          machine.threads, version(), git_revision(), compiler()));
   return digest.value();

@@ -103,7 +103,7 @@ TEST(Study, AMethodThatIsTheReferenceHasNoError) {
   StudyOptions o = quick({"single/rk4"});
   const double critical = study_levels(beam(1))[0].critical_step;
   const double interval = o.duration / o.samples;
-  o.macro_steps = {interval / std::ceil(interval / (0.5 * critical)) / 2};
+  o.macro_steps = {interval / std::ceil(interval / (o.reference_step * critical)) / 2};
   const auto result = study(beam(1), o);
   const auto row = std::ranges::min_element(result.rows, {}, [](const StudyRow& r) { return *r.error; });
   EXPECT_EQ(row->error, 0);
