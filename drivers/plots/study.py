@@ -52,6 +52,8 @@ def draw_completed(axes, rows, look):
                          s=95 if marker == "*" else 60, marker=marker, facecolors="none" if variant else colour,
                          edgecolors=colour if variant else "black", linewidths=1.2 if variant else 0.6,
                          label=None if variant else label, zorder=3)
+    if any(row["variant"] for row in rows):
+        axes.scatter([], [], s=60, marker="o", facecolors="none", edgecolors=GREY, label="hollow: a variant of a cycle")
     return [row for row in rows if row["status"] == "completed" and row["error"] > 0]
 
 
