@@ -37,16 +37,9 @@ class Study {
     std::vector<StudyCase> by_rank = cases_;
     std::ranges::stable_sort(by_rank, {}, &StudyCase::rank);
     for (const StudyCase& one : by_rank) {
-      if (has(one)) continue;
-      if (result_.stopped)
-        result_.left_out.push_back({one.key(), "the study was stopped before"});
-      else if (!fits(one))
-        leave_out(one);
-      else
-        measure(one);
+      if (!has(one)) run(one);
+      if (options_.growth && has(one)) find_growth(one);
     }
-    if (options_.growth)
-      for (const StudyCase& one : by_rank) find_growth(one);
     finish();
     return std::move(result_);
   }
@@ -90,11 +83,18 @@ class Study {
     result_.left_out.push_back({key, text});
   }
 
-  // After all rows: they come first where time is short
+  void run(const StudyCase& one) {
+    if (result_.stopped)
+      result_.left_out.push_back({one.key(), "the study was stopped before"});
+    else if (!fits(one))
+      leave_out(one);
+    else
+      measure(one);
+  }
+
   void find_growth(const StudyCase& one) {
     const auto row = std::ranges::find(result_.rows, one.key(), &StudyRow::key);
-    const bool wanted = row != result_.rows.end() && row->macro_step && one.integration.cycle != "single";
-    if (!wanted || row->spectral_radius) return;
+    if (!row->macro_step || row->spectral_radius || one.integration.cycle == "single") return;
     const std::string key = "growth of " + one.key();
     if (result_.stopped || !tell(key, 0)) return result_.left_out.push_back({key, "the study was stopped before"});
     const double seconds = growth_.predicted_evaluations(one, *row->macro_step, options_.duration) *

@@ -7,9 +7,9 @@ namespace plica {
 
 namespace {
 
-constexpr CycleGrowthOptions bounded_growth{.macro_steps = 1000, .tolerance = 1e-7, .dimension = 40};
+constexpr CycleGrowthOptions bounded_growth{.macro_steps = 500, .tolerance = 1e-6, .dimension = 40};
 
-// What the linearised cycle is of: see CycleMap
+// What the linearised cycle depends on: its mappings do not switch, and rsv and rsv_sv are rv there; see CycleMap
 IntegrationOptions map_of(const StudyCase& one, double macro_step) {
   IntegrationOptions o = one.integration;
   if (o.cycle == "rsv" || o.cycle == "rsv_sv") o.cycle = "rv";

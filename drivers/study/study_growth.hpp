@@ -7,7 +7,7 @@
 namespace plica {
 
 /// How small motions about rest grow by a study's cycles, in double. A map that several runs share, whatever their precision,
-/// threads or mappings of the same linear part, is examined once, for a thousand macro steps or so at most.
+/// threads or mappings of the same linear part, is examined once, for some hundred macro steps.
 class GrowthOfCycles {
  public:
   explicit GrowthOfCycles(const Problem& problem) : problem_(problem) {}
