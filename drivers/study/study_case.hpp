@@ -24,6 +24,7 @@ struct StudyOptions {
   std::map<std::string, Point> probes;  ///< points of the finest level at rest [m] with errors of their own
   std::optional<double> budget;         ///< wall time of all of it [s]; rows that do not fit are left out, and listed
   std::string reference_integrator = "rk4";  ///< of the finest level alone
+  double reference_error = 1e-5;             ///< its own error, displacement, above which both steps are halved, once
   double reference_step = 1;  ///< its coarser step over the finest level's critical step; the other is half
   std::optional<TetMesh>
       finer;  ///< a finer mesh of the body, for a second reference: the finest level's error in space

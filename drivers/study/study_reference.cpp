@@ -40,14 +40,21 @@ StudyRun run_below(const Problem& problem, const StudyOptions& options, double l
   }
 }
 
-Pair run_both(const Problem& problem, const StudyOptions& options, double critical_step,
+Pair run_both(const Problem& problem, const StudyOptions& options, double critical_step, double& wall_time,
               const std::function<bool(double)>& go_on) {
   const auto part = [&go_on](double from, double size) {
     return [&go_on, from, size](double p) { return !go_on || go_on(from + size * p); };
   };
   Pair runs;
-  runs.coarse = run_below(problem, options, options.reference_step * critical_step, part(0, 1.0 / 3));
-  if (!runs.stopped()) runs.fine = run_below(problem, options, runs.coarse.macro_step / 2, part(1.0 / 3, 2.0 / 3));
+  runs.coarse = run_below(problem, options, options.reference_step * critical_step, part(0, 1.0 / 7));
+  if (!runs.stopped()) runs.fine = run_below(problem, options, runs.coarse.macro_step / 2, part(1.0 / 7, 2.0 / 7));
+  wall_time = runs.coarse.wall_time + runs.fine.wall_time;
+  if (runs.stopped()) return runs;
+  expect_motion(runs.fine.trajectory, problem.body.levels.front());
+  if (errors_of(runs.coarse.trajectory, runs.fine.trajectory).displacement <= options.reference_error) return runs;
+  runs.coarse = std::move(runs.fine);
+  runs.fine = run_below(problem, options, runs.coarse.macro_step / 2, part(3.0 / 7, 4.0 / 7));
+  wall_time += runs.fine.wall_time;
   return runs;
 }
 
@@ -74,13 +81,11 @@ StudyReference make_reference(const Problem& problem, const StudyOptions& option
   StudyReference reference;
   reference.method = "single/" + options.reference_integrator;
   reference.critical_step = critical_step;
-  Pair runs = run_both(problem, options, critical_step, go_on);
+  Pair runs = run_both(problem, options, critical_step, reference.wall_time, go_on);
   if (runs.stopped()) return reference;
-  expect_motion(runs.fine.trajectory, problem.body.levels.front());
   const StudyErrors own = errors_of(runs.coarse.trajectory, runs.fine.trajectory);
   reference.macro_step = runs.fine.macro_step;
   reference.own_error = own.displacement, reference.own_error_velocity = own.velocity;
-  reference.wall_time = runs.coarse.wall_time + runs.fine.wall_time;
   reference.seconds_per_evaluation = runs.fine.wall_time / static_cast<double>(runs.fine.tet_evaluations);
   reference.trajectory = std::move(runs.fine.trajectory);
   if (options.finer) add_finer(reference, problem, options, go_on);

@@ -13,7 +13,7 @@ struct StudyReference {
   double macro_step = 0;                         ///< [s]
   double critical_step = 0;                      ///< of the finest level under symplectic Euler [s]
   double own_error = 0, own_error_velocity = 0;  ///< fractions
-  double wall_time = 0;                          ///< of both runs [s]
+  double wall_time = 0;                          ///< of its runs [s]
   double seconds_per_evaluation = 0;             ///< of a tetrahedron
   std::optional<double> space_error;             ///< to the finer mesh's reference, displacement
   Trajectory trajectory;                         ///< empty: there is none yet

@@ -45,8 +45,8 @@ void add_tools(Digest& digest, const Problem& problem) {
 std::uint64_t reference_digest(const Scene& scene, const StudyOptions& o) {
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study", "integration"}));
-  digest.add(fmt::format("{} {} {} {} {}", mesh_digest(scene.problem.body), o.samples, o.reference_integrator,
-                         o.reference_step, o.finer.has_value()));
+  digest.add(fmt::format("{} {} {} {} {} {}", mesh_digest(scene.problem.body), o.samples, o.reference_integrator,
+                         o.reference_step, o.reference_error, o.finer.has_value()));
   add_tools(digest, scene.problem);
   return digest.value();
 }

@@ -189,9 +189,19 @@ TEST(StudyErrors, OfProbesAreThoseOfTheirPoints) {
   for (const StudyRow& row : study(damped, o).rows) EXPECT_FALSE(row.phase || row.energy_drift);
 }
 
+TEST(StudyReferenceStep, IsHalvedWhereItsErrorIsLarge) {
+  StudyOptions o = with_variants({"single/symplectic_euler"});
+  o.reference_error = 1;
+  const auto rough = study(variant_beam(), o).reference;
+  o.reference_error = 0;
+  const auto fine = study(variant_beam(), o).reference;
+  EXPECT_EQ(fine.macro_step, rough.macro_step / 2);
+  EXPECT_LT(fine.own_error, 0.5 * rough.own_error);
+}
+
 TEST(StudyReferenceStep, IsHalvedWhereItDiverges) {
   StudyOptions o = with_variants({"single/symplectic_euler"});
-  o.reference_integrator = "symplectic_euler", o.reference_step = 1.8;
+  o.reference_integrator = "symplectic_euler", o.reference_step = 1.8, o.reference_error = 1;
   const auto result = study(variant_beam(), o);
   EXPECT_LT(result.reference.macro_step, 0.5 * result.reference.critical_step);
   o.reference_step = 100, o.samples = 1;
