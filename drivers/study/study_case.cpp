@@ -64,6 +64,11 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   }
 }
 
+bool is_same_run(const StudyCase& a, const StudyCase& b) {
+  return a.method == b.method && a.precision == b.precision && a.threads == b.threads &&
+         steps_alike(a.integration, b.integration);
+}
+
 struct Builder {
   const Problem& problem;
   const StudyOptions& options;
@@ -79,7 +84,7 @@ struct Builder {
         one.precision = options.precision[p], one.threads = threads[t];
         one.rank = rank + 20 * static_cast<int>(p + t);
         one.predicted_evaluations = evaluations(one, levels, options.duration);
-        const auto same = [&](const StudyCase& c) { return c.key() == one.key(); };
+        const auto same = [&](const StudyCase& c) { return c.key() == one.key() || is_same_run(c, one); };
         if (std::ranges::none_of(cases, same)) cases.push_back(one);
       }
   }
@@ -106,8 +111,9 @@ struct Builder {
   }
 
   void add_cycle(StudyCase one, const std::string& cycle) {
+    if (!one.variant.empty()) one.integration = with(one.integration, options.variants.at(one.variant));
     one.integration.cycle = cycle, one.integration.distribution = one.distribution;
-    int rank = one.distribution == "critical" ? 3 : 5;
+    int rank = (one.distribution == "critical" ? 3 : 5) + (one.variant.empty() ? 0 : 1);
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
       return;
@@ -125,7 +131,7 @@ struct Builder {
 
 }  // namespace
 
-std::string StudyCase::label() const { return distribution.empty() ? method : method + "/" + distribution; }
+std::string StudyCase::label() const { return study_label(method, distribution, variant); }
 
 std::string StudyCase::key() const {
   char text[64] = "auto";
@@ -150,7 +156,7 @@ std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& o
   Builder builder{problem, options, levels};
   for (const ChosenMethod& chosen : chosen_methods(problem, options)) {
     StudyCase one;
-    one.method = chosen.method, one.distribution = chosen.distribution;
+    one.method = chosen.method, one.distribution = chosen.distribution, one.variant = chosen.variant;
     one.integration = problem.integration;
     const std::string name = chosen.method.substr(chosen.method.find('/') + 1);
     if (chosen.method.starts_with("cycle/")) {
