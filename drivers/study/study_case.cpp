@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/study_methods.hpp>
@@ -16,6 +17,8 @@ using Step = std::optional<double>;  // none: auto
 
 constexpr double implicit_factors[] = {16, 4, 64};    // of the finest critical step, the most telling first
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};  // likewise
+constexpr double him_factors[] = {4, 16, 32, 2};      // besides its own 8
+constexpr double him_step_cost = 1.8;                 // of one force evaluation, about
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
 bool is_explicit(const std::string& integrator) {
@@ -39,6 +42,8 @@ std::string integrator_of(const IntegrationOptions& o, std::size_t i) {
 
 double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, double duration) {
   const IntegrationOptions& o = one.integration;
+  if (o.cycle != "single" && !integrates_coarse_levels(o.cycle))
+    return him_step_cost * levels[0].tets * std::ceil(duration / o.macro_step.value_or(8 * levels[0].critical_step));
   const bool alone = o.cycle == "single";
   std::vector<LevelLimits> limits;
   for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
@@ -110,7 +115,20 @@ struct Builder {
       if (step && *step < limit) add(one, step, 4);
   }
 
+  void add_him(StudyCase one) {
+    const IntegrationOptions plain;
+    IntegrationOptions& o = one.integration;
+    o.cycle = "him", o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
+    o.distribution = plain.distribution, o.shares = {}, o.shift_to_coarsest = 0;
+    int rank = 2;
+    for (const Step& step : options.macro_steps) add(one, step, rank++);
+    if (!options.macro_steps.empty()) return;
+    add(one, {}, rank);
+    for (const double factor : him_factors) add(one, factor * levels[0].critical_step, ++rank);
+  }
+
   void add_cycle(StudyCase one, const std::string& cycle) {
+    if (!integrates_coarse_levels(cycle)) return add_him(one);
     if (!one.variant.empty()) one.integration = with(one.integration, options.variants.at(one.variant));
     one.integration.cycle = cycle, one.integration.distribution = one.distribution;
     int rank = (one.distribution == "critical" ? 3 : 5) + (one.variant.empty() ? 0 : 1);

@@ -37,9 +37,14 @@ void add(std::vector<ChosenMethod>& chosen, const ChosenMethod& one) {
   if (std::ranges::none_of(chosen, same)) chosen.push_back(one);
 }
 
+// Whether its levels divide the macro step
+bool shares_step(const ChosenMethod& one) {
+  return integrates_coarse_levels(one.method.substr(one.method.find('/') + 1));
+}
+
 // A cycle without a distribution means each of them, with the problem's own list if it has one
 void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const ChosenMethod& one) {
-  if (family_of(one.method) != "cycle" || !one.distribution.empty()) return add(chosen, one);
+  if (family_of(one.method) != "cycle" || !one.distribution.empty() || !shares_step(one)) return add(chosen, one);
   for (const std::string& distribution : computed_distributions()) add(chosen, {one.method, distribution, one.variant});
   if (problem.integration.distribution == "custom") add(chosen, {one.method, "custom", one.variant});
 }
@@ -49,8 +54,9 @@ void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem, const
                 const ChosenMethod& family) {
   for (const std::string& method : study_methods(problem)) {
     if (family_of(method) != family.method) continue;
-    add_each(chosen, problem, {method, {}, family.variant});
-    if (family.method == "cycle" && family.variant.empty())
+    if (family.variant.empty() || shares_step({method, {}, {}}))
+      add_each(chosen, problem, {method, {}, family.variant});
+    if (family.method == "cycle" && family.variant.empty() && shares_step({method, {}, {}}))
       for (const auto& [variant, settings] : options.variants) add_each(chosen, problem, {method, {}, variant});
   }
   if (chosen.empty() && problem.body.levels.size() == 1)
@@ -66,6 +72,8 @@ void check_method(const Problem& problem, const std::string& name, const ChosenM
   }
   if (!one.distribution.empty() && std::ranges::find(known, one.distribution) == known.end())
     throw InputError("study.methods: " + unknown_name("distribution", one.distribution, known));
+  if (family_of(one.method) == "cycle" && !shares_step(one) && !(one.distribution + one.variant).empty())
+    throw InputError("study.methods: '" + name + "': " + one.method + " has neither shares nor variants");
   if (one.distribution == "custom" && problem.integration.distribution != "custom")
     throw InputError("study.methods: '" + name + "' needs a list of shares in integration.distribution");
 }
