@@ -79,9 +79,12 @@ struct Simulation<B>::Inside {
   }
   /// From the last kept state once more to where it is, by a cycle that has lost stability since; false where it cannot.
   bool repair() {
-    for (const long there = steps; built.cycle->alarmed(hierarchy());) {
+    constexpr int most_attempts = 8;
+    const long there = steps;
+    for (int attempt = 0; built.cycle->alarmed(hierarchy()); ++attempt) {
+      if (attempt == most_attempts) return false;
       go_back();
-      if (!built.cycle->repair(hierarchy(), built.macro_step)) return false;
+      if (!built.cycle->repair(hierarchy(), built.macro_step, attempt)) return false;
       while (steps < there) step();
     }
     return true;

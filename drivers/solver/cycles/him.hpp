@@ -70,8 +70,9 @@ class HimCycle final : public Cycle<B> {
     return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1) > 0;
   }
 
-  bool repair(Hierarchy<B>& h, double t) override {
-    constexpr int most_substeps = 64;
+  bool repair(Hierarchy<B>& h, double t, int attempt) override {
+    constexpr int most_substeps = 64, attempts_at_a_step = 2;
+    if (attempt >= attempts_at_a_step) substeps_ *= 2;
     const Vectors<B>& u = h[0].level.state.u;
     parts_.inverse_mass->turn(h.exec(), u, moved_);
     double scale = 0.5 * parts_.fit.scale;
