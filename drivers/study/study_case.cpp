@@ -5,6 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/study_methods.hpp>
@@ -18,7 +19,6 @@ using Step = std::optional<double>;  // none: auto
 constexpr double implicit_factors[] = {16, 4, 64};    // of the finest critical step, the most telling first
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};  // likewise
 constexpr double him_factors[] = {4, 16, 32, 2};      // besides its own 8
-constexpr double him_step_cost = 1.8;                 // of one force evaluation, about
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
 bool is_explicit(const std::string& integrator) {
@@ -42,8 +42,10 @@ std::string integrator_of(const IntegrationOptions& o, std::size_t i) {
 
 double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, double duration) {
   const IntegrationOptions& o = one.integration;
-  if (o.cycle != "single" && !integrates_coarse_levels(o.cycle))
-    return him_step_cost * levels[0].tets * std::ceil(duration / o.macro_step.value_or(8 * levels[0].critical_step));
+  if (o.cycle != "single" && !integrates_coarse_levels(o.cycle)) {
+    const double steps = std::ceil(duration / o.macro_step.value_or(8 * levels[0].critical_step));
+    return levels[0].tets * (him_step_cost * steps + (o.cycle == "auto" ? trial_evaluations : 0));
+  }
   const bool alone = o.cycle == "single";
   std::vector<LevelLimits> limits;
   for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
@@ -115,12 +117,16 @@ struct Builder {
       if (step && *step < limit) add(one, step, 4);
   }
 
-  void add_him(StudyCase one) {
+  void add_him(StudyCase one, const std::string& cycle) {
     const IntegrationOptions plain;
     IntegrationOptions& o = one.integration;
-    o.cycle = "him", o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
+    o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
     o.distribution = plain.distribution, o.shares = {}, o.shift_to_coarsest = 0;
     int rank = 2;
+    if (cycle == "auto") {
+      o.error_class = one.distribution, o.allow_unstable = false;
+      return add(one, {}, rank);
+    }
     for (const Step& step : options.macro_steps) add(one, step, rank++);
     if (!options.macro_steps.empty()) return;
     add(one, {}, rank);
@@ -128,7 +134,7 @@ struct Builder {
   }
 
   void add_cycle(StudyCase one, const std::string& cycle) {
-    if (!integrates_coarse_levels(cycle)) return add_him(one);
+    if (!integrates_coarse_levels(cycle)) return add_him(one, cycle);
     if (!one.variant.empty()) one.integration = with(one.integration, options.variants.at(one.variant));
     one.integration.cycle = cycle, one.integration.distribution = one.distribution;
     int rank = (one.distribution == "critical" ? 3 : 5) + (one.variant.empty() ? 0 : 1);

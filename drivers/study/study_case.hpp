@@ -39,7 +39,7 @@ struct StudyLevel {
 /// One run of a study: how which levels are integrated, in which precision, by how many threads.
 struct StudyCase {
   std::string method;        ///< single/INTEGRATOR, coarse/LEVEL or cycle/NAME
-  std::string distribution;  ///< of a cycle
+  std::string distribution;  ///< of a cycle; of cycle/auto its error class
   std::string variant;       ///< of a cycle; empty: as the problem says
   std::string precision;
   int threads = 0;
@@ -60,7 +60,7 @@ std::vector<StudyLevel> study_levels(const Problem& problem);
 
 /// All runs, in the order of their names. The default: the finest level alone, explicit at 0.9 and 0.5 of its limit and
 /// implicit at 4, 16 and 64 times it; each coarser level alone at 0.9 of its own; every cycle with every distribution at
-/// 1, 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step; him at 2 to 32 times. Cycles keep the
+/// 1, 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step; him at 2 to 32 times; auto, within one per cent. Cycles keep the
 /// problem's integrators, sub-steps and all else but for what their variant changes; one that changes nothing that the cycle
 /// uses is not run again. Of the options' macro steps an explicit level alone takes those below
 /// its limit. InputError for an unknown method, with the nearest.

@@ -10,6 +10,7 @@ namespace plica {
 
 namespace {
 
+const std::string usual_class = "balanced";  // of cycle/auto, in the family
 const std::vector<std::string> families = {"single", "coarse", "cycle"};
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('/')); }
@@ -42,8 +43,14 @@ bool shares_step(const ChosenMethod& one) {
   return integrates_coarse_levels(one.method.substr(one.method.find('/') + 1));
 }
 
+bool is_chosen_by_trials(const ChosenMethod& one) { return one.method == "cycle/auto"; }
+
 // A cycle without a distribution means each of them, with the problem's own list if it has one
 void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const ChosenMethod& one) {
+  if (is_chosen_by_trials(one) && one.distribution.empty()) {
+    for (const std::string& error_class : names(error_classes())) add(chosen, {one.method, error_class, {}});
+    return;
+  }
   if (family_of(one.method) != "cycle" || !one.distribution.empty() || !shares_step(one)) return add(chosen, one);
   for (const std::string& distribution : computed_distributions()) add(chosen, {one.method, distribution, one.variant});
   if (problem.integration.distribution == "custom") add(chosen, {one.method, "custom", one.variant});
@@ -55,7 +62,7 @@ void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem, const
   for (const std::string& method : study_methods(problem)) {
     if (family_of(method) != family.method) continue;
     if (family.variant.empty() || shares_step({method, {}, {}}))
-      add_each(chosen, problem, {method, {}, family.variant});
+      add_each(chosen, problem, {method, is_chosen_by_trials({method, {}, {}}) ? usual_class : "", family.variant});
     if (family.method == "cycle" && family.variant.empty() && shares_step({method, {}, {}}))
       for (const auto& [variant, settings] : options.variants) add_each(chosen, problem, {method, {}, variant});
   }
@@ -64,15 +71,18 @@ void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem, const
 }
 
 void check_method(const Problem& problem, const std::string& name, const ChosenMethod& one) {
-  const std::vector<std::string> all = study_methods(problem), known = names(distributions());
+  const std::vector<std::string> all = study_methods(problem),
+                                 known = names(is_chosen_by_trials(one) ? error_classes() : distributions());
   if (std::ranges::find(all, one.method) == all.end()) {
     std::vector<std::string> choices = families;
     choices.insert(choices.end(), all.begin(), all.end());
     throw InputError("study.methods: " + unknown_name("method", one.method, choices));
   }
   if (!one.distribution.empty() && std::ranges::find(known, one.distribution) == known.end())
-    throw InputError("study.methods: " + unknown_name("distribution", one.distribution, known));
-  if (family_of(one.method) == "cycle" && !shares_step(one) && !(one.distribution + one.variant).empty())
+    throw InputError("study.methods: " +
+                     unknown_name(is_chosen_by_trials(one) ? "error class" : "distribution", one.distribution, known));
+  const std::string shares = is_chosen_by_trials(one) ? std::string() : one.distribution;
+  if (family_of(one.method) == "cycle" && !shares_step(one) && !(shares + one.variant).empty())
     throw InputError("study.methods: '" + name + "': " + one.method + " has neither shares nor variants");
   if (one.distribution == "custom" && problem.integration.distribution != "custom")
     throw InputError("study.methods: '" + name + "' needs a list of shares in integration.distribution");
@@ -108,8 +118,9 @@ std::vector<std::string> study_methods(const Problem& problem) {
   std::vector<std::string> methods;
   for (const std::string& integrator : names(integrators())) methods.push_back("single/" + integrator);
   for (std::size_t i = 1; i < problem.body.levels.size(); ++i) methods.push_back("coarse/" + std::to_string(i));
-  for (const std::string& cycle : names(cycles()))
-    if (uses_coarse_levels(cycle) && problem.body.levels.size() > 1) methods.push_back("cycle/" + cycle);
+  for (const std::string& cycle : names(cycle_choices()))
+    if ((cycle == "auto" || uses_coarse_levels(cycle)) && problem.body.levels.size() > 1)
+      methods.push_back("cycle/" + cycle);
   return methods;
 }
 

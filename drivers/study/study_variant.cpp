@@ -44,6 +44,7 @@ bool steps_alike(const IntegrationOptions& a, const IntegrationOptions& b) {
                     o.outside);
   };
   return rest(a) == rest(b) && alike_per_level(a.integrator, b.integrator) && alike_per_level(a.substeps, b.substeps) &&
+         (a.error_class == b.error_class || a.cycle != "auto") &&
          (a.switch_threshold == b.switch_threshold || !has_switch(a.cycle));
 }
 

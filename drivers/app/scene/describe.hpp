@@ -237,7 +237,8 @@ void describe(V& v, HimOptions& o) {
 
 template <class V>
 void describe(V& v, IntegrationOptions& o) {
-  v("cycle", o.cycle, Name{"cycle", cycles}, "how the levels share a macro step");
+  v("cycle", o.cycle, Name{"cycle", cycle_choices}, "how the levels share a macro step; auto: chosen by short trials");
+  v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
   v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
