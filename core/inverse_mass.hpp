@@ -32,7 +32,8 @@ template <class B>
 struct CoarseFilter {
   static constexpr int block = 16;  ///< rows that lie together
   int vertices = 0;
-  Scalars<B> matrix;    ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
+  Kokkos::View<float*, typename B::Memory>
+      matrix;           ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
   Vectors<B> turned;    ///< R^T force
   Vectors<B> rotation;  ///< R, [3 vertices][3], three rows each
 };

@@ -93,7 +93,8 @@ struct HimOptions {
 
 /// How a body is stepped in time.
 struct IntegrationOptions {
-  std::string cycle = "single";           ///< a name of drivers/solver/cycles/list.hpp
+  std::string cycle = "single";           ///< a name of drivers/solver/cycles/list.hpp, or auto: chosen by short trials
+  std::string error_class = "balanced";   ///< of cycle auto: interactive | balanced | accurate
   std::optional<double> macro_step;       ///< [s] > 0; none: 0.9 of the predicted limit
   std::string distribution = "critical";  ///< equal | inverse_elements | critical | custom
   std::vector<double> shares;             ///< of the macro step, finest first, with `custom`; their sum is 1 to 1e-12

@@ -48,14 +48,20 @@ def draw_completed(axes, rows, look):
         done = [row for row in mine if row["status"] == "completed" and row["error"] > 0]
         failed = len(mine) - len(done)
         label = method + (f" ({failed} of {len(mine)} not to the end)" if failed else "")
-        axes.scatter([row["wall_time"] for row in done], [row["error"] for row in done], s=95 if marker == "*" else 60,
-                     color=colour, marker=marker, edgecolors="black", linewidths=0.6, label=label, zorder=3)
+        for variant in (False, True):  # with settings of its own: hollow
+            some = [row for row in done if bool(row["variant"]) == variant]
+            axes.scatter([row["wall_time"] for row in some], [row["error"] for row in some],
+                         s=95 if marker == "*" else 60, marker=marker, facecolors="none" if variant else colour,
+                         edgecolors=colour if variant else "black", linewidths=1.2 if variant else 0.6,
+                         label=None if variant else label, zorder=3)
+    if any(row["variant"] for row in rows):
+        axes.scatter([], [], s=60, marker="o", facecolors="none", edgecolors=GREY, label="hollow: a variant of a cycle")
     return [row for row in rows if row["status"] == "completed" and row["error"] > 0]
 
 
 def name_of(row, rows):
     """With what tells it from other rows of its method."""
-    parts = [row["method"], row["distribution"]]
+    parts = [row["method"], row["distribution"], row["variant"] and "+" + row["variant"]]
     parts += [row["precision"]] if len({other["precision"] for other in rows}) > 1 else []
     parts += [f"{row['threads']} thr."] if len({other["threads"] for other in rows}) > 1 else []
     return ", ".join(part for part in parts if part)

@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/distributions.hpp>
+#include <plica/drivers/solver/set_up/error_classes.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/materials/list.hpp>
 
@@ -22,7 +23,15 @@ std::vector<Choice> choices() {
 std::vector<Choice> materials() { return choices<Materials>(); }
 std::vector<Choice> integrators() { return choices<Integrators>(); }
 std::vector<Choice> cycles() { return choices<Cycles>(); }
+std::vector<Choice> error_classes() { return choices<ErrorClasses>(); }
 std::vector<Choice> obstacle_shapes() { return choices<ObstacleShapes>(); }
+
+std::vector<Choice> cycle_choices() {
+  std::vector<Choice> list = cycles();
+  list.push_back(
+      {"auto", "him or single, with its macro step: what short trials find to be within integration.error_class"});
+  return list;
+}
 
 std::vector<Choice> distributions() {
   std::vector<Choice> list = choices<Distributions>();

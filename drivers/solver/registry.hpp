@@ -16,6 +16,8 @@ struct Choice {
 std::vector<Choice> materials();        ///< constitutive laws
 std::vector<Choice> integrators();      ///< one-level ODE solvers
 std::vector<Choice> cycles();           ///< ways to share a macro step
+std::vector<Choice> cycle_choices();    ///< the same, and auto
+std::vector<Choice> error_classes();    ///< of cycle auto
 std::vector<Choice> distributions();    ///< sizes of the shares
 std::vector<Choice> obstacle_shapes();  ///< for contact
 std::vector<Choice> linear_solvers();   ///< of implicit levels

@@ -6,6 +6,7 @@
 #include <plica/core/backend.hpp>
 #include <plica/core/device_array.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/solver/cycle_choice.hpp>
 #include <plica/drivers/solver/external_forces.hpp>
 #include <string>
 #include <vector>
@@ -110,6 +111,7 @@ class Simulation {
   long macro_steps() const;                        ///< done
   const std::vector<LevelReport>& levels() const;  ///< finest first; only those the cycle uses
   std::optional<HimReport> him() const;            ///< of that cycle
+  std::optional<CycleChoice> choice() const;       ///< of cycle auto: what it has come to, and why
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
   std::map<std::string, double> stages()

@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/parts.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
@@ -16,7 +17,10 @@ namespace plica {
 template <class B>
 struct Simulation<B>::Inside {
   Inside(const Problem& p, const Exec& exec)
-      : problem(p), built(build_hierarchy<B>((validate(p), p), exec)), meter(*built.hierarchy, p.gravity) {
+      : choice(choose_cycle<B>((validate(p), p), exec)),
+        problem(with_choice(p, choice)),
+        built(build_hierarchy<B>(problem, exec)),
+        meter(*built.hierarchy, p.gravity) {
     problem.body.levels.clear();  // the placed meshes in use are in `built`
     rest.resize(built.hierarchy->levels.size());
     for (const auto& part : built.hierarchy->levels) kept.emplace_back("kept", part.level.model.vertices);
@@ -27,6 +31,7 @@ struct Simulation<B>::Inside {
     open_budget();
   }
 
+  std::optional<CycleChoice> choice;  // of cycle auto
   Problem problem;
   BuiltHierarchy<B> built;
   EnergyMeter<B> meter;
@@ -79,9 +84,12 @@ struct Simulation<B>::Inside {
   }
   /// From the last kept state once more to where it is, by a cycle that has lost stability since; false where it cannot.
   bool repair() {
-    for (const long there = steps; built.cycle->alarmed(hierarchy());) {
+    constexpr int most_attempts = 8;
+    const long there = steps;
+    for (int attempt = 0; built.cycle->alarmed(hierarchy()); ++attempt) {
+      if (attempt == most_attempts) return false;
       go_back();
-      if (!built.cycle->repair(hierarchy(), built.macro_step)) return false;
+      if (!built.cycle->repair(hierarchy(), built.macro_step, attempt)) return false;
       while (steps < there) step();
     }
     return true;

@@ -27,6 +27,10 @@ std::optional<HimReport> Simulation<B>::him() const {
   return inside_->built.him;
 }
 template <class B>
+std::optional<CycleChoice> Simulation<B>::choice() const {
+  return inside_->choice;
+}
+template <class B>
 std::vector<Part> Simulation<B>::parts() const {
   return list_parts<B>(inside_->problem, inside_->built);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/arnoldi.hpp>
 #include <plica/drivers/study/cycle_map.hpp>
@@ -18,6 +19,7 @@ constexpr int burst = 20;  // macro steps between two looks at the size, which m
 template <class B>
 Problem about_rest(Problem p, const typename B::Exec& exec) {
   validate(p);
+  p = with_choice(p, choose_cycle<B>(p, exec));
   p.integration.allow_unstable = true;
   const BuiltHierarchy<B> whole = build_hierarchy<B>(p, exec);
   p.integration.macro_step = whole.macro_step;

@@ -51,4 +51,25 @@ StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference)
   return {u.relative(), v.relative(), u.worst()};
 }
 
+std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference, std::size_t vertex) {
+  double difference = 0, size = 0;
+  for (std::size_t j = 0; j < reference.u.size(); ++j) {
+    difference += (trajectory.u[j][vertex] - reference.u[j][vertex]).squaredNorm();
+    size += reference.u[j][vertex].squaredNorm();
+  }
+  if (size == 0) return {};
+  return std::sqrt(difference / size);
+}
+
+double delay_of(const Trajectory& trajectory, const Trajectory& reference) {
+  double product = 0, size = 0;
+  for (std::size_t j = 0; j < reference.u.size(); ++j)
+    for (std::size_t a = 0; a < reference.u[j].size(); ++a) {
+      const Point& v = reference.v[j][a];
+      product += v.dot(reference.u[j][a] - trajectory.u[j][a]);
+      size += v.squaredNorm();
+    }
+  return product / size;
+}
+
 }  // namespace plica

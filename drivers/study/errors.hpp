@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <plica/drivers/study/trajectory.hpp>
 
 namespace plica {
@@ -17,5 +18,12 @@ void expect_motion(const Trajectory& trajectory, const TetMesh& mesh);
 
 /// Of trajectories at the same times and vertices.
 StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference);
+
+/// |u - r| / |r| over all sampling times of one vertex; none where it stays at rest in the reference.
+std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference, std::size_t vertex);
+
+/// How far it is behind the reference on the mean [s], < 0: ahead. The s that makes u = r - s v most true, by least squares over
+/// all vertices and sampling times, with the reference's velocity v: means something while small beside the motion's period.
+double delay_of(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace plica

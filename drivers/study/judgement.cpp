@@ -24,6 +24,10 @@ void mark_pareto(std::vector<StudyRow>& rows) {
                  });
 }
 
+bool grows(const StudyRow& row) {
+  return row.spectral_radius && *row.spectral_radius > 1 + 1e-6 + row.spectral_radius_uncertainty.value_or(0);
+}
+
 std::optional<double> smallest_error(const std::vector<StudyRow>& rows) {
   std::optional<double> smallest;
   for (const StudyRow& row : rows)

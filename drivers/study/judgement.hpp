@@ -8,6 +8,9 @@ namespace plica {
 /// Sets `pareto` of every row: completed, and none is faster with an error as small, or as fast with a smaller one.
 void mark_pareto(std::vector<StudyRow>& rows);
 
+/// Small motions about rest grow by this cycle, by more than rounding and the uncertainty of what was found.
+bool grows(const StudyRow& row);
+
 /// The smallest error of the rows that are completed.
 std::optional<double> smallest_error(const std::vector<StudyRow>& rows);
 

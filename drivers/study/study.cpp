@@ -7,6 +7,7 @@
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/judgement.hpp>
 #include <plica/drivers/study/study.hpp>
+#include <plica/drivers/study/study_growth.hpp>
 
 namespace plica {
 
@@ -21,6 +22,9 @@ class Study {
     result_.left_out.clear(), result_.stopped = false;
     levels_ = study_levels(problem);
     cases_ = study_cases(problem, options, levels_);
+    std::vector<Point> probe_points;
+    for (const auto& [name, point] : options.probes) probe_points.push_back(point);
+    probes_ = embed(probe_points, problem.body.levels.front(), Outside::clamp);
     std::erase_if(result_.rows, [&](const StudyRow& row) {
       return std::ranges::none_of(cases_, [&](const StudyCase& c) { return c.key() == row.key; });
     });
@@ -33,13 +37,8 @@ class Study {
     std::vector<StudyCase> by_rank = cases_;
     std::ranges::stable_sort(by_rank, {}, &StudyCase::rank);
     for (const StudyCase& one : by_rank) {
-      if (has(one)) continue;
-      if (result_.stopped)
-        result_.left_out.push_back({one.key(), "the study was stopped before"});
-      else if (!fits(one))
-        leave_out(one);
-      else
-        measure(one);
+      if (!has(one)) run(one);
+      if (options_.growth && has(one)) find_growth(one);
     }
     finish();
     return std::move(result_);
@@ -71,16 +70,41 @@ class Study {
     return run * (1 + timed_runs_of(run, options_.timed_runs));
   }
   double& correction(const StudyCase& one) {
-    const std::string kind = one.method + (one.method.starts_with("cycle/") ? "" : " alone") + one.precision;
+    const std::string kind = study_label(one.method, {}, one.variant) + " " + one.precision;
     return correction_.try_emplace(kind + std::to_string(one.threads), 1.0).first->second;
   }
   bool fits(const StudyCase& one) { return !options_.budget || elapsed() + predicted(one) <= *options_.budget; }
 
-  void leave_out(const StudyCase& one) {
+  void leave_out(const StudyCase& one) { leave_out(one.key(), predicted(one)); }
+  void leave_out(const std::string& key, double seconds) {
     char text[160];
-    std::snprintf(text, sizeof text, "predicted to take %.2g s, with %.2g s left of the budget of %.3g s",
-                  predicted(one), std::max(0.0, *options_.budget - elapsed()), *options_.budget);
-    result_.left_out.push_back({one.key(), text});
+    std::snprintf(text, sizeof text, "predicted to take %.2g s, with %.2g s left of the budget of %.3g s", seconds,
+                  std::max(0.0, *options_.budget - elapsed()), *options_.budget);
+    result_.left_out.push_back({key, text});
+  }
+
+  void run(const StudyCase& one) {
+    if (result_.stopped)
+      result_.left_out.push_back({one.key(), "the study was stopped before"});
+    else if (!fits(one))
+      leave_out(one);
+    else
+      measure(one);
+  }
+
+  void find_growth(const StudyCase& one) {
+    const auto row = std::ranges::find(result_.rows, one.key(), &StudyRow::key);
+    if (!row->macro_step || row->spectral_radius || one.integration.cycle == "single") return;
+    const std::string key = "growth of " + one.key();
+    if (result_.stopped || !tell(key, 0)) return result_.left_out.push_back({key, "the study was stopped before"});
+    const double seconds = growth_.predicted_evaluations(one, *row->macro_step, options_.duration) *
+                           result_.reference.seconds_per_evaluation * correction(one);
+    if (seconds > 0 && options_.budget && elapsed() + seconds > *options_.budget) return leave_out(key, seconds);
+    if (const auto found = growth_.of(one, *row->macro_step)) {
+      row->spectral_radius = found->radius, row->spectral_radius_uncertainty = found->uncertainty;
+      row->growth_per_second = found->per_second;
+    }
+    tell(key, 1, false, true);
   }
 
   void measure(const StudyCase& one) {
@@ -99,7 +123,7 @@ class Study {
 
   StudyRow row_of(const StudyCase& one, const StudyRun& run) const {
     StudyRow row;
-    row.method = one.method, row.distribution = one.distribution, row.key = one.key();
+    row.method = one.method, row.distribution = one.distribution, row.variant = one.variant, row.key = one.key();
     row.precision = one.precision, row.status = run.status, row.reason = run.reason;
     row.threads = one.threads > 0 ? one.threads : Kokkos::DefaultExecutionSpace().concurrency();
     row.automatic = !one.integration.macro_step;
@@ -130,9 +154,17 @@ class Study {
     }
     row.error = errors.displacement, row.error_velocity = errors.velocity, row.error_worst_vertex = errors.worst_vertex;
     if (result_.reference.finer) row.error_finer = errors_of(found, *result_.reference.finer).displacement;
+    add_probes(row, found);
     row.energy_drift = run.energy_drift;
+    if (run.energy_drift) row.phase = delay_of(found, reference);
     row.wall_time = run.wall_time, row.wall_time_spread = run.wall_time_spread, row.timed_runs = run.timed_runs;
     row.work = static_cast<double>(run.tet_evaluations) / unit_work_;
+  }
+
+  void add_probes(StudyRow& row, const Trajectory& found) const {
+    const Trajectory at = interpolated(found, probes_), reference = interpolated(result_.reference.trajectory, probes_);
+    std::size_t i = 0;
+    for (const auto& [name, point] : options_.probes) row.error_probes[name] = error_at(at, reference, i++);
   }
 
   void finish() {
@@ -150,6 +182,8 @@ class Study {
   StudyResult result_;
   std::vector<StudyLevel> levels_;
   std::vector<StudyCase> cases_;
+  Embedding probes_;
+  GrowthOfCycles growth_{problem_};
   std::map<std::string, double> correction_;
   double unit_work_ = 1;
 };

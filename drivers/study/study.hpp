@@ -8,9 +8,9 @@ namespace plica {
 
 /// One method at one macro step, measured. Errors are fractions, times [s] of the whole duration; what does not apply is empty.
 struct StudyRow {
-  std::string method, distribution;  ///< see StudyCase
-  std::optional<double> macro_step;  ///< [s]; none: refused before there was one
-  bool automatic = false;            ///< the macro step was `auto`
+  std::string method, distribution, variant;  ///< see StudyCase
+  std::optional<double> macro_step;           ///< [s]; none: refused before there was one
+  bool automatic = false;                     ///< the macro step was `auto`
   std::optional<double>
       macro_step_over_critical;  ///< of the finest level under symplectic Euler, whatever the row runs
   std::string precision;
@@ -19,16 +19,19 @@ struct StudyRow {
   std::string reason;                                               ///< diagnosis or message, where it is not completed
   std::optional<double> reached;                                    ///< diverged: simulated time until then [s]
   std::optional<double> error, error_velocity, error_worst_vertex;  ///< see StudyErrors, against the reference
-  std::optional<double> error_finer;   ///< like error, against the finer mesh's reference: space and time together
-  std::optional<double> energy_drift;  ///< see StudyRun
+  std::optional<double> error_finer;  ///< like error, against the finer mesh's reference: space and time together
+  std::map<std::string, std::optional<double>> error_probes;  ///< of displacement, of each probe: see error_at()
+  std::optional<double> energy_drift;                         ///< see StudyRun
+  std::optional<double> phase;  ///< [s], see delay_of(); of motion that has an energy drift
   std::optional<double> wall_time, wall_time_spread, setup_time;
   int timed_runs = 0;
   std::optional<double>
-      work;             ///< tetrahedra's force evaluations, to those of single/symplectic_euler at 0.9 of its limit;
-                        ///< diverged: what the whole duration would have taken, predicted
+      work;  ///< tetrahedra's force evaluations, to those of single/symplectic_euler at 0.9 of its limit;
+             ///< diverged: what the whole duration would have taken, predicted
+  std::optional<double> spectral_radius, spectral_radius_uncertainty, growth_per_second;  ///< see CycleGrowth
   bool pareto = false;  ///< completed, and no other row is as fast with a smaller error
   std::string key;      ///< StudyCase::key()
-  std::string label() const { return distribution.empty() ? method : method + "/" + distribution; }
+  std::string label() const { return study_label(method, distribution, variant); }
 };
 
 /// A case that was not run, and why.

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/study_methods.hpp>
@@ -16,6 +18,7 @@ using Step = std::optional<double>;  // none: auto
 
 constexpr double implicit_factors[] = {16, 4, 64};    // of the finest critical step, the most telling first
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};  // likewise
+constexpr double him_factors[] = {4, 16, 32, 2};      // besides its own 8
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
 bool is_explicit(const std::string& integrator) {
@@ -39,6 +42,10 @@ std::string integrator_of(const IntegrationOptions& o, std::size_t i) {
 
 double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, double duration) {
   const IntegrationOptions& o = one.integration;
+  if (o.cycle != "single" && !integrates_coarse_levels(o.cycle)) {
+    const double steps = std::ceil(duration / o.macro_step.value_or(8 * levels[0].critical_step));
+    return levels[0].tets * (him_step_cost * steps + (o.cycle == "auto" ? trial_evaluations : 0));
+  }
   const bool alone = o.cycle == "single";
   std::vector<LevelLimits> limits;
   for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
@@ -64,6 +71,11 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   }
 }
 
+bool is_same_run(const StudyCase& a, const StudyCase& b) {
+  return a.method == b.method && a.precision == b.precision && a.threads == b.threads &&
+         steps_alike(a.integration, b.integration);
+}
+
 struct Builder {
   const Problem& problem;
   const StudyOptions& options;
@@ -79,7 +91,7 @@ struct Builder {
         one.precision = options.precision[p], one.threads = threads[t];
         one.rank = rank + 20 * static_cast<int>(p + t);
         one.predicted_evaluations = evaluations(one, levels, options.duration);
-        const auto same = [&](const StudyCase& c) { return c.key() == one.key(); };
+        const auto same = [&](const StudyCase& c) { return c.key() == one.key() || is_same_run(c, one); };
         if (std::ranges::none_of(cases, same)) cases.push_back(one);
       }
   }
@@ -105,9 +117,27 @@ struct Builder {
       if (step && *step < limit) add(one, step, 4);
   }
 
+  void add_him(StudyCase one, const std::string& cycle) {
+    const IntegrationOptions plain;
+    IntegrationOptions& o = one.integration;
+    o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
+    o.distribution = plain.distribution, o.shares = {}, o.shift_to_coarsest = 0;
+    int rank = 2;
+    if (cycle == "auto") {
+      o.error_class = one.distribution, o.allow_unstable = false;
+      return add(one, {}, rank);
+    }
+    for (const Step& step : options.macro_steps) add(one, step, rank++);
+    if (!options.macro_steps.empty()) return;
+    add(one, {}, rank);
+    for (const double factor : him_factors) add(one, factor * levels[0].critical_step, ++rank);
+  }
+
   void add_cycle(StudyCase one, const std::string& cycle) {
+    if (!integrates_coarse_levels(cycle)) return add_him(one, cycle);
+    if (!one.variant.empty()) one.integration = with(one.integration, options.variants.at(one.variant));
     one.integration.cycle = cycle, one.integration.distribution = one.distribution;
-    int rank = one.distribution == "critical" ? 3 : 5;
+    int rank = (one.distribution == "critical" ? 3 : 5) + (one.variant.empty() ? 0 : 1);
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
       return;
@@ -125,7 +155,7 @@ struct Builder {
 
 }  // namespace
 
-std::string StudyCase::label() const { return distribution.empty() ? method : method + "/" + distribution; }
+std::string StudyCase::label() const { return study_label(method, distribution, variant); }
 
 std::string StudyCase::key() const {
   char text[64] = "auto";
@@ -139,7 +169,9 @@ std::vector<StudyLevel> study_levels(const Problem& problem) {
   for (std::size_t i = 0; i < problem.body.levels.size(); ++i) {
     StudyCase alone;
     alone.level = static_cast<int>(i);
-    const LevelReport report = Simulation<B>(problem_of(problem, alone)).levels().front();
+    Problem one = problem_of(problem, alone);
+    one.body.loads.clear();  // a coarse mesh may have no vertex where one acts: its own run says so
+    const LevelReport report = Simulation<B>(one).levels().front();
     levels.push_back({report.tets, report.critical_step});
   }
   return levels;
@@ -150,7 +182,7 @@ std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& o
   Builder builder{problem, options, levels};
   for (const ChosenMethod& chosen : chosen_methods(problem, options)) {
     StudyCase one;
-    one.method = chosen.method, one.distribution = chosen.distribution;
+    one.method = chosen.method, one.distribution = chosen.distribution, one.variant = chosen.variant;
     one.integration = problem.integration;
     const std::string name = chosen.method.substr(chosen.method.find('/') + 1);
     if (chosen.method.starts_with("cycle/")) {

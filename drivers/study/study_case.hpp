@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <map>
 #include <optional>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/study/study_variant.hpp>
 #include <string>
 #include <vector>
 
@@ -12,14 +14,18 @@ struct StudyOptions {
   double duration = 1;               ///< simulated time [s] > 0
   int samples = 50;                  ///< times, evenly over the duration, at which states are compared
   std::vector<std::string> methods;  ///< of study_methods(), or a family: single, coarse, cycle; a cycle's name may be
-                                     ///< followed by /DISTRIBUTION; empty: the default set
+                                     ///< followed by /DISTRIBUTION, then by +VARIANT; empty: the default set
+  std::map<std::string, StudyVariant> variants;    ///< by name; the family `cycle` has each of them
   std::vector<std::optional<double>> macro_steps;  ///< [s]; none: auto; empty: multiples of the finest critical step
   std::vector<std::string> precision = {"double"};
-  std::vector<int> threads;      ///< empty: all there are
-  int timed_runs = 3;            ///< per row, after the warm-up; see timed_runs_of()
-  std::optional<double> budget;  ///< wall time of all of it [s]; rows that do not fit are left out, and listed
+  std::vector<int> threads;             ///< empty: all there are
+  int timed_runs = 3;                   ///< per row, after the warm-up; see timed_runs_of()
+  bool growth = false;                  ///< of small motions by each cycle too: see GrowthOfCycles
+  std::map<std::string, Point> probes;  ///< points of the finest level at rest [m] with errors of their own
+  std::optional<double> budget;         ///< wall time of all of it [s]; rows that do not fit are left out, and listed
   std::string reference_integrator = "rk4";  ///< of the finest level alone
-  double reference_step = 0.5;  ///< its coarser step over the finest level's critical step; the other is half
+  double reference_error = 1e-5;             ///< its own error, displacement, above which both steps are halved, once
+  double reference_step = 1;  ///< its coarser step over the finest level's critical step; the other is half
   std::optional<TetMesh>
       finer;  ///< a finer mesh of the body, for a second reference: the finest level's error in space
 };
@@ -33,14 +39,15 @@ struct StudyLevel {
 /// One run of a study: how which levels are integrated, in which precision, by how many threads.
 struct StudyCase {
   std::string method;        ///< single/INTEGRATOR, coarse/LEVEL or cycle/NAME
-  std::string distribution;  ///< of a cycle
+  std::string distribution;  ///< of a cycle; of cycle/auto its error class
+  std::string variant;       ///< of a cycle; empty: as the problem says
   std::string precision;
   int threads = 0;
   int level = 0;  ///< that is the run's finest
   IntegrationOptions integration;
   int rank = 0;                      ///< the lower, the more there is to learn from it
   double predicted_evaluations = 0;  ///< of tetrahedra, over the duration; 0 where its set-up will refuse
-  std::string label() const;         ///< "cycle/rsv/critical"
+  std::string label() const;         ///< "cycle/rsv/critical", "cycle/rsv/critical+hybrid"
   std::string key() const;           ///< what tells it from the study's other cases
 };
 
@@ -53,8 +60,9 @@ std::vector<StudyLevel> study_levels(const Problem& problem);
 
 /// All runs, in the order of their names. The default: the finest level alone, explicit at 0.9 and 0.5 of its limit and
 /// implicit at 4, 16 and 64 times it; each coarser level alone at 0.9 of its own; every cycle with every distribution at
-/// 1, 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step. Cycles keep the
-/// problem's integrators, sub-steps and all else. Of the options' macro steps an explicit level alone takes those below
+/// 1, 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step; him at 2 to 32 times; auto, within one per cent. Cycles keep the
+/// problem's integrators, sub-steps and all else but for what their variant changes; one that changes nothing that the cycle
+/// uses is not run again. Of the options' macro steps an explicit level alone takes those below
 /// its limit. InputError for an unknown method, with the nearest.
 std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& options,
                                    const std::vector<StudyLevel>& levels);
@@ -62,7 +70,8 @@ std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& o
 /// The problem that is to be run for it. A level alone starts where it would be under the finest one.
 Problem problem_of(const Problem& problem, const StudyCase& one);
 
-/// InputError where a name of options.methods is not in study_methods(): needs no meshes' critical steps.
+/// InputError where a name of options.methods is not in study_methods(), or a variant is no set-up: needs no meshes' critical
+/// steps.
 void check_study(const Problem& problem, const StudyOptions& options);
 
 }  // namespace plica

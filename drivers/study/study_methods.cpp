@@ -3,22 +3,26 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/study_methods.hpp>
 
 namespace plica {
 
 namespace {
 
+const std::string usual_class = "balanced";  // of cycle/auto, in the family
 const std::vector<std::string> families = {"single", "coarse", "cycle"};
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('/')); }
 
-// "cycle/rsv/equal" in two
+// "cycle/rsv/equal+hybrid" in three
 ChosenMethod split(const std::string& name) {
-  const std::size_t second = name.find('/', name.find('/') + 1);
-  if (family_of(name) != "cycle" || name.find('/') == std::string::npos || second == std::string::npos)
-    return {name, {}};
-  return {name.substr(0, second), name.substr(second + 1)};
+  const std::size_t plus = name.find('+');
+  const std::string variant = plus == std::string::npos ? "" : name.substr(plus + 1), before = name.substr(0, plus);
+  const std::size_t first = before.find('/'), second = before.find('/', first + 1);
+  if (family_of(before) != "cycle" || first == std::string::npos || second == std::string::npos)
+    return {before, {}, variant};
+  return {before.substr(0, second), before.substr(second + 1), variant};
 }
 
 std::vector<std::string> computed_distributions() {
@@ -28,15 +32,84 @@ std::vector<std::string> computed_distributions() {
 }
 
 void add(std::vector<ChosenMethod>& chosen, const ChosenMethod& one) {
-  const auto same = [&](const ChosenMethod& c) { return c.method == one.method && c.distribution == one.distribution; };
+  const auto same = [&](const ChosenMethod& c) {
+    return c.method == one.method && c.distribution == one.distribution && c.variant == one.variant;
+  };
   if (std::ranges::none_of(chosen, same)) chosen.push_back(one);
 }
 
+// Whether its levels divide the macro step
+bool shares_step(const ChosenMethod& one) {
+  return integrates_coarse_levels(one.method.substr(one.method.find('/') + 1));
+}
+
+bool is_chosen_by_trials(const ChosenMethod& one) { return one.method == "cycle/auto"; }
+
 // A cycle without a distribution means each of them, with the problem's own list if it has one
 void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const ChosenMethod& one) {
-  if (family_of(one.method) != "cycle" || !one.distribution.empty()) return add(chosen, one);
-  for (const std::string& distribution : computed_distributions()) add(chosen, {one.method, distribution});
-  if (problem.integration.distribution == "custom") add(chosen, {one.method, "custom"});
+  if (is_chosen_by_trials(one) && one.distribution.empty()) {
+    for (const std::string& error_class : names(error_classes())) add(chosen, {one.method, error_class, {}});
+    return;
+  }
+  if (family_of(one.method) != "cycle" || !one.distribution.empty() || !shares_step(one)) return add(chosen, one);
+  for (const std::string& distribution : computed_distributions()) add(chosen, {one.method, distribution, one.variant});
+  if (problem.integration.distribution == "custom") add(chosen, {one.method, "custom", one.variant});
+}
+
+// `cycle` has every variant, `cycle+hybrid` that one
+void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem, const StudyOptions& options,
+                const ChosenMethod& family) {
+  for (const std::string& method : study_methods(problem)) {
+    if (family_of(method) != family.method) continue;
+    if (family.variant.empty() || shares_step({method, {}, {}}))
+      add_each(chosen, problem, {method, is_chosen_by_trials({method, {}, {}}) ? usual_class : "", family.variant});
+    if (family.method == "cycle" && family.variant.empty() && shares_step({method, {}, {}}))
+      for (const auto& [variant, settings] : options.variants) add_each(chosen, problem, {method, {}, variant});
+  }
+  if (chosen.empty() && problem.body.levels.size() == 1)
+    throw InputError("study.methods: '" + family.method + "' needs coarser levels; the body has one level");
+}
+
+void check_method(const Problem& problem, const std::string& name, const ChosenMethod& one) {
+  const std::vector<std::string> all = study_methods(problem),
+                                 known = names(is_chosen_by_trials(one) ? error_classes() : distributions());
+  if (std::ranges::find(all, one.method) == all.end()) {
+    std::vector<std::string> choices = families;
+    choices.insert(choices.end(), all.begin(), all.end());
+    throw InputError("study.methods: " + unknown_name("method", one.method, choices));
+  }
+  if (!one.distribution.empty() && std::ranges::find(known, one.distribution) == known.end())
+    throw InputError("study.methods: " +
+                     unknown_name(is_chosen_by_trials(one) ? "error class" : "distribution", one.distribution, known));
+  const std::string shares = is_chosen_by_trials(one) ? std::string() : one.distribution;
+  if (family_of(one.method) == "cycle" && !shares_step(one) && !(shares + one.variant).empty())
+    throw InputError("study.methods: '" + name + "': " + one.method + " has neither shares nor variants");
+  if (one.distribution == "custom" && problem.integration.distribution != "custom")
+    throw InputError("study.methods: '" + name + "' needs a list of shares in integration.distribution");
+}
+
+void check_variant(const StudyOptions& options, const std::string& name, const ChosenMethod& one) {
+  if (name.find('+') == std::string::npos) return;
+  if (family_of(one.method) != "cycle")
+    throw InputError("study.methods: '" + name + "': only cycles have variants, got " + one.method);
+  if (options.variants.empty())
+    throw InputError("study.methods: '" + name + "' needs its variant in study.variants, where there is none");
+  std::vector<std::string> known;
+  for (const auto& [variant, settings] : options.variants) known.push_back(variant);
+  if (!options.variants.contains(one.variant))
+    throw InputError("study.methods: " + unknown_name("variant", one.variant, known));
+}
+
+void check_variants(const Problem& problem, const StudyOptions& options) {
+  Problem changed = problem;
+  for (const auto& [name, variant] : options.variants) try {
+      if (name.empty() || name.find_first_of("/+,") != std::string::npos)
+        throw InputError("expected a name without / + and comma, got '" + name + "'");
+      changed.integration = with(problem.integration, variant);
+      validate(changed);
+    } catch (const InputError& error) {
+      throw InputError("study.variants." + name + ": " + error.what());
+    }
 }
 
 }  // namespace
@@ -45,39 +118,29 @@ std::vector<std::string> study_methods(const Problem& problem) {
   std::vector<std::string> methods;
   for (const std::string& integrator : names(integrators())) methods.push_back("single/" + integrator);
   for (std::size_t i = 1; i < problem.body.levels.size(); ++i) methods.push_back("coarse/" + std::to_string(i));
-  for (const std::string& cycle : names(cycles()))
-    if (uses_coarse_levels(cycle) && problem.body.levels.size() > 1) methods.push_back("cycle/" + cycle);
+  for (const std::string& cycle : names(cycle_choices()))
+    if ((cycle == "auto" || uses_coarse_levels(cycle)) && problem.body.levels.size() > 1)
+      methods.push_back("cycle/" + cycle);
   return methods;
 }
 
 std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options) {
-  const std::vector<std::string> all = study_methods(problem);
   std::vector<std::string> asked = options.methods;
   if (asked.empty()) asked = {"single/symplectic_euler", "single/implicit_euler", "coarse", "cycle"};
   std::vector<ChosenMethod> chosen;
   for (const std::string& name : asked) {
-    const bool is_family = std::ranges::find(families, name) != families.end();
-    for (const std::string& method : all)
-      if (is_family && family_of(method) == name) add_each(chosen, problem, {method, {}});
-    if (is_family && chosen.empty() && problem.body.levels.size() == 1)
-      throw InputError("study.methods: '" + name + "' needs coarser levels; the body has one level");
-    if (is_family) continue;
     const ChosenMethod one = split(name);
-    if (std::ranges::find(all, one.method) == all.end()) {
-      std::vector<std::string> choices = families;
-      choices.insert(choices.end(), all.begin(), all.end());
-      throw InputError("study.methods: " + unknown_name("method", name, choices));
-    }
-    const std::vector<std::string> known = names(distributions());
-    if (!one.distribution.empty() && std::ranges::find(known, one.distribution) == known.end())
-      throw InputError("study.methods: " + unknown_name("distribution", one.distribution, known));
-    if (one.distribution == "custom" && problem.integration.distribution != "custom")
-      throw InputError("study.methods: '" + name + "' needs a list of shares in integration.distribution");
-    add_each(chosen, problem, one);
+    const bool is_family = std::ranges::find(families, one.method) != families.end();
+    if (!is_family) check_method(problem, name, one);
+    check_variant(options, name, one);
+    is_family ? add_family(chosen, problem, options, one) : add_each(chosen, problem, one);
   }
   return chosen;
 }
 
-void check_study(const Problem& problem, const StudyOptions& options) { chosen_methods(problem, options); }
+void check_study(const Problem& problem, const StudyOptions& options) {
+  check_variants(problem, options);
+  chosen_methods(problem, options);
+}
 
 }  // namespace plica

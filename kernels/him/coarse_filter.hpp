@@ -19,7 +19,7 @@ struct TurnForces {
 };
 
 /// x = S turned, dense: a work item takes a whole block of rows on a CPU, where its lanes fill registers, one row on a GPU.
-/// 9 n^2 s bytes and 18 n^2 flops for n vertices.
+/// 36 n^2 bytes and 18 n^2 flops for n vertices.
 template <class B>
 struct FilterForces {
   using Real = typename B::Real;
@@ -29,11 +29,11 @@ struct FilterForces {
 
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const int n = 3 * filter.vertices, first = item * rows, inside = first % block;
-    const Real* matrix = filter.matrix.data() + static_cast<std::size_t>(first / block) * n * block + inside;
+    const float* matrix = filter.matrix.data() + static_cast<std::size_t>(first / block) * n * block + inside;
     const Real* force = filter.turned.data();
     Real sum[rows] = {};
     for (int j = 0; j < n; ++j, matrix += block)
-      for (int i = 0; i < rows; ++i) sum[i] += matrix[i] * force[j];
+      for (int i = 0; i < rows; ++i) sum[i] += static_cast<Real>(matrix[i]) * force[j];
     for (int i = 0; i < rows; ++i) x(first + i) = sum[i];
   }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/meshes/box_mesh.hpp>
 #include <random>
 #include <string>
@@ -67,6 +68,13 @@ inline Problem cube_levels(int levels, int finest, const std::string& cycle) {
   Problem p = body_of(std::move(meshes));
   p.integration.cycle = cycle;
   return p;
+}
+
+/// The cycles in which the levels share the macro step, level 0 alone included.
+inline std::vector<std::string> sharing_cycles() {
+  std::vector<std::string> list = names(cycles());
+  std::erase_if(list, [](const std::string& cycle) { return cycle != "single" && !integrates_coarse_levels(cycle); });
+  return list;
 }
 
 /// The vertices of the face x = 0.

@@ -32,8 +32,9 @@ struct RunArguments : SceneArguments {
 };
 
 struct StudyArguments {
-  std::string budget;  ///< wall time, "60s"; empty: as long as it takes
-  bool space = false;  ///< a second reference on a finer mesh
+  std::string budget;   ///< wall time, "60s"; empty: as long as it takes
+  bool space = false;   ///< a second reference on a finer mesh
+  bool growth = false;  ///< of the linearised cycles too
 };
 
 }  // namespace plica::app

@@ -14,8 +14,8 @@ using Json = nlohmann::ordered_json;
 
 template <class B>
 Plan plan_of(const Simulation<B>& simulation, const Machine& machine) {
-  return {simulation.macro_step(), machine.backend,     machine.threads,
-          machine.precision,       simulation.levels(), simulation.him(), simulation.parts()};
+  return {simulation.macro_step(), machine.backend,  machine.threads,     machine.precision,
+          simulation.levels(),     simulation.him(), simulation.choice(), simulation.parts()};
 }
 
 }  // namespace

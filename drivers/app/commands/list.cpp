@@ -35,7 +35,8 @@ std::vector<Choice> meshes_read() { return formats(mesh_formats); }
 
 constexpr Family families[] = {{"materials", "constitutive laws", materials},
                                {"integrators", "how a level is stepped in time", integrators},
-                               {"cycles", "how the levels take a macro step together", cycles},
+                               {"cycles", "how the levels take a macro step together", cycle_choices},
+                               {"error_classes", "how far cycle auto may be from the finest level", error_classes},
                                {"distributions", "how they share its time", distributions},
                                {"shapes", "what a body can touch", obstacle_shapes},
                                {"solvers", "of the implicit levels' linear systems", linear_solvers},

@@ -36,11 +36,15 @@ constexpr const char* study_manual =
   single/INTEGRATOR   the finest level alone
   coarse/LEVEL        a coarser level alone, interpolated to the finest
   cycle/NAME          the levels together, with each distribution of the macro step, or cycle/NAME/DISTRIBUTION
-Left out of the scene's section `study`, all but some integrators are run. Errors are relative, over all vertices of the
+  cycle/...+VARIANT   the same with the settings that study.variants.VARIANT puts over those of `integration`
+`cycle` alone means all of them; a variant that changes nothing that a cycle uses is not run for it. Left out of the scene's section `study`, all but some integrators are run. Errors are relative, over all vertices of the
 finest level and all sampling times, against that level alone at a small step, which is itself checked at half of it.
 Times are of the steps alone: the median of at least three runs after one to warm up. States between two steps are
 interpolated by the cubic through the four nearest. `work` counts tetrahedra's force evaluations (an iteration of a
-linear solve as one), to those of the finest level alone at 0.9 of its limit.
+linear solve as one), to those of the finest level alone at 0.9 of its limit. `error_probes` are errors of the points in
+output.probes. Where nothing but gravity does work, `energy_drift` is the change of energy, relative, and `phase` how
+far [s] the motion is behind the reference on the mean. With --growth, `spectral_radius` is the factor per macro step by
+which small motions about rest grow in the long run, `growth_per_second` its logarithm per simulated second.
 
 Files in the folder, SI units throughout; rows are written as they finish:
   study.json       machine, reference, rows (one per method and macro step; diverged and refused ones too), what was left out
@@ -51,6 +55,7 @@ The same command goes on with what it finds there. drivers/plots/study.py FOLDER
 Examples:
   plica study beam.yaml -o out/beam --budget 60s
   plica study beam.yaml --set study.methods="[single, coarse, cycle/rsv]" --set study.macro_steps="[1 ms, 2 ms, auto]"
+  plica study beam.yaml --set study.variants="{hybrid: {integrator: [symplectic_euler, implicit_euler]}}" --growth
   plica study beam.yaml --space         # the finest mesh's own error too, against one twice as fine: takes 16 times as long
 
 Exit status: 0 done, also with rows that diverged, 1 a file cannot be written, 2 bad input, 130 interrupted)";

@@ -7,6 +7,7 @@
 #include <plica/drivers/app/commands/run.hpp>
 #include <plica/drivers/app/commands/run_loop.hpp>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/choice.hpp>
 #include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -27,7 +28,7 @@ void announce(const Scene& scene, const Simulation<B>& simulation, const Machine
   std::string tets;
   for (const LevelReport& level : simulation.levels()) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
   message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {}", scene.name, tets,
-                      scene.problem.integration.cycle, in_units(simulation.macro_step(), "s"), machine.precision,
+                      cycle_name(scene, simulation.choice()), in_units(simulation.macro_step(), "s"), machine.precision,
                       machine.backend, counted(machine.threads, "thread")));
   if (start.macro_steps > 0)
     message(fmt::format("resumed after {} at {:.5g} s", counted(start.macro_steps, "macro step"), start.time));
@@ -46,7 +47,8 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.precision = machine.precision;
   summary.backend = machine.backend;
   summary.threads = machine.threads;
-  summary.cycle = scene.problem.integration.cycle;
+  summary.choice = simulation.choice();
+  summary.cycle = cycle_name(scene, summary.choice);
   summary.levels = simulation.levels();
   summary.stages = output.stages();
   summary.frames = output.files().frames();

@@ -15,7 +15,8 @@ namespace {
 
 StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const StudyArguments& more) {
   StudyOptions options = scene.study;
-  options.duration = scene.duration;
+  options.duration = scene.duration, options.probes = scene.output.probes;
+  options.growth = options.growth || more.growth;
   if (!arguments.precision.empty()) options.precision = {arguments.precision};
   if (!more.budget.empty())
     read_option("--budget", more.budget, Quantity{duration, positive}, options.budget.emplace());

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/choice.hpp>
 #include <plica/drivers/app/output/plan.hpp>
 #include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -21,7 +22,8 @@ std::string head_text(const Scene& scene, const Plan& plan) {
                                    counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
                                    in_units(plan.macro_step, "s"))},
               {"cycle",
-               fmt::format("{}{}", i.cycle, plan.him ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
+               fmt::format("{}{}", cycle_name(scene, plan.choice),
+                           plan.him || plan.choice ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
               {"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", m.model, in_units(m.young_modulus, "Pa"),
                                        m.poisson_ratio, m.density)},
               {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
@@ -92,7 +94,8 @@ std::string parts_text(const Plan& plan) {
 }  // namespace
 
 std::string plan_text(const Scene& scene, const Plan& plan) {
-  return head_text(scene, plan) + levels_text(plan) + transfers_text(plan) + parts_text(plan);
+  return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") + levels_text(plan) +
+         transfers_text(plan) + parts_text(plan);
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan) {
@@ -105,7 +108,8 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                      {"duration", scene.duration},
                      {"macro_step", plan.macro_step},
                      {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
-                     {"cycle", scene.problem.integration.cycle},
+                     {"cycle", cycle_name(scene, plan.choice)},
+                     {"choice", choice_json(plan.choice)},
                      {"precision", plan.precision},
                      {"backend", plan.backend},
                      {"threads", plan.threads},

@@ -15,6 +15,7 @@ struct Plan {
   std::string precision;
   std::vector<LevelReport> levels;
   std::optional<HimReport> him;
+  std::optional<CycleChoice> choice;
   std::vector<Part> parts;
 };
 

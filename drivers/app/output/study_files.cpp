@@ -45,8 +45,8 @@ void add_tools(Digest& digest, const Problem& problem) {
 std::uint64_t reference_digest(const Scene& scene, const StudyOptions& o) {
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study", "integration"}));
-  digest.add(fmt::format("{} {} {} {} {}", mesh_digest(scene.problem.body), o.samples, o.reference_integrator,
-                         o.reference_step, o.finer.has_value()));
+  digest.add(fmt::format("{} {} {} {} {} {}", mesh_digest(scene.problem.body), o.samples, o.reference_integrator,
+                         o.reference_step, o.reference_error, o.finer.has_value()));
   add_tools(digest, scene.problem);
   return digest.value();
 }
@@ -56,6 +56,9 @@ std::uint64_t study_digest(const Scene& scene, const StudyOptions& o, const Stud
                            std::uint64_t reference) {
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study"}));
+  const Tree* section = scene.source.find("study");
+  if (const Tree* variants = section ? section->find("variants") : nullptr) digest.add(json_of(*variants).dump());
+  for (const auto& [name, p] : o.probes) digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
   digest.add(fmt::format("{} {} {} {} {} {} {} {}", reference, o.timed_runs, machine.cpu, machine.backend,
                          machine.threads, version(), git_revision(), compiler()));
   return digest.value();

@@ -17,6 +17,7 @@ template <class Row, class Visit>
 void each_member(Row& row, const Visit& visit) {
   visit("method", row.method);
   visit("distribution", row.distribution);
+  visit("variant", row.variant);
   visit("macro_step", row.macro_step);
   visit("macro_step_over_critical", row.macro_step_over_critical);
   visit("automatic", row.automatic);
@@ -29,44 +30,55 @@ void each_member(Row& row, const Visit& visit) {
   visit("error_velocity", row.error_velocity);
   visit("error_worst_vertex", row.error_worst_vertex);
   visit("error_finer", row.error_finer);
+  visit("error_probes", row.error_probes);
   visit("energy_drift", row.energy_drift);
+  visit("phase", row.phase);
   visit("wall_time", row.wall_time);
   visit("wall_time_spread", row.wall_time_spread);
   visit("timed_runs", row.timed_runs);
   visit("setup_time", row.setup_time);
   visit("work", row.work);
+  visit("spectral_radius", row.spectral_radius);
+  visit("spectral_radius_uncertainty", row.spectral_radius_uncertainty);
+  visit("growth_per_second", row.growth_per_second);
   visit("pareto", row.pareto);
   visit("case", row.key);
 }
 
+using Probes = std::map<std::string, std::optional<double>>;
+
 template <class T>
-Json optional_json(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
+Json json_of(const T& value) {
+  return value;
+}
+Json json_of(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json json_of(const Probes& probes) {
+  Json json;  // null where there are none
+  for (const auto& [name, value] : probes) json[name] = json_of(value);
+  return json;
+}
+
+template <class T>
+void read(const Json& json, T& value) {
+  if (!json.is_null()) json.get_to(value);
+}
+void read(const Json& json, std::optional<double>& value) {
+  if (!json.is_null()) value = json.get<double>();
+}
+void read(const Json& json, Probes& probes) {
+  for (const auto& [name, value] : json.items()) read(value, probes[name]);
 }
 
 Json row_json(const StudyRow& row) {
   Json json;
-  each_member(row, [&](const char* name, const auto& value) {
-    if constexpr (requires { value.has_value(); })
-      json[name] = optional_json(value);
-    else
-      json[name] = value;
-  });
-  for (const char* name : {"distribution", "reason"})
-    if (json[name] == "") json[name] = nullptr;
+  each_member(row, [&](const char* name, const auto& value) { json[name] = json_of(value); });
   return json;
 }
 
 StudyRow row_of(const Json& json) {
   StudyRow row;
-  each_member(row, [&](const char* name, auto& value) {
-    const Json& from = json.at(name);
-    if constexpr (requires { value.has_value(); }) {
-      if (!from.is_null()) value = from.get<double>();
-    } else {
-      if (!from.is_null()) from.get_to(value);
-    }
-  });
+  each_member(row, [&](const char* name, auto& value) { read(json.at(name), value); });
   return row;
 }
 
@@ -77,9 +89,9 @@ Json reference_json(const StudyResult& result) {
           {"critical_step", r.critical_step},
           {"own_error", r.own_error},
           {"own_error_velocity", r.own_error_velocity},
-          {"smallest_error", optional_json(smallest_error(result.rows))},
+          {"smallest_error", json_of(smallest_error(result.rows))},
           {"good_enough", good_enough(result)},
-          {"space_error", optional_json(r.space_error)},
+          {"space_error", json_of(r.space_error)},
           {"wall_time", r.wall_time}};
 }
 
@@ -130,13 +142,24 @@ std::vector<StudyRow> rows_of_study(const std::string& text, const std::string& 
 }
 
 std::string study_csv(const std::vector<StudyRow>& rows) {
+  StudyRow columns;
+  for (const StudyRow& row : rows)
+    for (const auto& [name, value] : row.error_probes) columns.error_probes[name];
   std::string text;
-  const auto add_line = [&text](const Json& row, bool names) {
+  const auto add_line = [&](const Json& row, bool names) {
     std::string line;
-    for (const auto& [name, value] : row.items()) line += (line.empty() ? "" : ",") + (names ? name : csv_field(value));
+    const auto add = [&](const std::string& name, const Json& value) {
+      line += (line.empty() ? "" : ",") + csv_field(names ? Json(name) : value);
+    };
+    for (const auto& [name, value] : row.items()) {
+      if (name != "error_probes") add(name, value);
+      if (name == "error_probes")
+        for (const auto& [probe, unused] : columns.error_probes)
+          add(name + "." + probe, value.is_null() ? Json() : value.value(probe, Json()));
+    }
     text += line + "\n";
   };
-  add_line(row_json({}), true);
+  add_line(row_json(columns), true);
   for (const StudyRow& row : rows) add_line(row_json(row), false);
   return text;
 }

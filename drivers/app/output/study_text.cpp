@@ -39,19 +39,51 @@ std::string reference_text(const StudyResult& result) {
   return wrapped(text, width, "");
 }
 
+std::string growth_of(const StudyRow& row) {
+  if (!row.spectral_radius) return "";
+  if (!grows(row)) return "none";
+  return fmt::format("{:.2g} per second", *row.growth_per_second);
+}
+
 std::string pareto_text(const StudyResult& result) {
   std::vector<const StudyRow*> front;
   for (const StudyRow& row : result.rows)
     if (row.pareto) front.push_back(&row);
   if (front.empty()) return "No method came to the end.\n";
   std::ranges::sort(front, {}, [](const StudyRow* row) { return *row->wall_time; });
+  const bool growth = std::ranges::any_of(front, [](const StudyRow* row) { return row->spectral_radius.has_value(); });
   std::vector<std::vector<std::string>> table = {
       {"the best for their time", "macro step", "x critical", "error", "of velocity", "time", "work"}};
-  for (const StudyRow* row : front)
+  if (growth) table[0].emplace_back("growth");
+  for (const StudyRow* row : front) {
     table.push_back({name_of(*row, result), in_units(*row->macro_step, "s"),
                      fmt::format("{:.3g}", *row->macro_step_over_critical), percent(*row->error),
                      percent(*row->error_velocity), in_units(*row->wall_time, "s"), fmt::format("{:.3g}", *row->work)});
-  return text_table(table, "<>>>>>>");
+    if (growth) table.back().push_back(growth_of(*row));
+  }
+  return text_table(table, "<>>>>>>>");
+}
+
+// Of the linearised cycles, all rows: the amplitude's logarithm per simulated second
+std::string growth_text(const StudyResult& result) {
+  const StudyRow *fastest = nullptr, *stable = nullptr;
+  long found = 0, growing = 0;
+  for (const StudyRow& row : result.rows) {
+    if (!row.spectral_radius) continue;
+    ++found, growing += grows(row) ? 1 : 0;
+    if (grows(row) && (fastest == nullptr || *row.growth_per_second > *fastest->growth_per_second)) fastest = &row;
+    if (!grows(row) && (stable == nullptr || *row.macro_step > *stable->macro_step)) stable = &row;
+  }
+  if (found == 0) return {};
+  const auto at = [&](const StudyRow& row) {
+    return fmt::format("{} at {:.3g} x critical", name_of(row, result), *row.macro_step_over_critical);
+  };
+  std::string text =
+      fmt::format("Small motions about rest: of {} of cycles, {} let them grow.", counted(found, "row"), growing);
+  if (fastest != nullptr)
+    text += fmt::format(" {} grows fastest, by {:.3g} per second.", at(*fastest), *fastest->growth_per_second);
+  if (stable != nullptr) text += fmt::format(" The longest macro step without growth: {}.", at(*stable));
+  return wrapped(text, width, "");
 }
 
 std::string fastest_text(const StudyResult& result, double threshold) {
@@ -97,7 +129,7 @@ std::string study_text(const Scene& scene, const StudyResult& result, const std:
                                  result.stopped ? ", interrupted: the same command goes on with them" : "");
   text += reference_text(result) + pareto_text(result);
   for (const double threshold : thresholds) text += fastest_text(result, threshold);
-  text += missing_text(result);
+  text += growth_text(result) + missing_text(result);
   return text +
          fmt::format("Files: {0}: study.json, study.csv. The picture: python3 drivers/plots/study.py {0}\n", folder);
 }

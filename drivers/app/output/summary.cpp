@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/choice.hpp>
 #include <plica/drivers/app/output/obstacles_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -66,6 +67,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"backend", s.backend},
                      {"threads", s.threads},
                      {"cycle", s.cycle},
+                     {"choice", choice_json(s.choice)},
                      {"levels", levels_json(s.levels)},
                      {"stages", s.stages},
                      {"counters", s.counters},

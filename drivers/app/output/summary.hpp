@@ -20,7 +20,8 @@ struct Summary {
   std::size_t peak_memory = 0, frames = 0;
   std::string precision, backend;
   int threads = 0;
-  std::string cycle;
+  std::string cycle;                  ///< that ran
+  std::optional<CycleChoice> choice;  ///< of cycle auto
   std::vector<LevelReport> levels;
   std::map<std::string, double> stages;
   std::map<std::string, long> counters;

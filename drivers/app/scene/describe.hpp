@@ -237,7 +237,8 @@ void describe(V& v, HimOptions& o) {
 
 template <class V>
 void describe(V& v, IntegrationOptions& o) {
-  v("cycle", o.cycle, Name{"cycle", cycles}, "how the levels share a macro step");
+  v("cycle", o.cycle, Name{"cycle", cycle_choices}, "how the levels share a macro step; auto: chosen by short trials");
+  v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
   v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
@@ -345,17 +346,34 @@ void describe(V& v, OutputOptions& o) {
   v("format", o.format, Name{"format", frame_formats}, "of the frames");
 }
 
+/// The same kinds as in IntegrationOptions, none of them with a default.
+template <class V>
+void describe(V& v, StudyVariant& o) {
+  v("shift_to_coarsest", o.shift_to_coarsest, Quantity{number, {.min = 0, .max = 1, .max_excluded = true}},
+    "instead of integration's");
+  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators}}, "instead of integration's");
+  v("substeps", o.substeps, AutoCountPerLevel{}, "instead of integration's");
+  v("safety", o.safety, Quantity{number, {.min = 0, .max = 1, .min_excluded = true}}, "instead of integration's");
+  v("allow_unstable", o.allow_unstable, Flag{}, "instead of integration's");
+  v("switch_threshold", o.switch_threshold, Quantity{number, positive}, "instead of integration's");
+  v("outside", o.outside, Name{"rule", outside_rules}, "instead of integration's");
+}
+
 template <class V>
 void describe(V& v, StudyOptions& o) {
   v("methods", o.methods, ListOf<Text>{},
-    "single, coarse, cycle, or one of them: single/rk4, coarse/1, cycle/rsv, cycle/rsv/equal; left out: the default "
-    "set");
+    "single, coarse, cycle, or one of them: single/rk4, coarse/1, cycle/rsv, cycle/rsv/equal, with a variant "
+    "cycle/rsv/equal+hybrid; left out: the default set");
+  v.map("variants", o.variants, "what cycles have instead of the scene's integration when they are named with it");
   v("macro_steps", o.macro_steps, ListOf<AutoQuantity>{{{duration, positive}}},
     "of cycles and implicit methods, and of explicit ones those below their limit; left out: multiples of the finest "
     "limit");
   v("precision", o.precision, ListOf<Name>{{"precision", precisions}}, "in which each method runs");
   v("threads", o.threads, ListOf<Count>{{1}}, "with which each method runs; left out: all there are");
   v("samples", o.samples, Count{1}, "times, evenly over the duration, at which states are compared");
+  v("timed_runs", o.timed_runs, Count{0},
+    "of each row, short ones at least five; 0: the one that is compared is timed");
+  v("growth", o.growth, Flag{}, "find the growth of small motions by every cycle, linearised about rest");
 }
 
 template <class V>

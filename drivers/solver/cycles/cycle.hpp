@@ -16,8 +16,9 @@ class Cycle {
   virtual void start(Hierarchy<B>& hierarchy) { begin(hierarchy); }
   /// Whether steps so far have lost stability, though the state may still look sound. Waits.
   virtual bool alarmed(const Hierarchy<B>&) const { return false; }
-  /// Makes steps of `t` [s] stable again at the state as it is; false where it cannot.
-  virtual bool repair(Hierarchy<B>&, double) { return false; }
+  /// Makes steps of `t` [s] stable again at the state as it is; false where it cannot. `attempt`: how many before have not
+  /// been enough.
+  virtual bool repair(Hierarchy<B>&, double, int) { return false; }
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.
   virtual std::size_t bytes() const { return 0; }

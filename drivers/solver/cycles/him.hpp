@@ -80,8 +80,9 @@ class HimCycle final : public Cycle<B> {
 
   bool alarmed(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
 
-  bool repair(Hierarchy<B>& h, double t) override {
-    constexpr int most_substeps = 64;
+  bool repair(Hierarchy<B>& h, double t, int attempt) override {
+    constexpr int most_substeps = 64, attempts_at_a_step = 2;
+    if (attempt >= attempts_at_a_step) substeps_ *= 2;
     const Vectors<B>& u = h[0].level.state.u;
     double scale = 0.5 * parts_.fit.scale;
     if (lost_) scale = 1, substeps_ *= 2;  // only a shorter step helps there

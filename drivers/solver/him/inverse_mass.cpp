@@ -52,12 +52,12 @@ void InverseMass<B>::set_answer(const Eigen::MatrixXd& S) {
   if (coarser_.empty()) return;
   constexpr Eigen::Index block = CoarseFilter<B>::block;
   const Eigen::Index n = S.rows(), blocks = (n + block - 1) / block;
-  std::vector<Real> values(static_cast<std::size_t>(blocks * n * block), Real(0));
+  std::vector<float> values(static_cast<std::size_t>(blocks * n * block), 0.0F);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       values[static_cast<std::size_t>((i / block * n + j) * block + i % block)] =
-          static_cast<Real>(0.5 * (S(i, j) + S(j, i)));
-  filter_.matrix = to_device<Scalars<B>>("him.filter", values);
+          static_cast<float>(0.5 * (S(i, j) + S(j, i)));
+  filter_.matrix = to_device<decltype(filter_.matrix)>("him.filter", values);
 }
 
 template <class B>

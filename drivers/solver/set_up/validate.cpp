@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstdio>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/expect.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
@@ -58,25 +59,43 @@ void check_lengths(const IntegrationOptions& o, std::size_t levels) {
   check("integration.substeps", o.substeps.size());
 }
 
+[[noreturn]] void refuse(const IntegrationOptions& o, const char* key, const std::string& value, const char* why) {
+  throw InputError("integration." + std::string(key) + " is " + value + ", but cycle " + o.cycle + " " + why +
+                   "; leave it out");
+}
+
 void check_him(const IntegrationOptions& o) {
   expect(o.him.sigma > 0 && o.him.sigma < 1, "integration.him.sigma", o.him.sigma, "above 0 and below 1");
   const double loss = o.him.dissipation.value_or(0);
   expect(loss >= 0 && loss < 1, "integration.him.dissipation", loss, "auto, or 0 or more and below 1");
   if (o.cycle != "him") return;
-  const auto refuse = [](const char* key, const std::string& value, const char* why) {
-    throw InputError("integration." + std::string(key) + " is " + value + ", but cycle him " + why + "; leave it out");
-  };
   for (const std::string& name : o.integrator)
-    if (name != "symplectic_euler") refuse("integrator", name, "steps level 0 by leapfrog and no other level");
+    if (name != "symplectic_euler") refuse(o, "integrator", name, "steps level 0 by leapfrog and no other level");
   for (const int n : o.substeps)
-    if (n > 1) refuse("substeps", std::to_string(n), "takes one step per macro step");
-  if (o.distribution != "critical") refuse("distribution", o.distribution, "does not divide the macro step");
-  if (o.shift_to_coarsest > 0) refuse("shift_to_coarsest", "above 0", "does not divide the macro step");
-  if (o.outside != "clamp") refuse("outside", o.outside, "has transfers of its own");
+    if (n > 1) refuse(o, "substeps", std::to_string(n), "takes one step per macro step");
+  if (o.distribution != "critical") refuse(o, "distribution", o.distribution, "does not divide the macro step");
+  if (o.shift_to_coarsest > 0) refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
+  if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
+}
+
+void check_auto(const IntegrationOptions& o) {
+  if (o.cycle != "auto") return;
+  char step[40];
+  std::snprintf(step, sizeof step, "%.6g s", o.macro_step.value_or(0));
+  if (o.macro_step) refuse(o, "macro_step", step, "chooses the macro step");
+  for (const std::string& name : o.integrator)
+    if (name != "symplectic_euler") refuse(o, "integrator", name, "chooses how levels are stepped");
+  for (const int n : o.substeps)
+    if (n > 1) refuse(o, "substeps", std::to_string(n), "chooses how levels are stepped");
+  if (o.distribution != "critical") refuse(o, "distribution", o.distribution, "does not divide the macro step");
+  if (o.shift_to_coarsest > 0) refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
+  if (o.allow_unstable) refuse(o, "allow_unstable", "true", "chooses among stable steps");
+  if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
 }
 
 void check_integration(const IntegrationOptions& o, std::size_t levels) {
-  known("cycle", o.cycle, cycles());
+  known("cycle", o.cycle, cycle_choices());
+  known("error class", o.error_class, error_classes());
   known("distribution", o.distribution, distributions());
   for (const std::string& name : o.integrator) known("integrator", name, integrators());
   check_lengths(o, levels);
@@ -92,6 +111,7 @@ void check_integration(const IntegrationOptions& o, std::size_t levels) {
                      ", but cycle fas hands masses down by its weights, which "
                      "must not be negative or missing; expected clamp");
   check_him(o);
+  check_auto(o);
   const ImplicitOptions& i = o.implicit;
   expect(i.relative_residual > 0 && i.relative_residual < 1, "integration.implicit.relative_residual",
          i.relative_residual, "above 0 and below 1");

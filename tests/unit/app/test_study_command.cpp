@@ -86,7 +86,80 @@ TEST_F(StudyCommand, WritesWhatTheInterfaceSays) {
     EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
   const std::string csv = content_of(folder / "out/study.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
-  EXPECT_EQ(csv.find("method,distribution,macro_step,"), 0U);
+  EXPECT_EQ(csv.find("method,distribution,variant,macro_step,"), 0U);
+}
+
+// Every field of a row, and what it is in a completed one: s text, n number, b boolean, m map, ? may be null
+const std::vector<std::pair<std::string, std::string>> row_fields = {{"method", "s"},
+                                                                     {"distribution", "s?"},
+                                                                     {"variant", "s?"},
+                                                                     {"macro_step", "n"},
+                                                                     {"macro_step_over_critical", "n"},
+                                                                     {"automatic", "b"},
+                                                                     {"precision", "s"},
+                                                                     {"threads", "n"},
+                                                                     {"status", "s"},
+                                                                     {"reason", "s?"},
+                                                                     {"reached", "n?"},
+                                                                     {"error", "n"},
+                                                                     {"error_velocity", "n"},
+                                                                     {"error_worst_vertex", "n"},
+                                                                     {"error_finer", "n?"},
+                                                                     {"error_probes", "m?"},
+                                                                     {"energy_drift", "n?"},
+                                                                     {"phase", "n?"},
+                                                                     {"wall_time", "n"},
+                                                                     {"wall_time_spread", "n"},
+                                                                     {"timed_runs", "n"},
+                                                                     {"setup_time", "n"},
+                                                                     {"work", "n"},
+                                                                     {"spectral_radius", "n?"},
+                                                                     {"spectral_radius_uncertainty", "n?"},
+                                                                     {"growth_per_second", "n?"},
+                                                                     {"pareto", "b"},
+                                                                     {"case", "s"}};
+
+TEST_F(StudyCommand, RowsHaveTheDocumentedFieldsAndNoOthers) {
+  const Child run =
+      study({"--set", "study.methods=[single/symplectic_euler, coarse, cycle/rsv/equal, cycle/rsv/equal+bold]", "--set",
+             "study.variants={bold: {allow_unstable: true, substeps: 1, switch_threshold: 1}}", "--set",
+             "study.macro_steps=[auto, 5 ms]", "--set", "output.probes={tip: [0.4, 0.05, 0.05]}", "--growth"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const Json study_json = json();
+  std::set<std::string> statuses, variants;
+  for (const Json& row : study_json["rows"]) {
+    ASSERT_EQ(row.size(), row_fields.size()) << row;
+    const bool completed = row["status"] == "completed", cycle = row["distribution"].is_string();
+    statuses.insert(row["status"]);
+    if (row["variant"].is_string()) variants.insert(row["variant"]);
+    for (const auto& [name, kind] : row_fields) {
+      ASSERT_TRUE(row.contains(name)) << name;
+      const Json& value = row[name];
+      const char type = value.is_string()    ? 's'
+                        : value.is_number()  ? 'n'
+                        : value.is_boolean() ? 'b'
+                        : value.is_object()  ? 'm'
+                                             : '?';
+      EXPECT_TRUE(kind.starts_with(type) || kind.ends_with(type) || (!completed && type == '?')) << name << row;
+    }
+    for (const char* name : {"error", "error_velocity", "error_worst_vertex", "error_probes", "energy_drift", "phase",
+                             "wall_time", "wall_time_spread"})
+      EXPECT_EQ(row[name].is_null(), !completed) << name << row;
+    for (const char* name : {"spectral_radius", "growth_per_second"})
+      EXPECT_EQ(row[name].is_number(), cycle) << name << row;
+    EXPECT_TRUE(!completed || row["error_probes"].at("tip").is_number());
+  }
+  EXPECT_EQ(statuses, (std::set<std::string>{"completed", "diverged"}));
+  EXPECT_EQ(variants, std::set<std::string>{"bold"});
+  EXPECT_NE(run.output.find("Small motions about rest"), std::string::npos) << run.output;
+  const std::string csv = content_of(folder / "out/study.csv"), head = csv.substr(0, csv.find('\n'));
+  std::string expected;
+  for (const auto& [name, kind] : row_fields)
+    expected += (expected.empty() ? "" : ",") + (name == "error_probes" ? name + ".tip" : name);
+  EXPECT_EQ(head, expected);
+  const Child again = study({"--set", "study.variants={bold: {allow_unstable: true, substeps: 2}}", "--set",
+                             "study.methods=[cycle/rsv/equal+bold]"});
+  EXPECT_EQ(again.errors.find("going on"), std::string::npos) << "with rows of another variant of that name";
 }
 
 TEST_F(StudyCommand, GoesOnWithWhatIsThere) {
@@ -116,7 +189,8 @@ TEST_F(StudyCommand, CtrlCEndsWithWholeFiles) {
   EXPECT_EQ(run.status, 130) << run.errors;
   EXPECT_EQ(json()["status"], "interrupted");
   EXPECT_FALSE(json()["left_out"].empty());
-  for (const Json& row : json()["rows"]) expect_row(row);
+  const Json study_json = json();
+  for (const Json& row : study_json["rows"]) expect_row(row);
 }
 
 TEST_F(StudyCommand, TheBudgetLeavesOutAndSaysSo) {
@@ -127,6 +201,31 @@ TEST_F(StudyCommand, TheBudgetLeavesOutAndSaysSo) {
   EXPECT_NE(run.output.find("Left out, 5 runs"), std::string::npos) << run.output;
 }
 
+// A thousandth of a second, so that the finer meshes are affordable; a file of a mesh cannot be made finer
+TEST_F(StudyCommand, TheErrorInSpaceIsFoundForEverySceneOfBoxes) {
+  int boxes = 0, files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes/study")) {
+    const bool box = content_of(file.path()).find("{box: {size") != std::string::npos;
+    ++(box ? boxes : files);
+    const std::string results = folder / file.path().stem();
+    const Child run =
+        run_child({PLICA_EXECUTABLE, "study", file.path(), "-o", results, "--space", "--duration", "1ms", "--set",
+                   "study.samples=1", "--set", "study.timed_runs=0", "--set", "study.methods=single/symplectic_euler"},
+                  folder);
+    EXPECT_EQ(run.status, box ? 0 : 2) << file.path() << run.errors;
+    if (box) {
+      const Json study = Json::parse(content_of(results + "/study.json"));
+      EXPECT_TRUE(study["reference"]["space_error"].is_number()) << file.path();
+      for (const Json& row : study["rows"]) EXPECT_TRUE(row["error_finer"].is_number()) << file.path();
+    } else {
+      EXPECT_NE(run.errors.find("--space needs a finest level that can be made finer"), std::string::npos)
+          << run.errors;
+    }
+  }
+  EXPECT_EQ(boxes, 7);
+  EXPECT_EQ(files, 1);
+}
+
 TEST_F(StudyCommand, BadInputIs2) {
   const auto refuses = [&](const std::vector<std::string>& more, const std::string& words) {
     const Child run = study(more);
@@ -135,6 +234,11 @@ TEST_F(StudyCommand, BadInputIs2) {
   };
   refuses({"--set", "study.methods=cycle/rvs"}, "did you mean 'cycle/rsv'");
   refuses({"--set", "study.methods=[]"}, "study.methods");
+  const std::string bold = "study.variants={bold: {substeps: 1}}";
+  refuses({"--set", bold, "--set", "study.methods=cycle/rsv+blod"}, "did you mean 'bold'");
+  refuses({"--set", "study.methods=cycle/rsv+bold"}, "study.variants");
+  refuses({"--set", "study.variants={bold: {substep: 1}}"}, "did you mean 'substeps'");
+  refuses({"--set", "study.variants={bold: {integrator: [rk4, rk4, rk4]}}"}, "study.variants.bold");
   refuses({"--set", "study.method=single"}, "did you mean 'methods'");
   refuses({"--set", "study.macro_steps=[1 kg]"}, "study.macro_steps.0");
   refuses({"--set", "study.precision=half"}, "precision 'half'");

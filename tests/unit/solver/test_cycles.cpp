@@ -42,7 +42,7 @@ TYPED_TEST(CyclesOn, OneLevelIsTheSingleLevelSolverBitForBit) {
     p.integration.shift_to_coarsest = 0.5;
     p.integration.substeps = {2};
     const auto single = state_after<TypeParam>(p, 20);
-    for (const std::string& cycle : names(cycles())) {
+    for (const std::string& cycle : sharing_cycles()) {
       p.integration.cycle = cycle;
       EXPECT_TRUE(same_bits(state_after<TypeParam>(p, 20), single)) << integrator << " " << cycle;
     }
@@ -62,7 +62,7 @@ TYPED_TEST(CyclesOn, SingleIgnoresTheCoarseLevels) {
 // that are unstable on their own multiply rounding errors.)
 TYPED_TEST(CyclesOn, FreeFlightIsUniformMotion) {
   using Real = typename TypeParam::Real;
-  for (const std::string& cycle : names(cycles()))
+  for (const std::string& cycle : sharing_cycles())
     for (const char* distribution : {"equal", "critical", "inverse_elements"}) {
       Problem p = cube_levels(3, 4, cycle);
       p.body.initial.velocity = {1, -2, 0.5};
@@ -80,7 +80,7 @@ TYPED_TEST(CyclesOn, FreeFlightIsUniformMotion) {
 // Under gravity the levels act one after the other: one vertex that takes their steps in turn.
 TYPED_TEST(CyclesOn, FreeFallIsTheExactSequenceOfSteps) {
   using Real = typename TypeParam::Real;
-  for (const std::string& cycle : names(cycles())) {
+  for (const std::string& cycle : sharing_cycles()) {
     Problem p = cube_levels(2, 4, cycle);
     p.gravity = {0, 0, -9.81};
     p.body.initial.velocity = {0, 0, 1};
@@ -113,7 +113,7 @@ TYPED_TEST(CyclesOn, TranslationIsExactOnLevelsThatOverlapInPart) {
   for (const char* outside : {"clamp", "extrapolate"})
     for (const std::string& cycle : names(cycles())) {
       const bool corrected = cycle == "fas";  // hands masses down, which pile up here: what rounding stirs up grows
-      if (corrected && outside == std::string("extrapolate")) continue;
+      if ((corrected || cycle == "him") && outside == std::string("extrapolate")) continue;
       Problem p = body_of({jittered_box(decimetre, {4, 4, 4}), ball_mesh({0.05, 0.05, 0.05}, 0.05, 4)});
       p.integration.cycle = cycle, p.integration.outside = outside;
       p.body.initial.velocity = {0, 0, -3};
@@ -159,7 +159,7 @@ TYPED_TEST(CyclesOn, EveryOneHoldsALoadedBeam) {
     p.integration.cycle = cycle;
     Simulation<TypeParam> simulation(p);
     advance(simulation, 100);
-    for (int level = 0; level < static_cast<int>(simulation.levels().size()); ++level) {
+    for (int level = 0; level < (integrates_coarse_levels(cycle) ? 2 : 1); ++level) {
       const TetMesh& mesh = p.body.levels[static_cast<std::size_t>(level)];
       const auto u = displacements(simulation, mesh, level);
       for (std::size_t a = 0; a < u.size(); ++a)

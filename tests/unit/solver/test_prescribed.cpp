@@ -58,7 +58,7 @@ TYPED_TEST(Prescribed, IsExactForEveryIntegrator) {
 }
 
 TYPED_TEST(Prescribed, IsOnEveryLevelAtItsOwnTime) {
-  for (const std::string& cycle : names(cycles())) {
+  for (const std::string& cycle : sharing_cycles()) {
     if (cycle == "single") continue;
     SCOPED_TRACE(cycle);
     Problem p = pulled(cube_levels(3, 4, cycle));
@@ -144,7 +144,7 @@ TYPED_TEST(Prescribed, FollowsItsPathUnderEveryIntegrator) {
 }
 
 TYPED_TEST(Prescribed, IsOnItsPathOnEveryLevelAfterTransfers) {
-  for (const std::string& cycle : names(cycles())) {
+  for (const std::string& cycle : sharing_cycles()) {
     if (cycle == "single") continue;
     SCOPED_TRACE(cycle);
     Problem p = cube_levels(3, 4, cycle);

@@ -26,7 +26,7 @@ Problem thrown(const std::string& cycle, const std::string& integrator) {
   p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, SteadyMotion(Point(0, 0, 0.01))});
   p.integration.integrator = {integrator};
   p.integration.macro_step = integrator == "implicit_euler" ? 2e-3 : 5e-4;
-  p.integration.distribution = "equal";
+  if (cycle != "him") p.integration.distribution = "equal";
   p.integration.allow_unstable = true;  // for a few steps even the one that always grows will do
   return p;
 }
@@ -40,6 +40,7 @@ void expect_same(Simulation<B>& a, Simulation<B>& b) {
   EXPECT_EQ(a.worst_residual(), b.worst_residual());
   EXPECT_EQ(a.energies().total(), b.energies().total());
   for (int level = 0; level < static_cast<int>(a.levels().size()); ++level) {
+    if (a.levels()[static_cast<std::size_t>(level)].share == 0) continue;  // no state of its own
     EXPECT_TRUE(same_bits(a.positions(level), b.positions(level))) << level;
     EXPECT_TRUE(same_bits(a.velocities(level), b.velocities(level))) << level;
   }
@@ -52,6 +53,7 @@ TYPED_TEST_SUITE(SavedStates, EachBackend);
 TYPED_TEST(SavedStates, ContinueBitForBit) {
   for (const Choice& cycle : cycles())
     for (const Choice& integrator : integrators()) {
+      if (cycle.name == "him" && integrator.name != "symplectic_euler") continue;
       SCOPED_TRACE(cycle.name + " " + integrator.name);
       const Problem problem = thrown(cycle.name, integrator.name);
       Simulation<TypeParam> whole(problem), second(problem);

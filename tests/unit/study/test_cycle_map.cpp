@@ -71,7 +71,7 @@ TEST(CycleMap, OfASingleLevelHasTheLimitTwoOverOmega) {
 
 TEST(CycleMap, KrylovSpaceAgreesWithDenseEigenvalues) {
   for (const bool nested : {true, false})
-    for (const std::string& cycle : names(cycles()))
+    for (const std::string& cycle : sharing_cycles())
       for (const double over : {1.0, 2.5}) {
         const Map map(clamped(cycle, over, nested));
         const double dense = dense_radius(map.matrix());
@@ -84,7 +84,7 @@ TEST(CycleMap, KrylovSpaceAgreesWithDenseEigenvalues) {
 // The rest's state is all there is to a cycle: what it carries beside it from cycle to cycle does not matter.
 TEST(CycleMap, IsWhatCyclesDoStepAfterStep) {
   for (const bool nested : {true, false})
-    for (const std::string& cycle : names(cycles())) {
+    for (const std::string& cycle : sharing_cycles()) {
       Problem p = clamped(cycle, 0.8, nested);
       p.body.material.model = "linear";
       const Map map(p);

@@ -39,7 +39,8 @@ std::vector<const StudyRow*> rows_of(const StudyResult& result, const std::strin
 
 TEST(StudyMethods, AreNamedAfterWhatThereIs) {
   const auto methods = study_methods(beam());
-  for (const char* name : {"single/symplectic_euler", "single/implicit_euler", "single/rk4", "coarse/1", "cycle/rsv"})
+  for (const char* name :
+       {"single/symplectic_euler", "single/implicit_euler", "single/rk4", "coarse/1", "cycle/rsv", "cycle/auto"})
     EXPECT_NE(std::ranges::find(methods, name), methods.end()) << name;
   for (const char* name : {"coarse/0", "coarse/2", "cycle/single"})
     EXPECT_EQ(std::ranges::find(methods, name), methods.end()) << name;
@@ -57,6 +58,7 @@ TEST(StudyMethods, UnknownOnesGetTheNearest) {
   };
   EXPECT_NE(message("cycle/rvs").find("did you mean 'cycle/rsv'"), std::string::npos) << message("cycle/rvs");
   EXPECT_NE(message("cycle/rsv/critcal").find("did you mean 'critical'"), std::string::npos);
+  EXPECT_NE(message("cycle/auto/acurate").find("did you mean 'accurate'"), std::string::npos);
   EXPECT_NE(message("coarse/2").find("unknown method 'coarse/2'"), std::string::npos);
   EXPECT_NE(message("cycle/rsv/custom").find("integration.distribution"), std::string::npos);
 }
@@ -81,6 +83,8 @@ TEST(StudyCases, TheDefaultSetHasItsControlsAndEveryCycle) {
   for (const char* cycle : {"rs", "rv", "rsv", "rsv_sv", "fas"})
     for (const char* shares : {"equal", "inverse_elements", "critical"})
       EXPECT_EQ(count(std::string("cycle/") + cycle + "/" + shares), 6);
+  EXPECT_EQ(count("cycle/auto/balanced"), 1);
+  EXPECT_EQ(count("cycle/auto/accurate"), 0);
   std::vector<std::string> keys;
   for (const StudyCase& c : cases) keys.push_back(c.key());
   std::ranges::sort(keys);
@@ -99,11 +103,28 @@ TEST(Study, HalvingTheStepOfAnExplicitMethodLowersItsError) {
   EXPECT_TRUE(good_enough(result)) << result.reference.own_error;
 }
 
+TEST(Study, CycleAutoIsARowForEachClassThatKeepsItsWord) {
+  StudyOptions o = quick({"cycle/auto"});
+  o.macro_steps = {1e-4};
+  const StudyResult result = study(beam(), o);
+  ASSERT_EQ(result.rows.size(), 3u);
+  double before = 0;
+  for (const auto& [error_class, allowed] : {std::pair{"accurate", 0.001}, {"balanced", 0.01}, {"interactive", 0.05}}) {
+    const auto row = std::ranges::find(result.rows, error_class, &StudyRow::distribution);
+    ASSERT_NE(row, result.rows.end()) << error_class;
+    ASSERT_EQ(row->status, "completed") << row->reason;
+    EXPECT_TRUE(row->automatic);
+    EXPECT_GE(*row->macro_step, before);
+    before = *row->macro_step;
+    if (*row->macro_step_over_critical > 1) {
+      EXPECT_LE(*row->error, 3 * allowed) << error_class;
+    }
+  }
+}
+
 TEST(Study, AMethodThatIsTheReferenceHasNoError) {
   StudyOptions o = quick({"single/rk4"});
-  const double critical = study_levels(beam(1))[0].critical_step;
-  const double interval = o.duration / o.samples;
-  o.macro_steps = {interval / std::ceil(interval / (0.5 * critical)) / 2};
+  o.macro_steps = {study(beam(1), o).reference.macro_step};
   const auto result = study(beam(1), o);
   const auto row = std::ranges::min_element(result.rows, {}, [](const StudyRow& r) { return *r.error; });
   EXPECT_EQ(row->error, 0);
@@ -115,7 +136,7 @@ TEST(Study, AMethodThatIsTheReferenceHasNoError) {
 
 TEST(Study, ADeliberatelyBadReferenceIsCalledSo) {
   StudyOptions o = quick({"single/symplectic_euler"});
-  o.reference_integrator = "symplectic_euler", o.reference_step = 0.9;
+  o.reference_integrator = "symplectic_euler", o.reference_step = 0.9, o.reference_error = 1;
   const auto result = study(beam(1), o);
   EXPECT_FALSE(good_enough(result));
   EXPECT_FALSE(resolves(result.reference, 1e-3));
