@@ -139,7 +139,8 @@ class Simulation {
   void read_surface_velocities(const DeviceOutput<B>& to) const;
 
   /// The other way: replaces level 0's state by that in views of the caller's. The next cycle restricts it to the others.
-  /// Enqueues, does not wait; the views must stay as they are until the work is done.
+  /// Enqueues, does not wait (but for cycle `him`, which solves for the momenta of these velocities); the views must stay as
+  /// they are until the work is done.
   void write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities);
 
   /// From now on asks this function for more forces, on every level, at every state about to be integrated; an empty one

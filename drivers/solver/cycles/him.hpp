@@ -108,7 +108,11 @@ class HimCycle final : public Cycle<B> {
   }
 
   void persist(StateArchive<B>& archive) override {
-    archive.same("the fit of its inertia", parts_.fit.scale);
+    const double macro_step = parts_.fit.step * substeps_;
+    double scale = parts_.fit.scale;
+    archive.number(scale), archive.number(substeps_), archive.number(repairs_);
+    if (scale != parts_.fit.scale || macro_step != parts_.fit.step * substeps_)
+      parts_.fit = parts_.fitter->use(macro_step / substeps_, parts_.options.sigma, scale);
     archive.number(first_);
     archive.field("the momenta", p_);
     archive.field("the axes' share of them", parts_.inverse_mass->axes().share());

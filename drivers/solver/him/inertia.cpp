@@ -13,6 +13,8 @@ namespace {
 constexpr double least_scale = 1e-4, parts_tolerance = 1e-3, fit_tolerance = 1e-2;
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
 
+double kappa_of(double sigma) { return 0.4 * 4 * sigma * sigma; }
+
 std::vector<double> weights_of(const std::vector<double>& alpha) {
   std::vector<double> weights = alpha;
   for (std::size_t i = alpha.size(); i-- > 1;) weights[i] -= alpha[i - 1];
@@ -66,33 +68,50 @@ std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
 }
 
 template <class B>
-std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u, double scale) {
-  const double limit = 4 * sigma * sigma, kappa = 0.4 * limit;
+InertiaFit InertiaFitter<B>::use(double t, double sigma, double scale) {
+  const double kappa = kappa_of(sigma);
+  const std::vector<double> alpha = alphas(t, scale), weights = weights_of(alpha);
   if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa));
+  inverse_mass_.set_weights(weights);
   InertiaFit fit;
-  const auto fits = [&](double gamma) {
-    inverse_mass_.set_weights(weights_of(alphas(t, gamma)));
-    fit.scale = gamma, fit.product = t * t * largest(u, fit_tolerance);
-    return fit.product <= limit;
-  };
-  const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
-  if (!(plain <= scale && fits(plain)) && !fits(scale)) {
-    double low = least_scale, high = scale;
-    if (!modes_ || !fits(low)) return {};
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = std::sqrt(low * high);
-      (fits(middle) ? low : high) = middle;
-    }
-    if (fit.scale != low) fits(low);
-  }
-  const std::vector<double> alpha = alphas(t, fit.scale), weights = weights_of(alpha);
-  fit.step = t;
+  fit.step = t, fit.scale = scale;
   fit.bound = modes_ ? weights.back() * modes_->largest(t, kappa) : 0;
   for (std::size_t i = 0; i < alpha.size(); ++i) {
     fit.inertia.push_back(1 / alpha[i]);
     if (i < critical_.size()) fit.bound += weights[i] * 4 * std::pow(t / critical_[i], 2);
   }
   return fit;
+}
+
+template <class B>
+std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u, double scale) {
+  if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa_of(sigma)));
+  double product = 0;  // of the last scale that was tried
+  const auto fits = [&](double gamma) {
+    inverse_mass_.set_weights(weights_of(alphas(t, gamma)));
+    product = t * t * largest(u, fit_tolerance);
+    return product <= 4 * sigma * sigma;
+  };
+  const auto found = [&](double gamma) {
+    InertiaFit fit = use(t, sigma, gamma);
+    fit.product = product;
+    return fit;
+  };
+  const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
+  if (plain <= scale && fits(plain)) return found(plain);
+  if (fits(scale)) return found(scale);
+  double low = least_scale, high = scale, of_low = 0;
+  if (!modes_ || !fits(low)) return {};
+  of_low = product;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = std::sqrt(low * high);
+    if (fits(middle))
+      low = middle, of_low = product;
+    else
+      high = middle;
+  }
+  product = of_low;
+  return found(low);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class InertiaFitter<Backend<Real, Exec>>;

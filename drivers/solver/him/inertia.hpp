@@ -29,6 +29,9 @@ class InertiaFitter {
   /// most `scale`; nothing fits: none, and the weights are of no use.
   std::optional<InertiaFit> fit(double t, double sigma, const Vectors<B>& u, double scale = 1);
 
+  /// The fit that had this gamma, at whatever state; its product is not known then.
+  InertiaFit use(double t, double sigma, double scale);
+
   /// 2 / sqrt(lambda_max) of each part of the inverse mass alone at rest, finest first, without the coarsest [s].
   const std::vector<double>& critical_steps() const { return critical_; }
 

@@ -49,7 +49,7 @@ TYPED_TEST(Asynchronous, NothingInAnExplicitStepWaits) {
         simulation.step();
         simulation.read_positions(x);
         simulation.read_velocities(v);
-        if (step == 2) simulation.write_state(x, v);
+        if (step == 2 && cycle.name != "him") simulation.write_state(x, v);  // him solves for momenta
       }
       EXPECT_TRUE(watch.fences.empty()) << watch.fences.begin()->first << " in " << cycle.name << ", " << integrator;
       EXPECT_TRUE(watch.allocations.empty()) << watch.allocations.begin()->first;

@@ -28,7 +28,7 @@ TEST(InverseMass, IsSymmetricPositiveAndBoundedByTheMass) {
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
     EXPECT_GT(values.minCoeff(), 1e-6);
-    EXPECT_LE(values.maxCoeff(), 1 + 1e-9);  // nothing gets lighter
+    EXPECT_LE(values.maxCoeff(), 1 + 1e-6);  // nothing gets lighter
     // a push that moves the body as a whole: close to its own mass
     Eigen::VectorXd push = Eigen::VectorXd::Zero(A.rows());
     for (Eigen::Index k = 0; k < push.size(); k += 3) push[k] = m[static_cast<std::size_t>(k / 3)];
