@@ -87,7 +87,7 @@ struct ImplicitOptions {
 /// Of the cycle `him`.
 struct HimOptions {
   double sigma = 0.8;                 ///< part of the stability limit that steps use at rest, in (0, 1)
-  std::optional<double> dissipation;  ///< of slowed motion, per step, in [0, 1); none: by how fast the body turns
+  std::optional<double> dissipation;  ///< of slowed motion, per step, in [0, 1); none: 1e-4 where the body turns
   bool smoothing = true;              ///< of its transfers
 };
 

@@ -231,7 +231,7 @@ void describe(V& v, HimOptions& o) {
   v("sigma", o.sigma, Quantity{number, {.min = 0, .max = 1, .min_excluded = true, .max_excluded = true}},
     "part of its stability limit that a step uses at rest; the rest is room for stiffening");
   v("dissipation", o.dissipation, AutoQuantity{{number, {.min = 0, .max = 1, .max_excluded = true}}},
-    "of slowed motion, per step; auto: by how fast the body turns, at most 0.05");
+    "of slowed motion, per step; auto: 1e-4 where the body turns");
   v("smoothing", o.smoothing, Flag{}, "of its transfers between the levels");
 }
 

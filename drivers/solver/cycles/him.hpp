@@ -172,7 +172,7 @@ class HimCycle final : public Cycle<B> {
     }
     update_vertices<B>(exec, "plica::him_momenta", n_,
                        KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
-                                       static_cast<Real>(t), static_cast<Real>(1 / (1 + t * parts_.mass_damping))});
+                                       static_cast<Real>(t), static_cast<Real>(0.5 * t * parts_.mass_damping)});
     parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
   }
 

@@ -94,8 +94,9 @@ class HierarchyBuilder {
       const int level = static_cast<int>(i);
       add_regions(mesh, body.regions, level);
       constants_.push_back(level_constants(body, mesh, middle, level));
-      loads_.push_back(
-          assemble_loads(body, mesh, constants_[i], level, i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
+      if (i < levels_)
+        loads_.push_back(
+            assemble_loads(body, mesh, constants_[i], level, i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
       for (Point& p : mesh.vertices) p += shift;
     }
     for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<TetLocator>(mesh));

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/cycles/him.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 
 #include "support/him_pieces.hpp"
 #include "support/simulate.hpp"
@@ -157,6 +158,29 @@ TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
   const double error = std::abs(fall(p, 4e-3) / exact - 1), coarser = std::abs(fall(coarse, 5e-4) / exact - 1);
   EXPECT_LE(error, 0.02);
   EXPECT_GE(coarser, 5 * error);
+}
+
+// A block on a slope, 30 degrees: with little friction it slides, with much it all but stays, as the finest level has it.
+TEST(Him, SlidesAndHoldsAsTheFinestLevelDoes) {
+  const auto way = [](const std::string& cycle, double friction) {
+    Problem p = body_of({box_mesh(decimetre, {6, 6, 6}), box_mesh(decimetre, {4, 4, 4})}, "neo_hookean");
+    p.body.material.young_modulus = 50e3;
+    p.body.surface = boundary_surface(p.body.levels[0]).surface;
+    p.gravity = {4.905, 0, -8.496};
+    p.contact.obstacles.push_back({PlaneOptions{}, friction, {}});
+    p.integration.cycle = cycle;
+    if (cycle == "him") p.integration.macro_step = 4e-3;
+    Simulation<Host> simulation(p);
+    advance(simulation, static_cast<int>(std::lround(0.4 / simulation.macro_step())));
+    Point mean = Point::Zero();
+    const auto u = displacements(simulation, p.body.levels[0]);
+    for (const Point& one : u) mean += one / static_cast<double>(u.size());
+    return mean[0] / std::pow(simulation.time(), 2);
+  };
+  const double slides = way("single", 0.3), holds = way("single", 0.8);
+  EXPECT_NEAR(way("him", 0.3), slides, 0.03 * slides);
+  EXPECT_NEAR(way("him", 0.8), holds, 0.1 * slides);
+  EXPECT_LT(holds, 0.4 * slides);
 }
 
 TEST(Him, LosesNoStabilityUnnoticed) {
