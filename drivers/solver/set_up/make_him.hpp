@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/meshes/embedding.hpp>
 #include <vector>
 
 namespace plica {
