@@ -16,8 +16,8 @@ namespace {
 
 using Step = std::optional<double>;  // none: auto
 
-constexpr double implicit_factors[] = {16, 4, 64};    // of the finest critical step, the most telling first
-constexpr double cycle_factors[] = {4, 1, 16, 2, 8};  // likewise
+constexpr double implicit_factors[] = {16, 4, 64};           // of the finest critical step, the most telling first
+constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
 constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
