@@ -4,8 +4,8 @@
 #include <plica/core/small.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// One step of the hierarchical inverse mass on the finest level: drift by half a step, p = (p + t f - c (p - m v)) / (1 + t d), v = A p,
-// drift by half a step. c damps only what is slowed; d [1/s] is the body's mass damping.
+// One step of the hierarchical inverse mass on the finest level: drift by half a step, kick the momenta, v = A p, drift by half
+// a step; see KickMomentum.
 namespace plica {
 
 /// u += h v, of vertices that forces move.

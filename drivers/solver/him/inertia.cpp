@@ -68,14 +68,23 @@ std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
 }
 
 template <class B>
+void InertiaFitter<B>::set_answer(double t, double sigma) {
+  if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa_of(sigma)));
+}
+
+template <class B>
 InertiaFit InertiaFitter<B>::use(double t, double sigma, double scale) {
-  const double kappa = kappa_of(sigma);
+  set_answer(t, sigma);
+  return weigh(t, sigma, scale);
+}
+
+template <class B>
+InertiaFit InertiaFitter<B>::weigh(double t, double sigma, double scale) {
   const std::vector<double> alpha = alphas(t, scale), weights = weights_of(alpha);
-  if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa));
   inverse_mass_.set_weights(weights);
   InertiaFit fit;
   fit.step = t, fit.scale = scale;
-  fit.bound = modes_ ? weights.back() * modes_->largest(t, kappa) : 0;
+  fit.bound = modes_ ? weights.back() * modes_->largest(t, kappa_of(sigma)) : 0;
   for (std::size_t i = 0; i < alpha.size(); ++i) {
     fit.inertia.push_back(1 / alpha[i]);
     if (i < critical_.size()) fit.bound += weights[i] * 4 * std::pow(t / critical_[i], 2);
@@ -85,7 +94,7 @@ InertiaFit InertiaFitter<B>::use(double t, double sigma, double scale) {
 
 template <class B>
 std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u, double scale) {
-  if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa_of(sigma)));
+  set_answer(t, sigma);
   double product = 0;  // of the last scale that was tried
   const auto fits = [&](double gamma) {
     inverse_mass_.set_weights(weights_of(alphas(t, gamma)));
@@ -93,7 +102,7 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
     return product <= 4 * sigma * sigma;
   };
   const auto found = [&](double gamma) {
-    InertiaFit fit = use(t, sigma, gamma);
+    InertiaFit fit = weigh(t, sigma, gamma);
     fit.product = product;
     return fit;
   };

@@ -43,6 +43,8 @@ class InertiaFitter {
   std::optional<CoarseModes> modes_;
   std::vector<double> critical_;
 
+  void set_answer(double t, double sigma);
+  InertiaFit weigh(double t, double sigma, double scale);
   std::vector<double> alphas(double t, double scale) const;
   double largest(const Vectors<B>& u, double tolerance) const;
 };
