@@ -53,7 +53,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const auto levels = built.hierarchy->levels.size();
   const auto& body = problem.body;
   bool implicit = false, friction = false;
-  for (const LevelReport& r : built.reports) implicit = implicit || !r.explicit_integrator;
+  for (const LevelReport& r : built.reports) implicit = implicit || (!r.explicit_integrator && !built.him);
   for (const ObstacleOptions& o : problem.contact.obstacles) friction = friction || o.friction.has_value();
   const bool contact = !problem.contact.obstacles.empty();
   const std::size_t variations = sum([](const L& l) { return bytes_of(l.level.start) + bytes_of(l.level.previous); });
@@ -86,6 +86,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("variation mapping", variations > 0, "cycle " + problem.integration.cycle,
       "not in cycle " + problem.integration.cycle, variations);
   add("switched mapping", limits > 0, "switch_threshold", "not in cycle " + problem.integration.cycle, limits);
+  add("hierarchical inverse mass", built.him.has_value(), "cycle him", "not in cycle " + problem.integration.cycle,
+      built.him ? built.cycle->bytes() : 0);
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
       sum([](const L& l) { return bytes_of(l.level.surface); }));
   add("contact", contact, counted(problem.contact.obstacles.size(), "obstacle"), "no obstacle",

@@ -107,11 +107,20 @@ TYPED_TEST(LeftOut, PartsSayIt) {
     EXPECT_FALSE(part.reason.empty()) << name;
   }
   for (const auto& [name, part] : most)
-    if (name != "fixed vertices") {
+    if (name != "fixed vertices" && name != "hierarchical inverse mass") {  // the latter: see below
       EXPECT_TRUE(part.in) << name;
       const bool no_memory = name == "gravity" || name == "mass damping" || name == "friction";
       EXPECT_EQ(part.bytes > 0, !no_memory) << name;
     }
+}
+
+// Cycle him has its inverse mass, and neither transfers of states nor an implicit solver.
+TYPED_TEST(LeftOut, HimSaysWhatItHas) {
+  const auto parts = parts_of<TypeParam>(cube_levels(2, 4, "him"));
+  EXPECT_TRUE(parts.at("hierarchical inverse mass").in);
+  EXPECT_GT(parts.at("hierarchical inverse mass").bytes, 0u);
+  for (const char* name : {"transfers", "implicit solver"}) EXPECT_FALSE(parts.at(name).in) << name;
+  EXPECT_FALSE(parts_of<TypeParam>(small_cube()).at("hierarchical inverse mass").in);
 }
 
 }  // namespace
