@@ -3,7 +3,7 @@
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/explicit/updates.hpp>
-#include <plica/kernels/implicit/newton_kernels.hpp>
+#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/materials/list.hpp>
 
 #include "beam.hpp"
@@ -62,8 +62,7 @@ void tangent(benchmark::State& state, const Case& c, double flops) {
   measure<Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 3 + 1), tets * flops}, [&] {
     beam.elasticity->tangent(beam.exec, model.patches, beam.level.state.u, beam.direction, beam.level.partial);
     update_vertices<B>(beam.exec, "bench::product", model.vertices,
-                       NewtonProduct<B>{model.patches, model.mass, beam.direction, beam.level.partial, beam.level.f,
-                                        Real(1), Real(1)});
+                       SystemProduct<B>{model, beam.direction, beam.level.partial, beam.level.f, Real(1), Real(1)});
   });
 }
 

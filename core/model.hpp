@@ -5,6 +5,16 @@
 
 namespace plica {
 
+/// Mass-proportional damping [1/s]: of all vertices, or where regions differ of each.
+template <class B>
+struct MassDamping {
+  typename B::Real everywhere = 0;
+  Scalars<B> of_vertex;  ///< [vertices], or empty
+  KOKKOS_INLINE_FUNCTION typename B::Real operator()(int a) const {
+    return of_vertex.extent(0) > 0 ? of_vertex(a) : everywhere;
+  }
+};
+
 /// What stays constant on one level.
 template <class B>
 struct Model {
@@ -14,6 +24,7 @@ struct Model {
   Patches<B> patches;
   Scalars<B> mass;          ///< lumped [kg], > 0
   Scalars<B> inverse_mass;  ///< [1/kg]; 0: the vertex's motion is given, forces do not move it
+  MassDamping<B> damping;
 };
 
 /// Displacement from rest u [m] and velocity v [m/s], each [vertices][3].

@@ -82,6 +82,13 @@ struct ImplicitOptions {
   int max_iterations = 2000;        ///< a solve that has not converged by then is counted as a miss
   int newton_iterations = 1;        ///< 1: linearly implicit
   double newton_tolerance = 1e-6;   ///< on |residual| relative to the first, where newton_iterations > 1
+  double newton_residual = 0;       ///< or below this [N], >= 0
+  std::string tangent =
+      "auto";  ///< exact | positive | auto: projected to positive semi-definite elements, where needed
+  std::string unfinished =
+      "accept";               ///< accept | halve | stop: what becomes of a step that Newton's method did not solve
+  int halvings = 6;           ///< of a step, at most, in 1 .. 20, with `halve`
+  double rho_infinity = 0.8;  ///< of generalized_alpha: what is left of the fastest modes after a step, in [0, 1]
 };
 
 /// Of the cycle `him`.

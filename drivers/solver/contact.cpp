@@ -27,13 +27,14 @@ class ObstacleOf final : public Obstacle<B> {
   }
 
   template <bool Tangent>
-  void launch(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double h,
-              double ahead, bool first, const ContactPoints<B>& points) const {
+  void launch(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
+              const ImplicitWeights& w, double ahead, bool first, const ContactPoints<B>& points) const {
     const PathPoint now = at(time, ahead);
-    Kokkos::parallel_for("plica::contact_forces", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
-                         ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, rounded(now.displacement),
-                                                            rounded(now.velocity), law_, static_cast<Real>(ahead),
-                                                            static_cast<Real>(h), first, points.force, points.block});
+    Kokkos::parallel_for(
+        "plica::contact_forces", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
+        ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, rounded(now.displacement), rounded(now.velocity),
+                                           law_, static_cast<Real>(ahead), static_cast<Real>(w.a),
+                                           static_cast<Real>(w.b), first, points.force, points.block});
   }
 
  public:
@@ -42,11 +43,11 @@ class ObstacleOf final : public Obstacle<B> {
 
   void forces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
               const ContactPoints<B>& points) const override {
-    launch<false>(exec, surface, s, time, 0, 0, first, points);
+    launch<false>(exec, surface, s, time, {}, 0, first, points);
   }
-  void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double h,
-                 double ahead, bool first, const ContactPoints<B>& points) const override {
-    launch<true>(exec, surface, s, time, h, ahead, first, points);
+  void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
+                 const ImplicitWeights& w, double ahead, bool first, const ContactPoints<B>& points) const override {
+    launch<true>(exec, surface, s, time, w, ahead, first, points);
   }
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
             const TouchingPoints<B>& points) const override {
@@ -107,10 +108,11 @@ void Contact<B>::add_forces(const Exec& exec, const Level<B>& level, const State
 }
 
 template <class B>
-void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& s, double time, double h,
-                           double ahead, const ContactPoints<B>& points, const Vectors<B>& f) const {
+void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+                           const ImplicitWeights& w, double ahead, const ContactPoints<B>& points,
+                           const Vectors<B>& f) const {
   for (std::size_t i = 0; i < obstacles_.size(); ++i)
-    obstacles_[i]->linearise(exec, level.surface, s, time, h, ahead, i == 0, points);
+    obstacles_[i]->linearise(exec, level.surface, s, time, w, ahead, i == 0, points);
   scatter_to_vertices<B>(exec, level.surface, points.force, f);
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
+#include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/penalty.hpp>
-#include <plica/kernels/implicit/newton_kernels.hpp>
+#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <vector>
 
@@ -27,9 +28,9 @@ class Obstacle {
   /// Sets (first) or adds its forces on the surface points of the state at `time`.
   virtual void forces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, bool first,
                       const ContactPoints<B>&) const = 0;
-  /// The same with the blocks of an implicit step h; contact is predicted `ahead` of the state [s].
-  virtual void linearise(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double h, double ahead,
-                         bool first, const ContactPoints<B>&) const = 0;
+  /// The same with the blocks of an implicit stage; contact is predicted `ahead` of the state [s].
+  virtual void linearise(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const ImplicitWeights&,
+                         double ahead, bool first, const ContactPoints<B>&) const = 0;
   /// Makes it the nearest obstacle of the points that it is the nearest of, so far.
   virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, bool first,
                     const TouchingPoints<B>&) const = 0;
@@ -54,7 +55,7 @@ class Contact {
   /// f += the contact forces of a state
   void add_forces(const Exec&, const Level<B>&, const State<B>&, double time, const ContactPoints<B>&,
                   const Vectors<B>& f) const;
-  void linearise(const Exec&, const Level<B>&, const State<B>&, double time, double h, double ahead,
+  void linearise(const Exec&, const Level<B>&, const State<B>&, double time, const ImplicitWeights&, double ahead,
                  const ContactPoints<B>&, const Vectors<B>& f) const;
   /// The nearest obstacle of every point of a state.
   void find(const Exec&, const Level<B>&, const State<B>&, double time, const TouchingPoints<B>&) const;

@@ -3,7 +3,7 @@
 #include <functional>
 #include <plica/core/device_array.hpp>
 #include <plica/core/level.hpp>
-#include <plica/kernels/implicit/newton_kernels.hpp>
+#include <plica/kernels/implicit/system_kernels.hpp>
 
 namespace plica {
 

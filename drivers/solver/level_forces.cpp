@@ -49,12 +49,21 @@ void LevelForces<B>::evaluate_without_contact(const Level<B>& level, const State
 }
 
 template <class B>
-void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
-                               const Vectors<B>& f) {
+void LevelForces<B>::dead(const Level<B>& level, double time, const Vectors<B>& f) const {
+  update_vertices<B>(clock_->exec(), "plica::weigh_vertices", level.model.vertices,
+                     WeighVertices<B>{level.model.mass, gravity_, f});
+  add_loads(level, time, f);
+  add_correction(f);
+}
+
+template <class B>
+void LevelForces<B>::linearise(const Level<B>& level, const State<B>& state, double time,
+                               const ImplicitWeights& weights, double ahead, const Vectors<B>& f) {
   elastic_and_gravity(level, state, f);
   add_loads(level, time + ahead, f);
-  if (contact_) book("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, h, ahead, points_, f); });
-  if (external_) book("external", [&] { ask_caller(level, state, time, h, ahead, f); });
+  if (contact_)
+    book("contact", [&] { contact_->linearise(clock_->exec(), level, state, time, weights, ahead, points_, f); });
+  if (external_) book("external", [&] { ask_caller(level, state, time, weights.ratio(), ahead, f); });
   add_correction(f);
 }
 
@@ -66,10 +75,11 @@ void LevelForces<B>::set_external(const ExternalForces<B>& forces, const Vectors
 }
 
 template <class B>
-void LevelForces<B>::ask_caller(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
+void LevelForces<B>::ask_caller(const Level<B>& level, const State<B>& state, double time, double step, double ahead,
                                 const Vectors<B>& f) {
   if (implicit_) Kokkos::deep_copy(clock_->exec(), external_stiffness_, typename B::Real(0));
-  external_({clock_->exec(), level_, time, rest_, state.u, state.v, f, level.surface, h, ahead, external_stiffness_});
+  external_(
+      {clock_->exec(), level_, time, rest_, state.u, state.v, f, level.surface, step, ahead, external_stiffness_});
 }
 
 template <class B>
@@ -85,37 +95,35 @@ void LevelForces<B>::tangent(const Level<B>& level, const State<B>& state, const
 }
 
 template <class B>
-void LevelForces<B>::product(const Level<B>& level, const State<B>& state, const Vectors<B>& p, double h,
-                             double inertia, const Vectors<B>& q) const {
+void LevelForces<B>::product(const Level<B>& level, const State<B>& state, const Vectors<B>& p,
+                             const ImplicitWeights& weights, const Vectors<B>& q) const {
   using Real = typename B::Real;
   const auto& exec = clock_->exec();
+  const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
   tangent(level, state, p);
-  Kokkos::parallel_for("plica::newton_product", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
-                       NewtonProduct<B>{level.model.patches, level.model.mass, p, level.partial, q,
-                                        static_cast<Real>(inertia), static_cast<Real>(h * h)});
+  update_vertices<B>(exec, "plica::system_product", level.model.vertices,
+                     SystemProduct<B>{level.model, p, level.partial, q, a, b});
   if (contact_) contact_->add_product(exec, level, p, points_, q);
   if (external_)
     update_vertices<B>(exec, "plica::external_product", level.model.vertices,
-                       AddBlockProduct<B>{external_stiffness_, p, q, static_cast<Real>(h * h)});
+                       AddBlockProduct<B>{external_stiffness_, p, q, a});
 }
 
 template <class B>
-void LevelForces<B>::preconditioner(const Level<B>& level, const State<B>& state, double h, double inertia,
-                                    const Blocks<B>& blocks) const {
+void LevelForces<B>::diagonal(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                              const Blocks<B>& blocks) const {
   using Real = typename B::Real;
   const auto& exec = clock_->exec();
+  const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
   for (int direction = 0; direction < 3; ++direction) {
     elasticity_->diagonal(exec, level.model.patches, state.u, direction, level.partial);
-    Kokkos::parallel_for("plica::newton_diagonal", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
-                         DiagonalColumn<B>{level.model.patches, level.model.mass, level.partial, blocks,
-                                           static_cast<Real>(inertia), static_cast<Real>(h * h), direction});
+    update_vertices<B>(exec, "plica::diagonal_column", level.model.vertices,
+                       DiagonalColumn<B>{level.model, level.partial, blocks, a, b, direction});
   }
   if (contact_) contact_->add_diagonal(exec, level, points_, blocks);
   if (external_)
     update_vertices<B>(exec, "plica::external_diagonal", level.model.vertices,
-                       AddBlocks<B>{external_stiffness_, blocks, static_cast<Real>(h * h)});
-  Kokkos::parallel_for("plica::invert_blocks", Kokkos::RangePolicy<Exec>(exec, 0, level.model.vertices),
-                       InvertBlocks<B>{level.model, blocks, static_cast<Real>(inertia)});
+                       AddBlocks<B>{external_stiffness_, blocks, a});
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class LevelForces<Backend<Real, Exec>>;

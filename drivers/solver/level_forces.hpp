@@ -25,15 +25,18 @@ class LevelForces {
   /// The same but for contact.
   void evaluate_without_contact(const Level<B>& level, const State<B>& state, double time, const Vectors<B>& f);
 
-  /// Linearises about a state for an implicit step h: f as above with loads and contact `ahead` of it [s].
-  void linearise(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
-                 const Vectors<B>& f);
-  /// q = ((1 + h c) M + h^2 K + contact) p at the linearised state, inertia = 1 + h c.
-  void product(const Level<B>& level, const State<B>& state, const Vectors<B>& p, double h, double inertia,
+  /// f = those that do not depend on the state: gravity, loads, a correction.
+  void dead(const Level<B>& level, double time, const Vectors<B>& f) const;
+
+  /// Linearises about a state for an implicit stage: f as above with loads and contact `ahead` of it [s].
+  void linearise(const Level<B>& level, const State<B>& state, double time, const ImplicitWeights& weights,
+                 double ahead, const Vectors<B>& f);
+  /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights.
+  void product(const Level<B>& level, const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
                const Vectors<B>& q) const;
-  /// The inverses of that matrix's vertex blocks, [vertices][6] xx yy zz xy xz yz.
-  void preconditioner(const Level<B>& level, const State<B>& state, double h, double inertia,
-                      const Blocks<B>& blocks) const;
+  /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz.
+  void diagonal(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                const Blocks<B>& blocks) const;
   /// level.partial = the copies of -K p at a state
   void tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const;
 
@@ -71,7 +74,7 @@ class LevelForces {
   int evaluation_ = 0;
 
   void elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f);
-  void ask_caller(const Level<B>& level, const State<B>& state, double time, double h, double ahead,
+  void ask_caller(const Level<B>& level, const State<B>& state, double time, double step, double ahead,
                   const Vectors<B>& f);
   void add_loads(const Level<B>& level, double time, const Vectors<B>& f) const;
 };

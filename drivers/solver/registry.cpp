@@ -43,6 +43,18 @@ std::vector<Choice> linear_solvers() {
   return {{"conjugate_gradients", "matrix-free, preconditioned by the vertices' own 3x3 blocks"}};
 }
 
+std::vector<Choice> tangents() {
+  return {{"exact", "the derivative of the force; a solve follows no direction in which it softens"},
+          {"positive", "projected to positive semi-definite, element by element"},
+          {"auto", "exact, and projected where Newton's method meets softening"}};
+}
+
+std::vector<Choice> newton_outcomes() {
+  return {{"accept", "goes on, and counts it (newton_misses)"},
+          {"halve", "takes it again in two halves, up to integration.implicit.halvings times"},
+          {"stop", "ends the run: kind solver"}};
+}
+
 bool uses_coarse_levels(std::string_view cycle) {
   bool uses = false;
   Cycles::visit(cycle, [&](auto member) { uses = decltype(member)::uses_coarse_levels; });

@@ -22,6 +22,9 @@ std::vector<Choice> distributions();    ///< sizes of the shares
 std::vector<Choice> obstacle_shapes();  ///< for contact
 std::vector<Choice> linear_solvers();   ///< of implicit levels
 
+std::vector<Choice> tangents();         ///< of the elements, in their systems
+std::vector<Choice> newton_outcomes();  ///< of steps that Newton's method does not solve
+
 /// Whether that cycle uses more than the finest level; false for a name it does not know.
 bool uses_coarse_levels(std::string_view cycle);
 /// Whether coarser levels have states of their own there, and shares of the macro step.

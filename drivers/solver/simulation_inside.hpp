@@ -79,8 +79,12 @@ struct Simulation<B>::Inside {
       level.state.copy(hierarchy().exec(), kept[i]);
       level.flags.clear(hierarchy().exec());
     }
+    forget();
     built.cycle->begin(hierarchy());
     time = kept_time, steps = kept_steps;
+  }
+  void forget() {
+    for (auto& part : hierarchy().levels) part.integrator->forget();
   }
   /// From the last kept state once more to where it is, by a cycle that has lost stability since; false where it cannot.
   bool repair() {
@@ -102,6 +106,7 @@ struct Simulation<B>::Inside {
   /// Level 0's state has been replaced: the other levels follow.
   void restart() {
     for (auto& part : hierarchy().levels) part.level.flags.clear(hierarchy().exec());
+    forget();
     built.cycle->begin(hierarchy());
     keep();
     budget_opens = true;

@@ -9,8 +9,8 @@
 namespace plica {
 
 /// Forces of one obstacle on the surface points [N], set (`first` obstacle) or added. With Tangent also each point's symmetric
-/// 3x3 block h^2 k n n + h d n n + h drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz: the coupling of friction to
-/// the normal force is left out, which keeps the matrix symmetric.
+/// 3x3 block (a k + b d) n n + b drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz, see ImplicitWeights: the coupling of
+/// friction to the normal force is left out, which keeps the matrix symmetric.
 template <class B, class Shape, bool Tangent>
 struct ObstacleContact {
   using Real = typename B::Real;
@@ -19,7 +19,7 @@ struct ObstacleContact {
   Shape shape;
   Vec3<Real> offset, velocity;  ///< of the obstacle at the time of the state
   PenaltyLaw<Real> law;
-  Real ahead, h;
+  Real ahead, a, b;
   bool first;
   Vectors<B> force;
   Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
@@ -30,8 +30,8 @@ struct ObstacleContact {
     const PointContact<Real> c = penalty_contact(law, shape(x - offset), speed - velocity, ahead);
     for (int k = 0; k < 3; ++k) force(p, k) = (first ? Real(0) : force(p, k)) + c.force[k];
     if constexpr (Tangent) {
-      const Real along = c.active ? h * (h * law.stiffness + law.damping) : Real(0),
-                 across = c.active ? h * c.drag : Real(0);
+      const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
+                 across = c.active ? b * c.drag : Real(0);
       constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
       for (int k = 0; k < 6; ++k) {
         const int i = row[k], j = column[k];

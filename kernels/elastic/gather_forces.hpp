@@ -26,6 +26,17 @@ struct GatherForces {
   }
 };
 
+/// f = m g
+template <class B>
+struct WeighVertices {
+  Scalars<B> mass;
+  Vec3<typename B::Real> gravity;
+  Vectors<B> f;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) f(a, k) = mass(a) * gravity[k];
+  }
+};
+
 template <class B>
 void gather_forces(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& partial,
                    const Vec3<typename B::Real>& gravity, const Vectors<B>& f) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/model.hpp>
-#include <plica/kernels/implicit/newton_kernels.hpp>
+#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 
 // The vector work of preconditioned conjugate gradients, fused so that every vector is read once per step of the iteration
@@ -11,15 +11,14 @@ namespace plica {
 
 template <class B>
 struct CgVectors {
-  Vectors<B> x, r, z, p, q;
+  Vectors<B> x, r;  ///< the caller's
+  Vectors<B> z, p, q;
   Blocks<B> preconditioner;
   Kokkos::View<double*, typename B::Memory> scalar;
 
   CgVectors() = default;
   explicit CgVectors(int n)
-      : x("plica::cg.x", n),
-        r("plica::cg.r", n),
-        z("plica::cg.z", n),
+      : z("plica::cg.z", n),
         p("plica::cg.p", n),
         q("plica::cg.q", n),
         preconditioner("plica::cg.preconditioner", n),

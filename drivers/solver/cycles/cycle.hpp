@@ -42,6 +42,7 @@ double integrate(Hierarchy<B>& hierarchy, int i, double time, double t) {
   const double span = part.share * t;
   hierarchy.clock.time("integrate", i, [&] {
     prescribe(hierarchy.exec(), level, level.state, time);
+    if (hierarchy.count() > 1) part.integrator->forget();  // other levels have changed the state
     part.integrator->advance(hierarchy.exec(), level, *part.forces, time, span / part.substeps, part.substeps);
   });
   return time + span;

@@ -17,7 +17,7 @@ struct ForwardEuler {
   template <class B>
   class Step final : public Integrator<B> {
    public:
-    Step(const Level<B>&, const IntegratorOptions& options) : damping_(options.mass_damping) {}
+    Step(const Level<B>&, const IntegratorParts<B>& parts) : damping_(parts.mass_damping) {}
 
     void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
                  int steps) override {

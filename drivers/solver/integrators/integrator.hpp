@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <map>
-#include <plica/core/level.hpp>
-#include <plica/core/problem.hpp>
-#include <plica/drivers/solver/level_forces.hpp>
-#include <plica/drivers/solver/state_archive.hpp>
+#include <memory>
+#include <plica/drivers/solver/linear/linear_solver.hpp>
 
 namespace plica {
 
 /// What an integrator is given at set-up.
-struct IntegratorOptions {
+template <class B>
+struct IntegratorParts {
   double mass_damping = 0;  ///< [1/s]
   ImplicitOptions implicit;
+  std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
 };
 
 /// One level's ODE solver.
@@ -27,6 +28,10 @@ class Integrator {
   virtual std::size_t bytes() const { return 0; }
   /// The largest relative residual that a linear solve of the last advance() ended with; 0 where there are none.
   virtual double residual() const { return 0; }
+  /// The state has been replaced since: what it carries from the steps before no longer belongs to it.
+  virtual void forget() {}
+  /// Whether the last advance() ended at a step that it could not take.
+  virtual bool failed() const { return false; }
   /// Names what it carries from one macro step to the next, for saving and restoring.
   virtual void persist(StateArchive<B>&) {}
 };

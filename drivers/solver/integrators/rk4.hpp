@@ -17,8 +17,8 @@ struct Rk4 {
   template <class B>
   class Step final : public Integrator<B> {
    public:
-    Step(const Level<B>& level, const IntegratorOptions& options)
-        : damping_(options.mass_damping),
+    Step(const Level<B>& level, const IntegratorParts<B>& parts)
+        : damping_(parts.mass_damping),
           start_("rk4.start", level.model.vertices),
           stage_("rk4.stage", level.model.vertices),
           sum_("rk4.sum", level.model.vertices) {}

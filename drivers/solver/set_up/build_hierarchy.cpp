@@ -8,6 +8,7 @@
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/linear/conjugate_gradients.hpp>
 #include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
@@ -211,8 +212,11 @@ class HierarchyBuilder {
         report.critical_step =
             critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
                              Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching, damping);
+        const ImplicitOptions& implicit = problem_.integration.implicit;
         h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
-            level, IntegratorOptions{damping, problem_.integration.implicit});
+            level, IntegratorParts<B>{damping, implicit, [&] {
+                                        return std::make_unique<ConjugateGradients<B>>(level.model.vertices, implicit);
+                                      }});
       });
       limits.push_back({report.tets, report.integrator, report.explicit_integrator, report.critical_step});
       h.levels[i].forces = std::make_unique<LevelForces<B>>(elasticity_, problem_.gravity, contact_,

@@ -80,6 +80,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.material = body.material.model;
   level.model.patches = build_patches<B>(placed, c.lame);
+  level.model.damping.everywhere = static_cast<Real>(body.damping.mass);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());

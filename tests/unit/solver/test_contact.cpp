@@ -121,8 +121,8 @@ TEST(Contact, IsLinearisedAsItActs) {
     state.u = device_field<Host>(u), state.v = device_field<Host>(v);
     const Vectors<Host> q("test.q", probe.vertices());
     auto& part = probe.at(0);
-    part.forces->linearise(part.level, state, 0, h, 0, part.level.f);
-    part.forces->product(part.level, state, device_field<Host>(direction), h, 0, q);
+    part.forces->linearise(part.level, state, 0, {h * h, h}, 0, part.level.f);
+    part.forces->product(part.level, state, device_field<Host>(direction), {h * h, h}, q);
     const auto product = to_host<Host>({}, q);
     EXPECT_LE(largest_difference(product, want), 1e-6 * largest(want)) << sliding.transpose();
   }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/drivers/solver/integrators/stage_solver.hpp>
+
+namespace plica {
+
+/// What implicit integrators have in common: they take a step by stages; a step that Newton's method does not solve is
+/// accepted, halved and tried again, or ends the run.
+template <class B>
+class ImplicitStep : public Integrator<B> {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+
+  ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
+      : stages_(level, parts.implicit, parts.make_linear_solver()),
+        unfinished_(parts.implicit.unfinished),
+        most_halvings_(parts.implicit.newton_iterations > 1 && unfinished_ == "halve" ? parts.implicit.halvings : 0) {
+    if (most_halvings_ > 0) before_.assign(static_cast<std::size_t>(most_halvings_), {});
+  }
+
+  void advance(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int steps) override {
+    stages_.begin();
+    failed_ = false;
+    for (int s = 0; s < steps && !failed_; ++s) failed_ = !attempt(exec, level, forces, time + s * h, h, 0);
+  }
+  bool failed() const override { return failed_; }
+  double residual() const override { return stages_.residual(); }
+  std::map<std::string, long> counters() const override {
+    std::map<std::string, long> all = stages_.counters();
+    if (most_halvings_ > 0) all["step_halvings"] = halvings_;
+    return all;
+  }
+  std::size_t bytes() const override {
+    std::size_t kept = 0;
+    for (const State<B>& state : before_) kept += 2 * state.u.span() * sizeof(Real);
+    return stages_.bytes() + kept;
+  }
+  void persist(StateArchive<B>& archive) override {
+    archive.number(halvings_);
+    stages_.persist(archive);
+  }
+
+ protected:
+  /// From `time` over h [s], the level's state at the start being consistent with given motions. False where a stage is not
+  /// solved.
+  virtual bool step(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h) = 0;
+  StageSolver<B>& stages() { return stages_; }
+
+ private:
+  StageSolver<B> stages_;
+  std::string unfinished_;
+  int most_halvings_;
+  std::vector<State<B>> before_;  ///< of the steps that are being halved
+  long halvings_ = 0;
+  bool failed_ = false;
+
+  bool attempt(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int depth) {
+    if (depth < most_halvings_) keep(exec, level, depth);
+    prescribe(exec, level, level.state, time, h);
+    const bool solved = step(exec, level, forces, time, h);
+    prescribe(exec, level, level.state, time + h);
+    if (solved || unfinished_ == "accept") return true;
+    if (depth >= most_halvings_) return false;
+    ++halvings_;
+    level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);
+    this->forget();
+    const bool both = attempt(exec, level, forces, time, h / 2, depth + 1) &&
+                      attempt(exec, level, forces, time + h / 2, h / 2, depth + 1);
+    this->forget();
+    return both;
+  }
+
+  void keep(const Exec& exec, const Level<B>& level, int depth) {
+    State<B>& state = before_[static_cast<std::size_t>(depth)];
+    if (state.u.extent(0) == 0) state = State<B>("implicit.before", level.model.vertices);
+    state.copy(exec, level.state);
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <plica/drivers/solver/linear/linear_solver.hpp>
+#include <plica/kernels/energies.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/implicit/stage_kernels.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
+#include <utility>
+
+namespace plica {
+
+/// Solves the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a level's state, by one linear solve
+/// about the start of the step (linearly implicit: Baraff & Witkin 1998) or by Newton's method with a line search on the
+/// incremental potential (Nocedal & Wright, Numerical Optimization, alg. 3.1; Gast et al. 2015).
+template <class B>
+class StageSolver {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+
+  StageSolver(const Level<B>& level, const ImplicitOptions& options, std::unique_ptr<LinearSolver<B>> solver)
+      : options_(options),
+        solver_(std::move(solver)),
+        base_("stage.base", level.model.vertices),
+        right_side_("plica::stage.right_side", level.model.vertices),
+        change_("plica::stage.change", level.model.vertices) {
+    if (!iterates()) return;
+    dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
+    blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
+    result_ = Kokkos::View<double*, typename B::Memory>("plica::stage.result", 4);
+  }
+
+  /// The base (u~, v~), to be set before solve().
+  const State<B>& base() const { return base_; }
+
+  /// Takes the level's state from the step's start at `time` [s] to the stage, `ahead` of it. False where Newton's method did not
+  /// get there.
+  bool solve(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double ahead,
+             const ImplicitWeights& weights) {
+    prescribe(exec, level, base_, time + ahead);
+    forces.linearise(level, level.state, time, weights, ahead, level.f);
+    if (iterates()) return newton(exec, level, forces, time + ahead, weights);
+    correct(exec, level, forces, weights, true, options_.tangent == "positive");
+    return true;
+  }
+
+  /// The largest relative residual of a linear solve since begin().
+  double residual() const { return residual_; }
+  void begin() { residual_ = 0; }
+
+  std::map<std::string, long> counters() const {
+    std::map<std::string, long> all = solver_->counters();
+    all.insert({{"linear_solves", solves_},
+                {"cg_iterations", iterations_},
+                {"cg_misses", misses_},
+                {"cg_indefinite", indefinite_}});
+    if (iterates())
+      all.insert({{"newton_iterations", newtons_}, {"newton_misses", unfinished_}, {"line_searches", searches_}});
+    return all;
+  }
+  std::size_t bytes() const { return solver_->bytes() + (iterates() ? 5 : 4) * 3 * sizeof(Real) * change_.extent(0); }
+  void persist(StateArchive<B>& archive) {
+    for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
+      archive.number(*count);
+    archive.number(residual_);
+    solver_->persist(archive);
+  }
+
+ private:
+  static constexpr int most_halvings = 12;    // of a direction
+  static constexpr double sufficient = 1e-4;  // part of the decrease that the slope promises
+
+  ImplicitOptions options_;
+  std::unique_ptr<LinearSolver<B>> solver_;
+  State<B> base_;
+  Vectors<B> right_side_, change_, dead_;
+  BlockSums<B> blocks_;
+  Kokkos::View<double*, typename B::Memory> result_;
+  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
+  double residual_ = 0;
+
+  /// A state on the way.
+  struct Potential {
+    double value = 0;     ///< [J]
+    double residual = 0;  ///< |R| [N]
+    double slope = 0;     ///< R.change [J]
+    double scale = 0;     ///< of what `value` adds up [J]
+    bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
+  };
+
+  bool iterates() const { return options_.newton_iterations > 1; }
+  StageAt<B> at(const Level<B>& level, const ImplicitWeights& w) const {
+    return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
+  }
+
+  /// One linear solve at the linearised state, and the state that follows from it.
+  SolveOutcome correct(const Exec& exec, Level<B>& level, LevelForces<B>& forces, const ImplicitWeights& w,
+                       bool from_start, bool positive) {
+    const int n = level.model.vertices;
+    const StageAt<B> stage = at(level, w);
+    if (from_start) {
+      update_vertices<B>(exec, "plica::stage_gap", n, StageGap<B>{stage, change_});
+      forces.tangent(level, level.state, change_);
+    }
+    update_vertices<B>(exec, "plica::stage_right_side", n,
+                       StageRightSide<B>{stage, level.f, level.partial, right_side_, from_start});
+    SolveOutcome out;
+    forces.book("solve", [&] {
+      solver_->prepare(exec, level, forces, level.state, w, positive);
+      out = solver_->solve(exec, right_side_, change_);
+    });
+    ++solves_, iterations_ += out.iterations;
+    misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
+    residual_ = std::max(residual_, out.relative_residual);
+    update_vertices<B>(exec, "plica::stage_update", n, StageUpdate<B>{stage, change_});
+    return out;
+  }
+
+  bool newton(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w) {
+    forces.dead(level, end, dead_);
+    Kokkos::deep_copy(exec, change_, Real(0));
+    Potential now = potential(exec, level, forces, end, w);
+    const double enough = std::max(options_.newton_residual, options_.newton_tolerance * now.residual);
+    for (int i = 0; i < options_.newton_iterations; ++i) {
+      ++newtons_;
+      const Potential next = search(exec, level, forces, end, w, now, i == 0);
+      if (!next.finite()) break;
+      // where what a step can still win is lost in rounding, this is as near as it gets
+      const double lost = 16 * Kokkos::Experimental::epsilon_v<Real> * next.scale;
+      const bool done = next.residual <= enough || (next.residual <= now.residual && std::abs(next.slope) <= lost);
+      now = next;
+      if (done) return true;
+    }
+    ++unfinished_;
+    return false;
+  }
+
+  /// From a state that is linearised to the next, which then is: along Newton's direction as far as the potential, or the
+  /// residual where forces have none, goes down.
+  Potential search(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w,
+                   const Potential& now, bool first) {
+    const bool moving = first && level.prescribed.count > 0;  // given motions have changed what is compared
+    const double slope = descend(exec, level, forces, w, first, moving);
+    double part = 1;
+    for (int i = 0;; ++i) {
+      forces.linearise(level, level.state, end, w, 0, level.f);
+      Potential next = potential(exec, level, forces, end, w);
+      next.slope *= part;
+      const double rounding = 16 * Kokkos::Experimental::epsilon_v<Real> * std::max(now.scale, next.scale);
+      const bool lower = next.value - now.value <= sufficient * part * slope + rounding;
+      if (i == most_halvings || (next.finite() && (moving || lower || next.residual < now.residual))) return next;
+      ++searches_;
+      part /= 2;
+      retreat(exec, level, w, part);
+    }
+  }
+
+  /// Newton's step, and the potential's slope along it where it began. Where the tangent has no minimum in that direction,
+  /// that of the elements' projected tangents.
+  double descend(const Exec& exec, Level<B>& level, LevelForces<B>& forces, const ImplicitWeights& w, bool first,
+                 bool moving) {
+    const bool positive = options_.tangent == "positive";
+    const SolveOutcome out = correct(exec, level, forces, w, first, positive);
+    const double slope = vertex_terms(exec, level, w, 1)[2];
+    if (options_.tangent != "auto" || moving || (!out.indefinite && !(slope >= 0))) return slope;
+    retreat(exec, level, w, 1);
+    correct(exec, level, forces, w, false, true);
+    return vertex_terms(exec, level, w, 1)[2];
+  }
+
+  void retreat(const Exec& exec, const Level<B>& level, const ImplicitWeights& w, double part) const {
+    update_vertices<B>(exec, "plica::stage_retreat", level.model.vertices,
+                       StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
+  }
+
+  std::array<double, 4> read(const Exec& exec) const {
+    const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), result_);
+    Kokkos::deep_copy(exec, host, result_);
+    exec.fence("plica::stage");
+    return {host(0), host(1), host(2), host(3)};
+  }
+  /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
+  std::array<double, 4> vertex_terms(const Exec& exec, const Level<B>& level, const ImplicitWeights& w,
+                                     double back) const {
+    reduce<B, 4>(exec, "plica::stage_potential", level.model.vertices,
+                 StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)}, blocks_, result_);
+    return read(exec);
+  }
+  /// Of the state whose forces are in level.f.
+  Potential potential(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, double end,
+                      const ImplicitWeights& w) const {
+    const auto terms = vertex_terms(exec, level, w, 0);
+    forces.elasticity().energy(exec, level.model.patches, level.state.u, level.partial);
+    reduce<B, 1>(exec, "plica::elastic_energy", static_cast<int>(level.partial.extent(0)),
+                 FirstComponent<B>{level.partial}, blocks_, result_);
+    double stored = read(exec)[0];
+    if (forces.contact()) stored += forces.contact()->energy(exec, level, end, blocks_);
+    return {terms[0] + stored, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(stored)};
+  }
+};
+
+}  // namespace plica

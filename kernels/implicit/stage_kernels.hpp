@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/core/small.hpp>
+#include <plica/kernels/reduce.hpp>
+
+// Vertex kernels of an implicit stage, see ImplicitWeights. The base (u~, v~) is what the stage starts from; for vertices
+// whose motion is given it is where they end. r = a/b, c the mass damping. Balance in newtons, as a function of u alone:
+//   R(u) = M (u - u~)/a + c M v - f(u, v),   v = v~ + (u - u~)/r
+namespace plica {
+
+/// What is known of a stage at a vertex.
+template <class B>
+struct StageAt {
+  using Real = typename B::Real;
+  Model<B> model;
+  State<B> base, state;
+  Real a, b;
+
+  KOKKOS_INLINE_FUNCTION bool is_free(int i) const { return model.inverse_mass(i) > 0; }
+  KOKKOS_INLINE_FUNCTION Real ratio() const { return a / b; }
+  /// Displacement that goes with a velocity.
+  KOKKOS_INLINE_FUNCTION Real displacement(int i, int k, Real v) const {
+    return is_free(i) ? base.u(i, k) + ratio() * (v - base.v(i, k)) : base.u(i, k);
+  }
+  /// Velocity that goes with a displacement.
+  KOKKOS_INLINE_FUNCTION Real velocity(int i, int k, Real u) const {
+    return is_free(i) ? base.v(i, k) + (u - base.u(i, k)) / ratio() : base.v(i, k);
+  }
+};
+
+/// How far the stage's displacement lies from where the forces were linearised: at the step's start.
+template <class B>
+struct StageGap {
+  StageAt<B> stage;
+  Vectors<B> gap;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < 3; ++k) gap(i, k) = stage.displacement(i, k, stage.state.v(i, k)) - stage.state.u(i, k);
+  }
+};
+
+/// r = M (v~ - v) + b (f - c M v) + b (the copies of -K gap, where there is a gap): the system's right side for a change of v.
+template <class B>
+struct StageRightSide {
+  using Real = typename B::Real;
+  StageAt<B> stage;
+  Vectors<B> f, partial, r;
+  bool gap;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const Patches<B>& patches = stage.model.patches;
+    const Real m = stage.model.mass(i), c = stage.model.damping(i);
+    Vec3<Real> sum{f(i, 0), f(i, 1), f(i, 2)};
+    if (gap)
+      for (int s = patches.first_copy(i); s < patches.first_copy(i + 1); ++s)
+        for (int k = 0; k < 3; ++k) sum[k] += partial(patches.copy(s), k);
+    for (int k = 0; k < 3; ++k) {
+      const Real v = stage.state.v(i, k);
+      r(i, k) = stage.is_free(i) ? m * (stage.base.v(i, k) - v) + stage.b * (sum[k] - c * m * v) : Real(0);
+    }
+  }
+};
+
+/// v += dv and the displacement that goes with it; what is left of dv is the change of displacement.
+template <class B>
+struct StageUpdate {
+  using Real = typename B::Real;
+  StageAt<B> stage;
+  Vectors<B> change;  ///< dv, then du
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < 3; ++k) {
+      const Real v = stage.is_free(i) ? stage.state.v(i, k) + change(i, k) : stage.base.v(i, k);
+      const Real u = stage.displacement(i, k, v);
+      change(i, k) = u - stage.state.u(i, k);
+      stage.state.u(i, k) = u, stage.state.v(i, k) = v;
+    }
+  }
+};
+
+/// Goes back on a change of displacement: u -= part * change, for vertices that are free to.
+template <class B>
+struct StageRetreat {
+  using Real = typename B::Real;
+  StageAt<B> stage;
+  Vectors<B> change;
+  Real part;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (!stage.is_free(i)) return;
+    for (int k = 0; k < 3; ++k) {
+      stage.state.u(i, k) -= part * change(i, k);
+      stage.state.v(i, k) = stage.velocity(i, k, stage.state.u(i, k));
+    }
+  }
+};
+
+/// Of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead u + elastic and contact energy,
+/// grad Phi = R but for forces that have none: its vertex terms [J]; |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J].
+template <class B>
+struct StagePotential {
+  using Real = typename B::Real;
+  StageAt<B> stage;
+  Vectors<B> f, dead, change;
+  Real back;  ///< part of `change` by which the state is ahead of what is asked for
+
+  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int i) const {
+    Sums<4> sums;
+    if (!stage.is_free(i)) return sums;
+    const double m = static_cast<double>(stage.model.mass(i)), c = static_cast<double>(stage.model.damping(i));
+    const double a = static_cast<double>(stage.a), r = a / static_cast<double>(stage.b);
+    for (int k = 0; k < 3; ++k) {
+      const double w = static_cast<double>(stage.state.u(i, k) - back * change(i, k) - stage.base.u(i, k));
+      const double start = static_cast<double>(stage.base.v(i, k)), force = static_cast<double>(f(i, k));
+      const double balance = m * w / a + c * m * (start + w / r) - force;
+      sums[0] += m * w * (w / (2 * a) + c * (w / (2 * r) + start)) - static_cast<double>(dead(i, k)) * w;
+      sums[1] += balance * balance;
+      sums[2] += balance * static_cast<double>(change(i, k));
+      sums[3] += m * w * w / (2 * a);
+    }
+    return sums;
+  }
+};
+
+}  // namespace plica
