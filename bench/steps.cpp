@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/linear/conjugate_gradients.hpp>
+#include <plica/drivers/solver/linear/krylov.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/kernels/materials/list.hpp>
 
@@ -52,40 +52,71 @@ void implicit_beam_step(benchmark::State& state, const Case& c) {
 template <class B>
 struct LinearSystem {
   BuiltHierarchy<B> built;
-  Vectors<B> right_side;
-  CgVectors<B> vectors;
-  BlockSums<B> blocks;
+  Vectors<B> right_side, r, x;
+  StageSystem<B> system;
+  Krylov<B> krylov;
 
-  explicit LinearSystem(const Case& c) : built(build_hierarchy<B>(implicit_beam(c), {})) {
-    HierarchyLevel<B>& h = (*built.hierarchy)[0];
-    const int n = h.level.model.vertices;
-    vectors = CgVectors<B>(n), blocks = BlockSums<B>(n);
-    vectors.r = Vectors<B>("bench::r", n), vectors.x = Vectors<B>("bench::x", n);
+  LinearSystem(const Case& c, bool assembled)
+      : built(build_hierarchy<B>(implicit_beam(c), {})), system(level().level, assembled), krylov(vertices()) {
     right_side = to_field<B>(bent(built.meshes.front(), 0.1 / c.cells[0]));
+    r = Vectors<B>("bench::r", right_side.extent(0)), x = Vectors<B>("bench::x", right_side.extent(0));
+    HierarchyLevel<B>& h = level();
     h.forces->linearise(h.level, h.level.state, 0, weights, implicit_step, h.level.f);
-    h.forces->diagonal(h.level, h.level.state, weights, vectors.preconditioner);
-    update_vertices<B>(built.hierarchy->exec(), "invert", n, InvertBlocks<B>{h.level.model, vectors.preconditioner, 0});
+    prepare();
+  }
+  HierarchyLevel<B>& level() { return (*built.hierarchy)[0]; }
+  int vertices() { return level().level.model.vertices; }
+  void prepare() {
+    HierarchyLevel<B>& h = level();
+    system.prepare(built.hierarchy->exec(), h.level, *h.forces, h.level.state, weights, false);
   }
 };
+
+template <class B>
+LinearSystem<B>& linear_system(const Case& c, bool assembled) {
+  return fixture<LinearSystem<B>>((assembled ? "assembled " : "free ") + c.name,
+                                  [&] { return std::make_shared<LinearSystem<B>>(c, assembled); });
+}
 
 /// Compulsory per iteration: elements, mass, displacement; solution, residual and direction in and out; preconditioner.
 template <class B>
 void cg_iteration(benchmark::State& state, const Case& c, double flops) {
   constexpr double s = sizeof(typename B::Real);
-  auto& system = fixture<LinearSystem<B>>("cg " + c.name, [&] { return std::make_shared<LinearSystem<B>>(c); });
-  HierarchyLevel<B>& h = (*system.built.hierarchy)[0];
+  auto& system = linear_system<B>(c, false);
   const auto& exec = system.built.hierarchy->exec();
-  const double tets = h.level.model.tets, vertices = h.level.model.vertices;
+  const double tets = system.level().level.model.tets, vertices = system.vertices();
   const double bytes = tets * (8 + 10 * s) + vertices * 28 * s, work = tets * flops + vertices * 50;
+  ImplicitOptions options;
+  options.iterations = iterations;
   const double time =
       measure<typename B::Real>(state, exec, {tets * iterations, bytes * iterations, work * iterations}, [&] {
-        Kokkos::deep_copy(exec, system.vectors.r, system.right_side);
-        conjugate_gradients<B>(exec, system.vectors, system.blocks, h.level.model.vertices, 1e-6, iterations,
-                               iterations, [&](const Vectors<B>& p, const Vectors<B>& q) {
-                                 h.forces->product(h.level, h.level.state, p, weights, q);
-                               });
+        Kokkos::deep_copy(exec, system.r, system.right_side);
+        system.krylov.solve(exec, system.system, nullptr, nullptr, options, system.r, system.x);
       });
   state.counters["per_iteration"] = time / iterations;
+}
+
+/// Compulsory: elements and displacement in, the matrix out.
+template <class B>
+void assembly(benchmark::State& state, const Case& c) {
+  constexpr double s = sizeof(typename B::Real);
+  auto& system = linear_system<B>(c, true);
+  const double tets = system.level().level.model.tets, blocks = system.system.pattern().blocks();
+  measure<typename B::Real>(state, system.built.hierarchy->exec(),
+                            {tets, tets * (8 + 10 * s) + system.vertices() * 3 * s + blocks * 9 * s, 0},
+                            [&] { system.prepare(); });
+}
+
+/// Compulsory: the matrix and a vector in, another out.
+template <class B>
+void block_product(benchmark::State& state, const Case& c) {
+  constexpr double s = sizeof(typename B::Real);
+  auto& system = linear_system<B>(c, true);
+  const double tets = system.level().level.model.tets, blocks = system.system.pattern().blocks();
+  measure<typename B::Real>(state, system.built.hierarchy->exec(),
+                            {tets, blocks * (9 * s + 4) + system.vertices() * (6 * s + 4), 18 * blocks}, [&] {
+                              system.system.product(system.built.hierarchy->exec(), system.right_side, system.x);
+                            });
 }
 
 }  // namespace
@@ -95,6 +126,8 @@ void register_steps() {
     benchmark::RegisterBenchmark(("explicit_step/" + c.name).c_str(), explicit_beam_step<B>, c,
                                  flops_per_tet<Material>(1));
     benchmark::RegisterBenchmark(("implicit_step/" + c.name).c_str(), implicit_beam_step<B>, c);
+    benchmark::RegisterBenchmark(("assembly/" + c.name).c_str(), assembly<B>, c);
+    benchmark::RegisterBenchmark(("block_product/" + c.name).c_str(), block_product<B>, c);
     benchmark::RegisterBenchmark(("cg_iteration/" + c.name).c_str(), cg_iteration<B>, c, flops_per_tet<Material>(2));
   });
 }

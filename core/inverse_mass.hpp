@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/backend.hpp>
+#include <plica/core/sparse_rows.hpp>
 #include <vector>
 
 /// The arrays of the hierarchical inverse mass, see cmake/docs/him.md.
 namespace plica {
-
-/// A sparse matrix of numbers that acts on vectors, by rows in compressed form.
-template <class B>
-struct SparseRows {
-  int rows = 0;
-  Indices<B> first;   ///< [rows + 1] into the others
-  Indices<B> column;  ///< of an entry
-  Scalars<B> value;
-};
 
 /// A coarser level, as the inverse mass sees it: a space of motions of the finest mesh, without elements or state.
 template <class B>

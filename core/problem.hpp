@@ -77,12 +77,16 @@ struct Body {
 
 /// How the linear systems of an implicit level are solved.
 struct ImplicitOptions {
-  double relative_residual = 1e-6;  ///< |r|/|b| at which the conjugate gradients end, in (0, 1)
-  int iterations = 0;               ///< > 0: exactly so many iterations instead
-  int max_iterations = 2000;        ///< a solve that has not converged by then is counted as a miss
-  int newton_iterations = 1;        ///< 1: linearly implicit
-  double newton_tolerance = 1e-6;   ///< on |residual| relative to the first, where newton_iterations > 1
-  double newton_residual = 0;       ///< or below this [N], >= 0
+  std::string solver = "auto";          ///< auto | conjugate_gradients | direct
+  std::string preconditioner = "auto";  ///< auto | block_jacobi | chebyshev | multigrid
+  std::string matrix = "auto";          ///< auto | free | assembled
+  int polynomial_degree = 3;            ///< of chebyshev, and of what smooths before and after in multigrid, in 2 .. 16
+  double relative_residual = 1e-6;      ///< |r|/|b| at which the conjugate gradients end, in (0, 1)
+  int iterations = 0;                   ///< > 0: exactly so many iterations instead
+  int max_iterations = 2000;            ///< a solve that has not converged by then is counted as a miss
+  int newton_iterations = 1;            ///< 1: linearly implicit
+  double newton_tolerance = 1e-6;       ///< on |residual| relative to the first, where newton_iterations > 1
+  double newton_residual = 0;           ///< or below this [N], >= 0
   std::string tangent =
       "auto";  ///< exact | positive | auto: projected to positive semi-definite elements, where needed
   std::string unfinished =

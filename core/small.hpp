@@ -68,6 +68,18 @@ KOKKOS_INLINE_FUNCTION Mat3<T> operator*(const Mat3<T>& A, const Mat3<T>& B) {
   return C;
 }
 
+/// x y^T
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> outer(const Vec3<T>& x, const Vec3<T>& y) {
+  return {x[0] * y, x[1] * y, x[2] * y};
+}
+
+/// y -> x cross y
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> cross_matrix(const Vec3<T>& x) {
+  return {Vec3<T>{T(0), -x[2], x[1]}, Vec3<T>{x[2], T(0), -x[0]}, Vec3<T>{-x[1], x[0], T(0)}};
+}
+
 template <class T>
 KOKKOS_INLINE_FUNCTION T trace(const Mat3<T>& A) {
   return A[0][0] + A[1][1] + A[2][2];

@@ -28,6 +28,16 @@ struct Transposed {
       }
     }
   }
+  /// The other way round.
+  template <class Row>
+  static void scatter(int i, Lanes rows, const Row& row) {
+    [&]<std::size_t... j>(std::index_sequence<j...>) {
+      ((*reinterpret_cast<Four*>(row(i + 4 * static_cast<int>(j))) =
+            __builtin_shufflevector(rows, rows, 4 * j, 4 * j + 1, 4 * j + 2, 4 * j + 3)),
+       ...);
+    }
+    (std::make_index_sequence<N / 4>{});
+  }
   /// In every group of four: entries a, b of x, then c, d of y.
   template <int a, int b, int c, int d>
   static Lanes mix(Lanes x, Lanes y) {
@@ -57,6 +67,25 @@ KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
 #endif
   for (int l = 0; l < LaneOf<T>::count; ++l)
     for (int k = 0; k < 3; ++k) set_lane(v[k], l, row(l)[k]);
+}
+
+/// The other way round: lane l of four values to the four numbers at row(l).
+template <class T, class Row>
+KOKKOS_INLINE_FUNCTION void store_fours(const T (&v)[4], const Row& row) {
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+  using Rows = Transposed<typename LaneOf<T>::type, LaneOf<T>::count>;
+  if constexpr (Rows::possible) {
+    const auto A = Rows::template mix<0, 1, 0, 1>(v[0].v, v[1].v), B = Rows::template mix<0, 1, 0, 1>(v[2].v, v[3].v);
+    const auto C = Rows::template mix<2, 3, 2, 3>(v[0].v, v[1].v), D = Rows::template mix<2, 3, 2, 3>(v[2].v, v[3].v);
+    Rows::scatter(0, Rows::template mix<0, 2, 0, 2>(A, B), row);
+    Rows::scatter(1, Rows::template mix<1, 3, 1, 3>(A, B), row);
+    Rows::scatter(2, Rows::template mix<0, 2, 0, 2>(C, D), row);
+    Rows::scatter(3, Rows::template mix<1, 3, 1, 3>(C, D), row);
+    return;
+  }
+#endif
+  for (int l = 0; l < LaneOf<T>::count; ++l)
+    for (int k = 0; k < 4; ++k) row(l)[k] = lane(v[k], l);
 }
 
 }  // namespace plica

@@ -15,6 +15,49 @@ struct ElementShape {
   Lame<T> lame;         ///< [Pa]
 };
 
+/// Where a pack's numbers lie in scratch.
+template <class B>
+inline constexpr int patch_stride = B::lanes >= 4 ? 4 : 3;  ///< of vectors: whole quarters of a register
+
+/// What the pack after next but one reads: a patch's streams are too many and too short for the hardware to foresee.
+template <int lanes, class Number>
+KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from, [[maybe_unused]] int count) {
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  if constexpr (lanes > 1)
+    for (int i = 0; i < count; i += 64 / static_cast<int>(sizeof(Number))) __builtin_prefetch(from + i);
+#endif
+}
+
+/// A pack's elements, and the gradients G of the vertex fields in `local`.
+template <class B, int fields, class T>
+KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int patch, int pack, const typename B::Real* local,
+                                      ElementShape<T>& shape, Mat3<T> (&G)[fields]) {
+  using Real = typename B::Real;
+  constexpr int lanes = B::lanes;
+  const Real* const stored = &patches.shape(pack, 0, 0);
+  const std::uint16_t* const corner_of = &patches.corner(pack, 0, 0);
+  prefetch_pack<lanes>(stored + 3 * 10 * lanes, 10 * lanes), prefetch_pack<lanes>(corner_of + 3 * 4 * lanes, 4 * lanes);
+  const auto load = [&](int k) {
+    T r;
+    for (int l = 0; l < lanes; ++l) set_lane(r, l, stored[k * lanes + l]);
+    return r;
+  };
+  for (int c = 0; c < 3; ++c)
+    for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(3 * c + k);
+  shape.volume = load(9);
+  shape.lame = {T(patches.lame(patch, 0)), T(patches.lame(patch, 1))};
+  for (int f = 0; f < fields; ++f) {
+    Vec3<T> u[4];
+    for (int c = 0; c < 4; ++c) {
+      const std::uint16_t* const at = corner_of + c * lanes;
+      load_vectors([=](int l) { return local + (at[l] * fields + f) * patch_stride<B>; }, u[c]);
+    }
+    const Vec3<T> d[3] = {u[1] - u[0], u[2] - u[0], u[3] - u[0]};
+    for (int r = 0; r < 3; ++r)
+      G[f][r] = d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
+  }
+}
+
 /// Runs an integrand over all elements and adds its corner vectors up per patch vertex, one team per patch:
 /// 1. the patch's vertex fields into scratch, 2. the corner vectors of its elements into scratch, 3. their sums per
 /// patch vertex into `partial`. An integrand has
@@ -29,7 +72,7 @@ struct PatchKernel {
   using Member = typename Policy::member_type;
   static constexpr int lanes = B::lanes;
   static constexpr int fields = Integrand::fields;
-  static constexpr int stride = lanes >= 4 ? 4 : 3;  ///< of vectors in scratch: whole quarters of a register
+  static constexpr int stride = patch_stride<B>;
   static constexpr int force_slots = (Patches<B>::capacity + lanes - 1) / lanes * 12 * lanes;
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
     return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * stride * fields) * sizeof(Real);
@@ -67,45 +110,14 @@ struct PatchKernel {
   }
 
   KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
-    const Real* const stored = &patches.shape(pack, 0, 0);
-    const std::uint16_t* const corner_of = &patches.corner(pack, 0, 0);
-    prefetch(stored + 3 * 10 * lanes, 10 * lanes), prefetch(corner_of + 3 * 4 * lanes, 4 * lanes);
     ElementShape<T> shape;
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(stored + (3 * c + k) * lanes);
-    shape.volume = load(stored + 9 * lanes);
-    shape.lame = {T(patches.lame(patch, 0)), T(patches.lame(patch, 1))};
     Mat3<T> G[fields];
-    for (int f = 0; f < fields; ++f) {
-      Vec3<T> u[4];
-      for (int c = 0; c < 4; ++c) {
-        const std::uint16_t* const at = corner_of + c * lanes;
-        load_vectors([=](int l) { return local + (at[l] * fields + f) * stride; }, u[c]);
-      }
-      const Vec3<T> d[3] = {u[1] - u[0], u[2] - u[0], u[3] - u[0]};
-      for (int r = 0; r < 3; ++r)
-        G[f][r] = d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
-    }
+    load_pack<B, fields>(patches, patch, pack, local, shape, G);
     Vec3<T> corner[4];
     integrand(G, shape, corner, patch, pack);
     for (int c = 0; c < 4; ++c)
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < lanes; ++l) forces[(c * 3 + k) * lanes + l] = lane(corner[c][k], l);
-  }
-
-  /// What the pack after next but one reads: a patch's streams are too many and too short for the hardware to foresee.
-  template <class Number>
-  static KOKKOS_INLINE_FUNCTION void prefetch([[maybe_unused]] const Number* from, [[maybe_unused]] int count) {
-#if defined(__GNUC__) && !defined(__CUDACC__)
-    if constexpr (lanes > 1)
-      for (int i = 0; i < count; i += 64 / static_cast<int>(sizeof(Number))) __builtin_prefetch(from + i);
-#endif
-  }
-
-  static KOKKOS_INLINE_FUNCTION T load(const Real* p) {
-    T r;
-    for (int l = 0; l < lanes; ++l) set_lane(r, l, p[l]);
-    return r;
   }
 };
 

@@ -4,7 +4,9 @@
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/set_up/device_shape.hpp>
 #include <plica/drivers/solver/set_up/make_path.hpp>
+
 #include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/contact_matrix.hpp>
 #include <plica/kernels/motion/path.hpp>
 
 namespace plica {
@@ -135,6 +137,13 @@ void Contact<B>::add_diagonal(const Exec& exec, const Level<B>& level, const Con
                               const Blocks<B>& diagonal) const {
   Kokkos::parallel_for("plica::contact_diagonal", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
                        AddPointBlocks<B>{level.surface, points.block, diagonal});
+}
+
+template <class B>
+void Contact<B>::add_matrix(const Exec& exec, const Level<B>& level, const ContactPoints<B>& points,
+                            const BlockMatrix<B>& A) const {
+  Kokkos::parallel_for("plica::contact_matrix", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
+                       AddContact<B>{level.surface, points.block, A});
 }
 
 template <class B>

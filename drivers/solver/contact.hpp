@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
+#include <plica/core/block_matrix.hpp>
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
@@ -63,6 +64,8 @@ class Contact {
   void add_product(const Exec&, const Level<B>&, const Vectors<B>& p, const ContactPoints<B>&,
                    const Vectors<B>& q) const;
   void add_diagonal(const Exec&, const Level<B>&, const ContactPoints<B>&, const Blocks<B>& diagonal) const;
+  /// A += W^T block W
+  void add_matrix(const Exec&, const Level<B>&, const ContactPoints<B>&, const BlockMatrix<B>& A) const;
   double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
 
   double stiffness() const { return stiffness_; }  ///< of a point [N/m]

@@ -2,11 +2,13 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/kernels/elastic/elastic_blocks.hpp>
 #include <plica/kernels/elastic/elastic_energy.hpp>
 #include <plica/kernels/elastic/elastic_force.hpp>
 #include <plica/kernels/elastic/elastic_stress.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/materials/list.hpp>
+#include <plica/kernels/materials/positive_tangent.hpp>
 
 namespace plica {
 
@@ -29,6 +31,14 @@ class ElasticityOf final : public Elasticity<B> {
   void diagonal(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction,
                 const Vectors<B>& partial) const override {
     elastic_diagonal<B, Material>(exec, patches, u, direction, partial);
+  }
+  void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,
+              const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,
+              const BlockMatrix<B>& A) const override {
+    if (positive)
+      elastic_blocks<B, PositiveTangent<Material>::template Of>(exec, model, pairs, u, weights, shares, A);
+    else
+      elastic_blocks<B, Material::template Tangent>(exec, model, pairs, u, weights, shares, A);
   }
   void energy(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
               const Vectors<B>& partial) const override {

@@ -2,7 +2,9 @@
 #pragma once
 #include <memory>
 #include <plica/core/element_flags.hpp>
-#include <plica/core/patches.hpp>
+#include <plica/core/implicit_weights.hpp>
+#include <plica/core/model.hpp>
+#include <plica/core/patch_pairs.hpp>
 #include <string_view>
 
 namespace plica {
@@ -20,6 +22,9 @@ class Elasticity {
                        const Vectors<B>& partial) const = 0;
   virtual void diagonal(const Exec&, const Patches<B>&, const Vectors<B>& u, int direction,
                         const Vectors<B>& partial) const = 0;
+  /// A = (1 + b c) M + a K(u) as blocks; `positive`: of elements whose tangent is projected to positive semi-definite.
+  virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u, const ImplicitWeights&,
+                      bool positive, const Blocks9<B>& shares, const BlockMatrix<B>& A) const = 0;
   virtual void energy(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& partial) const = 0;
   /// Per tetrahedron of the mesh: von Mises' stress [Pa] and J.
   virtual void stress(const Exec&, const Patches<B>&, const Vectors<B>& u, const Scalars<B>& von_mises,

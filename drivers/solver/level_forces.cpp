@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/load_factor.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/loads/add_load.hpp>
 
 namespace plica {
@@ -124,6 +125,18 @@ void LevelForces<B>::diagonal(const Level<B>& level, const State<B>& state, cons
   if (external_)
     update_vertices<B>(exec, "plica::external_diagonal", level.model.vertices,
                        AddBlocks<B>{external_stiffness_, blocks, a});
+}
+
+template <class B>
+void LevelForces<B>::assemble(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                              bool positive, const PatchPairs<B>& pairs, const Blocks9<B>& shares,
+                              const BlockMatrix<B>& A) const {
+  const auto& exec = clock_->exec();
+  elasticity_->blocks(exec, level.model, pairs, state.u, weights, positive, shares, A);
+  if (contact_) contact_->add_matrix(exec, level, points_, A);
+  if (external_)
+    update_vertices<B>(exec, "plica::external_matrix", level.model.vertices,
+                       AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class LevelForces<Backend<Real, Exec>>;

@@ -37,6 +37,9 @@ class LevelForces {
   /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz.
   void diagonal(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights,
                 const Blocks<B>& blocks) const;
+  /// A itself, in blocks; `positive`: of elements whose tangents are projected to positive semi-definite ones.
+  void assemble(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive,
+                const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const;
   /// level.partial = the copies of -K p at a state
   void tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const;
 

@@ -53,7 +53,11 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const auto levels = built.hierarchy->levels.size();
   const auto& body = problem.body;
   bool implicit = false, friction = false;
-  for (const LevelReport& r : built.reports) implicit = implicit || (!r.explicit_integrator && !built.him);
+  std::string solver;
+  for (const LevelReport& r : built.reports) {
+    implicit = implicit || (!r.explicit_integrator && !built.him);
+    if (solver.empty()) solver = r.linear_solver;
+  }
   for (const ObstacleOptions& o : problem.contact.obstacles) friction = friction || o.friction.has_value();
   const bool contact = !problem.contact.obstacles.empty();
   const std::size_t variations = sum([](const L& l) { return bytes_of(l.level.start) + bytes_of(l.level.previous); });
@@ -96,7 +100,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
-  add("implicit solver", implicit, "an implicit level", "every level is explicit",
+  add("implicit solver", implicit, solver, "every level is explicit",
       sum([](const L& l) { return l.integrator->bytes(); }));
   add("inversion flags", flags > 0, body.material.model + " does not survive inversion",
       body.material.model + " survives inversion", flags);

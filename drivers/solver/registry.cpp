@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/linear/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/distributions.hpp>
 #include <plica/drivers/solver/set_up/error_classes.hpp>
@@ -39,8 +40,25 @@ std::vector<Choice> distributions() {
   return list;
 }
 
-std::vector<Choice> linear_solvers() {
-  return {{"conjugate_gradients", "matrix-free, preconditioned by the vertices' own 3x3 blocks"}};
+std::vector<Choice> linear_solvers() { return choices<LinearSolvers>(); }
+std::vector<Choice> preconditioners() { return choices<Preconditioners>(); }
+
+std::vector<Choice> linear_solver_choices() {
+  std::vector<Choice> list = linear_solvers();
+  list.push_back({"auto", "direct for small meshes, else conjugate_gradients"});
+  return list;
+}
+
+std::vector<Choice> preconditioner_choices() {
+  std::vector<Choice> list = preconditioners();
+  list.push_back({"auto", "multigrid where the body has coarser levels, else block_jacobi"});
+  return list;
+}
+
+std::vector<Choice> matrix_choices() {
+  return {{"free", "element by element, at every product"},
+          {"assembled", "3x3 blocks by rows"},
+          {"auto", "assembled, but for a few fixed iterations"}};
 }
 
 std::vector<Choice> tangents() {

@@ -21,6 +21,11 @@ std::vector<Choice> error_classes();    ///< of cycle auto
 std::vector<Choice> distributions();    ///< sizes of the shares
 std::vector<Choice> obstacle_shapes();  ///< for contact
 std::vector<Choice> linear_solvers();   ///< of implicit levels
+std::vector<Choice> preconditioners();  ///< of conjugate gradients
+
+std::vector<Choice> linear_solver_choices();   ///< the same, and auto
+std::vector<Choice> preconditioner_choices();  ///< the same, and auto
+std::vector<Choice> matrix_choices();          ///< of linear systems, and auto
 
 std::vector<Choice> tangents();         ///< of the elements, in their systems
 std::vector<Choice> newton_outcomes();  ///< of steps that Newton's method does not solve

@@ -23,16 +23,17 @@ struct Part {
 
 /// What was decided for one level.
 struct LevelReport {
-  int vertices = 0;          ///< of its mesh
-  int tets = 0;              ///< of its mesh
-  double mean_edge = 0;      ///< [m]
-  double mass = 0;           ///< [kg]
-  double critical_step = 0;  ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
-  double element_bound = 0;  ///< the same from the worst single element: on the sure side, without contact [s]
-  double share = 0;          ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
-  double inertia = 1;        ///< cycle him: how many times too heavy motion is that only this level represents
-  int substeps = 0;          ///< in its share
-  std::string integrator;    ///< its name
+  int vertices = 0;           ///< of its mesh
+  int tets = 0;               ///< of its mesh
+  double mean_edge = 0;       ///< [m]
+  double mass = 0;            ///< [kg]
+  double critical_step = 0;   ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
+  double element_bound = 0;   ///< the same from the worst single element: on the sure side, without contact [s]
+  double share = 0;           ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
+  double inertia = 1;         ///< cycle him: how many times too heavy motion is that only this level represents
+  int substeps = 0;           ///< in its share
+  std::string integrator;     ///< its name
+  std::string linear_solver;  ///< of an implicit integrator: solver, preconditioner, matrix
   bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
   int outside_down = 0;             ///< its vertices outside the next finer mesh
   int outside_up = 0;               ///< the next finer level's vertices outside its mesh

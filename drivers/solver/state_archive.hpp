@@ -37,9 +37,10 @@ class StateArchive {
   }
 
   /// A device field, which may be empty.
-  void field(const std::string& what, const Vectors<B>& view) {
+  template <class View>
+  void field(const std::string& what, const View& view) {
     const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), view);
-    const std::size_t size = host.span() * sizeof(typename B::Real);
+    const std::size_t size = host.span() * sizeof(typename View::value_type);
     same<std::uint64_t>("the size of " + what, size);
     if (task_ == Task::save) {
       Kokkos::deep_copy(host, view);
@@ -54,6 +55,7 @@ class StateArchive {
     field(what + ".v", state.v);
   }
 
+  bool restoring() const { return task_ == Task::restore; }
   /// After all of it: whether bytes are left over.
   void finish() const {
     if (task_ != Task::save && at_ != bytes_.size())

@@ -127,6 +127,8 @@ std::vector<std::string> study_methods(const Problem& problem) {
 std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options) {
   std::vector<std::string> asked = options.methods;
   if (asked.empty()) asked = {"single/symplectic_euler", "single/implicit_euler", "coarse", "cycle"};
+  if (options.methods.empty() && problem.body.levels.size() > 1)
+    asked.insert(asked.begin() + 2, "single/v_cycle_euler");
   std::vector<ChosenMethod> chosen;
   for (const std::string& name : asked) {
     const ChosenMethod one = split(name);

@@ -52,16 +52,48 @@ struct Corotational {
 
   /// dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F.
   template <class T>
+  struct Tangent {
+    Mat3<T> R, turning;  // (tr(S) I - S)^-1
+    Mat3<T> turned;      // R turning R^T
+    T stretch;           // lambda (tr S - 3)
+    Lame<T> c;
+    KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>& F, const Lame<T>& constants) : R(polar_rotation(F)), c(constants) {
+      using Real = typename LaneOf<T>::type;
+      const Mat3<T> S = transpose(R) * F, G = Mat3<T>::diagonal(trace(S)) - S, H = cofactor(G);
+      turning = (T(1) / max(dot(G[0], H[0]), T(Kokkos::Experimental::norm_min_v<Real>))) * transpose(H);
+      turned = R * turning * transpose(R);
+      stretch = c.lambda * (trace(S) - T(3));
+    }
+    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
+      const Mat3<T> Z = transpose(R) * dF;
+      const Vec3<T> w = turning * Vec3<T>{Z[2][1] - Z[1][2], Z[0][2] - Z[2][0], Z[1][0] - Z[0][1]};
+      const T mu2 = c.mu + c.mu;
+      return mu2 * dF + R * ((stretch - mu2) * cross_matrix(w) + Mat3<T>::diagonal(c.lambda * trace(Z)));
+    }
+    struct Corner {
+      Vec3<T> g, r;  // r = R g
+      Mat3<T> left;  // (2 mu - stretch) [r]x R turning R^T
+    };
+    KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& g) const {
+      const Vec3<T> r = R * g;
+      Corner made{g, r, {}};
+      const Vec3<T> s = (c.mu + c.mu - stretch) * r;
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i)
+          made.left[i][k] = s[(i + 1) % 3] * turned[(i + 2) % 3][k] - s[(i + 2) % 3] * turned[(i + 1) % 3][k];
+      return made;
+    }
+    /// 2 mu (p.q) I + lambda (R p)(R q)^T + (2 mu - stretch) [R p]x R turning R^T [R q]x
+    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
+      Mat3<T> K = Mat3<T>::diagonal((c.mu + c.mu) * dot(p.g, q.g));
+      for (int i = 0; i < 3; ++i) K[i] += (c.lambda * p.r[i]) * q.r + cross(p.left[i], q.r);
+      return K;
+    }
+  };
+
+  template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
-    using Real = typename LaneOf<T>::type;
-    const Mat3<T> R = polar_rotation(F), S = transpose(R) * F, Z = transpose(R) * dF;
-    const Mat3<T> G = Mat3<T>::diagonal(trace(S)) - S, H = cofactor(G);
-    const T d = T(1) / max(dot(G[0], H[0]), T(Kokkos::Experimental::norm_min_v<Real>));
-    const Vec3<T> w = d * (transpose(H) * Vec3<T>{Z[2][1] - Z[1][2], Z[0][2] - Z[2][0], Z[1][0] - Z[0][1]});
-    const T o = T(0);
-    const Mat3<T> W = {Vec3<T>{o, -w[2], w[1]}, Vec3<T>{w[2], o, -w[0]}, Vec3<T>{-w[1], w[0], o}};
-    const Mat3<T> dR = R * W;
-    return (c.mu + c.mu) * (dF - dR) + (c.lambda * trace(Z)) * R + (c.lambda * (trace(S) - T(3))) * dR;
+    return Tangent<T>(F, c)(dF);
   }
 };
 

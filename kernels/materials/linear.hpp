@@ -29,8 +29,20 @@ struct Linear {
   }
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>&, const Mat3<T>& dF, const Lame<T>& c) {
-    return hooke(dF, c);
+  struct Tangent {
+    Lame<T> c;
+    KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>&, const Lame<T>& constants) : c(constants) {}
+    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const { return hooke(dF, c); }
+    using Corner = Vec3<T>;
+    KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& g) const { return g; }
+    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
+      return Mat3<T>::diagonal(c.mu * dot(p, q)) + outer(c.lambda * p, q) + outer(c.mu * q, p);
+    }
+  };
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
+    return Tangent<T>(F, c)(dF);
   }
 };
 

@@ -6,7 +6,10 @@
 // A material is a struct of pointwise functions of the deformation gradient F = dx/dX, on T = a number or a pack:
 //   energy(F, c)              energy density per rest volume [J/m^3]
 //   stress(F, c)              first Piola-Kirchhoff stress P = d energy/dF [Pa]
-//   stress_change(F, dF, c)   dP/dF : dF [Pa], symmetric as a bilinear form
+//   Tangent<T>(F, c)          dP/dF at F: (dF) -> dP/dF : dF [Pa], symmetric as a bilinear form; what dF does not enter is
+//                             worked out once. Its corner(g), of a gradient g, and block(p, q) of two such give the matrix
+//                             a -> (dP/dF : (a q^T)) p, symmetric in (p, q) but for a transposition: an element matrix in few operations
+//   stress_change(F, dF, c)   the same for one dF
 // with the constants c [Pa], and says of itself:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy

@@ -35,10 +35,32 @@ struct StVenantKirchhoff {
   }
 
   template <class T>
+  struct Tangent {
+    Mat3<T> F, S, FFt;
+    Lame<T> c;
+    KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>& at, const Lame<T>& constants)
+        : F(at), S(second_stress(strain(at), constants)), FFt(at * transpose(at)), c(constants) {}
+    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
+      const Mat3<T> G = transpose(F) * dF;
+      return dF * S + F * second_stress(T(0.5f) * (G + transpose(G)), c);
+    }
+    struct Corner {
+      Vec3<T> g, f, s;  // with F and S
+    };
+    KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& g) const { return {g, F * g, S * g}; }
+    /// (p.S q) I + lambda (F p)(F q)^T + mu (F q)(F p)^T + mu (p.q) F F^T
+    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
+      Mat3<T> K = Mat3<T>::diagonal(dot(p.g, q.s));
+      const T w = c.mu * dot(p.g, q.g);
+      for (int i = 0; i < 3; ++i)
+        K[i] += (c.lambda * p.f[i]) * q.f + (c.mu * q.f[i]) * p.f + Vec3<T>{w * FFt[i][0], w * FFt[i][1], w * FFt[i][2]};
+      return K;
+    }
+  };
+
+  template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
-    const Mat3<T> G = transpose(F) * dF;
-    const Mat3<T> dE = T(0.5f) * (G + transpose(G));
-    return dF * second_stress(strain(F), c) + F * second_stress(dE, c);
+    return Tangent<T>(F, c)(dF);
   }
 };
 

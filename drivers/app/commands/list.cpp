@@ -40,6 +40,7 @@ constexpr Family families[] = {{"materials", "constitutive laws", materials},
                                {"distributions", "how they share its time", distributions},
                                {"shapes", "what a body can touch", obstacle_shapes},
                                {"solvers", "of the implicit levels' linear systems", linear_solvers},
+                               {"preconditioners", "of conjugate gradients", preconditioners},
                                {"outside", "what becomes of vertices outside another level's mesh", outside_rules},
                                {"formats", "mesh files that are read", meshes_read},
                                {"units", "of numbers in scenes and on the command line", unit_choices}};

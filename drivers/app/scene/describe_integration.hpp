@@ -10,6 +10,11 @@ std::vector<Choice> outside_rules();
 
 template <class V>
 void describe(V& v, ImplicitOptions& o) {
+  v("solver", o.solver, Name{"solver", linear_solver_choices}, "of linear systems; auto: direct for small meshes");
+  v("preconditioner", o.preconditioner, Name{"preconditioner", preconditioner_choices},
+    "of conjugate gradients; auto: multigrid where the body has coarser levels");
+  v("matrix", o.matrix, Name{"matrix", matrix_choices}, "how the system is kept; auto: assembled where that pays");
+  v("polynomial_degree", o.polynomial_degree, Count{2}, "of chebyshev, and of the smoothing in multigrid; up to 16");
   v("relative_residual", o.relative_residual,
     Quantity{number, {.min = 0, .max = 1, .min_excluded = true, .max_excluded = true}}, "at which a linear solve ends");
   v("iterations", o.iterations, Count{0}, "above 0: exactly so many per linear solve, whatever the residual");

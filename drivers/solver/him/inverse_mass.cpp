@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/him/inverse_mass.hpp>
-#include <plica/drivers/solver/him/sparse_rows.hpp>
+#include <plica/drivers/solver/spaces/sparse_rows.hpp>
 #include <plica/kernels/contact/where_touching.hpp>
 #include <plica/kernels/him/coarse_filter.hpp>
 #include <plica/kernels/him/sparse_rows.hpp>

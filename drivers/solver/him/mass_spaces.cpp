@@ -2,20 +2,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {
 
 namespace {
-
-RowMatrix barycentric_transfer(const Embedding& up, std::size_t coarse_vertices) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t a = 0; a < up.vertices.size(); ++a)
-    for (std::size_t c = 0; c < 4; ++c)
-      if (up.weights[a][c] != 0) entries.emplace_back(static_cast<int>(a), up.vertices[a][c], up.weights[a][c]);
-  RowMatrix P(static_cast<Eigen::Index>(up.vertices.size()), static_cast<Eigen::Index>(coarse_vertices));
-  P.setFromTriplets(entries.begin(), entries.end());
-  return P;
-}
 
 std::vector<double> inverse_row_sums(const RowMatrix& M) {
   std::vector<double> inverse(static_cast<std::size_t>(M.rows()), 0.0);
@@ -36,12 +27,7 @@ std::vector<MassSpace> mass_spaces(const std::vector<MassMesh>& levels, const st
   std::vector<MassSpace> spaces;
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const MassMesh &fine = levels[i - 1], &coarse = levels[i];
-    RowMatrix P = barycentric_transfer(coarse.up, coarse.mesh.vertices.size());
-    if (smooth) P = RowMatrix(ring_smoothing(fine.mesh) * P);
-    P.prune([&](Eigen::Index a, Eigen::Index b, double value) {
-      return !fine.constrained[static_cast<std::size_t>(a)] && !coarse.constrained[static_cast<std::size_t>(b)] &&
-             std::abs(value) > 1e-6;
-    });
+    RowMatrix P = transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained, coarse.up, smooth);
     M = RowMatrix(P.transpose()) * M * P;
     spaces.push_back({std::move(P), M, inverse_row_sums(M)});
   }

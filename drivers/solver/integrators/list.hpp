@@ -8,10 +8,12 @@
 #include <plica/drivers/solver/integrators/newmark.hpp>
 #include <plica/drivers/solver/integrators/rk4.hpp>
 #include <plica/drivers/solver/integrators/symplectic_euler.hpp>
+#include <plica/drivers/solver/integrators/v_cycle_euler.hpp>
 
 namespace plica {
 
 /// Every integrator there is. One more: its file above, its name here.
-using Integrators = TypeList<SymplecticEuler, ForwardEuler, Rk4, ImplicitEuler, Newmark, Bdf2, GeneralizedAlpha>;
+using Integrators =
+    TypeList<SymplecticEuler, ForwardEuler, Rk4, ImplicitEuler, Newmark, Bdf2, GeneralizedAlpha, VCycleEuler>;
 
 }  // namespace plica

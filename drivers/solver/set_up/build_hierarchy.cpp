@@ -8,7 +8,6 @@
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/linear/conjugate_gradients.hpp>
 #include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
@@ -16,6 +15,7 @@
 #include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/inherit_masses.hpp>
 #include <plica/drivers/solver/set_up/make_him.hpp>
+#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -212,10 +212,13 @@ class HierarchyBuilder {
         report.critical_step =
             critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
                              Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching, damping);
-        const ImplicitOptions& implicit = problem_.integration.implicit;
         h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
-            level, IntegratorParts<B>{damping, implicit, [&] {
-                                        return std::make_unique<ConjugateGradients<B>>(level.model.vertices, implicit);
+            level, IntegratorParts<B>{damping, problem_.integration.implicit, [&] {
+                                        std::string solver = problem_.integration.implicit.solver;
+                                        if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
+                                        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);
+                                        report.linear_solver = describe(parts);
+                                        return make_linear_solver<B>(parts, level);
                                       }});
       });
       limits.push_back({report.tets, report.integrator, report.explicit_integrator, report.critical_step});

@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/set_up/expect.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/set_up/validate_inputs.hpp>
+#include <plica/drivers/solver/set_up/validate_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/validate_mesh.hpp>
 
 namespace plica {
@@ -149,6 +150,7 @@ void validate(const Problem& problem) {
   check_body(problem.body);
   finite("gravity", problem.gravity);
   check_integration(problem.integration, problem.body.levels.size());
+  validate_linear_solver(problem);
   check_contact(problem);
 }
 

@@ -188,7 +188,7 @@ TYPED_TEST(CallersForces, ThatAreStiffEnterTheImplicitSolve) {
     if (into_the_solve)
       EXPECT_LT(moved, 1e-5);
     else
-      EXPECT_GT(moved, 1);
+      EXPECT_FALSE(moved <= 1);  // or it is not a number any more
   }
 }
 

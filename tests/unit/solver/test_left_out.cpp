@@ -30,11 +30,12 @@ Problem everything() {
   p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.01}, {0, 0, 1}}, 0.3, {}});
   p.contact.obstacles.push_back({SurfaceOptions{sphere_surface({0.05, 0.05, 0.3}, 0.05, 1), 8}, {}, {}});
   p.integration.integrator = {"symplectic_euler", "symplectic_euler", "implicit_euler"};
+  p.integration.implicit.solver = "conjugate_gradients";
   return p;
 }
 
 const std::vector<std::string> optional_parts = {"contact",  "surface", "prescribe", "restrict", "interpol", "start",
-                                                 "previous", "drift",   "implicit",  "cg",       "newton",   "flags",
+                                                 "previous", "drift",   "implicit",  "cg",       "stage",    "flags",
                                                  "invert",   "rk4",     "load",      "grid"};
 
 TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {

@@ -34,6 +34,18 @@ Problem busy_in_him() {
   return p;
 }
 
+/// The coarsest level has no multigrid; the others are solved by it, the middle one by one cycle a step.
+Problem busy_with_matrices() {
+  Problem p = busy();
+  p.integration.integrator = {"implicit_euler", "v_cycle_euler", "implicit_euler"};
+  p.integration.implicit.solver = "conjugate_gradients";
+  p.integration.implicit.preconditioner = "multigrid";
+  p.integration.implicit.matrix = "assembled";
+  p.integration.macro_step = 2e-3;
+  p.body.levels = cube_levels(3, 5, "rsv").body.levels;
+  return p;
+}
+
 template <class B>
 std::vector<Point> result(const typename B::Exec& exec, const Problem& problem = busy()) {
   Simulation<B> simulation(problem, exec);
@@ -65,7 +77,7 @@ void expect_one_thread_is_two() {
   const Kokkos::OpenMP one(1), two(2);
   ASSERT_EQ(one.concurrency(), 1);
   ASSERT_EQ(two.concurrency(), 2);
-  for (const Problem& problem : {busy(), busy_in_him()})
+  for (const Problem& problem : {busy(), busy_in_him(), busy_with_matrices()})
     EXPECT_TRUE(same_bits(result<B>(one, problem), result<B>(two, problem))) << problem.integration.cycle;
 }
 TEST(Threads, OneAndTwoGiveTheSameBitsInDouble) { expect_one_thread_is_two<double>(); }

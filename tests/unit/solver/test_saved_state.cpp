@@ -73,6 +73,23 @@ TYPED_TEST(SavedStates, ContinueBitForBit) {
     }
 }
 
+TYPED_TEST(SavedStates, KeepPreconditioners) {
+  for (const char* preconditioner : {"chebyshev", "multigrid"})
+    for (const char* integrator : {"implicit_euler", "v_cycle_euler"}) {
+      SCOPED_TRACE(std::string(preconditioner) + " " + integrator);
+      Problem problem = thrown("rsv", integrator);
+      problem.integration.macro_step = 5e-3;
+      problem.integration.implicit.solver = "conjugate_gradients";
+      problem.integration.implicit.preconditioner = preconditioner;
+      Simulation<TypeParam> whole(problem), second(problem);
+      advance(whole, 3);
+      second.restore(whole.save());
+      advance(whole, 12);
+      advance(second, 12);
+      expect_same(whole, second);
+    }
+}
+
 TYPED_TEST(SavedStates, KeepTheLastGoodState) {
   const Problem problem = thrown("rsv", "symplectic_euler");
   Simulation<TypeParam> whole(problem), second(problem);

@@ -110,6 +110,7 @@ TEST(Implicit, ReachesItsResidualOrCountsAMiss) {
   p.body.initial.angular_velocity = {0, 0, 10};
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.02;
+  p.integration.implicit.solver = "conjugate_gradients";
   for (double tolerance : {1e-3, 1e-9}) {
     p.integration.implicit.relative_residual = tolerance;
     Simulation<Host> simulation(p);
@@ -140,7 +141,8 @@ void expect_step_solved(const std::string& material, int newton_iterations) {
   p.body.damping.mass = 3;
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.01;
-  p.integration.implicit = {1e-11, 0, 2000, newton_iterations, 1e-12};
+  p.integration.implicit = {
+      .relative_residual = 1e-11, .newton_iterations = newton_iterations, .newton_tolerance = 1e-12};
   Simulation<Host> simulation(p);
   advance(simulation, 5);
   const auto v0 = simulation.velocities();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/QR>
-#include <plica/drivers/solver/him/smoothing.hpp>
+#include <plica/drivers/solver/spaces/smoothing.hpp>
 #include <plica/meshes/edge_lengths.hpp>
 #include <vector>
 

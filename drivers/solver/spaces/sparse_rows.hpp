@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/inverse_mass.hpp>
-#include <plica/drivers/solver/him/smoothing.hpp>
+#include <plica/core/sparse_rows.hpp>
+#include <plica/drivers/solver/spaces/smoothing.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 
 namespace plica {

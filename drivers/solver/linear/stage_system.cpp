@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/linear/stage_system.hpp>
+#include <plica/drivers/solver/spaces/sparse_rows.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/linear/block_product.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
+
+namespace plica {
+
+template <class B>
+StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
+    : assembled_(assembled), inverse_diagonal_("plica::linear.inverse_diagonal", level.model.vertices), level_(&level) {
+  if (assembled) pattern();
+}
+
+template <class B>
+const BlockMatrix<B>& StageSystem<B>::pattern() {
+  if (pattern_.matrix.rows == 0) {
+    pattern_ = block_pattern<B>(level_->model);
+    shares_ = Blocks9<B>("plica::linear.shares", pattern_.pairs.shares);
+  }
+  return pattern_.matrix;
+}
+
+template <class B>
+void StageSystem<B>::prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces,
+                             const State<B>& state, const ImplicitWeights& weights, bool positive) {
+  level_ = &level, forces_ = &forces, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
+  const int n = rows();
+  if (assembled_ || positive)
+    update_vertices<B>(exec, "plica::take_diagonal", n, TakeDiagonal<B>{matrix(exec), inverse_diagonal_});
+  else
+    forces.diagonal(level, state, weights, inverse_diagonal_);
+  update_vertices<B>(exec, "plica::invert_blocks", n,
+                     InvertBlocks<B>{level.model, inverse_diagonal_, static_cast<typename B::Real>(weights.b)});
+}
+
+template <class B>
+const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
+  pattern();
+  if (!ready_) forces_->assemble(*level_, state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
+  ready_ = true;
+  return pattern_.matrix;
+}
+
+template <class B>
+void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
+  if (assembled_ || positive_)
+    update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
+  else
+    forces_->product(*level_, state_, p, weights_, q);
+}
+
+template <class B>
+void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
+  if (assembled_ || positive_)
+    update_vertices<B>(exec, "plica::space_products", rows(), SpaceProducts<B>{pattern_.matrix, space});
+  else
+    for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);
+}
+
+template <class B>
+std::size_t StageSystem<B>::bytes() const {
+  const BlockMatrix<B>& A = pattern_.matrix;
+  const PatchPairs<B>& P = pattern_.pairs;
+  return bytes_of_views(inverse_diagonal_, shares_, A.first, A.column, A.diagonal, A.value, P.first_pair, P.first_slot,
+                        P.first_turned, P.slot, P.upper, P.lower, P.first_share, P.shared_upper, P.shared_lower);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/level_forces.hpp>
+#include <plica/drivers/solver/linear/block_pattern.hpp>
+#include <plica/kernels/linear/solution_space.hpp>
+
+namespace plica {
+
+/// The system A of an implicit stage on one level: its product without a matrix or by an assembled one, and its vertex blocks.
+template <class B>
+class StageSystem {
+ public:
+  using Exec = typename B::Exec;
+
+  StageSystem(const Level<B>& level, bool assembled);
+
+  /// A at `state`, where `forces` have just been linearised; they stay as they are until the next. Projected elements are assembled,
+  /// also where the rest is not.
+  void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
+               const ImplicitWeights& weights, bool positive);
+  /// q = A p
+  void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
+  /// q = A w of a whole space
+  void products(const Exec& exec, const SolutionSpace<B>& space) const;
+  /// The inverses of its vertex blocks; 0 where the motion is given.
+  const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
+  /// A itself, assembled if it is not.
+  const BlockMatrix<B>& matrix(const Exec& exec);
+  /// Its pattern alone.
+  const BlockMatrix<B>& pattern();
+  int rows() const { return level_->model.vertices; }
+  std::size_t bytes() const;
+
+ private:
+  bool assembled_, ready_ = false;  ///< the matrix is that of this stage
+  BlockPattern<B> pattern_;
+  Blocks9<B> shares_;
+  Blocks<B> inverse_diagonal_;
+  const Level<B>* level_ = nullptr;
+  const LevelForces<B>* forces_ = nullptr;
+  State<B> state_;
+  ImplicitWeights weights_;
+  bool positive_ = false;
+};
+
+}  // namespace plica

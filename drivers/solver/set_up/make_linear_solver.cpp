@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/linear/list.hpp>
+#include <plica/drivers/solver/set_up/add_regions.hpp>
+#include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr std::size_t most_direct = 200;  // vertices up to which a factorisation is faster: cmake/docs/solvers.md
+constexpr int fewest_assembled = 8;       // iterations from which an assembled matrix has paid
+
+std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
+
+/// A mesh at rest with its constrained vertices.
+struct RestMesh {
+  TetMesh mesh;
+  std::vector<char> constrained;
+};
+
+RestMesh rest_mesh(const Body& body, std::size_t level) {
+  RestMesh made{body.levels[level], {}};
+  add_regions(made.mesh, body.regions, static_cast<int>(level));
+  made.constrained = level_constants(body, made.mesh, Point::Zero(), static_cast<int>(level)).constrained;
+  return made;
+}
+
+std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
+  std::vector<RowMatrix> transfers;
+  RestMesh fine = rest_mesh(body, level);
+  for (std::size_t i = level + 1; i < body.levels.size(); ++i) {
+    RestMesh coarse = rest_mesh(body, i);
+    transfers.push_back(transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained,
+                                        embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate), false));
+    fine = std::move(coarse);
+  }
+  return transfers;
+}
+
+bool has_multigrid(const Body& body, std::size_t level) {
+  return level + 1 < body.levels.size() &&
+         unknowns(body.levels.back()) <= static_cast<std::size_t>(most_dense_unknowns) &&
+         body.levels.back().vertices.size() < body.levels[level].vertices.size();
+}
+
+/// With `asked`, what keeps the meshes from being used is the caller's mistake; else there is no multigrid then.
+void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level, bool asked) {
+  try {
+    parts.transfers = transfers_below(body, level);
+    parts.options.preconditioner = MultigridCycle::name;
+  } catch (const InputError&) {
+    if (asked) throw;
+    parts.options.preconditioner = BlockJacobi::name;
+  }
+}
+
+}  // namespace
+
+LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver) {
+  LinearSolverParts parts{problem.integration.implicit, {}};
+  ImplicitOptions& o = parts.options;
+  const Body& body = problem.body;
+  const bool fixed = o.iterations > 0, multigrid = has_multigrid(body, level);
+  if (solver == "auto") {
+    const bool small = on_host && !fixed && body.levels[level].vertices.size() <= most_direct;
+    solver = small && o.preconditioner == "auto" && o.matrix != "free" ? Direct::name : ConjugateGradients::name;
+  }
+  o.solver = std::move(solver);
+  const bool cycle = o.solver == VCycleSolver::name, asked = cycle || o.preconditioner == MultigridCycle::name;
+  if (o.solver == Direct::name) {
+    o.preconditioner = "none", o.matrix = "assembled";
+    return parts;
+  }
+  if (o.preconditioner == "auto" || asked) {
+    o.preconditioner = BlockJacobi::name;  // also of a level that has no coarser one, where others have
+    if (multigrid && (asked || !fixed)) add_multigrid(parts, body, level, asked);
+  }
+  if (o.matrix == "auto") o.matrix = cycle || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";
+  return parts;
+}
+
+std::string describe(const LinearSolverParts& parts) {
+  const ImplicitOptions& o = parts.options;
+  if (o.solver == Direct::name) return o.solver;
+  if (o.solver == VCycleSolver::name && parts.transfers.empty())
+    return o.solver + " without coarser meshes: a polynomial alone";
+  const std::string over =
+      parts.transfers.empty() ? "" : " over " + std::to_string(parts.transfers.size() + 1) + " meshes";
+  return o.solver + ", " + o.preconditioner + over + (o.matrix == "free" ? ", without a matrix" : ", assembled");
+}
+
+template <class B>
+std::unique_ptr<LinearSolver<B>> make_linear_solver(const LinearSolverParts& parts, const Level<B>& level) {
+  if (!B::on_host && parts.options.solver == Direct::name)
+    throw InputError(
+        "integration.implicit.solver is direct, which factorises on the host; this run's fields are in a device's "
+        "memory; "
+        "expected conjugate_gradients or auto");
+  std::unique_ptr<LinearSolver<B>> made;
+  LinearSolvers::visit(parts.options.solver, [&](auto kind) {
+    made = std::make_unique<typename decltype(kind)::template Of<B>>(level, parts);
+  });
+  return made;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                  \
+  template std::unique_ptr<LinearSolver<Backend<Real, Exec>>> make_linear_solver<Backend<Real, Exec>>( \
+      const LinearSolverParts&, const Level<Backend<Real, Exec>>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/block_matrix.hpp>
+#include <plica/core/surface.hpp>
+
+namespace plica {
+
+/// A += W^T C W with the symmetric blocks C [points][6] of surface points and their weights W: a row of A per work item, its
+/// points in order. Vertices of one tetrahedron are coupled in A already, unless their motion is given.
+template <class B>
+struct AddContact {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
+  BlockMatrix<B> A;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    constexpr int from[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
+    const int a = surface.vertex(item), first = A.first(a), last = A.first(a + 1);
+    for (int s = surface.first(item); s < surface.first(item + 1); ++s) {
+      const int p = surface.point(s);
+      for (int c = 0; c < 4; ++c) {
+        int at = first;
+        while (at < last && A.column(at) != surface.embedding.source(p, c)) ++at;
+        if (at == last) continue;
+        const Real w = surface.weight(s) * surface.embedding.weight(p, c);
+        for (int k = 0; k < 9; ++k) A.value(at, k) += w * block(p, from[k]);
+      }
+    }
+  }
+};
+
+}  // namespace plica

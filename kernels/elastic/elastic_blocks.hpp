@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/implicit_weights.hpp>
+#include <plica/core/model.hpp>
+#include <plica/core/patch_pairs.hpp>
+#include <plica/kernels/patch_kernel.hpp>
+
+// Assembles A = (1 + b c) M + a K(u) as blocks, see ImplicitWeights: per patch, the ten blocks (p <= q) of its elements into scratch, then their
+// sums per pair of its vertices, which go to the matrix where no other patch has a share in them, else to `shares`, to be added up
+// by a second kernel. All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 20 (slots), and
+// 9 s per block of the matrix; in scratch, which a second-level cache holds, 92 s written and 90 s read.
+namespace plica {
+
+constexpr int element_numbers = 92;  ///< of the ten blocks, in whole quarters of a register
+
+/// Where block (p, q), p <= q, of an element stands among its ten.
+KOKKOS_INLINE_FUNCTION constexpr int element_block(int p, int q) { return p * (7 - p) / 2 + q; }
+
+/// scale * volume (dP/dF : grad N_q) grad N_p for corners p <= q, column by column; those of corner 0 by balance.
+template <class T, class Tangent>
+KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const ElementShape<T>& shape, const T& scale,
+                                           T (&K)[element_numbers]) {
+  const T weight = scale * shape.volume;
+  const typename Tangent::Corner corner[3] = {tangent.corner(shape.gradient[0]), tangent.corner(shape.gradient[1]),
+                                              tangent.corner(shape.gradient[2])};
+  for (int q = 0; q < 3; ++q)
+    for (int p = 0; p <= q; ++p) {
+      const Mat3<T> block = tangent.block(corner[p], corner[q]);
+      for (int k = 0; k < 9; ++k) K[9 * element_block(p + 1, q + 1) + k] = weight * block[k % 3][k / 3];
+    }
+  for (int k = 0; k < 9; ++k) {
+    const int t = k % 3 * 3 + k / 3;  // its place in the transpose
+    const T* const b = K + k;
+    const T* const bt = K + t;
+    K[9 * element_block(0, 1) + k] =
+        -(b[9 * element_block(1, 1)] + bt[9 * element_block(1, 2)] + bt[9 * element_block(1, 3)]);
+    K[9 * element_block(0, 2) + k] =
+        -(b[9 * element_block(1, 2)] + b[9 * element_block(2, 2)] + bt[9 * element_block(2, 3)]);
+    K[9 * element_block(0, 3) + k] =
+        -(b[9 * element_block(1, 3)] + b[9 * element_block(2, 3)] + b[9 * element_block(3, 3)]);
+    K[k] = -(b[9 * element_block(0, 1)] + b[9 * element_block(0, 2)] + b[9 * element_block(0, 3)]);
+  }
+  K[90] = K[91] = T(0);
+}
+
+/// Puts a sum of element blocks where it belongs, with the mass on the diagonal.
+template <class B>
+struct PlaceBlock {
+  using Real = typename B::Real;
+  BlockMatrix<B> A;
+  Scalars<B> mass;
+  MassDamping<B> damping;
+  Real b;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int upper, int lower, const Real* sum) const {
+    Real* const at = &A.value(upper, 0);
+    if (upper == lower) {
+      const int i = A.column(upper);
+      const Real m = (1 + b * damping(i)) * mass(i);
+      for (int k = 0; k < 9; ++k) at[k] = Real(0.5) * (sum[k] + sum[k % 3 * 3 + k / 3]) + (k % 4 == 0 ? m : Real(0));
+    } else {
+      Real* const turned = &A.value(lower, 0);
+      for (int k = 0; k < 9; ++k) at[k] = sum[k], turned[k % 3 * 3 + k / 3] = sum[k];
+    }
+  }
+};
+
+template <class B, class Tangent>
+struct ElasticBlocks {
+  using Real = typename B::Real;
+  using Policy = Kokkos::TeamPolicy<typename B::Exec>;
+  using Member = typename Policy::member_type;
+  static constexpr int lanes = B::lanes;
+  static constexpr std::size_t near_bytes = Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
+  static constexpr std::size_t far_bytes =
+      static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) * element_numbers * sizeof(Real);
+  using T = typename PackOf<Real, lanes>::type;
+
+  Patches<B> patches;
+  PatchPairs<B> pairs;
+  Vectors<B> u;
+  PlaceBlock<B> place;
+  Blocks9<B> shares;
+  Real scale;  ///< of every element
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int p = team.league_rank();
+    const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
+    const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
+    const int first = pairs.first_pair(p), count = pairs.first_pair(p + 1) - first;
+    Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(near_bytes, 64));
+    Real* const blocks = static_cast<Real*>(team.team_scratch(1).get_shmem_aligned(far_bytes, 64));
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
+      for (int k = 0; k < 3; ++k) local[i * patch_stride<B> + k] = u(patches.vertex(first_vertex + i), k);
+    });
+    team.team_barrier();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
+                         [&](int q) { element(p, first_pack + q, local, blocks + q * lanes * element_numbers); });
+    team.team_barrier();
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](int i) { sum(first + i, blocks); });
+  }
+
+  KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* blocks) const {
+    ElementShape<T> shape;
+    Mat3<T> G[1];
+    load_pack<B, 1>(patches, patch, pack, local, shape, G);
+    T K[element_numbers];
+    element_blocks(Tangent(Mat3<T>::identity() + G[0], shape.lame), shape, T(scale), K);
+    for (int k = 0; k < element_numbers; k += 4) {
+      const T four[4] = {K[k], K[k + 1], K[k + 2], K[k + 3]};
+      store_fours(four, [=](int l) { return blocks + l * element_numbers + k; });
+    }
+  }
+
+  static KOKKOS_INLINE_FUNCTION const Real* block(const Real* blocks, int slot) {
+    return blocks + slot / 10 * element_numbers + slot % 10 * 9;
+  }
+
+  KOKKOS_INLINE_FUNCTION void sum(int pair, const Real* blocks) const {
+    Real total[9] = {};
+    int s = pairs.first_turned(pair);
+    const int last = pairs.first_slot(pair + 1);
+    if (s < last) {
+      Real turned[9] = {};
+      for (; s < last; ++s) {
+        const Real* const from = block(blocks, pairs.slot(s));
+        for (int k = 0; k < 9; ++k) turned[k] += from[k];
+      }
+      for (int k = 0; k < 9; ++k) total[k] = turned[k % 3 * 3 + k / 3];
+    }
+    for (s = pairs.first_slot(pair); s < pairs.first_turned(pair); ++s) {
+      const Real* const from = block(blocks, pairs.slot(s));
+      for (int k = 0; k < 9; ++k) total[k] += from[k];
+    }
+    const int lower = pairs.lower(pair), upper = pairs.upper(pair);
+    if (lower >= 0) return place(upper, lower, total);
+    for (int k = 0; k < 9; ++k) shares(upper, k) = total[k];
+  }
+};
+
+/// Blocks that several patches have a share in.
+template <class B>
+struct AddShares {
+  PatchPairs<B> pairs;
+  Blocks9<B> shares;
+  PlaceBlock<B> place;
+  KOKKOS_INLINE_FUNCTION void operator()(int b) const {
+    typename B::Real total[9] = {};
+    for (int s = pairs.first_share(b); s < pairs.first_share(b + 1); ++s)
+      for (int k = 0; k < 9; ++k) total[k] += shares(s, k);
+    place(pairs.shared_upper(b), pairs.shared_lower(b), total);
+  }
+};
+
+/// A of vertices that are free; the others' rows keep their mass alone.
+template <class B, template <class> class Tangent>
+void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
+                    const Vectors<B>& u, const ImplicitWeights& weights, const Blocks9<B>& shares,
+                    const BlockMatrix<B>& A) {
+  using Real = typename B::Real;
+  using Kernel = ElasticBlocks<B, Tangent<typename PackOf<Real, B::lanes>::type>>;
+  const PlaceBlock<B> place{A, model.mass, model.damping, static_cast<Real>(weights.b)};
+  typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
+  policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes + 64));
+  policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes + 64));
+  Kokkos::parallel_for("plica::elastic_blocks", policy,
+                       Kernel{model.patches, pairs, u, place, shares, static_cast<Real>(weights.a)});
+  Kokkos::parallel_for("plica::add_shares",
+                       Kokkos::RangePolicy<typename B::Exec>(exec, 0, static_cast<int>(pairs.shared_upper.extent(0))),
+                       AddShares<B>{pairs, shares, place});
+}
+
+}  // namespace plica
