@@ -124,6 +124,8 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].level.state.u : kept[i].u;
   const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
   d.element = worst.element, d.J = worst.J;
+  const bool forbidden = (*built.hierarchy)[d.level].level.flags.evaluation.extent(0) > 0;
+  if (kind == "non_finite" && forbidden && d.J <= 0) d.kind = "inverted";  // before a cycle's repairs lost the flag
   complete(d, built);
   return d;
 }
