@@ -125,7 +125,7 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
   d.element = worst.element, d.J = worst.J;
   const bool forbidden = (*built.hierarchy)[d.level].level.flags.evaluation.extent(0) > 0;
-  if (kind == "non_finite" && forbidden && d.J <= 0) d.kind = "inverted";  // before a cycle's repairs lost the flag
+  if (d.vertex >= 0 && forbidden && d.J <= 0) d.kind = "inverted";  // a cycle's repairs have lost the flag
   complete(d, built);
   return d;
 }

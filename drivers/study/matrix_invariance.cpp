@@ -72,7 +72,7 @@ Problem described(const Problem& problem, const Other& other) {
 
 std::vector<Point> displacement_of(const Problem& problem) {
   Sim simulation(problem);
-  for (long n = 0; n < macro_steps; ++n) simulation.step();
+  for (long n = 0; n < macro_steps && !simulation.check(); ++n) simulation.step();
   std::vector<Point> u = simulation.positions();
   for (std::size_t a = 0; a < u.size(); ++a) u[a] -= problem.body.levels.front().vertices[a];
   return u;
@@ -99,12 +99,13 @@ double allowed(const Other& other) {
   return eps * (other.shift.norm() + 1) / edge / strain * macro_steps;
 }
 
-/// him's inertia follows from eigenvalues that are found to 1e-3, from a random vector that goes by the vertices' numbers.
-constexpr double allowed_of_him = 2e-3;
+/// him's inertia is fitted to a hundredth of the largest eigenvalue, which is looked for from a random vector that goes by the
+/// vertices' numbers and the axes of space: details move with another inertia by about as much.
+constexpr double allowed_of_him = 1e-2;
 
 MatrixRow compared(const std::string& material, const std::string& method, const Other& other) {
   MatrixBody body = clamped_beam();
-  body.load_ratio = 1e-2;
+  body.load_ratio = 1e-3;
   body.load();
   body.problem.body.material.model = material;
   const std::size_t second = method.find('/', method.find('/') + 1);
