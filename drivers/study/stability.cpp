@@ -22,7 +22,9 @@ using Kind = LargestStep::Kind;
 constexpr long explicit_run = 400, cycle_run = 600, implicit_run = 40;  // macro steps
 constexpr double implicit_most = 1000;                                  // times the critical step
 constexpr double cycle_least = 0.5, cycle_most = 32;                    // times the finest critical step
-constexpr double him_most = 64;                                         // likewise
+constexpr double least_growth = 1e-4;     // per macro step, that a cycle may have and still be called stable
+constexpr double longest_run = 16000;     // macro steps, to show a slow growth
+constexpr double him_most = 64;           // likewise
 constexpr double scene_at = 0.99;         // of the limit of small motions, where the scene's own runs begin
 constexpr double scene_least = 1.0 / 64;  // of where they begin
 
@@ -155,21 +157,43 @@ class Search {
   }
 
   void find_cycle(StabilityRow& row, const Sought& s) {
-    const BuiltHierarchy<B> at_critical = built_at(s, s.critical);
-    const double visible = visible_growth(3.0 * at_critical.reports.front().vertices, cycle_run);
+    const double modes = 3.0 * built_at(s, s.critical).reports.front().vertices;
     const double least = cycle_least * s.critical, most = cycle_most * s.critical;
-    const LargestStep predicted = largest_stable({s.critical, least, most, 1.5, 0.02}, [&](double t) {
-      go_on();
-      const auto growth = growth_.of(s.method, t);
-      if (!growth) throw InputError("its set-up is refused");
-      return growth->radius - growth->uncertainty <= 1 + visible;
-    });
+    if (grows_at(row, s, least, modes)) {
+      row.status = "growing", row.predicted = 0;
+      return add_growth(row, s, s.critical);
+    }
+    const double told = 1 + visible_growth(modes, cycle_run);
+    const LargestStep predicted = largest_stable({s.critical, least, most, 1.5, 0.02},
+                                                 [&](double t) { return growth_at(s, t, told).radius <= told; });
     if (predicted.kind != Kind::unlimited) row.predicted = predicted.kind == Kind::limited ? predicted.step : 0;
     put(row, largest_stable({predicted.step, least, most, 1.05, 0.01}, [&](double t) {
           BuiltHierarchy<B> built = built_at(s, t);
           return bounded(built, t, cycle_run);
         }));
-    add_growth(row, s, row.status == "limited" ? *row.measured : predicted.step);
+    add_growth(row, s, row.status == "limited" ? std::min(*row.measured, predicted.step) : predicted.step);
+  }
+
+  CycleGrowth growth_at(const Sought& s, double t, double told_from) {
+    go_on();
+    const auto growth = growth_.of(s.method, t, told_from);
+    if (!growth) throw InputError("its set-up is refused at " + std::to_string(t) + " s");
+    return *growth;
+  }
+
+  // By its map; and by a run, where one of reasonable length can show it
+  bool grows_at(StabilityRow& row, const Sought& s, double t, double modes) {
+    const CycleGrowth growth = growth_at(s, t, 1 + least_growth);
+    const Body& body = s.problem.body;
+    const bool drifts = body.fixed.empty() && body.prescribed.empty() && !growth.converged;  // away, which is no growth
+    const double unsure = 2 * growth.uncertainty + (drifts ? 3.0 / static_cast<double>(growth.macro_steps) : 0);
+    if (growth.radius - unsure <= 1 + least_growth) return false;
+    const double steps = std::ceil(1.5 * visible_growth(modes, 1) / std::log(growth.radius));
+    if (steps > longest_run) return growth.converged;
+    BuiltHierarchy<B> built = built_at(s, t);
+    if (bounded(built, t, std::max(cycle_run, static_cast<long>(steps)))) return false;
+    row.measured = 0;
+    return true;
   }
 
   void add_growth(StabilityRow& row, const Sought& s, double t) {
@@ -178,7 +202,7 @@ class Search {
     GrowthOfCycles& of = s.method.level > 0 ? own : growth_;
     StudyCase at = s.method;
     at.integration.allow_unstable = true;
-    if (const auto growth = of.of(at, t)) {
+    if (const auto growth = of.of(at, t, 1 + least_growth)) {
       row.growth_step = t, row.spectral_radius = growth->radius, row.growth_per_second = growth->per_second;
     }
   }
