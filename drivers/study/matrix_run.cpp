@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
+#include <plica/drivers/study/study_case.hpp>
 #include <plica/kernels/materials/list.hpp>
 
 namespace plica {
@@ -37,8 +38,15 @@ bool is_sound(const Diagnosis& d, const Problem& p) {
          std::isfinite(d.substep_over_critical) && !d.remedy.empty() && !d.text().empty();
 }
 
+double critical_step_of(Problem p) {
+  p.integration.macro_step = study_level(p, 0).critical_step, p.integration.allow_unstable = true;
+  return Sim(p).levels().front().critical_step;
+}
+
 void run(const MatrixCase& one, MatrixRow& row) {
-  Sim simulation(one.problem);
+  Problem problem = one.problem;
+  if (one.step > 0) problem.integration.macro_step = one.step * critical_step_of(problem);
+  Sim simulation(problem);
   if (!one.displacement.empty())
     simulation.set_state(one.displacement, std::vector<Point>(one.displacement.size(), Point::Zero()));
   row.outcome = "completed";

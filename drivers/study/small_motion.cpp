@@ -29,6 +29,7 @@ void start(BuiltHierarchy<B>& built, double t) {
     for (std::size_t k = 0; k < 3; ++k) v(a, k) = inverse(a) > 0 ? static_cast<typename B::Real>(within(random)) : 0;
   Kokkos::deep_copy(level.state.v, v);
   Kokkos::deep_copy(level.state.u, typename B::Real(0));
+  for (auto& part : hierarchy.levels) part.integrator->forget();
   built.cycle->begin(hierarchy);
 }
 

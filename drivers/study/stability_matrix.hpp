@@ -20,7 +20,9 @@ struct Expected {
 struct MatrixCase {
   std::string name;    ///< "E = 1e+10 Pa, linear"
   std::string method;  ///< as of a study
-  Problem problem;     ///< complete, with its macro step
+  Problem problem;     ///< complete but for its macro step
+  double step =
+      0;  ///< that, times the critical step of its finest level (of an implicit one symplectic Euler's); 0: auto
   long macro_steps = 0;
   std::vector<Point> displacement;  ///< at the start [m]; empty: as the problem says
   Expected expected;
@@ -45,7 +47,7 @@ struct MatrixResult {
 /// How much of it.
 enum class MatrixSize {
   whole,  ///< every value, material and method
-  small,  ///< of each line its ends, with an explicit level alone and him
+  small,  ///< of each line its last value, with an explicit level alone and him
 };
 
 /// Whether an element that turns inside out ends the run.
@@ -59,7 +61,7 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size = MatrixSize::whole);
 MatrixRow run_case(const MatrixCase& one);
 
 /// Whether turned, moved, renumbered bodies and other units of length give the same answers: a row for each of them and each method.
-std::vector<std::function<MatrixRow()>> invariance_cases();
+std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size = MatrixSize::whole);
 
 /// Called after every row with how many there will be; false stops it.
 using MatrixWatch = std::function<bool(const MatrixResult&, std::size_t)>;

@@ -12,6 +12,7 @@ namespace {
 constexpr CycleGrowthOptions bounded_growth{.macro_steps = 500, .tolerance = 1e-6, .dimension = 40};
 
 constexpr Eigen::Index most_dense = 600;
+constexpr double close_to_one = 1.001;
 
 template <class B>
 CycleGrowth of_all_modes(const CycleMap<B>& map) {
@@ -55,7 +56,7 @@ std::optional<CycleGrowth> GrowthOfCycles::of(const StudyCase& one, double macro
     using B = Backend<double, Kokkos::DefaultExecutionSpace>;
     const CycleMap<B> cycle(problem);
     CycleGrowthOptions options = bounded_growth;
-    const bool few = told_from && cycle.size() <= most_dense;
+    const bool few = told_from && *told_from < close_to_one && cycle.size() <= most_dense;
     growth = few ? of_all_modes(cycle) : cycle_growth(cycle, options);
     for (int i = 0; i < 2 && !clear(*growth); ++i) options.macro_steps *= 4, growth = cycle_growth(cycle, options);
   } catch (const InputError&) {
