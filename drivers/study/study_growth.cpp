@@ -11,7 +11,7 @@ namespace {
 
 constexpr CycleGrowthOptions bounded_growth{.macro_steps = 500, .tolerance = 1e-6, .dimension = 40};
 
-constexpr Eigen::Index most_dense = 600;
+constexpr Eigen::Index most_dense = 800;
 constexpr double close_to_one = 1.001;
 
 template <class B>
