@@ -60,7 +60,7 @@ void tangent(benchmark::State& state, const Case& c, double flops) {
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
   measure<Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 3 + 1), tets * flops}, [&] {
-    beam.elasticity->tangent(beam.exec, model.patches, beam.level.state.u, beam.direction, beam.level.partial);
+    beam.elasticity->tangent(beam.exec, model.patches, beam.level.state.u, beam.direction, 0, beam.level.partial);
     update_vertices<B>(beam.exec, "bench::product", model.vertices,
                        SystemProduct<B>{model, beam.direction, beam.level.partial, beam.level.f, Real(1), Real(1)});
   });

@@ -20,12 +20,19 @@ struct MaterialOptions {
   double density = 1000;                      ///< [kg/m^3] > 0
 };
 
+/// What of DampingOptions a region has of its own.
+struct RegionDamping {
+  std::optional<double> mass;       ///< [1/s] >= 0
+  std::optional<double> stiffness;  ///< [s] >= 0
+};
+
 /// What a region has of its own; the rest is the body's.
 struct RegionOptions {
   std::optional<Selection> where;       ///< its elements; none: those of the mesh's region of that name
   std::optional<double> young_modulus;  ///< [Pa] > 0
   std::optional<double> poisson_ratio;  ///< in [0, 0.5)
   std::optional<double> density;        ///< [kg/m^3] > 0
+  RegionDamping damping;                ///< likewise
 };
 
 /// Vertices whose motion is given.
@@ -34,9 +41,11 @@ struct PrescribedMotion {
   Motion motion;    ///< from where they are at rest
 };
 
-/// Forces against motion.
+/// Rayleigh damping: forces -(mass M + stiffness K) v, K the tangent stiffness at the state. A mode of frequency w [rad/s]
+/// decays like exp(-(mass + stiffness w^2) t / 2).
 struct DampingOptions {
-  double mass = 0;  ///< mass-proportional damping [1/s] >= 0
+  double mass = 0;       ///< [1/s] >= 0
+  double stiffness = 0;  ///< [s] >= 0
 };
 
 /// Initial velocity of a part of the body, chosen on level 0.
@@ -74,6 +83,10 @@ struct Body {
   InitialOptions initial;                        ///< state at t = 0
   std::optional<TriangleSurface> surface;        ///< embedded in every level; contact acts on its vertices
 };
+
+/// Whether any of it is damped in proportion to its mass, or its stiffness.
+bool damps_by_mass(const Body& body);
+bool damps_by_stiffness(const Body& body);
 
 /// How the linear systems of an implicit level are solved.
 struct ImplicitOptions {

@@ -104,12 +104,19 @@ void describe(V& v, Selection& o) {
 }
 
 template <class V>
+void describe(V& v, RegionDamping& o) {
+  v("mass", o.mass, Quantity{rate, not_negative}, "instead of the body's");
+  v("stiffness", o.stiffness, Quantity{duration, not_negative}, "instead of the body's");
+}
+
+template <class V>
 void describe(V& v, RegionOptions& o) {
   v.group("where", o.where, "its elements, by their centroids; left out: the mesh file's volume of that name");
   v("young_modulus", o.young_modulus, Quantity{pressure, positive}, "instead of the body's");
   v("poisson_ratio", o.poisson_ratio, Quantity{number, {.min = 0, .max = 0.5, .max_excluded = true}},
     "instead of the body's");
   v("density", o.density, Quantity{density, positive}, "instead of the body's");
+  v.group("damping", o.damping, "instead of the body's");
 }
 
 template <class V>
@@ -172,6 +179,8 @@ void describe(V& v, LoadOptions& o) {
 template <class V>
 void describe(V& v, DampingOptions& o) {
   v("mass", o.mass, Quantity{rate, not_negative}, "proportional to the mass: slows all motion, falling too");
+  v("stiffness", o.stiffness, Quantity{duration, not_negative},
+    "proportional to the stiffness: slows what deforms, fast");
 }
 
 template <class V>

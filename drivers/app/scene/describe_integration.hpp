@@ -43,8 +43,7 @@ void describe(V& v, IntegrationOptions& o) {
     "how much of the macro step each level integrates");
   v("shift_to_coarsest", o.shift_to_coarsest, Quantity{number, {.min = 0, .max = 1, .max_excluded = true}},
     "this part of every finer level's share goes to the coarsest");
-  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators, {"central_difference", "rk2"}}},
-    "each level's own");
+  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators}}, "each level's own");
   v("substeps", o.substeps, AutoCountPerLevel{}, "auto: as many as the level's limit asks for");
   v("safety", o.safety, Quantity{number, {.min = 0, .max = 1, .min_excluded = true}}, "of that limit that auto keeps");
   v("allow_unstable", o.allow_unstable, Flag{}, "run explicit sub-steps above their limit all the same");

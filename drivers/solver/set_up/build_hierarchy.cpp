@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -29,6 +30,13 @@ Outside outside_rule(const IntegrationOptions& o) {
   if (o.cycle == Him::name) return Outside::extrapolate;
   const std::string& name = o.outside;
   return name == "clamp" ? Outside::clamp : name == "extrapolate" ? Outside::extrapolate : Outside::keep;
+}
+
+DampingLimit damping_limit(const LevelConstants& c) {
+  const auto mass = std::minmax_element(c.mass_damping.begin(), c.mass_damping.end());
+  if (c.stiffness_damping.empty()) return {*mass.first, *mass.second};
+  const auto stiffness = std::minmax_element(c.stiffness_damping.begin(), c.stiffness_damping.end());
+  return {*mass.first, *mass.second, *stiffness.first, *stiffness.second};
 }
 
 /// The set-up in progress: host data that several of its steps need.
@@ -199,7 +207,6 @@ class HierarchyBuilder {
   /// Limits, shares and sub-steps, then the integrators that go with them.
   void plan() {
     Hierarchy<B>& h = *built_.hierarchy;
-    const double damping = problem_.body.damping.mass;
     const PointContactLimit touching =
         contact_ ? PointContactLimit{contact_->stiffness(), contact_->damping()} : PointContactLimit{};
     std::vector<LevelLimits> limits;
@@ -209,12 +216,12 @@ class HierarchyBuilder {
       Integrators::visit(report.integrator, [&](auto integrator) {
         using Kind = decltype(integrator);
         report.explicit_integrator = Kind::is_explicit;
-        report.critical_step =
-            critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
-                             Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching, damping);
+        report.critical_step = critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
+                                                Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
+                                                damping_limit(constants_[i]));
         const ImplicitOptions& implicit = problem_.integration.implicit;
         h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
-            level, IntegratorParts<B>{damping, implicit, [&] {
+            level, IntegratorParts<B>{implicit, [&] {
                                         return std::make_unique<ConjugateGradients<B>>(level.model.vertices, implicit);
                                       }});
       });

@@ -38,8 +38,9 @@ double automatic_macro_step(const IntegrationOptions& o, const std::vector<Level
         " give it in seconds");
   if (!(largest > 0))
     throw InputError(
-        "integration.macro_step is auto, but integrator 'euler' is stable at no step here (undamped it grows at every"
-        " step); use symplectic_euler, or damp the body (body.damping.mass)");
+        "integration.macro_step is auto, but an integrator of its levels is stable at no step here (undamped, euler "
+        "and rk2"
+        " grow at every step); use symplectic_euler, or damp the body (body.damping.mass)");
   return auto_safety * largest;
 }
 

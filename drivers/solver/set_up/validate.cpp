@@ -22,6 +22,11 @@ void check_constants(const std::string& at, double young, double poisson, double
   positive(at + "density", density, " kg/m^3");
 }
 
+void check_damping(const std::string& at, double mass, double stiffness) {
+  not_negative(at + "mass", mass, " 1/s");
+  not_negative(at + "stiffness", stiffness, " s");
+}
+
 void check_body(const Body& body) {
   if (body.levels.empty()) throw InputError("body.levels is empty; expected at least one mesh, finest first");
   for (std::size_t i = 0; i < body.levels.size(); ++i) validate_mesh(body.levels[i], static_cast<int>(i));
@@ -36,8 +41,10 @@ void check_body(const Body& body) {
       throw InputError(unknown_name("region", name, all));
     check_constants("body.regions." + name + ".", region.young_modulus.value_or(m.young_modulus),
                     region.poisson_ratio.value_or(m.poisson_ratio), region.density.value_or(m.density));
+    check_damping("body.regions." + name + ".damping.", region.damping.mass.value_or(0),
+                  region.damping.stiffness.value_or(0));
   }
-  not_negative("body.damping.mass", body.damping.mass, " 1/s");
+  check_damping("body.damping.", body.damping.mass, body.damping.stiffness);
   if (body.initial.position) finite("body.initial.position", *body.initial.position);
   validate_velocities(body.initial);
   const auto numbered = [](const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i); };
@@ -149,6 +156,10 @@ void validate(const Problem& problem) {
   check_body(problem.body);
   finite("gravity", problem.gravity);
   check_integration(problem.integration, problem.body.levels.size());
+  if (damps_by_stiffness(problem.body) && problem.integration.cycle == "him")
+    throw InputError(
+        "body.damping.stiffness is above 0, but cycle him answers for the stability of forces without it; use "
+        "body.damping.mass or another cycle");
   check_contact(problem);
 }
 

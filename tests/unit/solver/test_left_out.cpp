@@ -79,7 +79,7 @@ TYPED_TEST(LeftOut, NoStepAllocates) {
     for (int n = 0; n < 3; ++n) simulation.step();
     EXPECT_EQ(watch.allocations, Counts{}) << cycle;
   }
-  for (const char* integrator : {"euler", "rk4", "implicit_euler"}) {
+  for (const std::string& integrator : names(integrators())) {
     Problem p = small_cube();
     p.integration.integrator = {integrator};
     p.integration.macro_step = 1e-4;
