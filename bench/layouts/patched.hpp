@@ -24,7 +24,7 @@ class Patched {
     model_.vertices = static_cast<int>(mesh.vertices.size());
     model_.patches = build_patches<B>(mesh, {lame});
     model_.mass = Scalars<B>("bench::mass", mesh.vertices.size());
-    if (!Material::survives_inversion) flags_ = make_element_flags<B>(model_.patches.count);
+    if (!Material::allows_inversion) flags_ = make_element_flags<B>(model_.patches.count);
     partial_ = Vectors<B>("bench::partial", model_.patches.vertex.extent(0));
   }
 

@@ -17,7 +17,6 @@ class ElasticityOf final : public Elasticity<B> {
   using Exec = typename B::Exec;
 
  public:
-  bool survives_inversion() const override { return Material::survives_inversion; }
   void force(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const ElementFlags<B>& flags,
              int evaluation, const Vectors<B>& partial) const override {
     elastic_force<B, Material>(exec, patches, u, flags, evaluation, partial);

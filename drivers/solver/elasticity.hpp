@@ -13,7 +13,6 @@ class Elasticity {
  public:
   using Exec = typename B::Exec;
   virtual ~Elasticity() = default;
-  virtual bool survives_inversion() const = 0;
   virtual void force(const Exec&, const Patches<B>&, const Vectors<B>& u, const ElementFlags<B>&, int evaluation,
                      const Vectors<B>& partial) const = 0;
   virtual void tangent(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& p,

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
+#include <string>
 
 namespace plica {
 
@@ -32,6 +33,8 @@ class Integrator {
   virtual void forget() {}
   /// Whether the last advance() ended at a step that it could not take.
   virtual bool failed() const { return false; }
+  /// Why, a sentence for whoever runs it; empty where it did not fail.
+  virtual std::string failure() const { return failed() ? "a step could not be taken" : ""; }
   /// Names what it carries from one macro step to the next, for saving and restoring.
   virtual void persist(StateArchive<B>&) {}
 };
