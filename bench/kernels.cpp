@@ -47,7 +47,7 @@ void force(benchmark::State& state, const Case& c, double flops) {
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
   measure<typename B::Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 1), tets * flops}, [&] {
-    beam.elasticity->force(beam.exec, model.patches, beam.level.state.u, beam.level.flags, 1, beam.level.partial);
+    beam.elasticity->force(beam.exec, model.patches, beam.level.state, beam.level.flags, 1, beam.level.partial);
     gather_forces<B>(beam.exec, model, beam.level.partial, {}, beam.level.f);
   });
 }

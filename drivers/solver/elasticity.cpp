@@ -17,14 +17,9 @@ class ElasticityOf final : public Elasticity<B> {
   using Exec = typename B::Exec;
 
  public:
-  bool survives_inversion() const override { return Material::survives_inversion; }
-  void force(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const ElementFlags<B>& flags,
+  void force(const Exec& exec, const Patches<B>& patches, const State<B>& state, const ElementFlags<B>& flags,
              int evaluation, const Vectors<B>& partial) const override {
-    elastic_force<B, Material>(exec, patches, u, flags, evaluation, partial);
-  }
-  void damped_force(const Exec& exec, const Patches<B>& patches, const State<B>& state, const ElementFlags<B>& flags,
-                    int evaluation, const Vectors<B>& partial) const override {
-    damped_elastic_force<B, Material>(exec, patches, state, flags, evaluation, partial);
+    elastic_force<B, Material>(exec, patches, state, flags, evaluation, partial);
   }
   void tangent(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p, double over,
                const Vectors<B>& partial) const override {

@@ -13,12 +13,9 @@ class Elasticity {
  public:
   using Exec = typename B::Exec;
   virtual ~Elasticity() = default;
-  virtual bool survives_inversion() const = 0;
-  virtual void force(const Exec&, const Patches<B>&, const Vectors<B>& u, const ElementFlags<B>&, int evaluation,
+  /// Of a displacement, and of a velocity where stiffness damps.
+  virtual void force(const Exec&, const Patches<B>&, const State<B>&, const ElementFlags<B>&, int evaluation,
                      const Vectors<B>& partial) const = 0;
-  /// The same with damping by stiffness.
-  virtual void damped_force(const Exec&, const Patches<B>&, const State<B>&, const ElementFlags<B>&, int evaluation,
-                            const Vectors<B>& partial) const = 0;
   /// `over`: with the stiffness that damps times this [1/s].
   virtual void tangent(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
                        const Vectors<B>& partial) const = 0;

@@ -23,11 +23,7 @@ template <class B>
 void LevelForces<B>::elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f) {
   ++evaluations_;
   book("force", [&] {
-    const Patches<B>& patches = level.model.patches;
-    if (patches.damping.extent(0) > 0)
-      elasticity_->damped_force(clock_->exec(), patches, state, level.flags, ++evaluation_, level.partial);
-    else
-      elasticity_->force(clock_->exec(), patches, state.u, level.flags, ++evaluation_, level.partial);
+    elasticity_->force(clock_->exec(), level.model.patches, state, level.flags, ++evaluation_, level.partial);
     gather_forces<B>(clock_->exec(), level.model, level.partial, gravity_, f);
   });
 }

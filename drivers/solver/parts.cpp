@@ -101,8 +101,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
   add("implicit solver", implicit, "an implicit level", "every level is explicit",
       sum([](const L& l) { return l.integrator->bytes(); }));
-  add("inversion flags", flags > 0, body.material.model + " does not survive inversion",
-      body.material.model + " survives inversion", flags);
+  add("inversion flags", flags > 0, body.material.model + " may not be inverted",
+      body.material.model + " may be inverted", flags);
   return parts;
 }
 

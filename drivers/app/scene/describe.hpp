@@ -75,6 +75,7 @@ void describe(V& v, MaterialOptions& o) {
   v("poisson_ratio", o.poisson_ratio, Quantity{number, {.min = 0, .max = 0.5, .max_excluded = true}},
     "lateral contraction nu; close to 0.5 linear tetrahedra are too stiff");
   v("density", o.density, Quantity{density, positive}, "mass per volume at rest");
+  v("allow_inversion", o.allow_inversion, Flag{}, "false: inverted elements end the run; left out: by the material");
 }
 
 template <class V>
@@ -203,6 +204,8 @@ void describe(V& v, InitialOptions& o) {
   v("angular_velocity", o.angular_velocity, Vector{angular_velocity}, "about that centre");
   v.group("twist", o.twist, "rotation that grows along an axis, on top of these");
   v.list("parts", o.parts, "velocities of parts of the body, on top of these");
+  v("stretch", o.stretch, Vector{number}, "along x, y, z about that centre: 0 flattens, below 0 turns inside out");
+  v("random", o.random, Count{0}, "seed: every free vertex starts anywhere in level 0's bounding box at rest");
 }
 
 /// The key `body` fills the library's Body and the recipes of its meshes.
@@ -289,7 +292,7 @@ void describe(V& v, ObstacleRecipe& o) {
   describe_motion(v, o.options.motion);
 }
 
-/// The key `contact` fills the library's options and the recipes of its obstacles.
+/// `contact` fills the library's options and the recipes of its obstacles.
 struct ContactKeys {
   Scene& scene;
 };
@@ -338,8 +341,7 @@ void describe(V& v, StudyOptions& o) {
   v("precision", o.precision, ListOf<Name>{{"precision", precisions}}, "in which each method runs");
   v("threads", o.threads, ListOf<Count>{{1}}, "with which each method runs; left out: all there are");
   v("samples", o.samples, Count{1}, "times, evenly over the duration, at which states are compared");
-  v("timed_runs", o.timed_runs, Count{0},
-    "of each row, short ones at least five; 0: the one that is compared is timed");
+  v("timed_runs", o.timed_runs, Count{0}, "of each row, short ones at least five; 0: the compared one is timed");
   v("growth", o.growth, Flag{}, "find the growth of small motions by every cycle, linearised about rest");
 }
 

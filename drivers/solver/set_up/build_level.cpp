@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/initial_velocity.hpp>
@@ -10,7 +11,6 @@
 #include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/kernels/materials/list.hpp>
 #include <plica/kernels/motion/path.hpp>
 
 namespace plica {
@@ -124,9 +124,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.state.v = to_device<Vectors<B>>("state.v", rows<Real>(velocity));
   level.f = Vectors<B>("plica::work.f", n);
   level.partial = Vectors<B>("plica::work.partial", level.model.patches.vertex.extent(0));
-  Materials::visit(body.material.model, [&](auto material) {
-    if (!decltype(material)::survives_inversion) level.flags = make_element_flags<B>(level.model.patches.count);
-  });
+  if (!allows_inversion(body.material)) level.flags = make_element_flags<B>(level.model.patches.count);
   return level;
 }
 

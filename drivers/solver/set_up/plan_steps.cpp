@@ -70,10 +70,27 @@ void refuse_unstable(const LevelLimits& level, std::size_t i, double span, int s
       " substeps: %d or auto, an implicit integrator, or set integration.allow_unstable: true",
       i, level.integrator.c_str(), step, step / level.critical_step, level.critical_step, step / level.critical_step,
       static_cast<int>(std::ceil(span / level.critical_step)));
-  throw InputError(text);
+  std::optional<StiffElement> named;
+  if (level.stiffest.step < named_below * level.typical_element) named = level.stiffest;
+  throw SubstepRefused(text, static_cast<int>(i), named);
+}
+
+std::string with_element(const std::string& words, const std::optional<StiffElement>& e) {
+  if (!e) return words;
+  char text[200];
+  std::snprintf(text, sizeof text, "; its element %d", e->element);
+  std::string all = words + text;
+  if (!e->region.empty()) all += " (region " + e->region + ")";
+  std::snprintf(text, sizeof text,
+                ", longest edge over smallest height %.3g, allows no more than about %.3g s by itself", e->height_ratio,
+                e->step);
+  return all + text;
 }
 
 }  // namespace
+
+SubstepRefused::SubstepRefused(const std::string& without, int of, const std::optional<StiffElement>& one)
+    : InputError(with_element(without, one)), words(without), level(of), element(one) {}
 
 StepPlan plan_steps(const IntegrationOptions& o, const std::vector<LevelLimits>& levels) {
   LevelFacts facts;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/expect.hpp>
+#include <plica/drivers/solver/set_up/initial_shape.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/set_up/validate_inputs.hpp>
 #include <plica/drivers/solver/set_up/validate_mesh.hpp>
@@ -85,6 +86,14 @@ void check_him(const IntegrationOptions& o) {
   if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
 }
 
+void check_retry(const IntegrationOptions& o) {
+  expect(o.retry.halvings >= 0 && o.retry.halvings <= 10, "integration.retry.halvings", o.retry.halvings, "0 to 10");
+  if (o.retry.halvings > 0 && (o.cycle == "him" || o.cycle == "auto"))
+    refuse(o, "retry.halvings", std::to_string(o.retry.halvings),
+           o.cycle == "him" ? "fits its inertia to one macro step, and again by itself where stability is lost"
+                            : "may choose him, which fits its inertia to one macro step");
+}
+
 void check_auto(const IntegrationOptions& o) {
   if (o.cycle != "auto") return;
   char step[40];
@@ -119,6 +128,7 @@ void check_integration(const IntegrationOptions& o, std::size_t levels) {
                      "must not be negative or missing; expected clamp");
   check_him(o);
   check_auto(o);
+  check_retry(o);
   const ImplicitOptions& i = o.implicit;
   expect(i.relative_residual > 0 && i.relative_residual < 1, "integration.implicit.relative_residual",
          i.relative_residual, "above 0 and below 1");
@@ -171,6 +181,14 @@ std::vector<std::string> doubts(const Problem& problem) {
       sentences.push_back("body.levels: level " + std::to_string(i) + " is not coarser than level " +
                           std::to_string(i - 1) + ": " + std::to_string(levels[i].tets.size()) + " tetrahedra after " +
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
+  if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
+    const TetMesh& mesh = levels.front();
+    const std::string inverted =
+        inverted_at_start(mesh, initial_displacement(body.initial, mesh, bounding_box(mesh.vertices)));
+    if (!inverted.empty())
+      sentences.push_back("body.initial: " + inverted + "; " + body.material.model +
+                          " has nothing that turns them back, they may stay so");
+  }
   for (std::size_t i = 0; i < problem.body.prescribed.size(); ++i)
     if (const auto* path = std::get_if<PathMotion>(&problem.body.prescribed[i].motion);
         path && path->knots.front().displacement.norm() > 0)

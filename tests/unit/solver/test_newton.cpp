@@ -86,7 +86,7 @@ TEST(Newton, HalvesStepsItCannotSolve) {
   Problem p = hanging("st_venant_kirchhoff", 0.02);
   p.integration.implicit.newton_tolerance = 1e-6;
   Simulation<Host> solved(p);
-  p.integration.implicit.newton_iterations = 3, p.integration.implicit.newton_tolerance = 1e-4;
+  p.integration.implicit.newton_iterations = 2, p.integration.implicit.newton_tolerance = 1e-6;
   p.integration.implicit.unfinished = "halve", p.integration.implicit.halvings = 8;
   Simulation<Host> halved(p);
   advance(solved, 10), advance(halved, 10);
