@@ -9,9 +9,12 @@ namespace plica {
 /// against inversion.
 struct StVenantKirchhoff {
   static constexpr const char* name = "st_venant_kirchhoff";
-  static constexpr const char* summary = "linear in Green's strain; large rotations, moderate strains";
+  static constexpr const char* summary =
+      "linear in Green's strain; large rotations, moderate strains; inverted elements may stay so";
   static constexpr bool rotation_invariant = true;
   static constexpr bool survives_inversion = true;
+  static constexpr bool recovers = false;
+  static constexpr bool allows_inversion = true;
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> strain(const Mat3<T>& F) {
