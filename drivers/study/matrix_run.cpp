@@ -31,7 +31,8 @@ bool is_sound(const Diagnosis& d, const Problem& p) {
   bool is_explicit = true;
   for (const std::string& name : p.integration.integrator)
     Integrators::visit(name, [&](auto member) { is_explicit = is_explicit && decltype(member)::is_explicit; });
-  const bool possible = d.kind == "energy" || d.kind == "non_finite" ||
+  const bool possible = d.kind == "energy" || d.kind == "non_finite" || d.kind == "contact" ||
+                        (d.kind == "speed" && is_explicit) ||
                         (d.kind == "inverted" && forbids_inversion(p.body.material.model)) ||
                         (d.kind == "stability" && p.integration.cycle == "him") || (d.kind == "solver" && !is_explicit);
   return possible && d.level >= 0 && (d.element >= 0 || d.vertex >= 0) && std::isfinite(d.J) &&
@@ -66,9 +67,9 @@ void run(const MatrixCase& one, MatrixRow& row) {
 }  // namespace
 
 bool forbids_inversion(const std::string& material) {
-  bool survives = true;
-  Materials::visit(material, [&](auto member) { survives = decltype(member)::survives_inversion; });
-  return !survives;
+  bool allowed = true;
+  Materials::visit(material, [&](auto member) { allowed = decltype(member)::allows_inversion; });
+  return !allowed;
 }
 
 bool MatrixResult::ok() const {

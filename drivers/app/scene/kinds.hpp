@@ -107,7 +107,6 @@ struct Text {
 struct Name {
   const char* family;                     ///< "material"
   std::vector<Choice> (*choices)();       ///< what there is
-  std::vector<std::string> planned = {};  ///< what there will be
   void read(const Value& value, std::string& target) const;
   std::string expects() const;
   std::string shown(const std::string& value) const { return value; }

@@ -123,14 +123,6 @@ TEST_F(Program, DivergedIs3) {
   EXPECT_EQ(content_of(folder / "out/history.csv").find("nan"), std::string::npos);
 }
 
-TEST_F(Program, NotInThisBuildIs4) {
-  for (const char* command : {"verify"}) {
-    const Child child = plica({command, scene, "-o", out, "--budget", "60s"});
-    EXPECT_EQ(child.status, 4);
-    EXPECT_NE(child.errors.find("not in this build"), std::string::npos);
-  }
-}
-
 TEST_F(Program, CtrlCEndsWithWholeFiles) {
   for (const int signal : {SIGINT, SIGTERM}) {
     std::filesystem::remove_all(out);
