@@ -4,7 +4,7 @@
 
 namespace plica {
 
-/// The first inverted element of each patch since the last clear, for materials that do not survive one. A patch is worked
+/// The first inverted element of each patch since the last clear, where none is allowed. A patch is worked
 /// on by one team at a time and its own record only, so that what is kept does not depend on the number of threads.
 template <class B>
 struct ElementFlags {

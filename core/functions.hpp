@@ -39,7 +39,11 @@ KOKKOS_INLINE_FUNCTION float log(float x) { return Kokkos::log(x); }
 template <class T, int N>
 KOKKOS_INLINE_FUNCTION Pack<T, N> max(const Pack<T, N>& a, const Pack<T, N>& b) {
   Pack<T, N> r;
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  r.v = a.v < b.v ? b.v : a.v;
+#else
   for (int i = 0; i < N; ++i) r.set(i, a[i] < b[i] ? b[i] : a[i]);
+#endif
   return r;
 }
 KOKKOS_INLINE_FUNCTION double max(double a, double b) { return a < b ? b : a; }

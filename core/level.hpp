@@ -40,7 +40,7 @@ struct Level {
 
   Vectors<B> f;           ///< [vertices][3] force at the state about to be integrated [N]
   Vectors<B> partial;     ///< [patch vertices][3] workspace of the element kernels
-  ElementFlags<B> flags;  ///< only for materials that do not survive inversion
+  ElementFlags<B> flags;  ///< only where no element may be inverted
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
   Transfer<B> to_finer;    ///< P: level i -> i-1, likewise

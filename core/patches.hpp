@@ -34,6 +34,7 @@ struct Patches {
   Array<std::uint16_t* [4][lanes]> corner;
   Array<Real* [10][lanes]> shape;
   Array<Real* [2]> lame;       ///< [count] lambda, mu [Pa]: a patch never spans two regions
+  Scalars<B> damping;          ///< [count] part of its stiffness that damps [s]; empty: none anywhere
   Indices<B> first_slot;       ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
   Indices<B> first_copy;       ///< [vertices + 1]

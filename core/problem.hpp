@@ -18,6 +18,13 @@ struct MaterialOptions {
   double young_modulus = 20e3;                ///< [Pa] > 0
   double poisson_ratio = 0.4;                 ///< in [0, 0.5)
   double density = 1000;                      ///< [kg/m^3] > 0
+  std::optional<bool> allow_inversion = {};   ///< whether elements may turn inside out; none: as the material has it
+};
+
+/// What of DampingOptions a region has of its own.
+struct RegionDamping {
+  std::optional<double> mass;       ///< [1/s] >= 0
+  std::optional<double> stiffness;  ///< [s] >= 0
 };
 
 /// What a region has of its own; the rest is the body's.
@@ -26,6 +33,7 @@ struct RegionOptions {
   std::optional<double> young_modulus;  ///< [Pa] > 0
   std::optional<double> poisson_ratio;  ///< in [0, 0.5)
   std::optional<double> density;        ///< [kg/m^3] > 0
+  RegionDamping damping;                ///< likewise
 };
 
 /// Vertices whose motion is given.
@@ -34,9 +42,11 @@ struct PrescribedMotion {
   Motion motion;    ///< from where they are at rest
 };
 
-/// Forces against motion.
+/// Rayleigh damping: forces -(mass M + stiffness K) v, K the tangent stiffness at the state. A mode of frequency w [rad/s]
+/// decays like exp(-(mass + stiffness w^2) t / 2).
 struct DampingOptions {
-  double mass = 0;  ///< mass-proportional damping [1/s] >= 0
+  double mass = 0;       ///< [1/s] >= 0
+  double stiffness = 0;  ///< [s] >= 0
 };
 
 /// Initial velocity of a part of the body, chosen on level 0.
@@ -53,13 +63,16 @@ struct TwistOptions {
   double angular_velocity = 0;  ///< at the second; seen from there, counter-clockwise where positive [rad/s]
 };
 
-/// The state at t = 0: at rest in shape, placed and moving. Velocities add up.
+/// The state at t = 0: placed and moving, at rest in shape where nothing deforms it. Velocities add up. Vertices that are fixed
+/// or whose motion is given are where they would be anyway.
 struct InitialOptions {
   std::optional<Point> position;   ///< where the centre of level 0's bounding box starts; none: where the mesh is [m]
   Point velocity = Point::Zero();  ///< of every free vertex [m/s]
   Point angular_velocity = Point::Zero();  ///< about that centre [rad/s]
   std::optional<TwistOptions> twist;       ///< a rotation that grows along an axis
   std::vector<PartVelocity> parts;         ///< velocities of parts of the body
+  Point stretch = Point::Ones();  ///< along x, y, z about that centre: 0 flattens, a negative one turns inside out
+  std::optional<int> random;      ///< seed: each vertex anywhere in level 0's bounding box instead
 };
 
 /// A deformable body.
@@ -74,6 +87,10 @@ struct Body {
   InitialOptions initial;                        ///< state at t = 0
   std::optional<TriangleSurface> surface;        ///< embedded in every level; contact acts on its vertices
 };
+
+/// Whether any of it is damped in proportion to its mass, or its stiffness.
+bool damps_by_mass(const Body& body);
+bool damps_by_stiffness(const Body& body);
 
 /// How the linear systems of an implicit level are solved.
 struct ImplicitOptions {
@@ -102,6 +119,11 @@ struct HimOptions {
   bool smoothing = true;              ///< of its transfers
 };
 
+/// What becomes of a macro step that does not pass its checks.
+struct RetryOptions {
+  int halvings = 0;  ///< it is halved at most so often, each half again where it is bad too, 0 to 10; 0: the run ends
+};
+
 /// How a body is stepped in time.
 struct IntegrationOptions {
   std::string cycle = "single";           ///< a name of drivers/solver/cycles/list.hpp, or auto: chosen by short trials
@@ -118,6 +140,7 @@ struct IntegrationOptions {
   std::string outside = "clamp";  ///< clamp | extrapolate | keep: vertices outside the other mesh
   ImplicitOptions implicit;       ///< of implicit levels
   HimOptions him;                 ///< of the hierarchical inverse mass
+  RetryOptions retry;             ///< of a bad macro step
 };
 
 /// Penalty contact of the embedded surface's vertices. The scales multiply, per surface point, the stiffness E A / h

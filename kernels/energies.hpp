@@ -6,22 +6,31 @@
 
 namespace plica {
 
-/// Kinetic energy and gravity's potential energy of a vertex [J], the latter zero at rest. Not finite where u or v is not.
+/// What one pass over the vertices tells of a motion: kinetic energy, gravity's potential energy [J], zero at rest, momentum
+/// [kg m/s], and the largest (v - drift)^2 over the squared local edge [1/s^2]. Sums are not finite where u or v is not.
+using MotionSums = Sums<6, 1>;
+
 template <class B>
 struct MotionEnergies {
   using Real = typename B::Real;
   Scalars<B> mass;
   State<B> state;
   Vec3<Real> gravity;
+  Scalars<B> inverse_edge;  ///< [vertices] 1/m
+  Vec3<double> drift;       ///< of the whole body [m/s]
 
-  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int a) const {
-    double speed2 = 0, along = 0;
+  KOKKOS_INLINE_FUNCTION MotionSums operator()(int a) const {
+    const double m = static_cast<double>(mass(a)), per_edge = static_cast<double>(inverse_edge(a));
+    double speed2 = 0, along = 0, relative2 = 0;
+    MotionSums sums;
     for (int k = 0; k < 3; ++k) {
-      speed2 += static_cast<double>(state.v(a, k)) * static_cast<double>(state.v(a, k));
+      const double v = static_cast<double>(state.v(a, k));
+      speed2 += v * v, relative2 += (v - drift[k]) * (v - drift[k]);
+      sums[2 + k] = m * v;
       along += static_cast<double>(gravity[k]) * static_cast<double>(state.u(a, k));
     }
-    const double m = static_cast<double>(mass(a));
-    return {{0.5 * m * speed2, -m * along}};
+    sums[0] = 0.5 * m * speed2, sums[1] = -m * along, sums[5] = relative2 * per_edge * per_edge;
+    return sums;
   }
 };
 

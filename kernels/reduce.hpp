@@ -4,23 +4,24 @@
 
 namespace plica {
 
-/// N sums at once, always in double.
-template <int N>
+/// N sums at once, always in double; the last `Maxima` of them are the largest instead, of values not below 0.
+template <int N, int Maxima = 0>
 struct Sums {
   double value[N] = {};
   KOKKOS_INLINE_FUNCTION double& operator[](int i) { return value[i]; }
   KOKKOS_INLINE_FUNCTION double operator[](int i) const { return value[i]; }
   KOKKOS_INLINE_FUNCTION Sums& operator+=(const Sums& other) {
-    for (int i = 0; i < N; ++i) value[i] += other.value[i];
+    for (int i = 0; i < N - Maxima; ++i) value[i] += other.value[i];
+    for (int i = N - Maxima; i < N; ++i) value[i] = value[i] < other.value[i] ? other.value[i] : value[i];
     return *this;
   }
 };
 
 }  // namespace plica
 
-template <int N>
-struct Kokkos::reduction_identity<plica::Sums<N>> {
-  KOKKOS_FORCEINLINE_FUNCTION static plica::Sums<N> sum() { return {}; }
+template <int N, int Maxima>
+struct Kokkos::reduction_identity<plica::Sums<N, Maxima>> {
+  KOKKOS_FORCEINLINE_FUNCTION static plica::Sums<N, Maxima> sum() { return {}; }
 };
 
 namespace plica {
@@ -38,8 +39,8 @@ class BlockSums {
   private : Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory> sums_;
 };
 
-/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Sums<N> operator()(int) const.
-template <class B, int N, class Term>
+/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally operator()(int) const.
+template <class B, int N, class Term, class Tally>
 struct BlockReduction {
   using Policy = Kokkos::TeamPolicy<typename B::Exec>;
   using Member = typename Policy::member_type;
@@ -54,34 +55,36 @@ struct BlockReduction {
 
   KOKKOS_INLINE_FUNCTION void operator()(Terms, const Member& team) const {
     const int first = team.league_rank() * BlockSums<B>::block, last = Kokkos::min(first + BlockSums<B>::block, n);
-    Sums<N> total;
+    Tally total;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, first, last), [&](int i, Sums<N>& sum) { sum += term(i); },
-        Kokkos::Sum<Sums<N>, typename B::Memory>(total));
+        Kokkos::TeamThreadRange(team, first, last), [&](int i, Tally& sum) { sum += term(i); },
+        Kokkos::Sum<Tally, typename B::Memory>(total));
     Kokkos::single(Kokkos::PerTeam(team), [&]() {
       for (int k = 0; k < N; ++k) blocks(team.league_rank(), k) = total[k];
     });
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(Blocks, const Member& team) const {
-    Sums<N> total;
+    Tally total;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, (n + BlockSums<B>::block - 1) / BlockSums<B>::block),
-        [&](int b, Sums<N>& sum) {
-          for (int k = 0; k < N; ++k) sum[k] += blocks(b, k);
+        [&](int b, Tally& sum) {
+          Tally block;
+          for (int k = 0; k < N; ++k) block[k] = blocks(b, k);
+          sum += block;
         },
-        Kokkos::Sum<Sums<N>, typename B::Memory>(total));
+        Kokkos::Sum<Tally, typename B::Memory>(total));
     Kokkos::single(Kokkos::PerTeam(team), [&]() {
       for (int k = 0; k < N; ++k) result(k) = total[k];
     });
   }
 };
 
-template <class B, int N, class Term>
+template <class B, int N, class Term, class Tally = Sums<N>>
 void reduce(const typename B::Exec& exec, const char* label, int n, const Term& term, const BlockSums<B>& blocks,
             const Kokkos::View<double*, typename B::Memory>& result) {
   static_assert(N <= BlockSums<B>::widest);
-  using Reduction = BlockReduction<B, N, Term>;
+  using Reduction = BlockReduction<B, N, Term, Tally>;
   const Reduction reduction{n, term, blocks.view(), result};
   const int teams = (n + BlockSums<B>::block - 1) / BlockSums<B>::block;
   Kokkos::parallel_for(label,

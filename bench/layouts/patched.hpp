@@ -24,12 +24,12 @@ class Patched {
     model_.vertices = static_cast<int>(mesh.vertices.size());
     model_.patches = build_patches<B>(mesh, {lame});
     model_.mass = Scalars<B>("bench::mass", mesh.vertices.size());
-    if (!Material::survives_inversion) flags_ = make_element_flags<B>(model_.patches.count);
+    if (!Material::allows_inversion) flags_ = make_element_flags<B>(model_.patches.count);
     partial_ = Vectors<B>("bench::partial", model_.patches.vertex.extent(0));
   }
 
   void operator()(const typename B::Exec& exec, const Vectors<B>& u, const Vectors<B>& f) const {
-    elastic_force<B, Material>(exec, model_.patches, u, flags_, 1, partial_);
+    elastic_force<B, Material>(exec, model_.patches, State<B>(u, {}), flags_, 1, partial_);
     gather_forces<B>(exec, model_, partial_, {}, f);
   }
 

@@ -11,6 +11,7 @@
 #include <plica/drivers/app/commands/mesh_info.hpp>
 #include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/run.hpp>
+#include <plica/drivers/app/commands/stability.hpp>
 #include <plica/drivers/app/commands/study.hpp>
 #include <plica/drivers/app/commands/version.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -22,7 +23,7 @@
 namespace plica::app {
 namespace {
 
-constexpr const char* planned_commands[] = {"stability", "verify"};
+constexpr const char* planned_commands[] = {"verify"};
 
 // The command line, and what it asks for. CLI11 fills the members while it parses.
 class CommandLine {
@@ -37,6 +38,7 @@ class CommandLine {
     add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); });
     add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
     add_study();
+    add_stability();
     add_mesh();
     add_list();
     add_schema();
@@ -63,6 +65,7 @@ class CommandLine {
     if (!duration_.empty()) arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
     if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
       throw CLI::RequiredError("SCENE, or --resume FOLDER,");
+    if (app_.got_subcommand("stability")) check_stability();
     return action_();
   }
 
@@ -96,7 +99,8 @@ class CommandLine {
 
   CLI::App* add_scene_command(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
     CLI::App* command = add(name, help, std::move(action));
-    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")->required(name != "run");
+    command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")
+        ->required(name != "run" && name != "stability");
     command->add_option("--set", sets_, "instead of what the scene says; repeatable")
         ->type_name("KEY.PATH=VALUE")
         ->allow_extra_args(false)
@@ -108,7 +112,7 @@ class CommandLine {
     command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(1, 512));  // what Kokkos can do with OpenMP
-    if (name != "run" && name != "study") command->add_flag("--json", arguments_.json, "print JSON");
+    if (name == "explain" || name == "check") command->add_flag("--json", arguments_.json, "print JSON");
     return command;
   }
 
@@ -138,6 +142,27 @@ class CommandLine {
     command->add_flag("--space", study_.space, "a second reference on a mesh twice as fine, for the error in space");
     command->add_flag("--growth", study_.growth, "the growth of small motions by each cycle, linearised about rest");
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
+  }
+
+  void add_stability() {
+    CLI::App* command = add_scene_command("stability", "search the largest stable macro step of each method",
+                                          [this] { return stability(arguments_, stability_); });
+    command->add_flag("--matrix", stability_.matrix,
+                      "no scene: all stiff and extreme cases, each with what it must come to");
+    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE, out/stability)")
+        ->type_name("FOLDER");
+    command
+        ->add_option("--budget", stability_.budget,
+                     "wall time of all of it [s]; what does not fit is left out, and listed")
+        ->type_name("TIME");
+    command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
+  }
+
+  void check_stability() const {
+    if (!stability_.matrix && arguments_.scene.empty()) throw CLI::RequiredError("SCENE, or --matrix,");
+    const bool of_scene = !arguments_.scene.empty() || !arguments_.overrides.empty() || !arguments_.precision.empty();
+    if (stability_.matrix && of_scene)
+      throw InputError("--matrix has its own bodies, in double: leave SCENE, --set, --duration and --precision out");
   }
 
   void add_mesh() {
@@ -204,6 +229,7 @@ class CommandLine {
   CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
   RunArguments arguments_;
   StudyArguments study_;
+  StabilityArguments stability_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;

@@ -22,6 +22,7 @@ class ObstacleOf final : public Obstacle<B> {
   std::vector<PathKnot> knots_;
   Path path_;
   PenaltyLaw<Real> law_;
+  DepthWatch<B> watch_;
 
   PathPoint at(double time, double ahead) const { return path_step(path_, knots_.data(), time, ahead); }
   static Vec3<Real> rounded(const Vec3<double>& x) {
@@ -35,13 +36,14 @@ class ObstacleOf final : public Obstacle<B> {
     Kokkos::parallel_for(
         "plica::contact_forces", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
         ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, rounded(now.displacement), rounded(now.velocity),
-                                           law_, static_cast<Real>(ahead), static_cast<Real>(w.a),
+                                           law_, watch_, static_cast<Real>(ahead), static_cast<Real>(w.a),
                                            static_cast<Real>(w.b), first, points.force, points.block});
   }
 
  public:
-  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Motion& motion, const PenaltyLaw<Real>& law)
-      : shape_(shape), storage_(storage), path_(make_path(motion, knots_)), law_(law) {}
+  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Motion& motion, const PenaltyLaw<Real>& law,
+             const DepthWatch<B>& watch)
+      : shape_(shape), storage_(storage), path_(make_path(motion, knots_)), law_(law), watch_(watch) {}
 
   void forces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
               const ContactPoints<B>& points) const override {
@@ -56,7 +58,7 @@ class ObstacleOf final : public Obstacle<B> {
     const PathPoint now = at(time, 0);
     Kokkos::parallel_for("plica::find_touching", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
                          FindTouching<B, Shape>{surface, s, shape_, rounded(now.displacement), rounded(now.velocity),
-                                                law_, first, points});
+                                                law_, watch_, first, points});
   }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
               const BlockSums<B>& blocks, const Kokkos::View<double*, typename B::Memory>& result) const override {
@@ -71,8 +73,9 @@ class ObstacleOf final : public Obstacle<B> {
 
 template <class B>
 Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area,
-                    double edge)
-    : points_(points) {
+                    double edge, double size)
+    : points_(points), deepest_(size), lost_("plica::contact.lost") {
+  const DepthWatch<B> watch{lost_, static_cast<Real>(size)};
   const double per_point = area / points;
   stiffness_ = options.stiffness_scale * material.young_modulus * per_point / edge;
   const double critical = std::sqrt(stiffness_ * material.density * per_point * edge);  // 2 * 0.5 * sqrt(k m)
@@ -88,7 +91,7 @@ Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& materi
           Scalars<B> storage;
           const auto made = device_shape<B>(shape, storage);
           using Shape = std::decay_t<decltype(made)>;
-          obstacles_.push_back(std::make_unique<ObstacleOf<B, Shape>>(made, storage, o.motion, law));
+          obstacles_.push_back(std::make_unique<ObstacleOf<B, Shape>>(made, storage, o.motion, law, watch));
         },
         o.shape);
   }
@@ -156,6 +159,15 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
     total += Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result)(0);
   }
   return total;
+}
+
+template <class B>
+int Contact<B>::take_lost(const Exec& exec) const {
+  int last = 0;
+  exec.fence("plica::contact_lost");
+  Kokkos::deep_copy(last, lost_);
+  if (last > 0) Kokkos::deep_copy(exec, lost_, 0);
+  return last - 1;
 }
 
 template <class B>

@@ -49,8 +49,10 @@ class Contact {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  /// `area` of the whole surface [m^2], `edge` the finest level's mean edge [m]: see ContactOptions for the law.
-  Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area, double edge);
+  /// `area` of the whole surface [m^2], `edge` the finest level's mean edge [m]: see ContactOptions for the law. `size` of the
+  /// body [m]: a point deeper than that is lost.
+  Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area, double edge,
+          double size);
 
   ContactPoints<B> make_points(bool implicit) const;
   /// f += the contact forces of a state
@@ -68,6 +70,10 @@ class Contact {
   void add_matrix(const Exec&, const Level<B>&, const ContactPoints<B>&, const BlockMatrix<B>& A) const;
   double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
 
+  /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
+  int take_lost(const Exec&) const;
+  double deepest() const { return deepest_; }  ///< [m]
+
   double stiffness() const { return stiffness_; }  ///< of a point [N/m]
   double damping() const { return damping_; }      ///< the larger of its coefficients [N s/m]
   double normal_damping() const { return normal_damping_; }
@@ -76,7 +82,8 @@ class Contact {
 
  private:
   int points_;
-  double stiffness_, normal_damping_, damping_;
+  double stiffness_, normal_damping_, damping_, deepest_;
+  Kokkos::View<int, typename B::Memory> lost_;
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
 };
 

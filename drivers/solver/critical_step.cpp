@@ -20,12 +20,13 @@ class Lanczos {
 
  public:
   Lanczos(const Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity, const Vectors<B>& u,
-          double stiffness)
+          double stiffness, double over)
       : exec_(exec),
         level_(level),
         elasticity_(elasticity),
         u_(u),
         stiffness_(stiffness),
+        over_(over),
         n_(level.model.vertices),
         v_("plica::lanczos.v", n_),
         w_("plica::lanczos.w", n_),
@@ -66,7 +67,7 @@ class Lanczos {
   const Level<B>& level_;
   const Elasticity<B>& elasticity_;
   const Vectors<B>& u_;
-  double stiffness_;
+  double stiffness_, over_;
   int n_;
   Vectors<B> v_, w_, before_, p_, contact_, points_;
   BlockSums<B> blocks_;
@@ -83,10 +84,10 @@ class Lanczos {
     return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result_)(0);
   }
 
-  /// w = M^-1/2 (K + contact) M^-1/2 v - beta before; v.w
+  /// w = M^-1/2 (K + over D + contact) M^-1/2 v - beta before; v.w
   double product(double beta) {
     each("plica::lanczos_scale", ScaleByMass<B>{level_.model.inverse_mass, v_, p_, Real(1)});
-    elasticity_.tangent(exec_, level_.model.patches, u_, p_, level_.partial);
+    elasticity_.tangent(exec_, level_.model.patches, u_, p_, over_, level_.partial);
     if (stiffness_ > 0) {
       Kokkos::deep_copy(exec_, contact_, Real(0));
       update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.points,
@@ -103,42 +104,48 @@ class Lanczos {
 
 template <class B>
 double largest_eigenvalue(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                          const Vectors<B>& u, double point_stiffness) {
-  return Lanczos<B>(exec, level, elasticity, u, point_stiffness).largest();
+                          const Vectors<B>& u, double point_stiffness, double over) {
+  return Lanczos<B>(exec, level, elasticity, u, point_stiffness, over).largest();
 }
 
 template <class B>
 double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
                      const Vectors<B>& u, const StabilityLimit& limit, const PointContactLimit& contact,
-                     double mass_damping) {
-  const auto frequency = [&](double stiffness) {
-    return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, stiffness));
+                     const DampingLimit& damping) {
+  const auto frequency = [&](double stiffness, double over) {
+    return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, stiffness, over));
   };
   const double infinite = std::numeric_limits<double>::infinity();
-  const double by_damping = limit.damping > 0 && mass_damping > 0 ? limit.damping / mass_damping : infinite;
-  const double w = frequency(contact.stiffness);
+  const double w = frequency(contact.stiffness, 0);
+  const double most = damping.most_mass + damping.most_stiffness * w * w;
+  const double by_damping = limit.damping > 0 && most > 0 ? limit.damping / most : infinite;
   if (!(w > 0)) return by_damping;
-  if (limit.needs_damping) return std::min(mass_damping / (w * w), by_damping);
+  if (limit.growth > 0) {
+    const double least = damping.least_mass + damping.least_stiffness * w * w;
+    return std::min(std::pow(least / (limit.growth * std::pow(w, limit.power)), 1.0 / (limit.power - 1)), by_damping);
+  }
   if (limit.radius <= 0) return infinite;
   // damping acts like the stiffness radius D / h: the limit is where step(h) = h, reached from above. There ln step has a
   // slope of at most 1/2 over ln h (the eigenvalue is convex in 1/h), so that it is not below step^2 / h.
   double h = limit.radius / w;
-  for (int i = 0; i < 20 && contact.damping > 0; ++i) {
-    const double step = limit.radius / frequency(contact.stiffness + limit.radius * contact.damping / h);
+  for (int i = 0; i < 20 && (contact.damping > 0 || damping.most_stiffness > 0); ++i) {
+    const double over = limit.radius / h;
+    const double step = limit.radius / frequency(contact.stiffness + over * contact.damping, over);
     const bool close = std::abs(step - h) < 5e-3 * h;
     h = close ? std::min(step, step * step / h) : step;
     if (close) break;
   }
-  return std::min(h, by_damping);
+  const double by_mass = damping.most_mass > 0 && limit.damping > 0 ? limit.damping / damping.most_mass : infinite;
+  return std::min(h, by_mass);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                     \
-  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const Level<Backend<Real, Exec>>&, \
-                                                          const Elasticity<Backend<Real, Exec>>&,         \
-                                                          const Vectors<Backend<Real, Exec>>&, double);   \
-  template double critical_step<Backend<Real, Exec>>(                                                     \
-      const Exec&, const Level<Backend<Real, Exec>>&, const Elasticity<Backend<Real, Exec>>&,             \
-      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const PointContactLimit&, double);
+#define PLICA_INSTANTIATE(Real, Exec)                                                                           \
+  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const Level<Backend<Real, Exec>>&,       \
+                                                          const Elasticity<Backend<Real, Exec>>&,               \
+                                                          const Vectors<Backend<Real, Exec>>&, double, double); \
+  template double critical_step<Backend<Real, Exec>>(                                                           \
+      const Exec&, const Level<Backend<Real, Exec>>&, const Elasticity<Backend<Real, Exec>>&,                   \
+      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const PointContactLimit&, const DampingLimit&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -39,19 +39,32 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
         "single to"
         " compare with";
   else if (report.explicit_integrator)
-    d.remedy = "a smaller macro_step: the critical step is that of the body at rest, and large strain stiffens it";
+    d.remedy =
+        "a smaller macro_step, or integration.retry.halvings: the critical step is that of the body at rest, and large "
+        "strain stiffens it";
   else
     d.remedy = "a smaller macro_step, or integration.implicit.newton_iterations above 1";
-  if (d.kind == "inverted") d.remedy += "; or a material that survives inversion (corotational, st_venant_kirchhoff)";
+  if (d.kind == "inverted")
+    d.remedy +=
+        "; or let elements be inverted (body.material.allow_inversion) in a material that pushes them back "
+        "(neo_hookean, corotational)";
+  if (d.kind == "contact")
+    d.remedy =
+        "a smaller macro_step, contact.stiffness_scale above 1, or an obstacle that is not thinner than what a "
+        "point moves in a step";
 }
 
 }  // namespace
 
 std::string Diagnosis::text() const {
-  char text[600];
-  const char* what = kind == "inverted" ? "an element turned inside out"
-                     : kind == "energy" ? "the body has more kinetic energy than was put in"
-                                        : "a value is not finite";
+  char text[900];
+  const char* what = kind == "inverted"    ? "an element turned inside out"
+                     : kind == "energy"    ? "the body has more kinetic energy than was put in"
+                     : kind == "speed"     ? "a vertex leaves the body faster than its elements can follow"
+                     : kind == "contact"   ? "a point is deeper in an obstacle than the body is large"
+                     : kind == "solver"    ? "the solver failed"
+                     : kind == "stability" ? "the cycle lost its stability"
+                                           : "a value is not finite";
   int n = std::snprintf(text, sizeof text, "%s: level %d", what, level);
   const auto add = [&](const char* format, auto value) {
     n += std::snprintf(text + n, sizeof text - static_cast<std::size_t>(n), format, value);
@@ -60,6 +73,8 @@ std::string Diagnosis::text() const {
   if (!region.empty()) add(" (region %s)", region.c_str());
   if (element >= 0) add(" with J = %.3g", J);
   if (vertex >= 0) add(", vertex %d", vertex);
+  if (!reason.empty()) add("; %.150s", reason.c_str());
+  if (motion_over_edge > 0.1) add("; %.3g edges moved in a sub-step", motion_over_edge);
   if (substep_over_critical > 0) add("; sub-step %.3g times its critical step at rest", substep_over_critical);
   if (!remedy.empty()) add("; try %s", remedy.c_str());
   return text;
@@ -112,10 +127,11 @@ std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
 }
 
 template <class B>
-Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built, const std::vector<State<B>>& kept) {
+Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built, const std::vector<State<B>>& kept,
+                         int level, const std::string& reason) {
   Diagnosis d;
-  d.kind = kind, d.level = 0;
-  for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0; --i) {
+  d.kind = kind, d.level = std::max(level, 0), d.reason = reason;
+  for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0 && level < 0; --i) {
     const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].level.state.u);
     const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !is_finite(p); });
     if (bad != u.end()) d.level = i, d.vertex = static_cast<int>(bad - u.begin());
@@ -124,15 +140,18 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].level.state.u : kept[i].u;
   const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
   d.element = worst.element, d.J = worst.J;
+  const bool forbidden = (*built.hierarchy)[d.level].level.flags.evaluation.extent(0) > 0;
+  if (d.vertex >= 0 && forbidden && d.J <= 0) d.kind = "inverted";  // a cycle's repairs have lost the flag
   complete(d, built);
   return d;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                               \
-  template std::vector<Point> to_host<Backend<Real, Exec>>(const Exec&, const Vectors<Backend<Real, Exec>>&);       \
-  template std::optional<Diagnosis> find_inverted<Backend<Real, Exec>>(const BuiltHierarchy<Backend<Real, Exec>>&); \
-  template Diagnosis locate_failure<Backend<Real, Exec>>(                                                           \
-      const std::string&, const BuiltHierarchy<Backend<Real, Exec>>&, const std::vector<State<Backend<Real, Exec>>>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                                                 \
+  template std::vector<Point> to_host<Backend<Real, Exec>>(const Exec&, const Vectors<Backend<Real, Exec>>&);         \
+  template std::optional<Diagnosis> find_inverted<Backend<Real, Exec>>(const BuiltHierarchy<Backend<Real, Exec>>&);   \
+  template Diagnosis locate_failure<Backend<Real, Exec>>(                                                             \
+      const std::string&, const BuiltHierarchy<Backend<Real, Exec>>&, const std::vector<State<Backend<Real, Exec>>>&, \
+      int, const std::string&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

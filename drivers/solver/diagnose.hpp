@@ -20,9 +20,10 @@ std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field
 template <class B>
 std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built);
 
-/// Where a run with non-finite values or too much energy went wrong: the level, its first bad vertex, its worst element in its
-/// state now or, where that is not finite, in `kept`.
+/// Where a run with non-finite values or too much energy went wrong: the level where it is not given, its first bad vertex, its
+/// worst element in its state now or, where that is not finite, in `kept`.
 template <class B>
-Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built, const std::vector<State<B>>& kept);
+Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built, const std::vector<State<B>>& kept,
+                         int level = -1, const std::string& reason = {});
 
 }  // namespace plica

@@ -19,18 +19,17 @@ class ElasticityOf final : public Elasticity<B> {
   using Exec = typename B::Exec;
 
  public:
-  bool survives_inversion() const override { return Material::survives_inversion; }
-  void force(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const ElementFlags<B>& flags,
+  void force(const Exec& exec, const Patches<B>& patches, const State<B>& state, const ElementFlags<B>& flags,
              int evaluation, const Vectors<B>& partial) const override {
-    elastic_force<B, Material>(exec, patches, u, flags, evaluation, partial);
+    elastic_force<B, Material>(exec, patches, state, flags, evaluation, partial);
   }
-  void tangent(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p,
+  void tangent(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p, double over,
                const Vectors<B>& partial) const override {
-    elastic_tangent<B, Material>(exec, patches, u, p, partial);
+    elastic_tangent<B, Material>(exec, patches, u, p, over, partial);
   }
-  void diagonal(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction,
+  void diagonal(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction, double over,
                 const Vectors<B>& partial) const override {
-    elastic_diagonal<B, Material>(exec, patches, u, direction, partial);
+    elastic_diagonal<B, Material>(exec, patches, u, direction, over, partial);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,
               const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,

@@ -15,12 +15,13 @@ class Elasticity {
  public:
   using Exec = typename B::Exec;
   virtual ~Elasticity() = default;
-  virtual bool survives_inversion() const = 0;
-  virtual void force(const Exec&, const Patches<B>&, const Vectors<B>& u, const ElementFlags<B>&, int evaluation,
+  /// Of a displacement, and of a velocity where stiffness damps.
+  virtual void force(const Exec&, const Patches<B>&, const State<B>&, const ElementFlags<B>&, int evaluation,
                      const Vectors<B>& partial) const = 0;
-  virtual void tangent(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& p,
+  /// `over`: with the stiffness that damps times this [1/s].
+  virtual void tangent(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
                        const Vectors<B>& partial) const = 0;
-  virtual void diagonal(const Exec&, const Patches<B>&, const Vectors<B>& u, int direction,
+  virtual void diagonal(const Exec&, const Patches<B>&, const Vectors<B>& u, int direction, double over,
                         const Vectors<B>& partial) const = 0;
   /// A = (1 + b c) M + a K(u) as blocks; `positive`: of elements whose tangent is projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u, const ImplicitWeights&,

@@ -4,12 +4,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <plica/drivers/solver/element_bound.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
 
-double element_bound(const TetMesh& mesh, const std::vector<Lame<double>>& lame, const std::vector<double>& density) {
-  double largest = 0;
+std::vector<double> element_steps(const TetMesh& mesh, const std::vector<Lame<double>>& lame,
+                                  const std::vector<double>& density) {
+  std::vector<double> steps;
+  steps.reserve(mesh.tets.size());
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const auto region = mesh.region.empty() ? std::size_t{0} : static_cast<std::size_t>(mesh.region[e]);
     const auto& t = mesh.tets[e];
@@ -36,9 +40,30 @@ double element_bound(const TetMesh& mesh, const std::vector<Lame<double>>& lame,
     const Eigen::Matrix<double, 6, 6> L = hooke.llt().matrixL();
     const Eigen::Matrix<double, 6, 6> S = L.transpose() * (strain * strain.transpose()) * L;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(S, Eigen::EigenvaluesOnly);
-    largest = std::max(largest, 4 / density[region] * solver.eigenvalues()[5]);
+    steps.push_back(std::sqrt(density[region] / solver.eigenvalues()[5]));  // 2/w, w^2 = 4/rho times the eigenvalue
   }
-  return 2 / std::sqrt(largest);
+  return steps;
+}
+
+double element_bound(const TetMesh& mesh, const std::vector<Lame<double>>& lame, const std::vector<double>& density) {
+  return std::ranges::min(element_steps(mesh, lame, density));
+}
+
+std::vector<StiffElement> stiffest_elements(const TetMesh& mesh, const std::vector<double>& steps, std::size_t count) {
+  std::vector<int> order(steps.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size()));
+  std::ranges::partial_sort(order, middle, [&](int a, int b) {
+    const double of_a = steps[static_cast<std::size_t>(a)], of_b = steps[static_cast<std::size_t>(b)];
+    return of_a != of_b ? of_a < of_b : a < b;
+  });
+  std::vector<StiffElement> worst;
+  for (auto it = order.begin(); it != middle; ++it) {
+    const auto e = static_cast<std::size_t>(*it);
+    const std::string region = mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[e])];
+    worst.push_back({*it, region, tet_shape(mesh, *it).height_ratio, steps[e]});
+  }
+  return worst;
 }
 
 }  // namespace plica

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <plica/drivers/solver/energy_meter.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/energies.hpp>
+#include <plica/meshes/edge_lengths.hpp>
 
 namespace plica {
 
 template <class B>
-EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const Point& gravity)
-    : hierarchy_(hierarchy), result_("plica::energies", 2) {
+EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, const Point& gravity)
+    : hierarchy_(hierarchy), result_("plica::energies", 6) {
+  std::vector<typename B::Real> per_edge;
+  for (const double edge : local_edge_lengths(mesh)) per_edge.push_back(static_cast<typename B::Real>(1 / edge));
+  inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
+  const auto mass = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].level.model.mass);
+  for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
   const Level<B>& level = hierarchy[0].level;
   blocks_ =
@@ -16,27 +24,29 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const Point& gravity)
 }
 
 template <class B>
-std::array<double, 2> EnergyMeter<B>::read() const {
+std::array<double, 6> EnergyMeter<B>::read() const {
   const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), result_);
   Kokkos::deep_copy(hierarchy_.exec(), host, result_);
   hierarchy_.exec().fence("plica::energies");
-  return {host(0), host(1)};
+  return {host(0), host(1), host(2), host(3), host(4), host(5)};
 }
 
 template <class B>
-Energies EnergyMeter<B>::motion() const {
+MotionReport EnergyMeter<B>::motion(const Point& drift) const {
+  using Term = MotionEnergies<B>;
   const Level<B>& level = hierarchy_[0].level;
-  reduce<B, 2>(hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
-               MotionEnergies<B>{level.model.mass, level.state, gravity_}, blocks_, result_);
+  reduce<B, 6, Term, MotionSums>(
+      hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
+      Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}}, blocks_, result_);
   const auto sums = read();
-  return {sums[0], 0, sums[1], 0};
+  return {{sums[0], 0, sums[1], 0}, Point(sums[2], sums[3], sums[4]) / mass_, std::sqrt(sums[5])};
 }
 
 template <class B>
 Energies EnergyMeter<B>::all(double time) const {
   const auto& exec = hierarchy_.exec();
   const HierarchyLevel<B>& part = hierarchy_[0];
-  Energies e = motion();
+  Energies e = motion(Point::Zero()).energies;
   part.forces->elasticity().energy(exec, part.level.model.patches, part.level.state.u, part.level.partial);
   reduce<B, 1>(exec, "plica::elastic_energy", static_cast<int>(part.level.partial.extent(0)),
                FirstComponent<B>{part.level.partial}, blocks_, result_);

@@ -24,7 +24,7 @@ template <class B>
 void LevelForces<B>::elastic_and_gravity(const Level<B>& level, const State<B>& state, const Vectors<B>& f) {
   ++evaluations_;
   book("force", [&] {
-    elasticity_->force(clock_->exec(), level.model.patches, state.u, level.flags, ++evaluation_, level.partial);
+    elasticity_->force(clock_->exec(), level.model.patches, state, level.flags, ++evaluation_, level.partial);
     gather_forces<B>(clock_->exec(), level.model, level.partial, gravity_, f);
   });
 }
@@ -91,8 +91,8 @@ void LevelForces<B>::add_correction(const Vectors<B>& f) const {
 }
 
 template <class B>
-void LevelForces<B>::tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const {
-  elasticity_->tangent(clock_->exec(), level.model.patches, state.u, p, level.partial);
+void LevelForces<B>::tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p, double over) const {
+  elasticity_->tangent(clock_->exec(), level.model.patches, state.u, p, over, level.partial);
 }
 
 template <class B>
@@ -101,7 +101,7 @@ void LevelForces<B>::product(const Level<B>& level, const State<B>& state, const
   using Real = typename B::Real;
   const auto& exec = clock_->exec();
   const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
-  tangent(level, state, p);
+  tangent(level, state, p, weights.b / weights.a);
   update_vertices<B>(exec, "plica::system_product", level.model.vertices,
                      SystemProduct<B>{level.model, p, level.partial, q, a, b});
   if (contact_) contact_->add_product(exec, level, p, points_, q);
@@ -117,7 +117,7 @@ void LevelForces<B>::diagonal(const Level<B>& level, const State<B>& state, cons
   const auto& exec = clock_->exec();
   const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
   for (int direction = 0; direction < 3; ++direction) {
-    elasticity_->diagonal(exec, level.model.patches, state.u, direction, level.partial);
+    elasticity_->diagonal(exec, level.model.patches, state.u, direction, weights.b / weights.a, level.partial);
     update_vertices<B>(exec, "plica::diagonal_column", level.model.vertices,
                        DiagonalColumn<B>{level.model, level.partial, blocks, a, b, direction});
   }

@@ -40,8 +40,8 @@ class LevelForces {
   /// A itself, in blocks; `positive`: of elements whose tangents are projected to positive semi-definite ones.
   void assemble(const Level<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive,
                 const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const;
-  /// level.partial = the copies of -K p at a state
-  void tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p) const;
+  /// level.partial = the copies of -K p at a state; `over`: with the stiffness that damps times this [1/s].
+  void tangent(const Level<B>& level, const State<B>& state, const Vectors<B>& p, double over = 0) const;
 
   /// Books work() under a stage of this level.
   template <class Work>
@@ -51,6 +51,7 @@ class LevelForces {
   const Elasticity<B>& elasticity() const { return *elasticity_; }
   const Contact<B>* contact() const { return contact_.get(); }
   const ContactPoints<B>& points() const { return points_; }
+  bool asks_caller() const { return static_cast<bool>(external_); }
   long evaluations() const { return evaluations_; }
   /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at rest [m].
   void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);

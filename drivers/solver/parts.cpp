@@ -71,7 +71,10 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
         return bytes_of(l.level.state) + bytes(l.level.model.mass, l.level.model.inverse_mass, l.level.f);
       }));
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
-  add("mass damping", body.damping.mass > 0, "body.damping.mass", "zero", 0);
+  add("mass damping", damps_by_mass(body), "body.damping.mass", "zero",
+      sum([](const L& l) { return bytes(l.level.model.damping.of_vertex); }));
+  add("stiffness damping", damps_by_stiffness(body), "body.damping.stiffness: a tangent product with every force",
+      "zero", sum([](const L& l) { return bytes(l.level.model.patches.damping); }));
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
   add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"), "none asked for",
       sum([](const L& l) {
@@ -102,8 +105,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
   add("implicit solver", implicit, solver, "every level is explicit",
       sum([](const L& l) { return l.integrator->bytes(); }));
-  add("inversion flags", flags > 0, body.material.model + " does not survive inversion",
-      body.material.model + " survives inversion", flags);
+  add("inversion flags", flags > 0, body.material.model + " may not be inverted",
+      body.material.model + " may be inverted", flags);
   return parts;
 }
 

@@ -85,6 +85,18 @@ bool integrates_coarse_levels(std::string_view cycle) {
   return integrates;
 }
 
+bool allows_inversion(const MaterialOptions& material) {
+  bool allows = false;
+  Materials::visit(material.model, [&](auto member) { allows = decltype(member)::allows_inversion; });
+  return material.allow_inversion.value_or(allows);
+}
+
+bool recovers(std::string_view material) {
+  bool recovers = false;
+  Materials::visit(material, [&](auto member) { recovers = decltype(member)::recovers; });
+  return recovers;
+}
+
 std::vector<std::string> names(const std::vector<Choice>& choices) {
   std::vector<std::string> list;
   for (const Choice& choice : choices) list.push_back(choice.name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/problem.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,11 @@ std::vector<Choice> newton_outcomes();  ///< of steps that Newton's method does 
 bool uses_coarse_levels(std::string_view cycle);
 /// Whether coarser levels have states of their own there, and shares of the macro step.
 bool integrates_coarse_levels(std::string_view cycle);
+
+/// Whether a body of that material goes on with inverted elements: as its options say, else as the material has it.
+bool allows_inversion(const MaterialOptions& material);
+/// Whether inverted elements of that material are pushed back; false for a name it does not know.
+bool recovers(std::string_view material);
 
 /// Their names alone, in the same order.
 std::vector<std::string> names(const std::vector<Choice>& choices);

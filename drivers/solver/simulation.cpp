@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/simulation_inside.hpp>
+#include <plica/drivers/solver/simulation_check.hpp>
 
 namespace plica {
 
@@ -26,18 +24,12 @@ void Simulation<B>::step() {
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
   Inside& s = *inside_;
-  if (s.built.cycle->alarmed(s.hierarchy()) && !s.repair()) return locate_failure<B>("stability", s.built, s.kept);
-  if (s.budget_opens) s.open_budget();
-  const Energies e = s.meter.motion();
-  if (auto inverted = find_inverted<B>(s.built)) return inverted;
-  if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential)) return locate_failure<B>("non_finite", s.built, s.kept);
-  s.put_in = std::max(s.put_in, s.start - e.potential);
-  // elastic and contact energy are not negative: kinetic energy beyond what was put in is made of nothing. Twice, since
-  // discrete energies waver; never less than that of a thousandth of an edge per step
-  const double edge_speed = 1e-3 * s.built.reports.front().mean_edge / s.built.macro_step;
-  const double allowed = 2 * s.put_in + 0.5 * s.built.reports.front().mass * edge_speed * edge_speed;
-  if (s.budget_known && e.kinetic > allowed) return locate_failure<B>("energy", s.built, s.kept);
-  if (s.steps - s.kept_steps >= keep_every) s.keep();
+  MacroStepCheck<B, Inside> checks(s);
+  const bool retries = s.problem.integration.retry.halvings > 0;
+  auto bad = checks.examine();
+  if (bad && retries) bad = checks.retry(*bad);
+  if (bad) return bad;
+  if (retries || s.steps - s.kept_steps >= keep_every) s.keep();
   return {};
 }
 

@@ -21,19 +21,29 @@ struct Part {
   std::size_t bytes = 0;  ///< on the device
 };
 
+/// An element that by itself would limit explicit steps.
+struct StiffElement {
+  int element = -1;         ///< in the level's mesh
+  std::string region;       ///< its own; empty: nameless
+  double height_ratio = 0;  ///< its longest edge over its smallest height; of a regular tetrahedron 1.22
+  double step = 0;          ///< 2/w of it alone [s]
+};
+
 /// What was decided for one level.
 struct LevelReport {
-  int vertices = 0;           ///< of its mesh
-  int tets = 0;               ///< of its mesh
-  double mean_edge = 0;       ///< [m]
-  double mass = 0;            ///< [kg]
-  double critical_step = 0;   ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
-  double element_bound = 0;   ///< the same from the worst single element: on the sure side, without contact [s]
-  double share = 0;           ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
-  double inertia = 1;         ///< cycle him: how many times too heavy motion is that only this level represents
-  int substeps = 0;           ///< in its share
-  std::string integrator;     ///< its name
-  std::string linear_solver;  ///< of an implicit integrator: solver, preconditioner, matrix
+  int vertices = 0;            ///< of its mesh
+  int tets = 0;                ///< of its mesh
+  double mean_edge = 0;        ///< [m]
+  double mass = 0;             ///< [kg]
+  double critical_step = 0;    ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
+  double element_bound = 0;    ///< the same from the worst single element: on the sure side, without contact [s]
+  double typical_element = 0;  ///< the median of that over all elements [s]
+  std::vector<StiffElement> stiffest;  ///< the ten worst of its elements, the worst first
+  double share = 0;                 ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
+  double inertia = 1;               ///< cycle him: how many times too heavy motion is that only this level represents
+  int substeps = 0;                 ///< in its share
+  std::string integrator;           ///< its name
+  std::string linear_solver;        ///< of an implicit integrator: solver, preconditioner, matrix
   bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
   int outside_down = 0;             ///< its vertices outside the next finer mesh
   int outside_up = 0;               ///< the next finer level's vertices outside its mesh
@@ -61,15 +71,18 @@ struct Energies {
 
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
-  std::string kind;                  ///< non_finite | inverted | energy
+  std::string kind;                  ///< non_finite | inverted | energy | speed | contact | solver | stability
   int level = -1;                    ///< 0: the finest
   int element = -1;                  ///< tetrahedron of that level
   int vertex = -1;                   ///< vertex of that level
   std::string region;                ///< of the element; empty: nameless
   double J = 0;                      ///< volume ratio of the element
   double substep_over_critical = 0;  ///< of that level
-  std::string remedy;                ///< most likely to help
-  std::string text() const;          ///< one sentence with all of it
+  double motion_over_edge =
+      0;               ///< the furthest that a vertex of level 0 came in a sub-step, against the body, over its edge
+  std::string reason;  ///< of a solver: its own words
+  std::string remedy;  ///< most likely to help
+  std::string text() const;  ///< one sentence with all of it
 };
 
 /// What a simulation carries from one macro step to the next, in bytes that only Simulation reads.
@@ -99,9 +112,11 @@ class Simulation {
   /// One macro step. Enqueues work; does not wait for it (implicit levels read their residuals on the way).
   void step();
 
-  /// Why the run must stop, if it must: non-finite values, inverted elements where the material forbids them, more kinetic
-  /// energy than was put in. Waits for the enqueued work. Cheap enough to be called after every macro step; states that
-  /// pass are kept from time to time.
+  /// Why the run must stop, if it must: non-finite values, inverted elements where they are not allowed, more kinetic energy
+  /// than was put in, a vertex that leaves the body by more than its edge in one explicit sub-step, a surface point deeper in
+  /// an obstacle than the body is large, a solver that gave up. Waits. Cheap enough to be called after every macro step; states
+  /// that pass are kept from time to time. With integration.retry it also looks at level 0's elements (one or two passes more),
+  /// and from the last state that passed comes back in halved steps before it gives up, asking external forces again.
   std::optional<Diagnosis> check();
 
   /// Takes all levels and the time back to the last state that was kept.

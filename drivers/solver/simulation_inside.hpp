@@ -20,7 +20,7 @@ struct Simulation<B>::Inside {
       : choice(choose_cycle<B>((validate(p), p), exec)),
         problem(with_choice(p, choice)),
         built(build_hierarchy<B>(problem, exec)),
-        meter(*built.hierarchy, p.gravity) {
+        meter(*built.hierarchy, built.meshes.front(), p.gravity) {
     problem.body.levels.clear();  // the placed meshes in use are in `built`
     rest.resize(built.hierarchy->levels.size());
     for (const auto& part : built.hierarchy->levels) kept.emplace_back("kept", part.level.model.vertices);
@@ -43,6 +43,9 @@ struct Simulation<B>::Inside {
   bool budget_opens = false;  // anew at the next check: the state has been replaced since
   double residual = 0, worst_residual = 0;
   double start = 0, put_in = 0;  // energy at the start, the most that was ever there to be had [J]
+  double kept_put_in = 0;
+  Point drift = Point::Zero(), kept_drift = Point::Zero();  // mean velocity at the last check [m/s]
+  long halvings = 0, rejected = 0;                          // macro steps and parts of them
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const Level<B>& level(int i) {
@@ -61,27 +64,36 @@ struct Simulation<B>::Inside {
   }
 
   void step() {
-    for (auto& part : hierarchy().levels) part.forces->begin_macro_step();
-    built.cycle->step(hierarchy(), time, built.macro_step);
-    time = static_cast<double>(++steps) * built.macro_step;
     residual = 0;
+    advance(time, built.macro_step);
+    time = static_cast<double>(++steps) * built.macro_step;
+  }
+  /// A macro step or a part of it; the time is the caller's.
+  void advance(double from, double span) {
+    for (auto& part : hierarchy().levels) part.forces->begin_macro_step();
+    built.cycle->step(hierarchy(), from, span);
     for (const auto& part : hierarchy().levels) residual = std::max(residual, part.integrator->residual());
     worst_residual = std::max(worst_residual, residual);
   }
 
   void keep() {
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].level.state);
-    kept_time = time, kept_steps = steps;
+    kept_time = time, kept_steps = steps, kept_put_in = put_in, kept_drift = drift;
   }
   void go_back() {
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      Level<B>& level = hierarchy().levels[i].level;
-      level.state.copy(hierarchy().exec(), kept[i]);
-      level.flags.clear(hierarchy().exec());
+    put_back(kept);
+    time = kept_time, steps = kept_steps, put_in = kept_put_in, drift = kept_drift;
+  }
+  /// All levels' states; coarser ones start from level 0's anew.
+  void put_back(const std::vector<State<B>>& states) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      HierarchyLevel<B>& part = hierarchy().levels[i];
+      part.level.state.copy(hierarchy().exec(), states[i]);
+      part.level.flags.clear(hierarchy().exec());
     }
     forget();
+    if (const Contact<B>* contact = hierarchy()[0].forces->contact()) contact->take_lost(hierarchy().exec());
     built.cycle->begin(hierarchy());
-    time = kept_time, steps = kept_steps;
   }
   void forget() {
     for (auto& part : hierarchy().levels) part.integrator->forget();
@@ -100,7 +112,8 @@ struct Simulation<B>::Inside {
   }
   void open_budget() {
     const Energies e = meter.all(time);
-    start = put_in = e.total();
+    start = put_in = kept_put_in = e.total();
+    drift = kept_drift = meter.motion(Point::Zero()).drift;
     budget_opens = false;
   }
   /// Level 0's state has been replaced: the other levels follow.

@@ -12,9 +12,10 @@ void persist(Inside& s, StateArchive<B>& archive) {
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.size());
-  for (double* value : {&s.time, &s.kept_time, &s.residual, &s.worst_residual, &s.start, &s.put_in})
+  for (double* value : {&s.time, &s.kept_time, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.kept_put_in,
+                        &s.drift[0], &s.drift[1], &s.drift[2], &s.kept_drift[0], &s.kept_drift[1], &s.kept_drift[2]})
     archive.number(*value);
-  for (long* value : {&s.steps, &s.kept_steps}) archive.number(*value);
+  for (long* value : {&s.steps, &s.kept_steps, &s.halvings, &s.rejected}) archive.number(*value);
   archive.number(s.budget_opens);
   for (std::size_t i = 0; i < s.kept.size(); ++i) {
     HierarchyLevel<B>& part = s.hierarchy().levels[i];

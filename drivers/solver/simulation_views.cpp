@@ -56,6 +56,8 @@ std::map<std::string, long> Simulation<B>::counters() const {
     }
     all["tet_evaluations"] += passes * part.level.model.tets;
   }
+  if (inside_->problem.integration.retry.halvings > 0)
+    all["halvings"] = inside_->halvings, all["rejected_steps"] = inside_->rejected;
   return all;
 }
 

@@ -76,6 +76,19 @@ bool is_same_run(const StudyCase& a, const StudyCase& b) {
          steps_alike(a.integration, b.integration);
 }
 
+void step_alone(IntegrationOptions& o, const std::string& integrator) {
+  o.cycle = "single", o.integrator = {integrator}, o.substeps = {1}, o.shift_to_coarsest = 0;
+  o.distribution = "equal", o.shares = {};
+}
+
+// him and auto take no settings of levels
+void step_together(IntegrationOptions& o, const std::string& cycle, const StudyCase& one) {
+  const IntegrationOptions plain;
+  o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
+  o.distribution = plain.distribution, o.shares = {}, o.shift_to_coarsest = 0;
+  if (cycle == "auto") o.error_class = one.distribution, o.allow_unstable = false;
+}
+
 struct Builder {
   const Problem& problem;
   const StudyOptions& options;
@@ -96,10 +109,8 @@ struct Builder {
       }
   }
 
-  void add_alone(StudyCase one, const std::string& integrator) {
-    IntegrationOptions& o = one.integration;
-    o.cycle = "single", o.integrator = {integrator}, o.substeps = {1}, o.shift_to_coarsest = 0;
-    o.distribution = "equal", o.shares = {};
+  void add_alone(const StudyCase& one) {
+    const std::string integrator = one.integration.integrator.front();
     const bool finest = one.level == 0;
     if (!is_explicit(integrator)) {
       int rank = 2;
@@ -117,26 +128,17 @@ struct Builder {
       if (step && *step < limit) add(one, step, 4);
   }
 
-  void add_him(StudyCase one, const std::string& cycle) {
-    const IntegrationOptions plain;
-    IntegrationOptions& o = one.integration;
-    o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
-    o.distribution = plain.distribution, o.shares = {}, o.shift_to_coarsest = 0;
+  void add_him(const StudyCase& one) {
     int rank = 2;
-    if (cycle == "auto") {
-      o.error_class = one.distribution, o.allow_unstable = false;
-      return add(one, {}, rank);
-    }
+    if (one.integration.cycle == "auto") return add(one, {}, rank);
     for (const Step& step : options.macro_steps) add(one, step, rank++);
     if (!options.macro_steps.empty()) return;
     add(one, {}, rank);
     for (const double factor : him_factors) add(one, factor * levels[0].critical_step, ++rank);
   }
 
-  void add_cycle(StudyCase one, const std::string& cycle) {
-    if (!integrates_coarse_levels(cycle)) return add_him(one, cycle);
-    if (!one.variant.empty()) one.integration = with(one.integration, options.variants.at(one.variant));
-    one.integration.cycle = cycle, one.integration.distribution = one.distribution;
+  void add_cycle(const StudyCase& one) {
+    if (!integrates_coarse_levels(one.integration.cycle)) return add_him(one);
     int rank = (one.distribution == "critical" ? 3 : 5) + (one.variant.empty() ? 0 : 1);
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
@@ -163,36 +165,47 @@ std::string StudyCase::key() const {
   return label() + ", " + text + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") + " threads";
 }
 
-std::vector<StudyLevel> study_levels(const Problem& problem) {
+StudyLevel study_level(const Problem& problem, int level) {
   using B = Backend<double, Kokkos::DefaultExecutionSpace>;
+  StudyCase alone;
+  alone.level = level;
+  Problem one = problem_of(problem, alone);
+  one.body.loads.clear();  // a coarse mesh may have no vertex where one acts: its own run says so
+  const LevelReport report = Simulation<B>(one).levels().front();
+  return {report.tets, report.critical_step};
+}
+
+std::vector<StudyLevel> study_levels(const Problem& problem) {
   std::vector<StudyLevel> levels;
-  for (std::size_t i = 0; i < problem.body.levels.size(); ++i) {
-    StudyCase alone;
-    alone.level = static_cast<int>(i);
-    Problem one = problem_of(problem, alone);
-    one.body.loads.clear();  // a coarse mesh may have no vertex where one acts: its own run says so
-    const LevelReport report = Simulation<B>(one).levels().front();
-    levels.push_back({report.tets, report.critical_step});
-  }
+  for (std::size_t i = 0; i < problem.body.levels.size(); ++i)
+    levels.push_back(study_level(problem, static_cast<int>(i)));
   return levels;
+}
+
+StudyCase study_case(const Problem& problem, const StudyOptions& options, const ChosenMethod& chosen) {
+  StudyCase one;
+  one.method = chosen.method, one.distribution = chosen.distribution, one.variant = chosen.variant;
+  one.integration = problem.integration;
+  IntegrationOptions& o = one.integration;
+  const std::string name = chosen.method.substr(chosen.method.find('/') + 1);
+  if (chosen.method.starts_with("coarse/")) one.level = std::stoi(name);
+  if (!chosen.method.starts_with("cycle/")) {
+    step_alone(o, one.level > 0 ? "symplectic_euler" : name);
+  } else if (!integrates_coarse_levels(name)) {
+    step_together(o, name, one);
+  } else {
+    if (!one.variant.empty()) o = with(o, options.variants.at(one.variant));
+    o.cycle = name, o.distribution = one.distribution;
+  }
+  return one;
 }
 
 std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& options,
                                    const std::vector<StudyLevel>& levels) {
   Builder builder{problem, options, levels};
   for (const ChosenMethod& chosen : chosen_methods(problem, options)) {
-    StudyCase one;
-    one.method = chosen.method, one.distribution = chosen.distribution, one.variant = chosen.variant;
-    one.integration = problem.integration;
-    const std::string name = chosen.method.substr(chosen.method.find('/') + 1);
-    if (chosen.method.starts_with("cycle/")) {
-      builder.add_cycle(one, name);
-    } else if (chosen.method.starts_with("coarse/")) {
-      one.level = std::stoi(name);
-      builder.add_alone(one, "symplectic_euler");
-    } else {
-      builder.add_alone(one, name);
-    }
+    const StudyCase one = study_case(problem, options, chosen);
+    one.integration.cycle == "single" ? builder.add_alone(one) : builder.add_cycle(one);
   }
   return std::move(builder.cases);
 }

@@ -55,7 +55,10 @@ struct StudyCase {
 /// several levels.
 std::vector<std::string> study_methods(const Problem& problem);
 
-/// Sets each level up alone. InputError where that fails or nothing limits the step.
+/// Sets a level up alone. InputError where that fails or nothing limits the step.
+StudyLevel study_level(const Problem& problem, int level);
+
+/// Likewise each of them.
 std::vector<StudyLevel> study_levels(const Problem& problem);
 
 /// All runs, in the order of their names. The default: the finest level alone, explicit at 0.9 and 0.5 of its limit and

@@ -13,7 +13,9 @@ class GrowthOfCycles {
   explicit GrowthOfCycles(const Problem& problem) : problem_(problem) {}
 
   /// Of that case at this macro step [s]; none where its set-up is refused.
-  std::optional<CycleGrowth> of(const StudyCase& one, double macro_step);
+  /// @param told_from  a radius that it is to be told from: close to 1, of a small body, by all eigenvalues; else, where its uncertainty is
+  ///                   too large for that, by longer runs, up to 16 times
+  std::optional<CycleGrowth> of(const StudyCase& one, double macro_step, std::optional<double> told_from = {});
 
   /// Evaluations of tetrahedra that of() is to take, at most, in a study so long [s]; 0 where the map is known.
   double predicted_evaluations(const StudyCase& one, double macro_step, double duration) const;

@@ -8,6 +8,16 @@
 
 namespace plica {
 
+/// Where surface points are told of that are further inside an obstacle than makes sense, or nowhere: the last of them + 1.
+template <class B>
+struct DepthWatch {
+  Kokkos::View<int, typename B::Memory> lost;
+  typename B::Real deepest;  ///< [m]
+  KOKKOS_INLINE_FUNCTION void look(int p, typename B::Real distance) const {
+    if (!(distance >= -deepest)) Kokkos::atomic_max(&lost(), p + 1);
+  }
+};
+
 /// Forces of one obstacle on the surface points [N], set (`first` obstacle) or added. With Tangent also each point's symmetric
 /// 3x3 block (a k + b d) n n + b drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz, see ImplicitWeights: the coupling of
 /// friction to the normal force is left out, which keeps the matrix symmetric.
@@ -19,6 +29,7 @@ struct ObstacleContact {
   Shape shape;
   Vec3<Real> offset, velocity;  ///< of the obstacle at the time of the state
   PenaltyLaw<Real> law;
+  DepthWatch<B> watch;
   Real ahead, a, b;
   bool first;
   Vectors<B> force;
@@ -27,7 +38,9 @@ struct ObstacleContact {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
-    const PointContact<Real> c = penalty_contact(law, shape(x - offset), speed - velocity, ahead);
+    const Gap<Real> gap = shape(x - offset);
+    watch.look(p, gap.distance);
+    const PointContact<Real> c = penalty_contact(law, gap, speed - velocity, ahead);
     for (int k = 0; k < 3; ++k) force(p, k) = (first ? Real(0) : force(p, k)) + c.force[k];
     if constexpr (Tangent) {
       const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),

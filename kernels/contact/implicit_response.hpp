@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
-#include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
 
@@ -36,12 +36,14 @@ struct FindTouching {
   Shape shape;
   Vec3<Real> offset, velocity;  ///< of the obstacle
   PenaltyLaw<Real> law;
+  DepthWatch<B> watch;
   bool first;
   TouchingPoints<B> points;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, state.u, state.v, p, x, speed);
     const Gap<Real> gap = shape(x - offset);
+    watch.look(p, gap.distance);
     if (!first && -gap.distance <= points.depth(p)) return;
     points.depth(p) = -gap.distance, points.tangential(p) = law.tangential, points.friction(p) = law.friction;
     for (int k = 0; k < 3; ++k) points.normal(p, k) = gap.normal[k], points.velocity(p, k) = speed[k] - velocity[k];

@@ -3,9 +3,9 @@
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/model.hpp>
 #include <plica/core/patch_pairs.hpp>
-#include <plica/kernels/patch_kernel.hpp>
+#include <plica/kernels/elastic/elastic_tangent.hpp>
 
-// Assembles A = (1 + b c) M + a K(u) as blocks, see ImplicitWeights: per patch, the ten blocks (p <= q) of its elements into scratch, then their
+// Assembles A = (1 + b c) M + a K(u) + b D(u), D the stiffness that damps, as blocks, see ImplicitWeights: per patch, the ten blocks (p <= q) of its elements into scratch, then their
 // sums per pair of its vertices, which go to the matrix where no other patch has a share in them, else to `shares`, to be added up
 // by a second kernel. All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 20 (slots), and
 // 9 s per block of the matrix; in scratch, which a second-level cache holds, 92 s written and 90 s read.
@@ -81,7 +81,8 @@ struct ElasticBlocks {
   Vectors<B> u;
   PlaceBlock<B> place;
   Blocks9<B> shares;
-  Real scale;  ///< of every element
+  TangentScale<B> scale;
+  Real a;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int p = team.league_rank();
@@ -105,7 +106,7 @@ struct ElasticBlocks {
     Mat3<T> G[1];
     load_pack<B, 1>(patches, patch, pack, local, shape, G);
     T K[element_numbers];
-    element_blocks(Tangent(Mat3<T>::identity() + G[0], shape.lame), shape, T(scale), K);
+    element_blocks(Tangent(Mat3<T>::identity() + G[0], shape.lame), shape, T(a * scale(patch)), K);
     for (int k = 0; k < element_numbers; k += 4) {
       const T four[4] = {K[k], K[k + 1], K[k + 2], K[k + 3]};
       store_fours(four, [=](int l) { return blocks + l * element_numbers + k; });
@@ -159,12 +160,13 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
                     const BlockMatrix<B>& A) {
   using Real = typename B::Real;
   using Kernel = ElasticBlocks<B, Tangent<typename PackOf<Real, B::lanes>::type>>;
+  const TangentScale<B> scale{model.patches.damping, static_cast<Real>(weights.b / weights.a)};
   const PlaceBlock<B> place{A, model.mass, model.damping, static_cast<Real>(weights.b)};
   typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
   policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes + 64));
   policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes + 64));
   Kokkos::parallel_for("plica::elastic_blocks", policy,
-                       Kernel{model.patches, pairs, u, place, shares, static_cast<Real>(weights.a)});
+                       Kernel{model.patches, pairs, u, place, shares, scale, static_cast<Real>(weights.a)});
   Kokkos::parallel_for("plica::add_shares",
                        Kokkos::RangePolicy<typename B::Exec>(exec, 0, static_cast<int>(pairs.shared_upper.extent(0))),
                        AddShares<B>{pairs, shares, place});

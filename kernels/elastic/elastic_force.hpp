@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/element_flags.hpp>
+#include <plica/core/model.hpp>
 #include <plica/kernels/patch_kernel.hpp>
+#include <type_traits>
 
 namespace plica {
 
 /// Internal force f_a = -V P(F) grad N_a of linear tetrahedra, F = I + grad u [N].
-template <class B, class Material>
+template <class B, class Material, bool Watched>
 struct ElasticForce {
   static constexpr int fields = 1;
   Vectors<B> field[1];
-  ElementFlags<B> flags;  ///< empty where the material survives inversion
+  ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0
   int evaluation;
 
   template <class T>
@@ -18,7 +20,7 @@ struct ElasticForce {
                                          int patch, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     stress_to_corners(Material::stress(F, shape.lame), shape, corner);
-    if constexpr (!Material::survives_inversion) {
+    if constexpr (Watched) {
       const T J = determinant(F);
       for (int l = 0; l < LaneOf<T>::count; ++l)
         if (!(lane(J, l) > 0)) flags.raise(patch, evaluation, pack * LaneOf<T>::count + l, lane(J, l));
@@ -26,10 +28,42 @@ struct ElasticForce {
   }
 };
 
+/// The same with the damping force -damping K(u) v of a patch.
+template <class B, class Material, bool Watched>
+struct DampedElasticForce {
+  static constexpr int fields = 2;
+  Vectors<B> field[2];  ///< u, v
+  ElasticForce<B, Material, Watched> elastic;
+  Scalars<B> damping;  ///< [patches] s
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
+                                         int patch, int pack) const {
+    const Mat3<T> displacement[1] = {G[0]}, F = Mat3<T>::identity() + G[0];
+    elastic(displacement, shape, corner, patch, pack);
+    Vec3<T> drag[4];
+    stress_to_corners(T(damping(patch)) * Material::stress_change(F, G[1], shape.lame), shape, drag);
+    for (int c = 0; c < 4; ++c) corner[c] += drag[c];
+  }
+};
+
+/// Damped where the patches are; with empty flags nobody watches for inverted elements.
 template <class B, class Material>
-void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
+void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const State<B>& state,
                    const ElementFlags<B>& flags, int evaluation, const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_force", patches, ElasticForce<B, Material>{{u}, flags, evaluation}, partial);
+  const auto launch = [&]<bool Watched>(std::bool_constant<Watched>) {
+    const ElasticForce<B, Material, Watched> elastic{{state.u}, flags, evaluation};
+    if (patches.damping.extent(0) > 0)
+      launch_patches<B>(exec, "plica::damped_elastic_force", patches,
+                        DampedElasticForce<B, Material, Watched>{{state.u, state.v}, elastic, patches.damping},
+                        partial);
+    else
+      launch_patches<B>(exec, "plica::elastic_force", patches, elastic, partial);
+  };
+  if (flags.evaluation.extent(0) > 0)
+    launch(std::true_type());
+  else
+    launch(std::false_type());
 }
 
 }  // namespace plica

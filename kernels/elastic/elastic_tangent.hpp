@@ -4,18 +4,30 @@
 
 namespace plica {
 
+/// How much of the stiffness of a patch's elements counts: 1, and its part that damps over a time.
+template <class B>
+struct TangentScale {
+  using Real = typename B::Real;
+  Scalars<B> damping;  ///< [patches] s, or empty
+  Real over = 0;       ///< [1/s]
+  KOKKOS_INLINE_FUNCTION Real operator()(int patch) const {
+    return damping.extent(0) > 0 ? 1 + over * damping(patch) : Real(1);
+  }
+};
+
 /// Minus the tangent stiffness times a direction, (-K(u) p)_a = -V (dP/dF : grad p) grad N_a: the change of the internal
 /// force [N] for a change p of the displacement [m], matrix-free.
 template <class B, class Material>
 struct ElasticTangent {
   static constexpr int fields = 2;
   Vectors<B> field[2];  ///< u, p
+  TangentScale<B> scale;
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape, Vec3<T> (&corner)[4], int,
-                                         int) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
+                                         int patch, int) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    stress_to_corners(Material::stress_change(F, G[1], shape.lame), shape, corner);
+    stress_to_corners(T(scale(patch)) * Material::stress_change(F, G[1], shape.lame), shape, corner);
   }
 };
 
@@ -25,31 +37,37 @@ struct ElasticDiagonal {
   static constexpr int fields = 1;
   Vectors<B> field[1];
   int direction;
+  TangentScale<B> scale;
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4], int,
-                                         int) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
+                                         int patch, int) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
+    const T weight = T(scale(patch)) * shape.volume;
     for (int c = 0; c < 4; ++c) {
       const Vec3<T> g =
           c > 0 ? shape.gradient[c - 1] : T(-1) * (shape.gradient[0] + shape.gradient[1] + shape.gradient[2]);
       Mat3<T> dF;
       for (int r = 0; r < 3; ++r) dF[r] = r == direction ? g : Vec3<T>{};
-      corner[c] = shape.volume * (Material::stress_change(F, dF, shape.lame) * g);
+      corner[c] = weight * (Material::stress_change(F, dF, shape.lame) * g);
     }
   }
 };
 
 template <class B, class Material>
 void elastic_tangent(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p,
-                     const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_tangent", patches, ElasticTangent<B, Material>{{u, p}}, partial);
+                     double over, const Vectors<B>& partial) {
+  launch_patches<B>(exec, "plica::elastic_tangent", patches,
+                    ElasticTangent<B, Material>{{u, p}, {patches.damping, static_cast<typename B::Real>(over)}},
+                    partial);
 }
 
 template <class B, class Material>
 void elastic_diagonal(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction,
-                      const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_diagonal", patches, ElasticDiagonal<B, Material>{{u}, direction}, partial);
+                      double over, const Vectors<B>& partial) {
+  launch_patches<B>(
+      exec, "plica::elastic_diagonal", patches,
+      ElasticDiagonal<B, Material>{{u}, direction, {patches.damping, static_cast<typename B::Real>(over)}}, partial);
 }
 
 }  // namespace plica

@@ -12,17 +12,50 @@ namespace plica {
 template <class B>
 struct SymplecticEulerUpdate {
   using Real = typename B::Real;
-  Scalars<B> inverse_mass;
+  Model<B> model;
   Vectors<B> f, u, v;
-  Real h, keep;  ///< keep = 1/(1 + h c)
+  Real h;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = h * inverse_mass(a), k = inverse_mass(a) > 0 ? keep : Real(1);
+    const Real w = h * model.inverse_mass(a), keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
     for (int i = 0; i < 3; ++i) {
-      const Real speed = (v(a, i) + w * f(a, i)) * k;
+      const Real speed = (v(a, i) + w * f(a, i)) * keep;
       v(a, i) = speed;
       u(a, i) += h * speed;
     }
+  }
+};
+
+/// v += h (a - c v), h half a step; then u += 2 h v.
+template <class B>
+struct HalfKickAndDrift {
+  using Real = typename B::Real;
+  Model<B> model;
+  Vectors<B> f;
+  State<B> state;
+  Real h;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const Real w = h * model.inverse_mass(a), c = w > 0 ? h * model.damping(a) : Real(0);
+    for (int i = 0; i < 3; ++i) {
+      const Real speed = state.v(a, i) + w * f(a, i) - c * state.v(a, i);
+      state.v(a, i) = speed;
+      state.u(a, i) += 2 * h * speed;
+    }
+  }
+};
+
+/// v = (v + h a)/(1 + h c), h half a step.
+template <class B>
+struct HalfKick {
+  using Real = typename B::Real;
+  Model<B> model;
+  Vectors<B> f, v;
+  Real h;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const Real w = h * model.inverse_mass(a), keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
+    for (int i = 0; i < 3; ++i) v(a, i) = (v(a, i) + w * f(a, i)) * keep;
   }
 };
 
@@ -30,12 +63,12 @@ struct SymplecticEulerUpdate {
 template <class B>
 struct ForwardEulerUpdate {
   using Real = typename B::Real;
-  Scalars<B> inverse_mass;
+  Model<B> model;
   Vectors<B> f, u, v;
-  Real h, damping;
+  Real h;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = h * inverse_mass(a), c = inverse_mass(a) > 0 ? h * damping : Real(0);
+    const Real w = h * model.inverse_mass(a), c = w > 0 ? h * model.damping(a) : Real(0);
     for (int i = 0; i < 3; ++i) {
       const Real speed = v(a, i);
       u(a, i) += h * speed;
@@ -49,13 +82,13 @@ struct ForwardEulerUpdate {
 template <class B>
 struct RungeKuttaStage {
   using Real = typename B::Real;
-  Scalars<B> inverse_mass;
+  Model<B> model;
   Vectors<B> f;
   State<B> start, stage, sum;
-  Real h, damping, weight, ahead;
+  Real h, weight, ahead;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = inverse_mass(a), c = w > 0 ? damping : Real(0);
+    const Real w = model.inverse_mass(a), c = w > 0 ? model.damping(a) : Real(0);
     for (int i = 0; i < 3; ++i) {
       const Real ku = stage.v(a, i), kv = w * f(a, i) - c * stage.v(a, i);
       sum.u(a, i) += weight * h * ku;

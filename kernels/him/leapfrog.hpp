@@ -63,17 +63,17 @@ struct SlowedMomentum {
   }
 };
 
-/// p = ((1 - t d / 2) p + t f - c g) / (1 + t d / 2), d the body's mass damping; no g: p - m v
+/// p = ((1 - t d / 2) p + t f - c g) / (1 + t d / 2), d the mass damping; no g: p - m v
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, v, g, p;
   Kokkos::View<double*, typename B::Memory> loss;
-  Real t, half_damping;  ///< t d / 2
+  Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
-    const Real c = static_cast<Real>(loss(0)), m = model.mass(a);
+    const Real c = static_cast<Real>(loss(0)), m = model.mass(a), half_damping = t * model.damping(a) / 2;
     for (int k = 0; k < 3; ++k) {
       const Real slowed = g.extent(0) > 0 ? g(a, k) : p(a, k) - m * v(a, k);
       p(a, k) = ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed) / (1 + half_damping);

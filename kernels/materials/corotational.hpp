@@ -4,9 +4,47 @@
 
 namespace plica {
 
-/// The rotation R that maximises R:F (for det F > 0 the polar factor), without an eigen-solver. Its R:F is the largest
-/// root s of p = s^4 - 2|F|^2 s^2 - 8 J s + |F|^4 - 4|cof F|^2, whose roots are the signed sums of the singular values;
-/// Newton's method descends to it from sqrt(3)|F| >= s. Then R = ds/dF = -(dp/dF)/(dp/ds).
+/// R is unique where (s2 + s1)(s3 + s1)(s3 + s2) > 0 with the singular values s1 >= s2 >= |s3|, s3 of the sign of det F; it is
+/// not where the product is 0, as in F = 0, in a line or in a reflection. Below this part of s |F|^2 it counts as 0.
+inline constexpr double least_turning = 1e-3;
+
+/// The same rotation R as below for one F, where several may maximise R:F and one of them is chosen: from the unit quaternion q
+/// that maximises q.K q = R(q):F (Horn 1987), found by squaring K, shifted, until its largest eigenvalue alone is left.
+template <class Real>
+KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F) {
+  const Real shift = sqrt(Real(3) * inner(F, F)) + Real(Kokkos::Experimental::norm_min_v<Real>);
+  const Real xx = F[0][0], yy = F[1][1], zz = F[2][2];
+  Real M[4][4] = {{xx + yy + zz, F[2][1] - F[1][2], F[0][2] - F[2][0], F[1][0] - F[0][1]},
+                  {Real(0), xx - yy - zz, F[0][1] + F[1][0], F[0][2] + F[2][0]},
+                  {Real(0), Real(0), yy - xx - zz, F[1][2] + F[2][1]},
+                  {Real(0), Real(0), Real(0), zz - xx - yy}};
+  for (int i = 0; i < 4; ++i) {
+    M[i][i] = M[i][i] + shift;
+    for (int j = 0; j < i; ++j) M[i][j] = M[j][i];
+  }
+  for (int n = 0; n < 16; ++n) {
+    const Real size = Real(1) / (M[0][0] + M[1][1] + M[2][2] + M[3][3]);
+    Real N[4][4];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) N[i][j] = size * M[i][j];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        M[i][j] = N[i][0] * N[0][j] + N[i][1] * N[1][j] + N[i][2] * N[2][j] + N[i][3] * N[3][j];
+  }
+  int k = 0;
+  for (int i = 1; i < 4; ++i)
+    if (M[i][i] > M[k][k]) k = i;
+  const Real square = M[0][k] * M[0][k] + M[1][k] * M[1][k] + M[2][k] * M[2][k] + M[3][k] * M[3][k];
+  const Real two = Real(2) / square, w = M[0][k], x = M[1][k], y = M[2][k], z = M[3][k];
+  return {Vec3<Real>{Real(1) - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)},
+          Vec3<Real>{two * (x * y + w * z), Real(1) - two * (x * x + z * z), two * (y * z - w * x)},
+          Vec3<Real>{two * (x * z - w * y), two * (y * z + w * x), Real(1) - two * (x * x + y * y)}};
+}
+
+/// The rotation R, det R = 1, that maximises R:F: R^T F = S is symmetric with the signed singular values, the smallest of the
+/// sign of det F (for det F > 0 R is the polar factor). Without an eigen-solver: R:F is the largest root s of
+/// p = s^4 - 2|F|^2 s^2 - 8 J s + |F|^4 - 4|cof F|^2, whose roots are the signed sums of the singular values; Newton's method
+/// descends to it from sqrt(3)|F| >= s. Then R = ds/dF = -(dp/dF)/(dp/ds), but where that root is not simple.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   using Real = typename LaneOf<T>::type;
@@ -23,19 +61,34 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
       converged = converged && lane(step, l) <= lane(s, l) * Kokkos::Experimental::epsilon_v<Real>;
     if (converged) break;
   }
-  const T scale = T(1) / max(s * s * s - n * s - T(2) * J, tiny);
+  const T turning = s * s * s - n * s - T(2) * J;
+  const T scale = T(1) / max(turning, tiny);
   const T a = scale * (s * s + n), b = scale * (s + s), c = scale + scale;
-  return a * F + b * H - c * (F * (transpose(F) * F));
+  Mat3<T> R = a * F + b * H - c * (F * (transpose(F) * F));
+  const T unclear = turning - T(Real(2 * least_turning)) * s * n;
+  for (int l = 0; l < LaneOf<T>::count; ++l)
+    if (!(lane(unclear, l) > Real(0))) {
+      Mat3<Real> one;
+      for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < 3; ++k) one[r][k] = lane(F[r][k], l);
+      one = any_nearest_rotation(one);
+      for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < 3; ++k) set_lane(R[r][k], l, one[r][k]);
+    }
+  return R;
 }
 
 /// Psi = mu |F - R|^2 + lambda/2 (R:F - 3)^2 with R the rotation nearest to F: Hooke's law in the rotated frame, with
-/// the exact derivative of R (Chao, Pinkall, Sanan & Schroeder 2010; McAdams et al. 2011).
+/// the exact derivative of R (Chao, Pinkall, Sanan & Schroeder 2010; McAdams et al. 2011). Finite everywhere, and its energy in
+/// the signed singular values has no minimum but at rest: inverted elements are pushed back along the axis that takes least.
 struct Corotational {
   static constexpr const char* name = "corotational";
   static constexpr const char* summary =
-      "Hooke's law in the frame turned with the element; large rotations, small strains";
+      "Hooke's law in the frame turned with the element; large rotations, small strains; recovers from inversion";
   static constexpr bool rotation_invariant = true;
   static constexpr bool survives_inversion = true;
+  static constexpr bool recovers = true;
+  static constexpr bool allows_inversion = true;
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const Lame<T>& c) {
@@ -50,7 +103,7 @@ struct Corotational {
     return (c.mu + c.mu) * (F - R) + (c.lambda * (inner(R, F) - T(3))) * R;
   }
 
-  /// dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F.
+  /// dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F; 0 where R is not unique.
   template <class T>
   struct Tangent {
     Mat3<T> R, turning;  // (tr(S) I - S)^-1
@@ -60,7 +113,11 @@ struct Corotational {
     KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>& F, const Lame<T>& constants) : R(polar_rotation(F)), c(constants) {
       using Real = typename LaneOf<T>::type;
       const Mat3<T> S = transpose(R) * F, G = Mat3<T>::diagonal(trace(S)) - S, H = cofactor(G);
-      turning = (T(1) / max(dot(G[0], H[0]), T(Kokkos::Experimental::norm_min_v<Real>))) * transpose(H);
+      const T det = dot(G[0], H[0]), least = T(Real(least_turning)) * trace(S) * inner(F, F);
+      T d = T(1) / max(det, T(Kokkos::Experimental::norm_min_v<Real>));
+      for (int l = 0; l < LaneOf<T>::count; ++l)
+        if (lane(det, l) <= lane(least, l)) set_lane(d, l, Real(0));
+      turning = d * transpose(H);
       turned = R * turning * transpose(R);
       stretch = c.lambda * (trace(S) - T(3));
     }

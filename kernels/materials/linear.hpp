@@ -11,6 +11,8 @@ struct Linear {
   static constexpr const char* summary = "Hooke's law; small displacements and rotations only";
   static constexpr bool rotation_invariant = false;
   static constexpr bool survives_inversion = true;
+  static constexpr bool recovers = true;  // its energy is convex
+  static constexpr bool allows_inversion = true;
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> hooke(const Mat3<T>& G, const Lame<T>& c) {  // of a gradient G

@@ -13,7 +13,9 @@
 // with the constants c [Pa], and says of itself:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy
-//   survives_inversion        finite and meaningful for det F <= 0; where false, such an element ends the run
+//   survives_inversion        finite with finite derivatives for det F <= 0
+//   recovers                  no stable state but rotations: inverted, flat and collapsed elements are pushed back
+//   allows_inversion          whether an element with det F <= 0 goes on where a scene does not say, or ends the run
 namespace plica {
 
 /// Lame's constants [Pa]: lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)).

@@ -9,9 +9,12 @@ namespace plica {
 /// against inversion.
 struct StVenantKirchhoff {
   static constexpr const char* name = "st_venant_kirchhoff";
-  static constexpr const char* summary = "linear in Green's strain; large rotations, moderate strains";
+  static constexpr const char* summary =
+      "linear in Green's strain; large rotations, moderate strains; inverted elements may stay so";
   static constexpr bool rotation_invariant = true;
   static constexpr bool survives_inversion = true;
+  static constexpr bool recovers = false;
+  static constexpr bool allows_inversion = true;
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> strain(const Mat3<T>& F) {
@@ -53,7 +56,8 @@ struct StVenantKirchhoff {
       Mat3<T> K = Mat3<T>::diagonal(dot(p.g, q.s));
       const T w = c.mu * dot(p.g, q.g);
       for (int i = 0; i < 3; ++i)
-        K[i] += (c.lambda * p.f[i]) * q.f + (c.mu * q.f[i]) * p.f + Vec3<T>{w * FFt[i][0], w * FFt[i][1], w * FFt[i][2]};
+        K[i] +=
+            (c.lambda * p.f[i]) * q.f + (c.mu * q.f[i]) * p.f + Vec3<T>{w * FFt[i][0], w * FFt[i][1], w * FFt[i][2]};
       return K;
     }
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/study/stability.hpp>
 #include <plica/meshes/sphere_surface.hpp>
 
 #include "support/backends.hpp"
@@ -14,34 +15,12 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-/// Whether small random motion stays small. The material is linear, so that size is of no account.
-bool stays_bounded(Problem p, double step) {
-  p.integration.macro_step = step;
-  p.integration.substeps = {1};
-  p.integration.allow_unstable = true;
-  Simulation<Host> simulation(p);
-  const std::size_t n = p.body.levels[0].vertices.size();
-  auto v = random_field(n, 1e-3, 12);
-  simulation.set_state(std::vector<Point>(n, Point::Zero()), v);
-  for (int i = 0; i < 2000; ++i) simulation.step();
-  return largest(simulation.velocities()) < 1e-1;  // bounded motion wavers by less than (1 - (h w / 2)^2)^-1/2
-}
-
 void expect_limit(const Problem& p, const std::string& integrator) {
-  Problem q = p;
-  q.integration.integrator = {integrator};
-  const double predicted = [&] {
-    q.integration.macro_step = 1e-7;
-    return Simulation<Host>(q).levels()[0].critical_step;
-  }();
-  double low = 0.9 * predicted, high = 1.1 * predicted;
-  ASSERT_TRUE(stays_bounded(q, low)) << integrator;
-  ASSERT_FALSE(stays_bounded(q, high)) << integrator;
-  while (high - low > 0.004 * predicted) {
-    const double middle = 0.5 * (low + high);
-    (stays_bounded(q, middle) ? low : high) = middle;
-  }
-  EXPECT_NEAR(low, predicted, 0.02 * predicted) << integrator;
+  StudyOptions asked;
+  asked.methods = {"single/" + integrator};
+  const StabilityRow row = stability(p, asked).rows.at(0);
+  ASSERT_EQ(row.status, "limited") << row.reason;
+  EXPECT_NEAR(*row.ratio, 1, 0.02) << integrator;
 }
 
 TEST(LargestStableStep, OfAFreeCube) { expect_limit(small_cube("linear"), "symplectic_euler"); }

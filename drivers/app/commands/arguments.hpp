@@ -37,4 +37,9 @@ struct StudyArguments {
   bool growth = false;  ///< of the linearised cycles too
 };
 
+struct StabilityArguments {
+  std::string budget;   ///< as of a study
+  bool matrix = false;  ///< of stiff and extreme cases, instead of a scene
+};
+
 }  // namespace plica::app

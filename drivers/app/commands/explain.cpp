@@ -13,16 +13,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class B>
-Plan plan_of(const Simulation<B>& simulation, const Machine& machine) {
-  return {simulation.macro_step(), machine.backend,  machine.threads,     machine.precision,
-          simulation.levels(),     simulation.him(), simulation.choice(), simulation.parts()};
+Plan plan_of(const Scene& scene, const Simulation<B>& simulation, const Machine& machine) {
+  return {simulation.macro_step(),
+          machine.backend,
+          machine.threads,
+          machine.precision,
+          in_input_numbers(simulation.levels(), scene),
+          simulation.him(),
+          simulation.choice(),
+          simulation.parts()};
 }
 
 }  // namespace
 
 ExitStatus explain(const SceneArguments& arguments) {
   with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine& machine, double) {
-    const Plan plan = plan_of(simulation, machine);
+    const Plan plan = plan_of(scene, simulation, machine);
     std::cout << (arguments.json ? plan_json(scene, plan) : plan_text(scene, plan));
   });
   return ExitStatus::done;
@@ -36,7 +42,7 @@ ExitStatus check(const SceneArguments& arguments) {
                           {"sound", true},
                           {"error", nullptr},
                           {"warnings", scene.warnings},
-                          {"levels", levels_json(simulation.levels())}}
+                          {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}}
                          .dump(2)
                   << "\n";
       else

@@ -60,6 +60,35 @@ Examples:
 
 Exit status: 0 done, also with rows that diverged, 1 a file cannot be written, 2 bad input, 130 interrupted)";
 
+constexpr const char* stability_manual =
+    R"(Searches the largest stable macro step of each method by bisection on runs, beside the one predicted before running.
+Methods are those of `plica study` (study.methods, study.variants); left out, all of them, and on coarser levels every
+explicit integrator. Levels alone take one sub-step; cycles the shares and sub-steps of `integration`.
+  predicted          of small motions about rest, linearised, without loads and contact: of a level alone 2/w and the like,
+                     of cycle him 2/sqrt(lambda) of the inertia it has at its own macro step, of the other cycles where the
+                     spectral radius of their map leaves 1. 0: growing at every step worth while; null: no limit
+  measured           the largest macro step at which such motions, all modes excited alike, stay bounded for 400 steps (600 of
+                     a cycle; 40 of an implicit level, at up to 1000 critical steps: stable_up_to)
+  growth_per_second  of small motions by a cycle, at growth_step
+  scene_measured     where the material is not linear, or something is touched: the largest macro step with which the scene
+                     itself comes to its end, and beside it how and where it ended one step further (scene_kind, scene_J ...)
+
+--matrix runs stiff and extreme cases instead (stiffness, density, size, gravity, steps, slivers, inverted and random starts,
+impacts, one element, many levels ...), each with the outcome it must have, and bodies that are turned, moved, renumbered or
+given in millimetres, which must move alike.
+
+Files in the folder, SI units throughout, kept up to date:
+  stability.json     machine, rows
+  stability.csv      the rows
+drivers/plots/stability.py FOLDER draws stability.png of a scene.
+
+Examples:
+  plica stability beam.yaml -o out/beam --budget 60s
+  plica stability beam.yaml --set study.methods="[single, cycle/rsv/equal, cycle/him]" --set body.material.model=linear
+  plica stability --matrix
+
+Exit status: 0 done, 1 a row of the matrix is wrong or a file cannot be written, 2 bad input, 130 interrupted)";
+
 constexpr const char* explain_manual =
     R"(Prints levels with critical steps [s], shares and sub-steps, and each part that is in or out, why, and its bytes.
 
@@ -97,6 +126,7 @@ Exit status: 0 done, 2 another shell)";
 std::string manual_of(const std::string& command) {
   if (command == "run") return run_manual;
   if (command == "study") return study_manual;
+  if (command == "stability") return stability_manual;
   if (command == "explain") return explain_manual;
   if (command == "check") return check_manual;
   if (command == "schema") return schema_manual;

@@ -11,7 +11,10 @@ namespace plica::app {
 template <class Kind, class Target>
 void read_option(const std::string& option, const std::string& text, const Kind& kind, Target& target) {
   const Tree tree{Tree::Kind::scalar, text, {}, {}, {}, {}};
-  kind.read(Value{tree, option}, target);
+  if constexpr (requires { kind.read(Value{tree, option}, target); })
+    kind.read(Value{tree, option}, target);
+  else
+    kind.read(Value{tree, option}, target.emplace());
 }
 
 /// "young_modulus" on the command line: "--young-modulus".
@@ -41,7 +44,9 @@ class OptionList {
   explicit OptionList(const Add& add) : add_(add) {}
   template <class T, class Kind>
   void operator()(const char* key, const T& member, const Kind& kind, const char* help) const {
-    add_(option_of(key), std::string(key), kind.expects() + "; default " + kind.shown(member), std::string(help));
+    std::string expects = kind.expects();
+    if constexpr (requires { kind.shown(member); }) expects += "; default " + kind.shown(member);
+    add_(option_of(key), std::string(key), expects, std::string(help));
   }
 
  private:

@@ -49,7 +49,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.threads = machine.threads;
   summary.choice = simulation.choice();
   summary.cycle = cycle_name(scene, summary.choice);
-  summary.levels = simulation.levels();
+  summary.levels = in_input_numbers(simulation.levels(), scene);
   summary.stages = output.stages();
   summary.frames = output.files().frames();
   summary.last_good_time = output.files().last_time();

@@ -24,7 +24,7 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutpu
     ++end.macro_steps;
     end.time = static_cast<double>(end.macro_steps) * step;
     output.record(end);
-    progress.update(end.time, end.macro_steps);
+    progress.update(end.time, end.macro_steps, [&] { return halvings_of(simulation); });
   }
   double last = end.time;
   if (end.diagnosis) {

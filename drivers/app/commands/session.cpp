@@ -18,6 +18,19 @@ KokkosSession::KokkosSession(const KokkosArguments& arguments) {
   Kokkos::initialize(count, pointers.data());
 }
 
+std::vector<LevelReport> in_input_numbers(std::vector<LevelReport> levels, const Scene& scene) {
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    for (StiffElement& e : levels[i].stiffest) e.element = input_number(scene.numbering[i].tet_ids, e.element);
+  return levels;
+}
+
+SubstepRefused in_input_numbers(const SubstepRefused& error, const Scene& scene) {
+  std::optional<StiffElement> element = error.element;
+  const auto& ids = scene.numbering[static_cast<std::size_t>(error.level)].tet_ids;
+  if (element) element->element = input_number(ids, element->element);
+  return {error.words, error.level, element};
+}
+
 void warn(const Scene& scene) {
   for (const std::string& warning : scene.warnings) message(coloured("warning: ", Colour::yellow) + warning);
 }

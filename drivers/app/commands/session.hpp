@@ -5,6 +5,7 @@
 #include <optional>
 #include <plica/drivers/app/commands/arguments.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <type_traits>
 
@@ -18,6 +19,11 @@ class KokkosSession {
   KokkosSession(const KokkosSession&) = delete;
   KokkosSession& operator=(const KokkosSession&) = delete;
 };
+
+/// With elements as the mesh files number them.
+std::vector<LevelReport> in_input_numbers(std::vector<LevelReport> levels, const Scene& scene);
+/// The same with the element as the mesh file numbers it.
+SubstepRefused in_input_numbers(const SubstepRefused& error, const Scene& scene);
 
 /// What the scene's author should know, on the standard error.
 void warn(const Scene& scene);
@@ -40,6 +46,8 @@ auto with_simulation(const Scene& scene, const std::string& precision, const Kok
     std::optional<Simulation<B>> simulation;
     try {
       simulation.emplace(scene.problem);
+    } catch (const SubstepRefused& error) {
+      throw located(in_input_numbers(error, scene), scene.source);
     } catch (const InputError& error) {
       throw located(error, scene.source);
     }

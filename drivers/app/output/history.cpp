@@ -16,12 +16,15 @@ namespace {
 
 constexpr const char* head =
     "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
-    "com_x,com_y,com_z,max_speed,rms_speed\n";
+    "com_x,com_y,com_z,max_speed,rms_speed";
 
 }  // namespace
 
-History::History(const std::filesystem::path& file, std::vector<double> masses, std::optional<std::uint64_t> kept)
-    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, head)), masses_(std::move(masses)) {}
+History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
+                 std::optional<std::uint64_t> kept)
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, std::string(head) + (retries ? ",halvings\n" : "\n"))),
+      masses_(std::move(masses)),
+      retries_(retries) {}
 
 void History::write(const Snapshot& s) {
   double mass = 0, max_square = 0, sum_square = 0;
@@ -35,9 +38,10 @@ void History::write(const Snapshot& s) {
   }
   centre /= mass;
   const Energies& e = s.energies;
-  file_.add(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", s.time,
+  file_.add(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}{}\n", s.time,
                         e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(), centre.z(),
-                        std::sqrt(max_square), std::sqrt(sum_square / mass)));
+                        std::sqrt(max_square), std::sqrt(sum_square / mass),
+                        retries_ ? fmt::format(",{}", s.halvings) : std::string{}));
 }
 
 }  // namespace plica::app

@@ -7,6 +7,7 @@
 #include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/solver/set_up/plan_steps.hpp>
 
 namespace plica::app {
 namespace {
@@ -43,6 +44,19 @@ std::string inertia_text(const Plan& plan) {
          fmt::format(
              "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the levels' own: {:.3f}\n",
              plan.him->product, plan.him->bound);
+}
+
+// The elements that set a level's critical step, where they are out of the ordinary: below half the median
+std::string slivers_text(const Plan& plan) {
+  std::vector<std::vector<std::string>> rows = {
+      {"level", "element", "edge / height", "step by itself", "of the median", "region"}};
+  for (std::size_t i = 0; i < plan.levels.size(); ++i)
+    for (const StiffElement& e : plan.levels[i].stiffest)
+      if (const double median = plan.levels[i].typical_element; e.step < named_below * median)
+        rows.push_back({std::to_string(i), std::to_string(e.element), fmt::format("{:.3g}", e.height_ratio),
+                        in_units(e.step, "s"), fmt::format("{:.2g}", e.step / median), e.region});
+  if (rows.size() == 1) return {};
+  return "\nElements that hold the step back, at most ten of a level\n" + text_table(rows, ">>>>><");
 }
 
 // Two tables: what a level is, then what it does in a macro step
@@ -95,7 +109,7 @@ std::string parts_text(const Plan& plan) {
 
 std::string plan_text(const Scene& scene, const Plan& plan) {
   return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") + levels_text(plan) +
-         transfers_text(plan) + parts_text(plan);
+         slivers_text(plan) + transfers_text(plan) + parts_text(plan);
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan) {

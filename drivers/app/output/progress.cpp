@@ -41,13 +41,16 @@ Progress::~Progress() {
   if (on_) std::cerr << "\r\033[K" << std::flush;  // the summary takes its place
 }
 
-void Progress::update(double time, long steps) {
+void Progress::update(double time, long steps, const std::function<long()>& halvings) {
   const Clock::time_point now = Clock::now();
   if (!on_ || now - drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = now;
   const double wall_time = std::chrono::duration<double>(now - start_).count();
+  const long halved = halvings ? halvings() : 0;
+  const std::string retries = halved > 0 ? " " + counted(halved, "halving") : "";
+  const int width = terminal_width() - static_cast<int>(retries.size());
   std::cerr << "\r\033[K"
-            << coloured(progress_line(time, duration_, steps - first_step_, wall_time, terminal_width(), first_time_),
+            << coloured(progress_line(time, duration_, steps - first_step_, wall_time, width, first_time_) + retries,
                         Colour::cyan)
             << std::flush;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace plica::app {
@@ -14,8 +15,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// After a macro step; draws ten times a second at most.
-  void update(double time, long steps);
+  /// After a macro step; draws ten times a second at most. `halvings` of macro steps are told of where there are any.
+  void update(double time, long steps, const std::function<long()>& halvings = {});
 
  private:
   using Clock = std::chrono::steady_clock;

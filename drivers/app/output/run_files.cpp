@@ -75,7 +75,8 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
       volume_levels_(written_levels(scene)),
       frame_times_(from ? from->frame_times : std::vector<double>{}),
       surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
-      history_(folder / "history.csv", vertex_masses(body_), from ? std::optional(from->history_bytes) : std::nullopt) {
+      history_(folder / "history.csv", vertex_masses(body_), scene.problem.integration.retry.halvings > 0,
+               from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
   for (const int level : volume_levels_) {

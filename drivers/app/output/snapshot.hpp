@@ -19,7 +19,16 @@ struct Snapshot {
   std::vector<Point> surface, surface_velocities;  ///< of the embedded surface's; empty without one
   std::vector<VolumeSnapshot> volumes;             ///< of the levels that are written
   Energies energies;
+  long halvings = 0;  ///< of macro steps so far
 };
+
+/// Of macro steps so far; 0 where bad ones are not retried.
+template <class B>
+long halvings_of(const Simulation<B>& simulation) {
+  const auto counters = simulation.counters();
+  const auto found = counters.find("halvings");
+  return found == counters.end() ? 0 : found->second;
+}
 
 template <class B>
 Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::vector<int>& volumes) {
@@ -29,7 +38,8 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.surface_positions(),
                     simulation.surface_velocities(),
                     {},
-                    simulation.energies()};
+                    simulation.energies(),
+                    halvings_of(simulation)};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});

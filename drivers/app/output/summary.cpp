@@ -24,6 +24,8 @@ Json diagnosis_json(const std::optional<Diagnosis>& diagnosis) {
           {"region", diagnosis->region},
           {"J", diagnosis->J},
           {"substep_over_critical", diagnosis->substep_over_critical},
+          {"motion_over_edge", diagnosis->motion_over_edge},
+          {"reason", diagnosis->reason},
           {"remedy", diagnosis->remedy}};
 }
 
@@ -31,7 +33,11 @@ Json diagnosis_json(const std::optional<Diagnosis>& diagnosis) {
 
 Json levels_json(const std::vector<LevelReport>& levels) {
   Json list = Json::array();
-  for (const LevelReport& level : levels)
+  for (const LevelReport& level : levels) {
+    Json stiffest = Json::array();
+    for (const StiffElement& e : level.stiffest)
+      stiffest.push_back(
+          {{"element", e.element}, {"region", e.region}, {"height_ratio", e.height_ratio}, {"step", e.step}});
     list.push_back({{"vertices", level.vertices},
                     {"tets", level.tets},
                     {"mean_edge", level.mean_edge},
@@ -44,7 +50,10 @@ Json levels_json(const std::vector<LevelReport>& levels) {
                     {"inertia", level.inertia},
                     {"outside_down", level.outside_down},
                     {"outside_up", level.outside_up},
-                    {"largest_miss", level.largest_miss}});
+                    {"largest_miss", level.largest_miss},
+                    {"typical_element", level.typical_element},
+                    {"stiffest", stiffest}});
+  }
   return list;
 }
 

@@ -75,6 +75,7 @@ void describe(V& v, MaterialOptions& o) {
   v("poisson_ratio", o.poisson_ratio, Quantity{number, {.min = 0, .max = 0.5, .max_excluded = true}},
     "lateral contraction nu; close to 0.5 linear tetrahedra are too stiff");
   v("density", o.density, Quantity{density, positive}, "mass per volume at rest");
+  v("allow_inversion", o.allow_inversion, Flag{}, "false: inverted elements end the run; left out: by the material");
 }
 
 template <class V>
@@ -104,12 +105,19 @@ void describe(V& v, Selection& o) {
 }
 
 template <class V>
+void describe(V& v, RegionDamping& o) {
+  v("mass", o.mass, Quantity{rate, not_negative}, "instead of the body's");
+  v("stiffness", o.stiffness, Quantity{duration, not_negative}, "instead of the body's");
+}
+
+template <class V>
 void describe(V& v, RegionOptions& o) {
   v.group("where", o.where, "its elements, by their centroids; left out: the mesh file's volume of that name");
   v("young_modulus", o.young_modulus, Quantity{pressure, positive}, "instead of the body's");
   v("poisson_ratio", o.poisson_ratio, Quantity{number, {.min = 0, .max = 0.5, .max_excluded = true}},
     "instead of the body's");
   v("density", o.density, Quantity{density, positive}, "instead of the body's");
+  v.group("damping", o.damping, "instead of the body's");
 }
 
 template <class V>
@@ -172,6 +180,8 @@ void describe(V& v, LoadOptions& o) {
 template <class V>
 void describe(V& v, DampingOptions& o) {
   v("mass", o.mass, Quantity{rate, not_negative}, "proportional to the mass: slows all motion, falling too");
+  v("stiffness", o.stiffness, Quantity{duration, not_negative},
+    "proportional to the stiffness: slows what deforms, fast");
 }
 
 template <class V>
@@ -194,6 +204,8 @@ void describe(V& v, InitialOptions& o) {
   v("angular_velocity", o.angular_velocity, Vector{angular_velocity}, "about that centre");
   v.group("twist", o.twist, "rotation that grows along an axis, on top of these");
   v.list("parts", o.parts, "velocities of parts of the body, on top of these");
+  v("stretch", o.stretch, Vector{number}, "along x, y, z about that centre: 0 flattens, below 0 turns inside out");
+  v("random", o.random, Count{0}, "seed: every free vertex starts anywhere in level 0's bounding box at rest");
 }
 
 /// The key `body` fills the library's Body and the recipes of its meshes.
@@ -280,7 +292,7 @@ void describe(V& v, ObstacleRecipe& o) {
   describe_motion(v, o.options.motion);
 }
 
-/// The key `contact` fills the library's options and the recipes of its obstacles.
+/// `contact` fills the library's options and the recipes of its obstacles.
 struct ContactKeys {
   Scene& scene;
 };
@@ -329,8 +341,7 @@ void describe(V& v, StudyOptions& o) {
   v("precision", o.precision, ListOf<Name>{{"precision", precisions}}, "in which each method runs");
   v("threads", o.threads, ListOf<Count>{{1}}, "with which each method runs; left out: all there are");
   v("samples", o.samples, Count{1}, "times, evenly over the duration, at which states are compared");
-  v("timed_runs", o.timed_runs, Count{0},
-    "of each row, short ones at least five; 0: the one that is compared is timed");
+  v("timed_runs", o.timed_runs, Count{0}, "of each row, short ones at least five; 0: the compared one is timed");
   v("growth", o.growth, Flag{}, "find the growth of small motions by every cycle, linearised about rest");
 }
 

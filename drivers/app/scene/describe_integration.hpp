@@ -40,6 +40,11 @@ void describe(V& v, HimOptions& o) {
 }
 
 template <class V>
+void describe(V& v, RetryOptions& o) {
+  v("halvings", o.halvings, Count{0}, "of a macro step that does not pass its checks, 0 to 10; 0: the run ends there");
+}
+
+template <class V>
 void describe(V& v, IntegrationOptions& o) {
   v("cycle", o.cycle, Name{"cycle", cycle_choices}, "how the levels share a macro step; auto: chosen by short trials");
   v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
@@ -48,8 +53,7 @@ void describe(V& v, IntegrationOptions& o) {
     "how much of the macro step each level integrates");
   v("shift_to_coarsest", o.shift_to_coarsest, Quantity{number, {.min = 0, .max = 1, .max_excluded = true}},
     "this part of every finer level's share goes to the coarsest");
-  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators, {"central_difference", "rk2"}}},
-    "each level's own");
+  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators}}, "each level's own");
   v("substeps", o.substeps, AutoCountPerLevel{}, "auto: as many as the level's limit asks for");
   v("safety", o.safety, Quantity{number, {.min = 0, .max = 1, .min_excluded = true}}, "of that limit that auto keeps");
   v("allow_unstable", o.allow_unstable, Flag{}, "run explicit sub-steps above their limit all the same");
@@ -58,6 +62,7 @@ void describe(V& v, IntegrationOptions& o) {
   v("outside", o.outside, Name{"rule", outside_rules}, "for vertices outside the other level's mesh");
   v.group("implicit", o.implicit, "how implicit levels are solved");
   v.group("him", o.him, "of the cycle him");
+  v.group("retry", o.retry, "of bad macro steps, by halves");
 }
 
 }  // namespace plica::app

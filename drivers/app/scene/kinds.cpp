@@ -146,13 +146,7 @@ void Text::read(const Value& value, std::string& target) const {
 void Name::read(const Value& value, std::string& target) const {
   const std::string& text = value.scalar(expects());
   const std::vector<std::string> known = names(choices());
-  if (std::ranges::find(known, text) == known.end()) {
-    if (std::ranges::find(planned, text) != planned.end())
-      throw NotInThisBuild(fmt::format("{}: the {} '{}' is not in this build (choices: {})", value.path, family, text,
-                                       fmt::join(known, ", ")),
-                           value.tree.where);
-    value.error(unknown_name(family, text, known));
-  }
+  if (std::ranges::find(known, text) == known.end()) value.error(unknown_name(family, text, known));
   target = text;
 }
 

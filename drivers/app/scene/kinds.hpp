@@ -105,9 +105,8 @@ struct Text {
 
 /// One of a family's names.
 struct Name {
-  const char* family;                     ///< "material"
-  std::vector<Choice> (*choices)();       ///< what there is
-  std::vector<std::string> planned = {};  ///< what there will be
+  const char* family;                ///< "material"
+  std::vector<Choice> (*choices)();  ///< what there is
   void read(const Value& value, std::string& target) const;
   std::string expects() const;
   std::string shown(const std::string& value) const { return value; }

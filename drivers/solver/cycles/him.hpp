@@ -13,7 +13,6 @@ namespace plica {
 template <class B>
 struct HimParts {
   HimOptions options;
-  double mass_damping = 0;  ///< of the body [1/s]
   std::unique_ptr<InverseMass<B>> inverse_mass;
   std::unique_ptr<InertiaFitter<B>> fitter;
   std::optional<FreeMotion<B>> free;            ///< of a body that nothing holds
@@ -172,7 +171,7 @@ class HimCycle final : public Cycle<B> {
     }
     update_vertices<B>(exec, "plica::him_momenta", n_,
                        KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
-                                       static_cast<Real>(t), static_cast<Real>(0.5 * t * parts_.mass_damping)});
+                                       static_cast<Real>(t)});
     parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
   }
 

@@ -13,7 +13,7 @@ struct Bdf2 {
   static constexpr const char* name = "bdf2";
   static constexpr const char* summary = "implicit, order 2, little dissipation but of fast motion; no limit";
   static constexpr bool is_explicit = false;
-  static constexpr StabilityLimit limit{0.0};
+  static constexpr StabilityLimit limit{};
 
   template <class B>
   class Step final : public ImplicitStep<B> {

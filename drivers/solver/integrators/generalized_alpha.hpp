@@ -14,7 +14,7 @@ struct GeneralizedAlpha {
   static constexpr const char* summary =
       "implicit, order 2, damps fast motion by integration.implicit.rho_infinity; no limit";
   static constexpr bool is_explicit = false;
-  static constexpr StabilityLimit limit{0.0};
+  static constexpr StabilityLimit limit{};
 
   template <class B>
   class Step final : public ImplicitStep<B> {

@@ -10,7 +10,7 @@ struct ImplicitEuler {
   static constexpr const char* name = "implicit_euler";
   static constexpr const char* summary = "implicit, order 1, dissipative; no limit";
   static constexpr bool is_explicit = false;
-  static constexpr StabilityLimit limit{0.0};
+  static constexpr StabilityLimit limit{};
 
   template <class B>
   class Step final : public ImplicitStep<B> {

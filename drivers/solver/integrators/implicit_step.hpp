@@ -17,7 +17,7 @@ class ImplicitStep : public Integrator<B> {
       : stages_(level, parts.implicit, parts.make_linear_solver()),
         unfinished_(parts.implicit.unfinished),
         most_halvings_(parts.implicit.newton_iterations > 1 && unfinished_ == "halve" ? parts.implicit.halvings : 0) {
-    if (most_halvings_ > 0) before_.assign(static_cast<std::size_t>(most_halvings_), {});
+    for (int i = 0; i < most_halvings_; ++i) before_.emplace_back("implicit.before", level.model.vertices);
   }
 
   void advance(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int steps) override {
@@ -25,7 +25,11 @@ class ImplicitStep : public Integrator<B> {
     failed_ = false;
     for (int s = 0; s < steps && !failed_; ++s) failed_ = !attempt(exec, level, forces, time + s * h, h, 0);
   }
-  bool failed() const override { return failed_; }
+  std::string failure() const override {
+    return failed_ ? "Newton's method has not solved a step" +
+                         (most_halvings_ > 0 ? " halved " + std::to_string(most_halvings_) + " times" : std::string())
+                   : std::string();
+  }
   double residual() const override { return stages_.residual(); }
   std::map<std::string, long> counters() const override {
     std::map<std::string, long> all = stages_.counters();
@@ -57,7 +61,7 @@ class ImplicitStep : public Integrator<B> {
   bool failed_ = false;
 
   bool attempt(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int depth) {
-    if (depth < most_halvings_) keep(exec, level, depth);
+    if (depth < most_halvings_) before_[static_cast<std::size_t>(depth)].copy(exec, level.state);
     prescribe(exec, level, level.state, time, h);
     const bool solved = step(exec, level, forces, time, h);
     prescribe(exec, level, level.state, time + h);
@@ -70,12 +74,6 @@ class ImplicitStep : public Integrator<B> {
                       attempt(exec, level, forces, time + h / 2, h / 2, depth + 1);
     this->forget();
     return both;
-  }
-
-  void keep(const Exec& exec, const Level<B>& level, int depth) {
-    State<B>& state = before_[static_cast<std::size_t>(depth)];
-    if (state.u.extent(0) == 0) state = State<B>("implicit.before", level.model.vertices);
-    state.copy(exec, level.state);
   }
 };
 

@@ -12,7 +12,7 @@ struct Newmark {
   static constexpr const char* name = "newmark";
   static constexpr const char* summary = "implicit, order 2 (trapezoidal), keeps energy; no limit";
   static constexpr bool is_explicit = false;
-  static constexpr StabilityLimit limit{0.0};
+  static constexpr StabilityLimit limit{};
 
   template <class B>
   class Step final : public ImplicitStep<B> {

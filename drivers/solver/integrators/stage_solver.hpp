@@ -123,19 +123,27 @@ class StageSolver {
   bool newton(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w) {
     forces.dead(level, end, dead_);
     Kokkos::deep_copy(exec, change_, Real(0));
-    Potential now = potential(exec, level, forces, end, w);
+    const Potential now = potential(exec, level, forces, end, w);
     const double enough = std::max(options_.newton_residual, options_.newton_tolerance * now.residual);
+    const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
+    const bool done = iterate(exec, level, forces, end, w, now, enough);
+    level.flags = flags;
+    unfinished_ += done ? 0 : 1;
+    return done;
+  }
+
+  bool iterate(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w,
+               Potential now, double enough) {
     for (int i = 0; i < options_.newton_iterations; ++i) {
       ++newtons_;
       const Potential next = search(exec, level, forces, end, w, now, i == 0);
-      if (!next.finite()) break;
+      if (!next.finite()) return false;
       // where what a step can still win is lost in rounding, this is as near as it gets
       const double lost = 16 * Kokkos::Experimental::epsilon_v<Real> * next.scale;
       const bool done = next.residual <= enough || (next.residual <= now.residual && std::abs(next.slope) <= lost);
       now = next;
       if (done) return true;
     }
-    ++unfinished_;
     return false;
   }
 

@@ -11,31 +11,23 @@ struct SymplecticEuler {
   static constexpr const char* name = "symplectic_euler";
   static constexpr const char* summary = "explicit, order 1, symplectic; h < 2/w";
   static constexpr bool is_explicit = true;
-  static constexpr StabilityLimit limit{2.0};
+  static constexpr StabilityLimit limit{.radius = 2};
 
   template <class B>
   class Step final : public Integrator<B> {
    public:
-    Step(const Level<B>&, const IntegratorParts<B>& parts) : damping_(parts.mass_damping) {}
+    Step(const Level<B>&, const IntegratorParts<B>&) {}
 
     void advance(const typename B::Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h,
                  int steps) override {
       using Real = typename B::Real;
-      const SymplecticEulerUpdate<B> update{level.model.inverse_mass,
-                                            level.f,
-                                            level.state.u,
-                                            level.state.v,
-                                            static_cast<Real>(h),
-                                            static_cast<Real>(1 / (1 + h * damping_))};
+      const SymplecticEulerUpdate<B> update{level.model, level.f, level.state.u, level.state.v, static_cast<Real>(h)};
       for (int s = 0; s < steps; ++s) {
         forces.evaluate(level, level.state, time + s * h, level.f);
         update_vertices<B>(exec, "plica::symplectic_euler", level.model.vertices, update);
         prescribe(exec, level, level.state, time + (s + 1) * h);
       }
     }
-
-   private:
-    double damping_;
   };
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -8,12 +9,14 @@
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/inherit_masses.hpp>
+#include <plica/drivers/solver/set_up/initial_shape.hpp>
 #include <plica/drivers/solver/set_up/make_him.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
@@ -29,6 +32,13 @@ Outside outside_rule(const IntegrationOptions& o) {
   if (o.cycle == Him::name) return Outside::extrapolate;
   const std::string& name = o.outside;
   return name == "clamp" ? Outside::clamp : name == "extrapolate" ? Outside::extrapolate : Outside::keep;
+}
+
+DampingLimit damping_limit(const LevelConstants& c) {
+  const auto mass = std::minmax_element(c.mass_damping.begin(), c.mass_damping.end());
+  if (c.stiffness_damping.empty()) return {*mass.first, *mass.second};
+  const auto stiffness = std::minmax_element(c.stiffness_damping.begin(), c.stiffness_damping.end());
+  return {*mass.first, *mass.second, *stiffness.first, *stiffness.second};
 }
 
 /// The set-up in progress: host data that several of its steps need.
@@ -62,6 +72,7 @@ class HierarchyBuilder {
       else
         built_.cycle = std::make_unique<Of>(*built_.hierarchy);
     });
+    if (starts_deformed(problem_.body.initial)) deform();
     built_.cycle->start(*built_.hierarchy);
     return std::move(built_);
   }
@@ -105,13 +116,35 @@ class HierarchyBuilder {
     for (Point& p : surface_.vertices) p += shift;
   }
 
+  /// Level 0's start, after limits were found at rest; the other levels take it from there.
+  void deform() {
+    const TetMesh& mesh = built_.meshes.front();
+    const State<B>& state = built_.hierarchy->levels.front().level.state;
+    std::vector<Point> u = initial_displacement(problem_.body.initial, mesh, bounding_box(mesh.vertices));
+    const auto given = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.u);
+    for (std::size_t a = 0; a < u.size(); ++a)
+      for (int k = 0; k < 3; ++k)
+        if (constants_.front().constrained[a]) u[a][k] = static_cast<double>(given(a, static_cast<std::size_t>(k)));
+    if (!allows_inversion(problem_.body.material))
+      if (const std::string inverted = inverted_at_start(mesh, u); !inverted.empty())
+        throw InputError("body.initial: " + inverted +
+                         ", which this material may not; expected "
+                         "body.material.allow_inversion: true, or a start that leaves them their sides");
+    Kokkos::deep_copy(state.u, to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
+  }
+
   void report_mesh(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
     LevelReport& report = built_.reports.emplace_back();
     report.vertices = static_cast<int>(mesh.vertices.size()), report.tets = static_cast<int>(mesh.tets.size());
     report.mean_edge = mean_edge_length(mesh);
     report.mass = std::accumulate(constants_[i].mass.begin(), constants_[i].mass.end(), 0.0);
-    report.element_bound = element_bound(mesh, constants_[i].lame, constants_[i].density);
+    std::vector<double> steps = element_steps(mesh, constants_[i].lame, constants_[i].density);
+    report.stiffest = stiffest_elements(mesh, steps, 10);
+    report.element_bound = report.stiffest.front().step;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    report.typical_element = *middle;
     report.integrator = integrator_of(i);
     if (i == 0) return;
     report.outside_down = down_[i].misses, report.outside_up = up_[i].misses;
@@ -193,13 +226,17 @@ class HierarchyBuilder {
     if (!p.contact.obstacles.empty())
       contact_ =
           std::make_shared<const Contact<B>>(p.contact, p.body.material, static_cast<int>(surface_.vertices.size()),
-                                             surface_area(surface_), built_.reports.front().mean_edge);
+                                             surface_area(surface_), built_.reports.front().mean_edge, body_size());
+  }
+
+  double body_size() const {
+    const Box box = bounding_box(built_.meshes.front().vertices);
+    return (box.max - box.min).norm();
   }
 
   /// Limits, shares and sub-steps, then the integrators that go with them.
   void plan() {
     Hierarchy<B>& h = *built_.hierarchy;
-    const double damping = problem_.body.damping.mass;
     const PointContactLimit touching =
         contact_ ? PointContactLimit{contact_->stiffness(), contact_->damping()} : PointContactLimit{};
     std::vector<LevelLimits> limits;
@@ -209,11 +246,11 @@ class HierarchyBuilder {
       Integrators::visit(report.integrator, [&](auto integrator) {
         using Kind = decltype(integrator);
         report.explicit_integrator = Kind::is_explicit;
-        report.critical_step =
-            critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
-                             Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching, damping);
+        report.critical_step = critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
+                                                Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
+                                                damping_limit(constants_[i]));
         h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
-            level, IntegratorParts<B>{damping, problem_.integration.implicit, [&] {
+            level, IntegratorParts<B>{problem_.integration.implicit, [&] {
                                         std::string solver = problem_.integration.implicit.solver;
                                         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
                                         const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);
@@ -221,7 +258,8 @@ class HierarchyBuilder {
                                         return make_linear_solver<B>(parts, level);
                                       }});
       });
-      limits.push_back({report.tets, report.integrator, report.explicit_integrator, report.critical_step});
+      limits.push_back({report.tets, report.integrator, report.explicit_integrator, report.critical_step,
+                        report.stiffest.front(), report.typical_element});
       h.levels[i].forces = std::make_unique<LevelForces<B>>(elasticity_, problem_.gravity, contact_,
                                                             !report.explicit_integrator, &h.clock, static_cast<int>(i));
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/initial_velocity.hpp>
@@ -8,7 +11,6 @@
 #include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/kernels/materials/list.hpp>
 #include <plica/kernels/motion/path.hpp>
 
 namespace plica {
@@ -52,19 +54,35 @@ PrescribedVertices<B> prescribed_vertices(const LevelConstants& c, const std::ve
   return p;
 }
 
+// A region's mass damping acts on its elements' share of a vertex's mass.
+std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> density,
+                                   const std::vector<double>& of_region, const std::vector<double>& mass) {
+  if (std::adjacent_find(of_region.begin(), of_region.end(), std::not_equal_to<>()) == of_region.end())
+    return {of_region.front()};
+  for (std::size_t r = 0; r < density.size(); ++r) density[r] *= of_region[r];
+  std::vector<double> damping = lumped_masses(mesh, density);
+  for (std::size_t a = 0; a < damping.size(); ++a) damping[a] /= mass[a];
+  return damping;
+}
+
 }  // namespace
 
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level) {
   LevelConstants c;
+  std::vector<double> mass_damping;  // per region
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
   for (std::size_t r = 0; r < regions; ++r) {
     const auto own = mesh.region.empty() ? body.regions.end() : body.regions.find(mesh.region_names[r]);
     const RegionOptions o = own == body.regions.end() ? RegionOptions{} : own->second;
     c.lame.push_back(lame_constants(o.young_modulus.value_or(body.material.young_modulus),
                                     o.poisson_ratio.value_or(body.material.poisson_ratio)));
+    mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
+    c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
   }
+  if (*std::max_element(c.stiffness_damping.begin(), c.stiffness_damping.end()) == 0) c.stiffness_damping.clear();
   c.density = region_densities(body, mesh);
   c.mass = lumped_masses(mesh, c.density);
+  c.mass_damping = vertex_damping(mesh, c.density, mass_damping, c.mass);
   constrain(c, body, mesh, level);
   c.velocity.assign(mesh.vertices.size(), Point::Zero());
   if (level == 0) c.velocity = initial_velocity(body.initial, mesh, middle);  // the others take it from there
@@ -79,8 +97,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.material = body.material.model;
-  level.model.patches = build_patches<B>(placed, c.lame);
-  level.model.damping.everywhere = static_cast<Real>(body.damping.mass);
+  level.model.patches = build_patches<B>(placed, c.lame, c.stiffness_damping);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
@@ -98,15 +115,16 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
     const PathPoint at = path_at(paths[static_cast<std::size_t>(c.prescribed_motion[i])], knots.data(), 0);
     for (int k = 0; k < 3; ++k) displacement[v][k] = at.displacement[k], velocity[v][k] = at.velocity[k];
   }
+  const std::vector<Real> damping(c.mass_damping.begin(), c.mass_damping.end());
+  level.model.damping.everywhere = damping.front();
+  if (damping.size() > 1) level.model.damping.of_vertex = to_device<Scalars<B>>("model.damping", damping);
   level.model.mass = to_device<Scalars<B>>("model.mass", mass);
   level.model.inverse_mass = to_device<Scalars<B>>("model.inverse_mass", inverse);
   level.state.u = to_device<Vectors<B>>("state.u", rows<Real>(displacement));
   level.state.v = to_device<Vectors<B>>("state.v", rows<Real>(velocity));
   level.f = Vectors<B>("plica::work.f", n);
   level.partial = Vectors<B>("plica::work.partial", level.model.patches.vertex.extent(0));
-  Materials::visit(body.material.model, [&](auto material) {
-    if (!decltype(material)::survives_inversion) level.flags = make_element_flags<B>(level.model.patches.count);
-  });
+  if (!allows_inversion(body.material)) level.flags = make_element_flags<B>(level.model.patches.count);
   return level;
 }
 

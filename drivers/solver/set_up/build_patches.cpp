@@ -23,8 +23,8 @@ class PatchBuilder {
   using Lanes = std::array<T, at(W)>;
 
  public:
-  PatchBuilder(const TetMesh& mesh, const std::vector<Lame<double>>& lame)
-      : mesh_(mesh), lame_(lame), local_(mesh.vertices.size(), -1), copies_(mesh.vertices.size()) {}
+  PatchBuilder(const TetMesh& mesh, const std::vector<Lame<double>>& lame, const std::vector<double>& damping)
+      : mesh_(mesh), lame_(lame), damping_(damping), local_(mesh.vertices.size(), -1), copies_(mesh.vertices.size()) {}
 
   void add(const std::vector<int>& elements) {
     const std::size_t v0 = vertex_.size(), q0 = shape_.size();
@@ -41,6 +41,7 @@ class PatchBuilder {
     first_vertex_.push_back(static_cast<int>(vertex_.size()));
     const int region = mesh_.region.empty() ? 0 : mesh_.region[at(elements.front())];
     device_lame_.push_back({static_cast<Real>(lame_[at(region)].lambda), static_cast<Real>(lame_[at(region)].mu)});
+    if (!damping_.empty()) device_damping_.push_back(static_cast<Real>(damping_[at(region)]));
     for (std::size_t i = v0; i < vertex_.size(); ++i) local_[at(vertex_[i])] = -1;
   }
 
@@ -55,6 +56,7 @@ class PatchBuilder {
     p.corner = to_device<decltype(p.corner)>("patches.corner", corner_);
     p.shape = to_device<decltype(p.shape)>("patches.shape", shape_);
     p.lame = to_device<decltype(p.lame)>("patches.lame", device_lame_);
+    if (!damping_.empty()) p.damping = to_device<Scalars<B>>("patches.damping", device_damping_);
     p.first_slot = to_device<Indices<B>>("patches.first_slot", first_slot_);
     p.slot = to_device<decltype(p.slot)>("patches.slot", slot_);
     p.element = to_device<Indices<B>>("patches.element", element_);
@@ -71,12 +73,14 @@ class PatchBuilder {
  private:
   const TetMesh& mesh_;
   const std::vector<Lame<double>>& lame_;
+  const std::vector<double>& damping_;
   std::vector<int> local_;  // a mesh vertex's place in the patch being added
   std::vector<std::vector<int>> copies_;
   std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_slot_{0}, element_;
   std::vector<std::array<Lanes<std::uint16_t>, 4>> corner_;
   std::vector<std::array<Lanes<Real>, 10>> shape_;
   std::vector<std::array<Real, 2>> device_lame_;
+  std::vector<Real> device_damping_;
   std::vector<std::uint16_t> slot_;
 
   void add_vertices(const std::vector<int>& elements) {
@@ -112,16 +116,17 @@ class PatchBuilder {
 }  // namespace
 
 template <class B>
-Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& lame) {
-  PatchBuilder<B> builder(mesh, lame);
+Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& lame,
+                         const std::vector<double>& damping) {
+  PatchBuilder<B> builder(mesh, lame, damping);
   for (const auto& cluster : element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity))
     builder.add(cluster);
   return builder.finish();
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                      \
-  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>(const TetMesh&, \
-                                                                           const std::vector<Lame<double>>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                       \
+  template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>( \
+      const TetMesh&, const std::vector<Lame<double>>&, const std::vector<double>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

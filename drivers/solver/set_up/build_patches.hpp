@@ -7,8 +7,10 @@
 
 namespace plica {
 
-/// The patches of a mesh with Lame's constants per region [Pa] (one entry where the mesh names none).
+/// The patches of a mesh with Lame's constants [Pa] and stiffness-proportional damping [s] per region (one entry where the mesh
+/// names none; empty: no damping).
 template <class B>
-Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& lame);
+Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& lame,
+                         const std::vector<double>& damping = {});
 
 }  // namespace plica

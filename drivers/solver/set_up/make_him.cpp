@@ -38,7 +38,7 @@ HimParts<B> him_parts(const Problem& problem, const std::vector<LevelConstants>&
   for (std::size_t i = 0; i < meshes.size(); ++i) spaces_of.push_back({meshes[i], constants[i].constrained, up[i]});
   const auto spaces = mass_spaces(spaces_of, constants[0].mass, problem.integration.him.smoothing);
   HimParts<B> parts;
-  parts.options = problem.integration.him, parts.mass_damping = problem.body.damping.mass;
+  parts.options = problem.integration.him;
   parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, meshes.front(), meshes.back(), spaces);
   std::optional<CoarseModes> modes;
   if (!spaces.empty()) {

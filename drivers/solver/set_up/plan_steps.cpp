@@ -38,8 +38,9 @@ double automatic_macro_step(const IntegrationOptions& o, const std::vector<Level
         " give it in seconds");
   if (!(largest > 0))
     throw InputError(
-        "integration.macro_step is auto, but integrator 'euler' is stable at no step here (undamped it grows at every"
-        " step); use symplectic_euler, or damp the body (body.damping.mass)");
+        "integration.macro_step is auto, but an integrator of its levels is stable at no step here (undamped, euler "
+        "and rk2"
+        " grow at every step); use symplectic_euler, or damp the body (body.damping.mass)");
   return auto_safety * largest;
 }
 
@@ -69,10 +70,27 @@ void refuse_unstable(const LevelLimits& level, std::size_t i, double span, int s
       " substeps: %d or auto, an implicit integrator, or set integration.allow_unstable: true",
       i, level.integrator.c_str(), step, step / level.critical_step, level.critical_step, step / level.critical_step,
       static_cast<int>(std::ceil(span / level.critical_step)));
-  throw InputError(text);
+  std::optional<StiffElement> named;
+  if (level.stiffest.step < named_below * level.typical_element) named = level.stiffest;
+  throw SubstepRefused(text, static_cast<int>(i), named);
+}
+
+std::string with_element(const std::string& words, const std::optional<StiffElement>& e) {
+  if (!e) return words;
+  char text[200];
+  std::snprintf(text, sizeof text, "; its element %d", e->element);
+  std::string all = words + text;
+  if (!e->region.empty()) all += " (region " + e->region + ")";
+  std::snprintf(text, sizeof text,
+                ", longest edge over smallest height %.3g, allows no more than about %.3g s by itself", e->height_ratio,
+                e->step);
+  return all + text;
 }
 
 }  // namespace
+
+SubstepRefused::SubstepRefused(const std::string& without, int of, const std::optional<StiffElement>& one)
+    : InputError(with_element(without, one)), words(without), level(of), element(one) {}
 
 StepPlan plan_steps(const IntegrationOptions& o, const std::vector<LevelLimits>& levels) {
   LevelFacts facts;

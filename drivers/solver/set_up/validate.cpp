@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/expect.hpp>
+#include <plica/drivers/solver/set_up/initial_shape.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/set_up/validate_inputs.hpp>
 #include <plica/drivers/solver/set_up/validate_linear_solver.hpp>
@@ -23,6 +24,11 @@ void check_constants(const std::string& at, double young, double poisson, double
   positive(at + "density", density, " kg/m^3");
 }
 
+void check_damping(const std::string& at, double mass, double stiffness) {
+  not_negative(at + "mass", mass, " 1/s");
+  not_negative(at + "stiffness", stiffness, " s");
+}
+
 void check_body(const Body& body) {
   if (body.levels.empty()) throw InputError("body.levels is empty; expected at least one mesh, finest first");
   for (std::size_t i = 0; i < body.levels.size(); ++i) validate_mesh(body.levels[i], static_cast<int>(i));
@@ -37,8 +43,10 @@ void check_body(const Body& body) {
       throw InputError(unknown_name("region", name, all));
     check_constants("body.regions." + name + ".", region.young_modulus.value_or(m.young_modulus),
                     region.poisson_ratio.value_or(m.poisson_ratio), region.density.value_or(m.density));
+    check_damping("body.regions." + name + ".damping.", region.damping.mass.value_or(0),
+                  region.damping.stiffness.value_or(0));
   }
-  not_negative("body.damping.mass", body.damping.mass, " 1/s");
+  check_damping("body.damping.", body.damping.mass, body.damping.stiffness);
   if (body.initial.position) finite("body.initial.position", *body.initial.position);
   validate_velocities(body.initial);
   const auto numbered = [](const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i); };
@@ -79,6 +87,14 @@ void check_him(const IntegrationOptions& o) {
   if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
 }
 
+void check_retry(const IntegrationOptions& o) {
+  expect(o.retry.halvings >= 0 && o.retry.halvings <= 10, "integration.retry.halvings", o.retry.halvings, "0 to 10");
+  if (o.retry.halvings > 0 && (o.cycle == "him" || o.cycle == "auto"))
+    refuse(o, "retry.halvings", std::to_string(o.retry.halvings),
+           o.cycle == "him" ? "fits its inertia to one macro step, and again by itself where stability is lost"
+                            : "may choose him, which fits its inertia to one macro step");
+}
+
 void check_auto(const IntegrationOptions& o) {
   if (o.cycle != "auto") return;
   char step[40];
@@ -113,6 +129,7 @@ void check_integration(const IntegrationOptions& o, std::size_t levels) {
                      "must not be negative or missing; expected clamp");
   check_him(o);
   check_auto(o);
+  check_retry(o);
   const ImplicitOptions& i = o.implicit;
   expect(i.relative_residual > 0 && i.relative_residual < 1, "integration.implicit.relative_residual",
          i.relative_residual, "above 0 and below 1");
@@ -151,6 +168,10 @@ void validate(const Problem& problem) {
   finite("gravity", problem.gravity);
   check_integration(problem.integration, problem.body.levels.size());
   validate_linear_solver(problem);
+  if (damps_by_stiffness(problem.body) && problem.integration.cycle == "him")
+    throw InputError(
+        "body.damping.stiffness is above 0, but cycle him answers for the stability of forces without it; use "
+        "body.damping.mass or another cycle");
   check_contact(problem);
 }
 
@@ -162,6 +183,14 @@ std::vector<std::string> doubts(const Problem& problem) {
       sentences.push_back("body.levels: level " + std::to_string(i) + " is not coarser than level " +
                           std::to_string(i - 1) + ": " + std::to_string(levels[i].tets.size()) + " tetrahedra after " +
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
+  if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
+    const TetMesh& mesh = levels.front();
+    const std::string inverted =
+        inverted_at_start(mesh, initial_displacement(body.initial, mesh, bounding_box(mesh.vertices)));
+    if (!inverted.empty())
+      sentences.push_back("body.initial: " + inverted + "; " + body.material.model +
+                          " has nothing that turns them back, they may stay so");
+  }
   for (std::size_t i = 0; i < problem.body.prescribed.size(); ++i)
     if (const auto* path = std::get_if<PathMotion>(&problem.body.prescribed[i].motion);
         path && path->knots.front().displacement.norm() > 0)

@@ -153,6 +153,12 @@ void validate_velocities(const InitialOptions& o) {
     expect(std::isfinite(twist->angular_velocity), "body.initial.twist.angular_velocity", twist->angular_velocity,
            "a finite number, rad/s");
   }
+  finite("body.initial.stretch", o.stretch);
+  if (o.random) {
+    expect(*o.random >= 0, "body.initial.random", *o.random, "a seed, 0 or more");
+    if (o.stretch != Point::Ones())
+      throw InputError("body.initial has stretch and random, which puts vertices anywhere; expected one of them");
+  }
   for (std::size_t i = 0; i < o.parts.size(); ++i) {
     const std::string option = "body.initial.parts." + std::to_string(i);
     validate_selection(option, o.parts[i].where);

@@ -117,6 +117,19 @@ TEST(RunFiles, HistoryHasItsColumns) {
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_NEAR(numbers[i], expected[i], 1e-9) << i;
 }
 
+// A column more, and only where bad macro steps are retried
+TEST(RunFiles, HistoryCountsHalvings) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block, {"integration.retry.halvings=3"});
+  RunFiles files(scene, folder.path());
+  Snapshot snapshot = moved(scene, 0.25, {0, 0, 0.5});
+  snapshot.halvings = 12;
+  files.write(snapshot);
+  const std::string text = content_of(folder / "history.csv");
+  EXPECT_NE(text.find("rms_speed,halvings\n"), std::string::npos);
+  EXPECT_TRUE(text.ends_with(",12\n")) << text;
+}
+
 // A field of a .vtu file that is appended in doubles
 std::vector<double> field_of(const std::string& vtu, const std::string& name) {
   const std::size_t entry = vtu.find("Name=\"" + name + "\""), offset = vtu.find("offset=\"", entry) + 8;

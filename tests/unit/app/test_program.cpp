@@ -123,15 +123,6 @@ TEST_F(Program, DivergedIs3) {
   EXPECT_EQ(content_of(folder / "out/history.csv").find("nan"), std::string::npos);
 }
 
-TEST_F(Program, NotInThisBuildIs4) {
-  for (const char* command : {"stability", "verify"}) {
-    const Child child = plica({command, scene, "-o", out, "--budget", "60s"});
-    EXPECT_EQ(child.status, 4);
-    EXPECT_NE(child.errors.find("not in this build"), std::string::npos);
-  }
-  EXPECT_EQ(plica({"check", scene, "--set", "integration.integrator=newmark"}).status, 4);
-}
-
 TEST_F(Program, CtrlCEndsWithWholeFiles) {
   for (const int signal : {SIGINT, SIGTERM}) {
     std::filesystem::remove_all(out);
@@ -254,7 +245,9 @@ TEST_F(Program, CompletesCommandLines) {
   EXPECT_EQ(completed("plica list ma"), "materials\n");
   EXPECT_EQ(completed("plica list --j"), "--json\n");
   EXPECT_EQ(completed("plica mesh i"), "info\n");
-  EXPECT_EQ(completed("plica stab"), "\n") << "what is only planned";
+  EXPECT_EQ(completed("plica stab"), "stability\n");
+  EXPECT_EQ(completed("plica stability --m"), "--matrix\n");
+  EXPECT_EQ(completed("plica ver"), "\n") << "what is only planned";
   EXPECT_EQ(plica({"completion", "fish"}).status, 2);
 }
 

@@ -65,8 +65,6 @@ const Damage damages[] = {
      "a.yaml:11: integration.allow_unstable: expected true or false, got 'yes'"},
     {"UnknownName", "neo_hookean", "neohookean",
      "a.yaml:7: body.material.model: unknown material 'neohookean'; did you mean 'neo_hookean'? (choices: "},
-    {"PlannedName", "macro_step: 1 ms", "integrator: newmark",
-     "a.yaml:11: integration.integrator: the integrator 'newmark' is not in this build (choices: "},
     {"TwoAlternatives", "{plane: {point: [0, 0, -0.1]}, ", "{plane: {}, sphere: {radius: 1}, ",
      "a.yaml:14: contact.obstacles.0: expected only one of plane, sphere, bowl, capsule, box, cylinder, surface, got "
      "a map (plane, sphere, friction)"},

@@ -132,22 +132,106 @@ TEST(Materials, OneThatIsNotRotationInvariantIsNot) {
   EXPECT_NEAR(P[0][1], 0, round_off<double>(16, soft.lambda));
 }
 
+// In a plane, in a line, in a point; reflected, and by as much as a rotation is no longer the one nearest
+std::vector<Eigen::Matrix3d> degenerate() {
+  std::vector<Eigen::Matrix3d> cases = {Eigen::Matrix3d::Zero(), -Eigen::Matrix3d::Identity()};
+  const std::vector<Eigen::Vector3d> stretches = {{1, 1, 0},      {1, 0, 0},     {1, 1, -1},        {2, 0.5, -0.5},
+                                                  {1e-160, 0, 0}, {1e5, 1e5, 0}, {1, 0.5, -0.4999}, {1, 1e-6, -1e-5}};
+  std::mt19937 random(11);
+  for (const Eigen::Vector3d& s : stretches) {
+    cases.emplace_back(s.asDiagonal());
+    cases.emplace_back(random_rotation(random) * s.asDiagonal() * random_rotation(random));
+  }
+  return cases;
+}
+
 TEST(Materials, InvertedOnesThatSurviveStayFinite) {
   for_each_material([](auto material) {
     using M = decltype(material);
     if (!M::survives_inversion) return;
-    std::vector<Eigen::Matrix3d> cases = {Eigen::Matrix3d::Zero(),
-                                          -Eigen::Matrix3d::Identity(),
-                                          Eigen::Vector3d(1, 1, 0).asDiagonal(),
-                                          Eigen::Vector3d(1, 0, 0).asDiagonal(),
-                                          Eigen::Vector3d(1, 1, -1).asDiagonal(),
-                                          Eigen::Vector3d(2, 0.5, -0.5).asDiagonal()};
-    for (const Eigen::Matrix3d& F : cases) {
+    for (const Eigen::Matrix3d& F : degenerate()) {
       EXPECT_TRUE(std::isfinite(M::energy(mat3<double>(F), soft))) << F;
       EXPECT_TRUE(eigen(M::stress(mat3<double>(F), soft)).allFinite()) << F;
       EXPECT_TRUE(eigen(M::stress_change(mat3<double>(F), directions()[0], soft)).allFinite()) << F;
     }
   });
+}
+
+// Above its threshold the extended energy is the law itself, and on the way to it nothing jumps
+TEST(NeoHookeanMaterial, IsTheLawAboveItsThresholdAndSmoothAcrossIt) {
+  const double kappa = soft.lambda + 2 * soft.mu / 3, edge = std::cbrt(NeoHookean::smallest_ratio);
+  for (const Gradient& g : gradients(false)) {
+    const double J = g.F.determinant(), I = g.F.squaredNorm();
+    if (J < NeoHookean::smallest_ratio) continue;
+    const double law = kappa / 4 * (J * J - 1 - 2 * std::log(J)) + soft.mu / 2 * (std::pow(J, -2.0 / 3) * I - 3);
+    EXPECT_NEAR(NeoHookean::energy(mat3<double>(g.F), soft), law, round_off<double>(100, kappa)) << g.F;
+  }
+  for (const Eigen::Vector3d& s : {Eigen::Vector3d(edge, edge, edge), Eigen::Vector3d(1.2, 0.5, 0.1 / 0.6)}) {
+    const Eigen::Matrix3d above = (1 + 1e-9) * Eigen::Matrix3d(s.asDiagonal()),
+                          below = (1 - 1e-9) * Eigen::Matrix3d(s.asDiagonal());
+    for (const Mat3<double>& D : directions()) {
+      const auto P = [](const Eigen::Matrix3d& F) { return eigen(NeoHookean::stress(mat3<double>(F), soft)); };
+      const auto dP = [&](const Eigen::Matrix3d& F) {
+        return eigen(NeoHookean::stress_change(mat3<double>(F), D, soft));
+      };
+      EXPECT_LE((P(above) - P(below)).norm(), 1e-6 * P(above).norm());
+      EXPECT_LE((dP(above) - dP(below)).norm(), 1e-6 * dP(above).norm());
+    }
+  }
+}
+
+// Downhill from an F, in steps of at most a tenth, to where the stress is gone; its energy there
+template <class M>
+double downhill(Mat3<double>& F) {
+  double energy = M::energy(F, soft), step = 1e-6;
+  for (int n = 0; n < 20000; ++n) {
+    const Mat3<double> P = M::stress(F, soft);
+    const double size = std::sqrt(inner(P, P));
+    if (size < 1e-6 * soft.mu) break;
+    step = std::min(step, 0.1 / size);
+    Mat3<double> next = F - step * P;
+    for (; step * size > 1e-15 && M::energy(next, soft) > energy - 1e-4 * step * size * size; next = F - step * P)
+      step /= 2;
+    F = next, energy = M::energy(F, soft), step *= 2;
+  }
+  return energy;
+}
+
+// Where a material says that it recovers, no inverted or flattened element is at rest but one that rests: the way downhill
+// ends in a rotation. One that says it does not has a start from which it does not.
+TEST(Materials, RecoverWhereTheySaySo) {
+  std::vector<Eigen::Matrix3d> starts;
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> within(-1.5, 1.5);
+  for (int i = 0; i < 40; ++i) {
+    Eigen::Matrix3d F = Eigen::Matrix3d::NullaryExpr([&] { return within(random); });
+    starts.push_back(i % 4 == 0 ? Eigen::Matrix3d(0.05 * F) : F);
+  }
+  for (const Eigen::Vector3d& s : {Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(1, 1, 0)})
+    starts.push_back(starts.front() * 1e-3 +
+                     Eigen::Matrix3d(s.asDiagonal()));  // not just on the ridge between two ways out
+  for_each_material([&](auto material) {
+    using M = decltype(material);
+    int stuck = 0;
+    for (const Eigen::Matrix3d& start : starts) {
+      Mat3<double> F = mat3<double>(start);
+      if (downhill<M>(F) < 1e-3 * soft.mu && determinant(F) > 0) continue;
+      ++stuck;
+      if (M::recovers) ADD_FAILURE() << "from\n" << start << "\nto\n" << eigen(F);
+    }
+    EXPECT_EQ(stuck == 0, M::recovers);
+  });
+}
+
+TEST(PolarRotation, IsARotationWhereSeveralAreNearest) {
+  for (const Eigen::Matrix3d& F : degenerate()) {
+    const Eigen::Matrix3d R = eigen(polar_rotation(mat3<double>(F)));
+    EXPECT_LE((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), round_off<double>(1e3)) << F;
+    EXPECT_GT(R.determinant(), 0) << F;
+    const Eigen::Vector3d s = Eigen::JacobiSVD<Eigen::Matrix3d>(F).singularValues();
+    const double most = s[0] + s[1] + (F.determinant() < 0 ? -s[2] : s[2]);
+    EXPECT_NEAR((R.transpose() * F).trace(), most, 1e-5 * s[0]) << F;
+  }
 }
 
 TEST(PolarRotation, IsTheNearestRotation) {

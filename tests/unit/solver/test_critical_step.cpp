@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <plica/core/error.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
+#include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/meshes/sphere_surface.hpp>
 
 #include "support/backends.hpp"
@@ -100,6 +102,38 @@ TEST(CriticalStep, OfSlivers) {
   for (Point& x : mesh.vertices)  // one inner layer of vertices almost onto the next: flat elements
     if (x[2] > 0.02 && x[2] < 0.045 && !on_boundary(decimetre, x)) x = Point(x[0], x[1], 0.0634);
   expect_limit(p, 2);
+}
+
+TEST(CriticalStep, NamesTheElementsThatSetIt) {
+  Problem p = small_cube("linear", 4);
+  p.body.levels[0] = with_regions(p.body.levels[0], 0.05, "left", "right");
+  TetMesh& mesh = p.body.levels[0];
+  std::size_t moved = 0;  // the right half's vertex that is nearest to the next one above it
+  while (on_boundary(decimetre, mesh.vertices[moved]) || mesh.vertices[moved][0] < 0.06) ++moved;
+  const LevelReport sound = Simulation<Host>(p).levels()[0];
+  EXPECT_EQ(sound.stiffest.size(), 10u);
+  EXPECT_GT(sound.stiffest.front().step, named_below * sound.typical_element);
+  mesh.vertices[moved] += Point(0, 0, 0.02);
+  const LevelReport report = Simulation<Host>(p).levels()[0];
+  const StiffElement& worst = report.stiffest.front();
+  EXPECT_EQ(worst.step, report.element_bound);
+  EXPECT_LT(worst.step, named_below * report.typical_element);
+  EXPECT_EQ(worst.region, "right");
+  EXPECT_GT(worst.height_ratio, 4);
+  const auto& t = mesh.tets[static_cast<std::size_t>(worst.element)];
+  EXPECT_NE(std::ranges::find(t, static_cast<int>(moved)), t.end());
+  for (std::size_t i = 1; i < report.stiffest.size(); ++i)
+    EXPECT_LE(report.stiffest[i - 1].step, report.stiffest[i].step);
+  // a step that is refused for it says so, one of a sound mesh does not
+  p.integration.macro_step = 2 * sound.critical_step, p.integration.substeps = {1};
+  try {
+    const Simulation<Host> simulation(p);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("element " + std::to_string(worst.element) + " (region right)"),
+              std::string::npos)
+        << e.what();
+  }
 }
 
 TEST(CriticalStep, NearTheIncompressibleLimit) {

@@ -23,7 +23,7 @@ Problem everything() {
   Problem p = cube_levels(3, 4, "rsv");
   p.body.material.model = "neo_hookean";
   p.gravity = {0, 0, -9.81};
-  p.body.damping.mass = 1;
+  p.body.damping = {1, 1e-6};
   p.body.prescribed = {{left_face(), Point(0, 0, 0.1)}};
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
   p.body.loads = {{Box{{0.1, 0, 0}, {0.1, 0.1, 0.1}}, Traction{{1, 0, 0}}, {}}};
@@ -35,8 +35,8 @@ Problem everything() {
 }
 
 const std::vector<std::string> optional_parts = {"contact",  "surface", "prescribe", "restrict", "interpol", "start",
-                                                 "previous", "drift",   "implicit",  "cg",       "stage",    "flags",
-                                                 "invert",   "rk4",     "load",      "grid"};
+                                                 "previous", "drift",   "implicit",  "cg",       "stage",    "damped",
+                                                 "flags",    "invert",  "rk4",       "load",     "grid"};
 
 TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
   Problem p = small_cube();
@@ -80,7 +80,7 @@ TYPED_TEST(LeftOut, NoStepAllocates) {
     for (int n = 0; n < 3; ++n) simulation.step();
     EXPECT_EQ(watch.allocations, Counts{}) << cycle;
   }
-  for (const char* integrator : {"euler", "rk4", "implicit_euler"}) {
+  for (const std::string& integrator : names(integrators())) {
     Problem p = small_cube();
     p.integration.integrator = {integrator};
     p.integration.macro_step = 1e-4;

@@ -57,6 +57,16 @@ TYPED_TEST(NoFalseAlarm, OfTheCyclesThatHold) {
   }
 }
 
+// A thousand edges per macro step are nothing to a body as a whole
+TYPED_TEST(NoFalseAlarm, OfAFastBodyInFlight) {
+  Problem p = small_cube("corotational");
+  p.body.initial.velocity = {0, 0, 1000};
+  p.body.initial.angular_velocity = {0, 10, 0};
+  p.gravity = {0, 0, -9.81};
+  Simulation<TypeParam> simulation(p);
+  advance(simulation, 100);
+}
+
 TYPED_TEST(NoFalseAlarm, OfARestingFreeBody) {
   Simulation<TypeParam> simulation(small_cube());
   advance(simulation, 300);

@@ -42,6 +42,8 @@ void expect_order(const std::string& integrator, double step, double order, doub
 TEST(Order, SymplecticEulerIsFirst) { expect_order("symplectic_euler", 1e-4, 1, 20); }
 TEST(Order, EulerIsFirst) { expect_order("euler", 5e-5, 1, 20); }
 TEST(Order, ImplicitEulerIsFirst) { expect_order("implicit_euler", 1e-4, 1, 20); }
+TEST(Order, CentralDifferenceIsSecond) { expect_order("central_difference", 2e-4, 2, 20); }
+TEST(Order, Rk2IsSecond) { expect_order("rk2", 2e-4, 2, 20); }
 TEST(Order, NewmarkIsSecond) { expect_order("newmark", 2e-4, 2, 20); }
 TEST(Order, Bdf2IsSecond) { expect_order("bdf2", 1e-4, 2, 20); }
 TEST(Order, GeneralizedAlphaIsSecond) { expect_order("generalized_alpha", 1e-4, 2, 20); }

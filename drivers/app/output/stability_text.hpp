@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/study/stability.hpp>
+#include <plica/drivers/study/stability_matrix.hpp>
+
+namespace plica::app {
+
+/// What was found, in words.
+std::string stability_text(const Scene& scene, const StabilityResult& result, const std::string& folder);
+
+/// How the matrix ended: counts, and every row that is wrong.
+std::string stability_text(const MatrixResult& result, const std::string& folder);
+
+}  // namespace plica::app

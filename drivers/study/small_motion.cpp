@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <plica/drivers/solver/energy_meter.hpp>
+#include <plica/drivers/study/small_motion.hpp>
+#include <random>
+
+namespace plica {
+
+namespace {
+
+constexpr double largest_energy_ratio = 10;  // of the last quarter to the first
+constexpr double hopeless = 1e12;            // times the energy at the start: nothing bounded gets there
+constexpr double amplitude = 1e-6;           // of an edge, per macro step
+constexpr double quarters = 0.75;            // of a run, from its first quarter to its last
+
+/// Takes translation and rotation out of the velocities of a body that nothing holds: drifting ever further away is no growth, but
+/// mappings between meshes make some strain of it.
+void take_rigid(const std::vector<Point>& x, const std::vector<double>& mass, std::vector<Point>& v) {
+  double whole = 0;
+  Point centre = Point::Zero(), momentum = Point::Zero(), spin = Point::Zero();
+  for (std::size_t a = 0; a < x.size(); ++a) whole += mass[a], centre += mass[a] * x[a], momentum += mass[a] * v[a];
+  centre /= whole, momentum /= whole;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const Point r = x[a] - centre;
+    spin += mass[a] * r.cross(v[a]);
+    inertia += mass[a] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  const Point omega = inertia.ldlt().solve(spin);
+  for (std::size_t a = 0; a < x.size(); ++a) v[a] -= momentum + omega.cross(x[a] - centre);
+}
+
+template <class B>
+void start(BuiltHierarchy<B>& built, double t) {
+  Hierarchy<B>& hierarchy = *built.hierarchy;
+  const Level<B>& level = hierarchy[0].level;
+  hierarchy.exec().fence("plica::small_motion");
+  const auto inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), level.model.inverse_mass);
+  const double speed = amplitude * built.reports.front().mean_edge / t;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> within(-speed, speed);
+  std::vector<Point> velocity(inverse.extent(0), Point::Zero());
+  std::vector<double> mass;
+  for (std::size_t a = 0; a < velocity.size(); ++a) {
+    for (int k = 0; k < 3 && inverse(a) > 0; ++k) velocity[a][k] = within(random);
+    if (inverse(a) > 0) mass.push_back(1 / static_cast<double>(inverse(a)));
+  }
+  if (mass.size() == velocity.size()) take_rigid(built.meshes.front().vertices, mass, velocity);
+  const auto v = Kokkos::create_mirror_view(level.state.v);
+  for (std::size_t a = 0; a < velocity.size(); ++a)
+    for (int k = 0; k < 3; ++k) v(a, static_cast<std::size_t>(k)) = static_cast<typename B::Real>(velocity[a][k]);
+  Kokkos::deep_copy(level.state.v, v);
+  Kokkos::deep_copy(level.state.u, typename B::Real(0));
+  for (auto& part : hierarchy.levels) part.integrator->forget();
+  built.cycle->begin(hierarchy);
+}
+
+}  // namespace
+
+double visible_growth(double modes, long macro_steps) {
+  return std::log(largest_energy_ratio * modes) / (2 * quarters * static_cast<double>(macro_steps));
+}
+
+template <class B>
+SmallMotion small_motion(BuiltHierarchy<B>& built, double t, const SmallMotionOptions& options) {
+  start(built, t);
+  Hierarchy<B>& hierarchy = *built.hierarchy;
+  const EnergyMeter<B> meter(hierarchy, built.meshes.front(), Point::Zero());
+  const long n = options.macro_steps;
+  double first = meter.all(0).total(), last = 0;
+  const double at_start = first;
+  SmallMotion found;
+  for (long i = 1; i <= n; ++i) {
+    for (auto& part : hierarchy.levels) part.forces->begin_macro_step();
+    built.cycle->step(hierarchy, 0, t);
+    const double energy = meter.all(0).total();
+    if (!(energy <= hopeless * at_start)) return {false, false, std::numeric_limits<double>::infinity()};
+    if (4 * i <= n) first = std::max(first, energy);
+    if (4 * i > 3 * n) last = std::max(last, energy);
+    if (options.go_on && !options.go_on()) return {true, true, 0};
+  }
+  found.bounded = last <= largest_energy_ratio * first;
+  if (last > 0 && first > 0) found.growth = std::log(last / first) / (2 * quarters * static_cast<double>(n));
+  return found;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) \
+  template SmallMotion small_motion(BuiltHierarchy<Backend<Real, Exec>>&, double, const SmallMotionOptions&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/study/about_rest.hpp>
+#include <plica/drivers/study/small_motion.hpp>
+#include <plica/drivers/study/stability.hpp>
+#include <plica/drivers/study/stability_scene.hpp>
+#include <plica/drivers/study/study_growth.hpp>
+#include <plica/drivers/study/study_methods.hpp>
+
+namespace plica {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Exec = Kokkos::DefaultExecutionSpace;
+using Kind = LargestStep::Kind;
+
+constexpr long explicit_run = 400, cycle_run = 600, implicit_run = 40;  // macro steps
+constexpr double implicit_most = 1000;                                  // times the critical step
+constexpr double cycle_least = 0.5, cycle_most = 32;                    // times the finest critical step
+constexpr double least_growth = 1e-4;     // per macro step, that a cycle may have and still be called stable
+constexpr double longest_run = 16000;     // macro steps, to show a slow growth
+constexpr double him_most = 64;           // likewise
+constexpr double scene_at = 0.99;         // of the limit of small motions, where the scene's own runs begin
+constexpr double scene_least = 1.0 / 64;  // of where they begin
+
+struct Stopped {};  // thrown through the searches where the caller, or the budget, has had enough
+
+bool is_explicit(const std::string& integrator) {
+  bool result = true;
+  Integrators::visit(integrator, [&](auto member) { result = decltype(member)::is_explicit; });
+  return result;
+}
+
+/// What is searched for one method, and where.
+struct Sought {
+  StudyCase method;
+  Problem problem;
+  double critical = 0;  // of its finest level under symplectic Euler, at rest without contact [s]
+};
+
+template <class B>
+class Search {
+ public:
+  Search(const Problem& problem, const StudyOptions& options, const StabilityWatch& watch)
+      : problem_(problem), options_(options), watch_(watch), growth_(problem) {
+    StudyOptions all = options;
+    if (all.methods.empty()) all.methods = {"single"};
+    if (options.methods.empty() && problem.body.levels.size() > 1) all.methods = {"single", "coarse", "cycle"};
+    for (const ChosenMethod& chosen : chosen_methods(problem, all)) add(study_case(problem, all, chosen));
+  }
+
+  StabilityResult all() {
+    for (const StudyCase& one : methods_) try {
+        doing_ = label(one);
+        go_on();
+        StabilityRow row = row_of(one);
+        result_.rows.push_back(std::move(row));
+        tell(true);
+      } catch (const Stopped&) {
+        result_.left_out.push_back(label(one));
+      }
+    return std::move(result_);
+  }
+
+ private:
+  void add(const StudyCase& one) {
+    if (one.integration.cycle == "auto") return;  // it chooses among stable steps: no method of its own
+    if (one.level == 0) return methods_.push_back(one);
+    for (const std::string& integrator : names(integrators()))
+      if (is_explicit(integrator)) methods_.push_back(one), methods_.back().integration.integrator = {integrator};
+  }
+  static std::string label(const StudyCase& one) {
+    const std::string& integrator = one.integration.integrator.front();
+    return one.label() + (one.level > 0 && integrator != "symplectic_euler" ? ", " + integrator : "");
+  }
+
+  void tell(bool new_row) {
+    if (watch_ && !watch_({doing_, result_.rows.size(), methods_.size(), &result_, new_row})) result_.stopped = true;
+  }
+  void go_on() {
+    if (std::chrono::duration<double>(Clock::now() - told_).count() > 0.05) tell(false), told_ = Clock::now();
+    if (result_.stopped ||
+        (options_.budget && std::chrono::duration<double>(Clock::now() - start_).count() > *options_.budget))
+      throw Stopped{};
+  }
+
+  BuiltHierarchy<B> built_at(const Sought& s, double macro_step) const {
+    Problem p = s.problem;
+    p.integration.macro_step = macro_step, p.integration.allow_unstable = true;
+    return build_hierarchy<B>(about_rest<B>(p, exec_), exec_);
+  }
+
+  bool bounded(BuiltHierarchy<B>& built, double t, long macro_steps) {
+    const SmallMotion run = small_motion<B>(built, t, {macro_steps, [this] { return go_on(), true; }});
+    return run.bounded;
+  }
+
+  StabilityRow row_of(const StudyCase& one) {
+    StabilityRow row;
+    row.method = one.method, row.distribution = one.distribution, row.variant = one.variant;
+    if (one.integration.cycle == "single") row.integrator = one.integration.integrator.front();
+    try {
+      Sought s{one, problem_of(problem_, one)};
+      s.problem.body.loads.clear();  // a coarse mesh may have no vertex where one acts
+      row.critical_step = study_level(problem_, one.level).critical_step;
+      s.problem.contact.obstacles.clear(), s.problem.body.surface.reset();
+      s.critical = study_level(s.problem, 0).critical_step;
+      if (!row.integrator.empty())
+        is_explicit(row.integrator) ? find_explicit(row, s) : find_implicit(row, s);
+      else
+        integrates_coarse_levels(one.integration.cycle) ? find_cycle(row, s) : find_him(row, s);
+      if (row.predicted && *row.predicted > 0 && row.measured) row.ratio = *row.measured / *row.predicted;
+      if (has_own_limit()) add_scene(row, s);
+    } catch (const InputError& error) {
+      row.status = "refused", row.reason = error.what();
+    }
+    return row;
+  }
+
+  void put(StabilityRow& row, const LargestStep& found) const {
+    row.status = found.kind == Kind::limited ? "limited" : found.kind == Kind::growing ? "growing" : "unlimited";
+    if (found.kind == Kind::unlimited) row.stable_up_to = found.step;
+    if (found.kind == Kind::limited) row.measured = found.step;
+    if (found.kind == Kind::growing) row.measured = 0;
+  }
+
+  void find_explicit(StabilityRow& row, const Sought& s) {
+    row.predicted = built_at(s, s.critical).reports.front().critical_step;
+    const bool none = !(*row.predicted > 0);
+    const double guess = none ? cycle_least * s.critical : *row.predicted;
+    put(row, largest_stable({guess, none ? guess : guess / 8, 8 * guess, 1.01, 2e-3}, [&](double t) {
+          BuiltHierarchy<B> built = built_at(s, t);
+          return bounded(built, t, explicit_run);
+        }));
+    if (row.status == "growing") add_growth(row, s, guess);
+  }
+
+  void find_implicit(StabilityRow& row, const Sought& s) {
+    const double most = implicit_most * s.critical;
+    put(row, largest_stable({most, s.critical, most, 4, 0.02}, [&](double t) {
+          BuiltHierarchy<B> built = built_at(s, t);
+          return bounded(built, t, implicit_run);
+        }));
+  }
+
+  // The inertia is that of its own macro step; what is searched is how far that may be overstepped
+  void find_him(StabilityRow& row, const Sought& s) {
+    BuiltHierarchy<B> built = build_hierarchy<B>(about_rest<B>(s.problem, exec_), exec_);
+    row.predicted = built.macro_step * 2 / std::sqrt(built.him->product);
+    put(row, largest_stable({*row.predicted, *row.predicted / 8, 8 * *row.predicted, 1.02, 5e-3},
+                            [&](double t) { return bounded(built, t, cycle_run); }));
+  }
+
+  void find_cycle(StabilityRow& row, const Sought& s) {
+    const double modes = 3.0 * built_at(s, s.critical).reports.front().vertices;
+    const double least = cycle_least * s.critical, most = cycle_most * s.critical;
+    if (grows_at(row, s, least, modes)) {
+      row.status = "growing", row.predicted = 0;
+      return add_growth(row, s, s.critical);
+    }
+    const double told = 1 + visible_growth(modes, cycle_run);
+    const LargestStep predicted = largest_stable({s.critical, least, most, 1.5, 0.02},
+                                                 [&](double t) { return growth_at(s, t, told).radius <= told; });
+    if (predicted.kind != Kind::unlimited) row.predicted = predicted.kind == Kind::limited ? predicted.step : 0;
+    put(row, largest_stable({predicted.step, least, most, 1.05, 0.01}, [&](double t) {
+          BuiltHierarchy<B> built = built_at(s, t);
+          return bounded(built, t, cycle_run);
+        }));
+    add_growth(row, s, row.status == "limited" ? std::min(*row.measured, predicted.step) : predicted.step);
+  }
+
+  CycleGrowth growth_at(const Sought& s, double t, double told_from) {
+    go_on();
+    const auto growth = growth_.of(s.method, t, told_from);
+    if (!growth) throw InputError("its set-up is refused at " + std::to_string(t) + " s");
+    return *growth;
+  }
+
+  // By its map; and by a run, where one of reasonable length can show it
+  bool grows_at(StabilityRow& row, const Sought& s, double t, double modes) {
+    const CycleGrowth growth = growth_at(s, t, 1 + least_growth);
+    const Body& body = s.problem.body;
+    const bool drifts = body.fixed.empty() && body.prescribed.empty() && !growth.converged;  // away, which is no growth
+    const double unsure = 2 * growth.uncertainty + (drifts ? 3.0 / static_cast<double>(growth.macro_steps) : 0);
+    if (growth.radius - unsure <= 1 + least_growth) return false;
+    const double steps = std::ceil(1.5 * visible_growth(modes, 1) / std::log(growth.radius));
+    if (steps > longest_run) return growth.converged;
+    BuiltHierarchy<B> built = built_at(s, t);
+    if (bounded(built, t, std::max(cycle_run, static_cast<long>(steps)))) return false;
+    row.measured = 0;
+    return true;
+  }
+
+  void add_growth(StabilityRow& row, const Sought& s, double t) {
+    go_on();
+    GrowthOfCycles own(s.problem);
+    GrowthOfCycles& of = s.method.level > 0 ? own : growth_;
+    StudyCase at = s.method;
+    at.integration.allow_unstable = true;
+    if (const auto growth = of.of(at, t, 1 + least_growth)) {
+      row.growth_step = t, row.spectral_radius = growth->radius, row.growth_per_second = growth->per_second;
+    }
+  }
+
+  // Whether small motions about rest are not the whole story
+  bool has_own_limit() const { return problem_.body.material.model != "linear" || !problem_.contact.obstacles.empty(); }
+
+  void add_scene(StabilityRow& row, const Sought& s) {
+    const double longest = options_.duration / 4;
+    double guess = s.critical, most = cycle_most * s.critical;
+    if (row.status == "limited") guess = most = scene_at * *row.measured;
+    if (row.status == "unlimited") guess = most = *row.stable_up_to;
+    if (row.integrator.empty() && !integrates_coarse_levels(s.method.integration.cycle))
+      guess = s.problem.integration.macro_step.value_or(s.critical), most = him_most * s.critical;
+    guess = std::min(guess, longest), most = std::min(most, longest);
+    row.scene = scene_limit<B>(problem_of(problem_, s.method), options_.duration,
+                               {guess, guess * scene_least, most, 1.1, 0.03}, [this] { go_on(); });
+  }
+
+  const Problem& problem_;
+  const StudyOptions& options_;
+  const StabilityWatch& watch_;
+  Exec exec_;
+  GrowthOfCycles growth_;
+  std::vector<StudyCase> methods_;
+  StabilityResult result_;
+  std::string doing_;
+  Clock::time_point start_ = Clock::now(), told_{};
+};
+
+}  // namespace
+
+std::string StabilityRow::label() const {
+  return study_label(method, distribution, variant) +
+         (method.starts_with("coarse/") && integrator != "symplectic_euler" ? ", " + integrator : "");
+}
+
+StabilityResult stability(const Problem& problem, const StudyOptions& options, const StabilityWatch& watch) {
+  validate(problem);
+  if (!(options.duration > 0)) throw InputError("stability: the duration is not above 0");
+  check_study(problem, options);
+  if (options.precision.empty() || options.precision.front() == "double")
+    return Search<Backend<double, Exec>>(problem, options, watch).all();
+  return Search<Backend<float, Exec>>(problem, options, watch).all();
+}
+
+}  // namespace plica

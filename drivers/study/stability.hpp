@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <optional>
+#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/study_case.hpp>
+
+namespace plica {
+
+/// How far the scene itself, from its own start under its own loads, could be taken with a method.
+struct SceneLimit {
+  std::optional<double> step;  ///< the largest macro step with which it came to its end [s]; none: no step tried did
+  std::optional<double> failed_step;  ///< the smallest with which it did not [s]; none: every step tried did
+  double failed_time = 0;             ///< simulated until then [s]
+  std::string reason;                 ///< diagnosis or message
+  std::optional<Diagnosis> failure;   ///< where and how; none where the set-up refused
+};
+
+/// How far a method can be taken on one problem.
+struct StabilityRow {
+  std::string method, distribution, variant;  ///< see StudyCase
+  std::string integrator;                     ///< of a level alone
+  std::string status;  ///< limited | unlimited: as far as was looked | growing: at every step worth while | refused
+  std::string reason;  ///< where it is refused
+  double critical_step = 0;            ///< of its finest level under symplectic Euler, contact included [s]
+  std::optional<double> predicted;     ///< largest stable macro step of small motions [s]; 0: none; empty: no limit
+  std::optional<double> measured;      ///< the same by runs [s]
+  std::optional<double> ratio;         ///< measured over predicted
+  std::optional<double> stable_up_to;  ///< unlimited: the largest macro step that was run [s]
+  std::optional<double> growth_step;   ///< macro step [s] of
+  std::optional<double> spectral_radius, growth_per_second;  ///< see CycleGrowth; of cycles, and of what is growing
+  std::optional<SceneLimit> scene;                           ///< of a body that is not linear, or touches something
+  std::string label() const;
+};
+
+struct StabilityResult {
+  std::vector<StabilityRow> rows;
+  std::vector<std::string> left_out;  ///< methods that there was no time for
+  bool stopped = false;               ///< by the caller, before all was done
+};
+
+/// How far a search is.
+struct StabilityProgress {
+  std::string doing;
+  std::size_t done = 0, of = 0;  ///< methods
+  const StabilityResult* so_far = nullptr;
+  bool new_row = false;  ///< since the last call
+};
+
+/// Called before and after every method and during it; false stops the search.
+using StabilityWatch = std::function<bool(const StabilityProgress&)>;
+
+/// The largest stable macro step of each method, by bisection on runs beside the one predicted before. Small motions: about rest,
+/// linearised, without loads and contact, see small_motion.hpp. Predicted is, of a level alone, what its set-up says; of cycle
+/// him, the limit of the inertia that it has at its own macro step, 2 / sqrt(lambda); of the other cycles, the step at which the spectral
+/// radius of their map leaves 1 by more than such a run can tell.
+/// @param options  its methods (empty: all, explicit integrators on coarser levels too), variants, duration, budget, and the first precision
+/// InputError for bad options or problems; methods that refuse are rows. Kokkos must be initialised.
+StabilityResult stability(const Problem& problem, const StudyOptions& options, const StabilityWatch& watch = {});
+
+}  // namespace plica

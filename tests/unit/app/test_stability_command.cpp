@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/commands/stability.hpp>
+#include <plica/drivers/app/output/stability_json.hpp>
+#include <plica/drivers/app/output/stability_text.hpp>
+#include <set>
+#include <sstream>
+
+#include "unit/app/child.hpp"
+
+namespace plica::app::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* small_beam = R"(duration: 50 ms
+gravity: [0, 0, -9.81]
+body:
+  levels:
+    - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
+    - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
+  material: {model: linear, young_modulus: 1 MPa, poisson_ratio: 0.3}
+  fixed: [{plane: {normal: [1, 0, 0]}}]
+study: {methods: [single/symplectic_euler, single/implicit_euler, coarse/1, cycle/rs/equal, cycle/rv/equal, cycle/him]}
+)";
+
+class StabilityCommand : public testing::Test {
+ protected:
+  StabilityCommand() { std::ofstream(scene) << small_beam; }
+  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
+    words.insert(words.begin(), {PLICA_EXECUTABLE, "stability"});
+    return run_child(words, folder, meanwhile);
+  }
+  Child stability(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {scene, "-o", out};
+    words.insert(words.end(), more.begin(), more.end());
+    return plica(words);
+  }
+  Json json() const { return Json::parse(content_of(folder / "out/stability.json")); }
+  Json row(const std::string& method) const {
+    const Json all = json();
+    for (const Json& one : all["rows"])
+      if (one["method"] == method) return one;
+    return {};
+  }
+
+  TemporaryFolder folder;
+  std::string scene = folder / "beam.yaml", out = folder / "out";
+};
+
+TEST_F(StabilityCommand, SaysWhatItPredictedAndMeasured) {
+  const Child run = stability();
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(json()["status"], "completed");
+  EXPECT_EQ(json()["tets"], Json({192, 24}));
+  EXPECT_TRUE(json()["machine"]["cpu"].is_string());
+  for (const char* method : {"single/symplectic_euler", "coarse/1", "cycle/rs", "cycle/him"}) {
+    const Json one = row(method);
+    EXPECT_EQ(one["status"], "limited") << method;
+    EXPECT_NEAR(one["ratio"].get<double>(), 1, one["integrator"].is_string() ? 0.02 : 0.1) << method;
+    EXPECT_DOUBLE_EQ(one["ratio"], one["measured"].get<double>() / one["predicted"].get<double>());
+    EXPECT_NE(run.output.find(method), std::string::npos);
+  }
+  EXPECT_EQ(row("cycle/rs")["distribution"], "equal");
+  EXPECT_EQ(row("cycle/rv")["status"], "growing");
+  EXPECT_EQ(row("cycle/rv")["predicted"], 0);
+  EXPECT_GT(row("cycle/rv")["growth_per_second"], 0);
+  EXPECT_EQ(row("single/implicit_euler")["status"], "unlimited");
+  EXPECT_TRUE(row("single/implicit_euler")["predicted"].is_null() &&
+              row("single/implicit_euler")["measured"].is_null());
+  EXPECT_NE(run.output.find("none up to"), std::string::npos);
+}
+
+TEST_F(StabilityCommand, RowsOfJsonAndCsvHaveTheSameFields) {
+  ASSERT_EQ(stability({"--quiet", "--set", "study.methods=[single/symplectic_euler, cycle/rv/equal]", "--set",
+                       "body.material.model=st_venant_kirchhoff"})
+                .status,
+            0);
+  std::istringstream csv(content_of(folder / "out/stability.csv"));
+  std::string names, line;
+  std::getline(csv, names);
+  const std::set<std::string> fields = {"method",
+                                        "distribution",
+                                        "variant",
+                                        "integrator",
+                                        "status",
+                                        "reason",
+                                        "critical_step",
+                                        "predicted",
+                                        "measured",
+                                        "ratio",
+                                        "stable_up_to",
+                                        "growth_step",
+                                        "spectral_radius",
+                                        "growth_per_second",
+                                        "scene_measured",
+                                        "scene_failed_step",
+                                        "scene_failed_time",
+                                        "scene_reason",
+                                        "scene_kind",
+                                        "scene_region",
+                                        "scene_level",
+                                        "scene_element",
+                                        "scene_vertex",
+                                        "scene_J"};
+  std::set<std::string> columns;
+  std::istringstream split(names);
+  for (std::string name; std::getline(split, name, ',');) columns.insert(name);
+  EXPECT_EQ(columns, fields);
+  int lines = 0;
+  while (std::getline(csv, line)) ++lines;
+  EXPECT_EQ(lines, 2);
+  const Json all = json();
+  for (const Json& one : all["rows"]) {
+    std::set<std::string> members;
+    for (const auto& [name, value] : one.items()) members.insert(name);
+    EXPECT_EQ(members, fields);
+    EXPECT_TRUE(one["scene_measured"].is_number()) << "it is not linear: its own runs too";
+  }
+}
+
+TEST_F(StabilityCommand, BadInputIs2) {
+  const auto refuses = [&](const std::vector<std::string>& words, const std::string& text) {
+    const Child run = plica(words);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_NE(run.errors.find(text), std::string::npos) << run.errors;
+  };
+  refuses({scene, "-o", out, "--set", "study.methods=cycle/rvs"}, "did you mean 'cycle/rsv'");
+  refuses({scene, "-o", out, "--set", "study.methods=single/euller"}, "did you mean 'single/euler'");
+  refuses({scene, "-o", out, "--budget", "soon"}, "--budget");
+  refuses({scene, "-o", out, "--budgte", "1s"}, "--budgte");
+  refuses({}, "SCENE, or --matrix");
+  refuses({"--matrix", scene}, "--matrix has its own bodies");
+  refuses({"--matrix", "--set", "gravity=[0, 0, 0]"}, "--matrix has its own bodies");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/stability.json"));
+}
+
+TEST_F(StabilityCommand, HelpsWithAnExample) {
+  const Child help = plica({"--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const char* word : {"--matrix", "--budget", "Exit status", "plica stability beam.yaml"})
+    EXPECT_NE(help.output.find(word), std::string::npos) << word;
+}
+
+TEST_F(StabilityCommand, StopsWithItsBudgetAndAtCtrlCWithWholeFiles) {
+  const Child late = plica({"--matrix", "-o", out, "--budget", "200ms"});
+  EXPECT_EQ(late.status, 0) << late.output << late.errors;
+  EXPECT_GT(json()["left_out"], 0);
+  EXPECT_GT(json()["rows"].size(), 0U);
+  const Json all = json();
+  for (const Json& one : all["rows"]) {
+    EXPECT_TRUE(one["ok"]) << one;
+    for (const char* name : {"case", "method", "expected", "outcome"}) EXPECT_TRUE(one[name].is_string()) << name;
+  }
+  std::filesystem::remove_all(out);
+  const Child run = plica({"--matrix", "-o", out}, [&](pid_t id) {
+    return std::filesystem::exists(out + "/stability.json") && kill(id, SIGINT) == 0;
+  });
+  EXPECT_EQ(run.status, 130) << run.errors;
+  EXPECT_EQ(json()["status"], "interrupted");
+}
+
+TEST(StabilityMatrix, AWrongRowIsSaidAndFails) {
+  MatrixResult result;
+  result.rows = {{"a", "single/rk4", "completed", "completed", true, ""}};
+  EXPECT_EQ(status_of(result), ExitStatus::done);
+  result.rows.push_back({"b", "cycle/him", "completed", "stopped: energy", false, "too much \"of\" it"});
+  EXPECT_EQ(status_of(result), ExitStatus::failed);
+  const std::string text = stability_text(result, "out");
+  EXPECT_NE(text.find("Wrong, 1"), std::string::npos);
+  EXPECT_NE(text.find("b, cycle/him: stopped: energy; expected completed"), std::string::npos);
+  const StabilityTexts files = stability_texts({"cpu", 2, "Serial", 1}, result, "completed");
+  EXPECT_FALSE(Json::parse(files.json)["ok"].get<bool>());
+  EXPECT_NE(files.csv.find("\"too much \"\"of\"\" it\""), std::string::npos) << files.csv;
+}
+
+TEST_F(StabilityCommand, CanBeDrawn) {
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  ASSERT_EQ(stability({"--quiet", "--set", "study.methods=[single, cycle/rv/equal]"}).status, 0);
+  const Child draw = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/stability.py", out}, folder);
+  EXPECT_EQ(draw.status, 0) << draw.errors;
+  EXPECT_GT(std::filesystem::file_size(folder / "out/stability.png"), 10000U);
+}
+
+}  // namespace
+}  // namespace plica::app::test

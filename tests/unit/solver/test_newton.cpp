@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/core/error.hpp>
+#include <plica/kernels/energies.hpp>
+#include <plica/kernels/implicit/stage_kernels.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/level_probe.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Implicit steps by Newton's method: what they solve, how far, and what becomes of those they do not.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+Problem hanging(const std::string& material, double step) {
+  Problem p = body_of({jittered_box(beam_box, {8, 2, 2})}, material);
+  p.body.fixed = {left_face()}, p.gravity = {0, 0, -9.81};
+  p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = step;
+  p.integration.implicit.newton_iterations = 40, p.integration.implicit.relative_residual = 1e-8;
+  return p;
+}
+
+// The slope of the incremental potential is the balance that the steps solve.
+TEST(Newton, PotentialIsThatOfTheBalance) {
+  Problem p = small_cube("neo_hookean", 2);
+  p.gravity = {1, 2, -9.81}, p.body.damping.mass = 30, p.body.fixed = {left_face()};
+  LevelProbe<Host> probe(p);
+  HierarchyLevel<Host>& part = probe.at(0);
+  Level<Host>& level = part.level;
+  const std::size_t n = probe.vertices();
+  const plica::State<Host> base(device_field<Host>(random_field(n, 1e-3, 1)),
+                                device_field<Host>(random_field(n, 1, 2)));
+  const auto u = random_field(n, 3e-3, 3);
+  auto change = random_field(n, 1, 4);
+  for (std::size_t i = 0; i < n; ++i)
+    if (p.body.levels[0].vertices[i][0] < 1e-9) change[i].setZero();
+  const double a = 3e-4, b = 2e-2;  // not each other's square: as generalized_alpha has them
+  const Vectors<Host> dead("test.dead", n);
+  part.forces->dead(level, 0, dead);
+  const BlockSums<Host> blocks(static_cast<int>(level.partial.extent(0)));
+  const Kokkos::View<double*, Host::Memory> result("test.result", 4);
+  const auto at = [&](double t) {
+    auto x = u, v = u;
+    const auto base_u = to_host<Host>({}, base.u), base_v = to_host<Host>({}, base.v);
+    for (std::size_t i = 0; i < n; ++i) x[i] += t * change[i], v[i] = base_v[i] + b / a * (x[i] - base_u[i]);
+    level.state = {device_field<Host>(x), device_field<Host>(v)};
+    part.forces->linearise(level, level.state, 0, {a, b}, 0, level.f);
+    reduce<Host, 4>(
+        {}, "test", static_cast<int>(n),
+        StagePotential<Host>{{level.model, base, level.state, a, b}, level.f, dead, device_field<Host>(change), 0},
+        blocks, result);
+    return std::array<double, 2>{result(0) + probe.elastic_energy(x), result(2)};
+  };
+  const double e = 1e-6, slope = (at(e)[0] - at(-e)[0]) / (2 * e);
+  EXPECT_NEAR(at(0)[1], slope, 1e-6 * std::abs(slope));
+}
+
+TEST(Newton, MeetsItsTolerance) {
+  for (const std::string& material : names(materials())) {
+    Problem p = hanging(material, 0.05);
+    p.integration.implicit.newton_tolerance = 1e-9, p.integration.implicit.unfinished = "stop";
+    Simulation<Host> simulation(p);
+    advance(simulation, 10);
+    EXPECT_EQ(simulation.counters().at("newton_misses"), 0) << material;
+  }
+}
+
+// A pull so sudden that full steps overshoot: the search shortens them, and the step is solved all the same.
+TEST(Newton, SearchesAlongItsDirection) {
+  Problem p = hanging("neo_hookean", 0.5);
+  p.gravity = {0, 0, -200};
+  p.integration.implicit.newton_iterations = 100;
+  Simulation<Host> simulation(p);
+  simulation.step();
+  EXPECT_FALSE(simulation.check());
+  EXPECT_GT(simulation.counters().at("line_searches"), 0);
+  EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
+}
+
+TEST(Newton, HalvesStepsItCannotSolve) {
+  Problem p = hanging("st_venant_kirchhoff", 0.02);
+  p.integration.implicit.newton_tolerance = 1e-6;
+  Simulation<Host> solved(p);
+  p.integration.implicit.newton_iterations = 2, p.integration.implicit.newton_tolerance = 1e-6;
+  p.integration.implicit.unfinished = "halve", p.integration.implicit.halvings = 8;
+  Simulation<Host> halved(p);
+  advance(solved, 10), advance(halved, 10);
+  EXPECT_GT(halved.counters().at("step_halvings"), 0);
+  EXPECT_EQ(halved.time(), solved.time());
+  const auto a = displacements(halved, p.body.levels[0]), b = displacements(solved, p.body.levels[0]);
+  EXPECT_LE(largest_difference(a, b), 0.1 * largest(b));  // first order: smaller steps lose less energy
+}
+
+TEST(Newton, RefusesWhatMakesNoSense) {
+  Problem p = hanging("linear", 0.01);
+  p.integration.implicit.newton_iterations = 1, p.integration.implicit.unfinished = "halve";
+  EXPECT_THROW(Simulation<Host>{p}, InputError);
+  p = hanging("linear", 0.01), p.integration.implicit.tangent = "positve";
+  EXPECT_THROW(Simulation<Host>{p}, InputError);
+  p = hanging("linear", 0.01), p.integration.implicit.rho_infinity = 1.5;
+  EXPECT_THROW(Simulation<Host>{p}, InputError);
+}
+
+}  // namespace
