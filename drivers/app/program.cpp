@@ -12,6 +12,7 @@
 #include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/run.hpp>
 #include <plica/drivers/app/commands/study.hpp>
+#include <plica/drivers/app/commands/verify.hpp>
 #include <plica/drivers/app/commands/version.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -22,7 +23,7 @@
 namespace plica::app {
 namespace {
 
-constexpr const char* planned_commands[] = {"stability", "verify"};
+constexpr const char* planned_commands[] = {"stability"};
 
 // The command line, and what it asks for. CLI11 fills the members while it parses.
 class CommandLine {
@@ -37,6 +38,7 @@ class CommandLine {
     add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); });
     add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
     add_study();
+    add_verify();
     add_mesh();
     add_list();
     add_schema();
@@ -105,11 +107,15 @@ class CommandLine {
     command->add_option("--precision", arguments_.precision, "float or double (double)")
         ->type_name("WORD")
         ->check(CLI::IsMember({"float", "double"}));
+    add_threads(command);
+    if (name != "run" && name != "study") command->add_flag("--json", arguments_.json, "print JSON");
+    return command;
+  }
+
+  void add_threads(CLI::App* command) {
     command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(1, 512));  // what Kokkos can do with OpenMP
-    if (name != "run" && name != "study") command->add_flag("--json", arguments_.json, "print JSON");
-    return command;
   }
 
   void add_run() {
@@ -137,6 +143,16 @@ class CommandLine {
         ->type_name("TIME");
     command->add_flag("--space", study_.space, "a second reference on a mesh twice as fine, for the error in space");
     command->add_flag("--growth", study_.growth, "the growth of small motions by each cycle, linearised about rest");
+    command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
+  }
+
+  void add_verify() {
+    CLI::App* command =
+        add("verify", "solve problems with known answers", [this] { return verify(arguments_, verify_); });
+    command->add_option("PROBLEM", verify_.problems, "only these (all)");
+    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/verify)")->type_name("FOLDER");
+    command->add_flag("--small", verify_.small, "on coarser meshes, in seconds");
+    add_threads(command);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }
 
@@ -204,6 +220,7 @@ class CommandLine {
   CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
   RunArguments arguments_;
   StudyArguments study_;
+  VerifyArguments verify_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;

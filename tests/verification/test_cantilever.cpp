@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/study/sparse_stiffness.hpp>
+
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
 #include "support/simulate.hpp"
-#include "support/sparse_stiffness.hpp"
 #include "support/tolerance.hpp"
 
 // A clamped beam against direct solves on the same mesh, and against beam theory.

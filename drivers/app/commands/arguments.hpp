@@ -37,4 +37,9 @@ struct StudyArguments {
   bool growth = false;  ///< of the linearised cycles too
 };
 
+struct VerifyArguments {
+  std::vector<std::string> problems;  ///< empty: all
+  bool small = false;
+};
+
 }  // namespace plica::app

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <plica/drivers/app/commands/list.hpp>
 #include <plica/drivers/app/commands/manual.hpp>
+#include <plica/drivers/app/commands/verify.hpp>
 
 namespace plica::app {
 namespace {
@@ -60,6 +63,23 @@ Examples:
 
 Exit status: 0 done, also with rows that diverged, 1 a file cannot be written, 2 bad input, 130 interrupted)";
 
+constexpr const char* verify_manual =
+    R"(Solves problems whose answers are known, each on several meshes, and sets what comes out beside the accepted value and its
+source, with the observed order of convergence. A row is `ok`, `not ok`, or `shown` for information. PROBLEM is any of
+{}
+Files in the folder, SI units throughout; each is replaced as a whole after every problem:
+  verify.json      machine, and the rows: problem, quantity, accepted, source, ours (mesh, size, value), limit, order,
+                   judged, tolerance, outcome, ok, note
+  verify.csv       a line per row and mesh
+  verify.md        the table
+
+Examples:
+  plica verify
+  plica verify cantilever cook_membrane -o out/bending
+  plica verify --small                # coarser meshes: some seconds
+
+Exit status: 0 all rows came out as they must, 1 one did not, or a file cannot be written, 2 bad input, 130 interrupted)";
+
 constexpr const char* explain_manual =
     R"(Prints levels with critical steps [s], shares and sub-steps, and each part that is in or out, why, and its bytes.
 
@@ -97,6 +117,7 @@ Exit status: 0 done, 2 another shell)";
 std::string manual_of(const std::string& command) {
   if (command == "run") return run_manual;
   if (command == "study") return study_manual;
+  if (command == "verify") return fmt::format(fmt::runtime(verify_manual), verify_problems_text());
   if (command == "explain") return explain_manual;
   if (command == "check") return check_manual;
   if (command == "schema") return schema_manual;

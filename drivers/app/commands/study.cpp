@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 #include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/commands/study.hpp>
+#include <plica/drivers/app/output/progress_line.hpp>
 #include <plica/drivers/app/output/study_files.hpp>
 #include <plica/drivers/app/output/study_text.hpp>
 
@@ -24,24 +24,6 @@ StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const
   return options;
 }
 
-// How far the sweep is, on a terminal
-class ProgressLine {
- public:
-  explicit ProgressLine(bool quiet) : on_(!quiet && on_terminal()) {}
-  ~ProgressLine() {
-    if (on_) std::cerr << "\r\033[K" << std::flush;
-  }
-  void update(const StudyProgress& p) const {
-    if (!on_) return;
-    const std::string line = fmt::format("{}/{}  {:3.0f} %  {}", p.done, p.of, 100 * p.part, p.doing);
-    const auto width = static_cast<std::size_t>(std::max(1, terminal_width() - 1));
-    std::cerr << "\r\033[K" << coloured(line.substr(0, width), Colour::cyan) << std::flush;
-  }
-
- private:
-  bool on_;
-};
-
 StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files, bool quiet) {
   StudyResult before = files.read();
   if (!quiet && !before.rows.empty())
@@ -51,7 +33,7 @@ StudyResult run_study(const Scene& scene, const StudyOptions& options, const Stu
   const StudyWatch watch = [&](const StudyProgress& p) {
     if (p.new_reference) files.write_reference(p.so_far->reference);
     if (p.new_reference || p.new_row) files.write(*p.so_far, "unfinished");
-    line.update(p);
+    line.update(fmt::format("{}/{}  {:3.0f} %  {}", p.done, p.of, 100 * p.part, p.doing));
     return !interrupted();
   };
   StudyResult result = plica::study(scene.problem, options, watch, std::move(before));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <Kokkos_Core.hpp>
 #include <algorithm>
 #include <fstream>
 #include <plica/drivers/app/output/checkpoint.hpp>
@@ -11,22 +10,9 @@
 #include <plica/drivers/app/scene/tree_json.hpp>
 #include <plica/version.hpp>
 #include <sstream>
-#include <thread>
 
 namespace plica::app {
 namespace {
-
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
-  return "unknown";
-}
-
-StudyMachine this_machine() {
-  using Exec = Kokkos::DefaultExecutionSpace;
-  return {processor(), static_cast<int>(std::thread::hardware_concurrency()), Exec::name(), Exec().concurrency()};
-}
 
 // What a scene says but for some keys of its top level
 std::string said_without(const Tree& source, const std::vector<std::string>& keys) {

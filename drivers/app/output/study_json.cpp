@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/study_json.hpp>
 #include <plica/drivers/study/judgement.hpp>
-#include <plica/version.hpp>
 
 namespace plica::app {
 
@@ -47,15 +46,10 @@ void each_member(Row& row, const Visit& visit) {
 
 using Probes = std::map<std::string, std::optional<double>>;
 
-template <class T>
-Json json_of(const T& value) {
-  return value;
-}
-Json json_of(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-Json json_of(const Probes& probes) {
+using app::row_value;
+Json row_value(const Probes& probes) {
   Json json;  // null where there are none
-  for (const auto& [name, value] : probes) json[name] = json_of(value);
+  for (const auto& [name, value] : probes) json[name] = row_value(value);
   return json;
 }
 
@@ -72,7 +66,7 @@ void read(const Json& json, Probes& probes) {
 
 Json row_json(const StudyRow& row) {
   Json json;
-  each_member(row, [&](const char* name, const auto& value) { json[name] = json_of(value); });
+  each_member(row, [&](const char* name, const auto& value) { json[name] = row_value(value); });
   return json;
 }
 
@@ -89,19 +83,10 @@ Json reference_json(const StudyResult& result) {
           {"critical_step", r.critical_step},
           {"own_error", r.own_error},
           {"own_error_velocity", r.own_error_velocity},
-          {"smallest_error", json_of(smallest_error(result.rows))},
+          {"smallest_error", row_value(smallest_error(result.rows))},
           {"good_enough", good_enough(result)},
-          {"space_error", json_of(r.space_error)},
+          {"space_error", row_value(r.space_error)},
           {"wall_time", r.wall_time}};
-}
-
-std::string csv_field(const Json& value) {
-  if (value.is_null()) return {};
-  if (!value.is_string()) return value.dump();
-  std::string text = value.get<std::string>();
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
-  return '"' + text + '"';
 }
 
 }  // namespace
@@ -114,14 +99,7 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine, const
                {"duration", head.duration},
                {"samples", head.samples},
                {"tets", head.tets},
-               {"machine",
-                {{"cpu", machine.cpu},
-                 {"cores", machine.cores},
-                 {"backend", machine.backend},
-                 {"threads", machine.threads},
-                 {"compiler", compiler()},
-                 {"version", version()},
-                 {"git_revision", git_revision()}}},
+               {"machine", machine_json(machine)},
                {"digest", head.digest},
                {"reference", reference_json(result)},
                {"rows", Json::array()},

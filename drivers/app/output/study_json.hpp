@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/drivers/app/output/this_machine.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/study/study.hpp>
 
 namespace plica::app {
-
-struct StudyMachine {
-  std::string cpu;
-  int cores = 0;
-  std::string backend;
-  int threads = 0;  ///< at most
-};
 
 /// What a study was of.
 struct StudyHead {

@@ -3,11 +3,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <plica/drivers/solver/critical_step.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 #include <plica/meshes/sphere_surface.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 #include "support/tolerance.hpp"
 
 // The predicted critical step against dense eigenvalues of the same matrices.

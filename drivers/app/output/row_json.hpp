@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace plica::app {
+
+/// A row's value: what does not apply is null, also a text that is empty.
+template <class T>
+nlohmann::ordered_json row_value(const T& value) {
+  return value;
+}
+inline nlohmann::ordered_json row_value(const std::string& text) {
+  return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+}
+inline nlohmann::ordered_json row_value(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+/// The same in a table: nothing for null, quoted where it has to be (RFC 4180).
+inline std::string csv_field(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return {};
+  if (!value.is_string()) return value.dump();
+  std::string text = value.get<std::string>();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
+/// Objects with the same members as a table, their names above it.
+inline std::string csv_table(const nlohmann::ordered_json& rows) {
+  std::string text;
+  const auto add_line = [&text](const nlohmann::ordered_json& row, bool names) {
+    std::string line;
+    for (const auto& [name, value] : row.items()) line += "," + csv_field(names ? nlohmann::ordered_json(name) : value);
+    text += line.substr(std::min<std::size_t>(1, line.size())) + "\n";
+  };
+  for (const auto& row : rows) {
+    if (text.empty()) add_line(row, true);
+    add_line(row, false);
+  }
+  return text;
+}
+
+}  // namespace plica::app
