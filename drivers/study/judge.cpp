@@ -25,7 +25,7 @@ void extrapolate(VerifyRow& row) {
   if (v.size() < 3) return;
   const VerifyValue &a = v[v.size() - 3], &b = v[v.size() - 2], &c = v.back();
   const double ratio = b.size / c.size, shrink = (b.value - a.value) / (c.value - b.value);
-  if (!(std::abs(a.size / b.size - ratio) < 1e-9 * ratio) || !(shrink > 1)) return;
+  if (!(ratio > 1) || !(std::abs(a.size / b.size - ratio) < 1e-9 * ratio) || !(shrink > 1)) return;
   row.order = std::log(shrink) / std::log(ratio);
   row.limit = c.value + (c.value - b.value) / (shrink - 1);
 }

@@ -112,9 +112,13 @@ double SparseStiffness::lowest_frequency(std::vector<Point>& shape) const {
 std::vector<double> SparseStiffness::frequencies(int count, double shift) const {
   Eigen::VectorXd root(matrix_.rows());
   for (Eigen::Index r = 0; r < root.size(); ++r) root[r] = std::sqrt(mass_[vertex(r)]);
-  Matrix shifted = matrix_;
-  shifted.diagonal() += shift * root.cwiseAbs2();
-  const Eigen::SimplicialLDLT<Matrix> solver(shifted);
+  Eigen::SimplicialLDLT<Matrix> of_shifted;
+  if (shift != 0) {
+    Matrix shifted = matrix_;
+    shifted.diagonal() += shift * root.cwiseAbs2();
+    of_shifted.compute(shifted);
+  }
+  const auto& solver = shift != 0 ? of_shifted : solver_;
   const auto inverse = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return root.cwiseProduct(solver.solve(Eigen::VectorXd(root.cwiseProduct(x))));
   };

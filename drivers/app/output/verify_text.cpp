@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/verify_text.hpp>
 #include <plica/version.hpp>
@@ -41,6 +42,14 @@ std::string accepted(const VerifyRow& row) {
   return row.judged == Judged::size ? "0" : with_unit(row.accepted, row.unit);
 }
 
+// The finest value; of errors to round-off the worst
+std::optional<double> headline(const VerifyRow& row) {
+  if (row.ours.empty()) return {};
+  double worst = 0;
+  for (const VerifyValue& v : row.ours) worst = std::abs(v.value) <= worst ? worst : std::abs(v.value);
+  return row.judged == Judged::size ? worst : row.ours.back().value;
+}
+
 std::string values(const VerifyRow& row) {
   std::string text;
   for (const VerifyValue& v : row.ours)
@@ -77,10 +86,9 @@ std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) 
 
 std::string verify_text(const VerifyResult& result, const std::string& folder) {
   std::vector<std::vector<std::string>> table = {
-      {"problem", "quantity", "accepted", "finest", "limit", "order", "outcome"}};
+      {"problem", "quantity", "accepted", "ours", "limit", "order", "outcome"}};
   for (const VerifyRow& row : result.rows)
-    table.push_back({row.problem, row.quantity, accepted(row),
-                     row.ours.empty() ? "" : with_unit(row.ours.back().value, row.unit), number(row.limit),
+    table.push_back({row.problem, row.quantity, accepted(row), with_unit(headline(row), row.unit), number(row.limit),
                      row.order ? fmt::format("{:.2f}", *row.order) : "", row.outcome});
   const auto wrong = std::ranges::count_if(result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
   return text_table(table, "<<>>>><") + fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
