@@ -11,6 +11,8 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
+constexpr double least_order = 0.5;  // below, values do not tend to what they are compared with
+
 /// p of errors that go with h^p, from the last two.
 std::optional<double> order_of_errors(const std::vector<VerifyValue>& v, double exact) {
   if (v.size() < 2) return {};
@@ -21,13 +23,17 @@ std::optional<double> order_of_errors(const std::vector<VerifyValue>& v, double 
 /// Of three values at sizes in constant ratio: what they tend to, and how fast (Roache, Verification and Validation in
 /// Computational Science and Engineering, 5.10). None where they do not tend to anything.
 void extrapolate(VerifyRow& row) {
-  const auto& v = row.ours;
-  if (v.size() < 3) return;
-  const VerifyValue &a = v[v.size() - 3], &b = v[v.size() - 2], &c = v.back();
-  const double ratio = b.size / c.size, shrink = (b.value - a.value) / (c.value - b.value);
-  if (!(ratio > 1) || !(std::abs(a.size / b.size - ratio) < 1e-9 * ratio) || !(shrink > 1)) return;
+  const std::size_t n = row.ours.size();
+  if (n < 3) return;
+  const VerifyValue* v = &row.ours[n - 3];
+  const double ratio = v[1].size / v[2].size;
+  if (!(ratio > 1) || !(std::abs(v[0].size / v[1].size - ratio) < 1e-9 * ratio)) return;
+  const auto stiffness = [&](int i) { return std::pow(v[i].value, row.power); };
+  const double change = stiffness(2) - stiffness(1), shrink = (stiffness(1) - stiffness(0)) / change;
+  if (!(shrink > 1) || !std::isfinite(shrink)) return;
   row.order = std::log(shrink) / std::log(ratio);
-  row.limit = c.value + (c.value - b.value) / (shrink - 1);
+  row.limit = row.power == 1 ? v[2].value + change / (shrink - 1)
+                             : std::pow(stiffness(2) + change / (shrink - 1), 1 / row.power);
 }
 
 bool within(double value, const VerifyRow& row) {
@@ -68,6 +74,7 @@ void judge(VerifyRow& row) {
     row.order = order_of_errors(row.ours, *row.accepted);
   else if (row.judged != Judged::size)
     extrapolate(row);
+  if (row.judged == Judged::finest && row.order < least_order) row.order.reset();
   const bool ok = !row.ours.empty() && fulfilled(row);
   row.outcome = !ok ? "not ok" : row.judged == Judged::nothing ? "shown" : "ok";
 }

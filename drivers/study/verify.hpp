@@ -33,6 +33,8 @@ struct VerifyRow {
   std::vector<VerifyValue> ours = {};
   Judged judged = Judged::nothing;
   double tolerance = 0;
+  double power =
+      1;  ///< the one of its values that is extrapolated: -1 of deflections, 2 of frequencies, so that it is a stiffness
   std::string note = {};             ///< why it is not what one might expect
   std::optional<double> limit = {};  ///< extrapolated from the last three
   std::optional<double> order = {};  ///< observed

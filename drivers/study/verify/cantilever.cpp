@@ -58,7 +58,8 @@ VerifyRows rows_for(double nu, const VerifyContext& context) {
   rows[0].source = "PL^3/3EI + PL/kGA, k = 5/6 (Timoshenko, Strength of Materials, art. 39)";
   rows[1].source = "rho A g L^4/8EI + rho A g L^2/2kGA (the same)";
   rows[2].source = "1.8751^2/(2 pi L^2) sqrt(EI/rho A) (Timoshenko, Vibration Problems in Engineering)";
-  for (VerifyRow& row : rows) row.judged = Judged::limit, row.tolerance = 0.02;
+  for (VerifyRow& row : rows) row.judged = Judged::limit, row.tolerance = 0.015, row.power = -1;
+  rows[2].power = 2;
   for (const int n : {2, 4, 8}) {
     context.proceed();
     const Problem p = beam(n, nu);
@@ -74,6 +75,12 @@ VerifyRows rows_for(double nu, const VerifyContext& context) {
     rows[1].add(cells, 1.0 / n, -K.equilibrium(weight)[tip][2]);
     rows[2].add(cells, 1.0 / n, K.frequencies(1)[0]);
   }
+  for (VerifyRow& row : rows) {
+    const double off = std::abs(row.ours.back().value / *row.accepted - 1);
+    row.note = "linear tetrahedra lock: " + std::to_string(std::lround(100 * off)) +
+               " % off on the finest mesh; its stiffness is extrapolated";
+  }
+  rows[2].note += "; without the shear and rotary inertia of a real beam, 0.2 %";
   return rows;
 }
 
@@ -85,6 +92,12 @@ VerifyRows cantilever(const VerifyContext& context) {
     for (VerifyRow& row : rows_for(nu, context)) rows.push_back(std::move(row));
   context.proceed();
   rows.push_back(from_its_motion(context.small ? 2 : 3));
+  for (VerifyRow& row : rows) {
+    const double off = std::abs(row.ours.back().value / *row.accepted - 1);
+    row.note = "linear tetrahedra lock: " + std::to_string(std::lround(100 * off)) +
+               " % off on the finest mesh; its stiffness is extrapolated";
+  }
+  rows[2].note += "; without the shear and rotary inertia of a real beam, 0.2 %";
   return rows;
 }
 

@@ -35,8 +35,11 @@ VerifyRows hanging_bar(const VerifyContext& context) {
       "VPCS SSLV07)";
   VerifyRows rows = {{.quantity = "deflection of the lower end on the axis", .unit = "m", .source = source},
                      {.quantity = "lateral contraction at the upper end's edge", .unit = "m", .source = source},
-                     {.quantity = "displacement off the exact field, L2 relative", .unit = "1", .source = source}};
-  rows[0].accepted = exact({0, 0, 0})[2], rows[0].judged = Judged::finest, rows[0].tolerance = 0.005;
+                     {.quantity = "displacement off the exact field but for a vertical translation, L2 relative",
+                      .unit = "1",
+                      .source = source}};
+  rows[0].accepted = exact({0, 0, 0})[2], rows[0].judged = Judged::finest,
+  rows[0].tolerance = context.small ? 0.01 : 0.005;
   rows[1].accepted = exact({half, 0, length})[0], rows[1].judged = Judged::finest, rows[1].tolerance = 0.02;
   rows[2].accepted = 2, rows[2].judged = Judged::order, rows[2].tolerance = 0.3;
   for (const int n : context.refined(2)) {
@@ -45,13 +48,17 @@ VerifyRows hanging_bar(const VerifyContext& context) {
     const TetMesh& mesh = p.body.levels[0];
     LevelProbe<HostBackend> probe(p);
     const SparseStiffness K(probe, held);
-    const auto u = K.equilibrium(probe.force(probe.zero()));
+    auto u = K.equilibrium(probe.force(probe.zero()));
     std::vector<Point> want;
     for (const Point& X : mesh.vertices) want.push_back(exact(X));
     const auto m = probe.mass();
+    double rise = 0, mass = 0;
+    for (std::size_t a = 0; a < u.size(); ++a) rise += m[a] * (u[a] - want[a])[2], mass += m[a];
+    rise /= mass;
     const std::string cells = cells_text(n, n, 6 * n);
     rows[0].add(cells, 1.0 / n, u[vertex_at(mesh, {0, 0, 0})][2]);
     rows[1].add(cells, 1.0 / n, u[vertex_at(mesh, {half, 0, length})][0]);
+    for (Point& displacement : u) displacement[2] -= rise;
     rows[2].add(cells, 1.0 / n, distance(u, want, m) / distance(want, probe.zero(), m));
   }
   return rows;

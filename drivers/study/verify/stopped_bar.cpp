@@ -27,7 +27,9 @@ Pulses pulses(int n) {
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
   p.body.initial.velocity = {-speed, 0, 0};
   Simulation<HostBackend> simulation(p);
-  const std::size_t probe = vertex_at(p.body.levels[0], {length, width / 2, width / 2});
+  std::vector<std::size_t> face;  // the free end: its mean is what bar theory speaks of
+  for (std::size_t a = 0; a < p.body.levels[0].vertices.size(); ++a)
+    if (p.body.levels[0].vertices[a][0] > length - 1e-9) face.push_back(a);
   const auto velocity = simulation.velocity();
   const double start = simulation.energies().total();
   std::vector<double> crossings;
@@ -37,7 +39,9 @@ Pulses pulses(int n) {
   while (simulation.time() < duration) {
     simulation.step();
     Kokkos::fence("plica::stopped_bar");
-    const double now = -velocity(probe, 0), t = simulation.time(), want = exact(t);
+    double now = 0;
+    for (const std::size_t a : face) now -= velocity(a, 0) / static_cast<double>(face.size());
+    const double t = simulation.time(), want = exact(t);
     if (now * before < 0) crossings.push_back(t - simulation.macro_step() * now / (now - before));
     found.overshoot = std::max(found.overshoot, std::abs(now) / speed - 1);
     sum += (now - want) * (now - want), ++samples;
@@ -64,9 +68,13 @@ VerifyRows stopped_bar(const VerifyContext& context) {
                      {.quantity = "energy at the end over that at the start, less 1", .unit = "1", .accepted = 0}};
   for (VerifyRow& row : rows) row.source = source;
   rows[0].judged = rows[1].judged = Judged::finest, rows[0].tolerance = 0.02, rows[1].tolerance = 0.01;
+  rows[0].note =
+      "late by lateral inertia, which the wave equation leaves out: Love's rod, whose front is an integral of Airy's "
+      "function, gives 3.98e-06";
   rows[2].note =
-      "Gibbs' oscillations of a jump on a mesh, and Poisson's dispersion, which a real bar has too: not damped";
-  rows[3].note = "a jump, and dispersion: order 1/2 at best";
+      "Airy's front overshoots by 0.27 of the jump, 0.55; the rest are Gibbs' oscillations on the mesh, which nothing "
+      "damps";
+  rows[3].note = "does not vanish: the wave equation has no dispersion";
   rows[4].note = "symplectic_euler: bounded oscillation of the energy, no drift";
   for (const int n : context.refined(2)) {
     context.proceed();
