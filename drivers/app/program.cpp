@@ -13,6 +13,7 @@
 #include <plica/drivers/app/commands/run.hpp>
 #include <plica/drivers/app/commands/stability.hpp>
 #include <plica/drivers/app/commands/study.hpp>
+#include <plica/drivers/app/commands/verify.hpp>
 #include <plica/drivers/app/commands/version.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -23,8 +24,6 @@
 namespace plica::app {
 namespace {
 
-constexpr const char* planned_commands[] = {"verify"};
-
 // The command line, and what it asks for. CLI11 fills the members while it parses.
 class CommandLine {
  public:
@@ -33,24 +32,17 @@ class CommandLine {
     app_.set_version_flag("--version", version_text);
     app_.footer(
         "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the standard error.\n"
-        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 4 not in this build, 130 interrupted.");
+        "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
     add_run();
     add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); });
     add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
     add_study();
     add_stability();
+    add_verify();
     add_mesh();
     add_list();
     add_schema();
     add_completion();
-    for (const char* name : planned_commands) {
-      CLI::App* command = add(name, "", [name] {
-        throw NotInThisBuild("plica " + std::string(name) + " is not in this build");
-        return ExitStatus::not_in_build;
-      });
-      command->allow_extras();
-      command->group("Planned");
-    }
   }
 
   /// Throws CLI::ParseError for what it cannot read, --help and --version.
@@ -109,11 +101,15 @@ class CommandLine {
     command->add_option("--precision", arguments_.precision, "float or double (double)")
         ->type_name("WORD")
         ->check(CLI::IsMember({"float", "double"}));
+    add_threads(command);
+    if (name == "explain" || name == "check") command->add_flag("--json", arguments_.json, "print JSON");
+    return command;
+  }
+
+  void add_threads(CLI::App* command) {
     command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(1, 512));  // what Kokkos can do with OpenMP
-    if (name == "explain" || name == "check") command->add_flag("--json", arguments_.json, "print JSON");
-    return command;
   }
 
   void add_run() {
@@ -163,6 +159,16 @@ class CommandLine {
     const bool of_scene = !arguments_.scene.empty() || !arguments_.overrides.empty() || !arguments_.precision.empty();
     if (stability_.matrix && of_scene)
       throw InputError("--matrix has its own bodies, in double: leave SCENE, --set, --duration and --precision out");
+  }
+
+  void add_verify() {
+    CLI::App* command =
+        add("verify", "solve problems with known answers", [this] { return verify(arguments_, verify_); });
+    command->add_option("PROBLEM", verify_.problems, "only these (all)");
+    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/verify)")->type_name("FOLDER");
+    command->add_flag("--small", verify_.small, "on coarser meshes, in seconds");
+    add_threads(command);
+    command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }
 
   void add_mesh() {
@@ -230,6 +236,7 @@ class CommandLine {
   RunArguments arguments_;
   StudyArguments study_;
   StabilityArguments stability_;
+  VerifyArguments verify_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;
@@ -248,8 +255,6 @@ ExitStatus guarded(const std::vector<std::string>& words) {
     return command_line.execute(words);
   } catch (const CLI::ParseError& error) {
     return command_line.explain_error(error);
-  } catch (const NotInThisBuild& error) {
-    return failed(error.what(), ExitStatus::not_in_build);
   } catch (const InputError& error) {
     return failed(error.what(), ExitStatus::bad_input);
   } catch (const std::exception& error) {

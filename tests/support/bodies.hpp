@@ -2,36 +2,11 @@
 #pragma once
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/meshes/box_mesh.hpp>
-#include <random>
+#include <plica/drivers/study/irregular_box.hpp>
 #include <string>
 
 // Meshes, fields and problems that many tests start from.
 namespace plica::test {
-
-inline std::vector<Point> random_field(std::size_t count, double size, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> within(-size, size);
-  std::vector<Point> field(count);
-  for (Point& p : field) p = {within(random), within(random), within(random)};
-  return field;
-}
-
-/// Whether a vertex lies on one of the box's faces.
-inline bool on_boundary(const Box& box, const Point& p) {
-  const double slack = 1e-9 * (box.max - box.min).norm();
-  return ((p - box.min).array() < slack).any() || ((box.max - p).array() < slack).any();
-}
-
-/// A box whose inner vertices are moved at random by up to `amount` of a cell: no two elements alike.
-inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, double amount = 0.15, unsigned seed = 7) {
-  TetMesh mesh = box_mesh(box, cells);
-  const auto moves = random_field(mesh.vertices.size(), amount, seed);
-  for (std::size_t a = 0; a < moves.size(); ++a)
-    if (!on_boundary(box, mesh.vertices[a]))
-      for (int k = 0; k < 3; ++k) mesh.vertices[a][k] += moves[a][k] * (box.max - box.min)[k] / cells[std::size_t(k)];
-  return mesh;
-}
 
 /// Divides a mesh into two regions at a plane x = at.
 inline TetMesh with_regions(TetMesh mesh, double at, const std::string& below, const std::string& above) {

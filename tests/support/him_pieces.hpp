@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/cycles/him.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 #include "support/backends.hpp"
 
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 
 // A beam for the cycle him, and what that cycle is made of.
 namespace plica::test {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/study/free_vibration.hpp>
+#include <plica/drivers/study/sparse_stiffness.hpp>
+
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
 #include "support/simulate.hpp"
-#include "support/sparse_stiffness.hpp"
 #include "support/tolerance.hpp"
 
 // A clamped beam against direct solves on the same mesh, and against beam theory.
@@ -79,32 +81,6 @@ TEST(Cantilever, SingleCycleOfALevelHierarchyIsTheFineSag) {
   EXPECT_LE(relative(settled(p, "implicit_euler", 2.0, 0, 60), sag), 1e-5);
 }
 
-/// Frequency of a vertex' motion from its zero crossings [Hz].
-double measured_frequency(Problem p, const std::vector<Point>& shape, double amplitude, int periods, double guess) {
-  Simulation<Host> simulation(p);
-  std::vector<Point> u = shape, v(shape.size(), Point::Zero());
-  std::size_t tip = 0;
-  for (std::size_t a = 0; a < u.size(); ++a) {
-    u[a] *= amplitude;
-    if (shape[a].norm() > shape[tip].norm()) tip = a;
-  }
-  simulation.set_state(u, v);
-  const Point direction = shape[tip].normalized();
-  double before = amplitude, first = -1, last = -1;
-  int crossings = 0;
-  while (simulation.time() < (periods + 1) / guess) {
-    simulation.step();
-    const double now = direction.dot(simulation.positions()[tip] - p.body.levels[0].vertices[tip]);
-    if (before > 0 && now <= 0) {
-      last = simulation.time() - simulation.macro_step() * now / (now - before);
-      if (crossings++ == 0) first = last;
-    }
-    before = now;
-  }
-  EXPECT_FALSE(simulation.check());
-  return (crossings - 1) / (last - first);
-}
-
 TEST(Cantilever, FirstBendingFrequencyIsTheEigenvalues) {
   Problem p = beam("linear");
   LevelProbe<Host> probe(p);
@@ -117,11 +93,11 @@ TEST(Cantilever, FirstBendingFrequencyIsTheEigenvalues) {
   EXPECT_NEAR(f, slender, 0.25 * slender);
   for (const char* integrator : {"symplectic_euler", "rk4"}) {
     p.integration.integrator = {integrator};
-    EXPECT_NEAR(measured_frequency(p, shape, 1e-3, 3, f), f, 1e-3 * f) << integrator;
+    EXPECT_NEAR(frequency_of_motion(p, shape, 1e-3, 3, f), f, 1e-3 * f) << integrator;
   }
   for (const char* material : {"st_venant_kirchhoff", "corotational", "neo_hookean"}) {  // the same for small motion
     p.body.material.model = material, p.integration.integrator = {"symplectic_euler"};
-    EXPECT_NEAR(measured_frequency(p, shape, 1e-5, 3, f), f, 2e-3 * f) << material;
+    EXPECT_NEAR(frequency_of_motion(p, shape, 1e-5, 3, f), f, 2e-3 * f) << material;
   }
 }
 
@@ -133,7 +109,7 @@ TEST(Bar, FirstAxialFrequency) {
   const double want = std::sqrt(1e5 / 1000) / (4 * 0.4);
   std::vector<Point> shape;
   for (const Point& x : p.body.levels[0].vertices) shape.push_back({std::sin(M_PI / 2 * x[0] / 0.4), 0, 0});
-  EXPECT_NEAR(measured_frequency(p, shape, 1e-4, 3, want), want, 0.005 * want);
+  EXPECT_NEAR(frequency_of_motion(p, shape, 1e-4, 3, want), want, 0.005 * want);
 }
 
 // Under its own weight, hung at one end: u = rho g x (L - x/2) / E with nu = 0. The mesh shares mass out unevenly within a

@@ -42,4 +42,9 @@ struct StabilityArguments {
   bool matrix = false;  ///< of stiff and extreme cases, instead of a scene
 };
 
+struct VerifyArguments {
+  std::vector<std::string> problems;  ///< empty: all
+  bool small = false;
+};
+
 }  // namespace plica::app

@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/commands/completion.hpp>
 #include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/study/verify.hpp>
 
 namespace plica::app {
 namespace {
@@ -29,6 +30,7 @@ constexpr const char* script = R"(_plica() {{
     --checkpoint) words="every=" ;;
     --set|--duration|--threads) return ;;
     list) words="{} " ;;
+    verify) words="{} " ;;
     completion) words="bash zsh" ;;
   esac
   if [ -z "$words" ] || [ "${{word#-}}" != "$word" ]; then
@@ -55,7 +57,8 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
       add(fmt::format("\"{} {}\"*", command->get_name(), own->get_name()), *own);
     add(fmt::format("\"{} \"*", command->get_name()), *command);
   }
-  const std::string text = fmt::format(script, fmt::join(list_names(), " "), cases, words_of(app));
+  const std::string text =
+      fmt::format(script, fmt::join(list_names(), " "), fmt::join(names(verify_problems()), " "), cases, words_of(app));
   return shell == "zsh" ? "autoload -U +X bashcompinit && bashcompinit\n" + text : text;
 }
 

@@ -9,7 +9,6 @@ enum class ExitStatus {
   failed = 1,         ///< a file or folder could not be read or written
   bad_input = 2,      ///< arguments, scenes, meshes; steps and combinations that are refused
   diverged = 3,       ///< the run was stopped; its last good state is on disk
-  not_in_build = 4,   ///< named in the interface, not yet in this build
   interrupted = 130,  ///< Ctrl-C; the files are complete up to there
 };
 

@@ -16,12 +16,6 @@
 /// as it would be written: the parser, the messages and `plica list keys` all ask the same object.
 namespace plica::app {
 
-/// A name or feature that the interface has and this build has not.
-class NotInThisBuild : public InputError {
- public:
-  using InputError::InputError;
-};
-
 /// A value to be read and the path that led to it.
 struct Value {
   const Tree& tree;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/study/level_probe.hpp>
+
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
 #include "support/gradients.hpp"
-#include "support/level_probe.hpp"
 #include "support/tolerance.hpp"
 
 // The element kernels on a whole irregular mesh, in every material.

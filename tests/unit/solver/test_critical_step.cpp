@@ -5,11 +5,11 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 #include <plica/meshes/sphere_surface.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 #include "support/tolerance.hpp"
 
 // The predicted critical step against dense eigenvalues of the same matrices.

@@ -4,12 +4,12 @@
 #include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/load_factor.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 #include <plica/meshes/ball_mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

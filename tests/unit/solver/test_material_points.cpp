@@ -3,10 +3,10 @@
 
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/material_points.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 #include "support/tolerance.hpp"
 
 namespace {

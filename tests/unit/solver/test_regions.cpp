@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
 #include "support/gradients.hpp"
-#include "support/level_probe.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

@@ -4,10 +4,10 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

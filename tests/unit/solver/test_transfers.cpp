@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
+#include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/transfer/map_state.hpp>
 #include <plica/meshes/ball_mesh.hpp>
@@ -9,7 +10,6 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
 #include "support/tolerance.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <vector>
 
-namespace plica::test {
+namespace plica {
 
 /// A host field on the device.
 template <class B>
@@ -113,4 +113,4 @@ class LevelProbe {
   }
 };
 
-}  // namespace plica::test
+}  // namespace plica

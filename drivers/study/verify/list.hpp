@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/study/verify/context.hpp>
+
+namespace plica {
+
+using VerifyRows = std::vector<VerifyRow>;
+
+VerifyRows affine_patch(const VerifyContext&);
+VerifyRows rigid_motion(const VerifyContext&);
+VerifyRows derivatives(const VerifyContext&);
+VerifyRows conservation(const VerifyContext&);
+VerifyRows critical_steps(const VerifyContext&);
+VerifyRows hanging_bar(const VerifyContext&);
+VerifyRows uniaxial_tension(const VerifyContext&);
+VerifyRows axial_bar(const VerifyContext&);
+VerifyRows cantilever(const VerifyContext&);
+VerifyRows stopped_bar(const VerifyContext&);
+VerifyRows cook_membrane(const VerifyContext&);
+VerifyRows free_cube(const VerifyContext&);
+VerifyRows tapered_membrane(const VerifyContext&);
+VerifyRows twisting_column(const VerifyContext&);
+VerifyRows manufactured_solution(const VerifyContext&);
+VerifyRows time_order(const VerifyContext&);
+
+/// A problem with a known answer.
+struct VerifyProblem {
+  const char* name;
+  const char* summary;
+  VerifyRows (*rows)(const VerifyContext&);
+};
+
+/// All there are. One more: its file in this folder, its function above, its line here.
+inline constexpr VerifyProblem verify_list[] = {
+    {"affine_patch", "an irregular mesh takes an affine deformation exactly, in every material", affine_patch},
+    {"rigid_motion", "a turned and moved body feels no force; small-strain `linear` feels a known one", rigid_motion},
+    {"derivatives", "energy, force and tangent are each other's derivatives, in every material", derivatives},
+    {"conservation", "momentum and energy of a free body, by every integrator and cycle", conservation},
+    {"critical_step", "2/w_max against dense eigenvalues and against runs", critical_steps},
+    {"hanging_bar", "a bar under its own weight", hanging_bar},
+    {"uniaxial_tension", "a bar under traction at both ends", uniaxial_tension},
+    {"axial_bar", "axial frequencies of a bar fixed at one end", axial_bar},
+    {"cantilever", "deflection and first frequency of a slender beam", cantilever},
+    {"stopped_bar", "velocity pulses in a bar that is stopped at one end", stopped_bar},
+    {"cook_membrane", "Cook's membrane at finite strain", cook_membrane},
+    {"free_cube", "first frequency of a nearly incompressible free cube: locks", free_cube},
+    {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)", tapered_membrane},
+    {"twisting_column", "a twisting column against its own finest mesh, and its energy", twisting_column},
+    {"manufactured_solution", "a chosen motion and the body force that it takes: order in space",
+     manufactured_solution},
+    {"time_order", "the order in time of every integrator on a nonlinear problem", time_order}};
+
+}  // namespace plica
