@@ -10,6 +10,7 @@
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/kernels/materials/list.hpp>
 
 namespace plica {
 
@@ -27,6 +28,7 @@ struct Simulation<B>::Inside {
     budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                    std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                                 [](const ObstacleOptions& o) { return moves(o.motion); });
+    Materials::visit(p.body.material.model, [&](auto material) { linear = !decltype(material)::rotation_invariant; });
     keep();
     open_budget();
   }
@@ -39,6 +41,7 @@ struct Simulation<B>::Inside {
   std::vector<State<B>> kept;
   double time = 0, kept_time = 0;
   long steps = 0, kept_steps = 0;
+  bool linear = false;        // the material is, in any state
   bool budget_known;          // nothing from outside but gravity does work
   bool budget_opens = false;  // anew at the next check: the state has been replaced since
   double residual = 0, worst_residual = 0;

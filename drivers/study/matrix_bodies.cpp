@@ -96,7 +96,7 @@ void set_impact(MatrixBody& body, double speed) {
   body.problem.contact.obstacles = {{PlaneOptions{}, 0.3, {}}};
   body.load_ratio = 0;
   const double wave = std::sqrt(b.material.young_modulus / b.material.density);  // v / wave: about the strain
-  body.gentle = speed <= gentle_strain * wave, body.may_lack_inertia = true;
+  body.gentle = speed <= gentle_strain * wave, body.may_lack_inertia = true, body.pierces = speed > wave;
 }
 
 void set_contrast(MatrixBody& body, double ratio) {

@@ -18,6 +18,7 @@ struct MatrixBody {
   bool unstable = false;          ///< and is taken all the same
   bool may_lack_inertia = false;  ///< for cycle him
   bool barely_overlaps = false;   ///< its levels do
+  bool pierces = false;           ///< it strikes faster than its waves: within a step, deeper than it is large
 
   void load();  ///< sets gravity
 };

@@ -94,6 +94,7 @@ std::vector<Method> methods(MatrixSize size, Of of, bool several_levels) {
 // * `linear`, whose stiffness is the same in every state, and strains of a per cent, at which no material is stiffer by as much
 //   as the steps keep clear of their limit: methods that are stable about rest come to the end. Of him only the latter: its
 //   inertia turns with the body, and does not know which way where elements are far from their shape;
+// * what strikes faster than its own waves may be stopped as lost to contact;
 // * anything else may stiffen, invert or, by a cycle that lets small motions grow, blow up: it comes to its end or is stopped;
 // * him may say beforehand that it has no inertia for a step, or for contact; cycles, that levels hardly meet.
 Expected expected_of(const MatrixBody& body, const Method& method, const std::string& material) {
@@ -105,7 +106,7 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   const bool him = method.name == "cycle/him", single = method.name.starts_with("single/");
   const bool calm = (material == "linear" && !him) || (body.gentle && !body.inside_out);
   e.complete = true;
-  e.stop = !(calm && method.keeps_linear);
+  e.stop = !(calm && method.keeps_linear) || body.pierces;
   e.refuse = (him && body.may_lack_inertia) || (!single && body.barely_overlaps);
   return e;
 }

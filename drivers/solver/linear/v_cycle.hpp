@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// Answers each system by one V-cycle, x = C r, without a matrix but where the cycle is fitted: anew when the stage's weights change, or when
-/// the residual it leaves has grown to `worn` times that of its first answer. In exact arithmetic C A has its eigenvalues in
+/// Answers each system by one V-cycle, x = C r, without a matrix but where the cycle is fitted: anew when the stage's weights change, when
+/// the residual it leaves has grown to `worn` times that of its first answer, and in every step where contact may set in. In exact arithmetic C A has its eigenvalues in
 /// (0, 1], as long as it is the cycle of this A.
 struct VCycleSolver {
   static constexpr const char* name = "v_cycle";
@@ -34,7 +34,8 @@ struct VCycleSolver {
       system_.prepare(exec, level, forces, state, weights, positive);
       if (restored_ && fitted_) cycle_->refit(exec);
       restored_ = false;
-      if (fitted_ && weights.a == a_ && weights.b == b_ && last_ <= worn * first_) return;
+      const bool same = weights.a == a_ && weights.b == b_ && !forces.contact() && !forces.asks_caller();
+      if (fitted_ && same && last_ <= worn * first_) return;
       cycle_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
       fitted_ = 1, a_ = weights.a, b_ = weights.b, first_ = last_ = 0, ++fits_;
     }

@@ -3,7 +3,7 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
+#include <plica/drivers/study/level_probe.hpp>
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

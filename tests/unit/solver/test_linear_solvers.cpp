@@ -11,7 +11,7 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include "support/level_probe.hpp"
+#include <plica/drivers/study/level_probe.hpp>
 #include "support/tolerance.hpp"
 
 // What solves the systems of implicit stages, against dense algebra.
