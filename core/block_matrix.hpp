@@ -15,7 +15,8 @@ struct BlockMatrix {
   Indices<B> first;     ///< [rows + 1] into the others
   Indices<B> column;    ///< of a block, ascending in a row
   Indices<B> diagonal;  ///< [rows] where a row's own block stands
-  Blocks9<B> value;     ///< [blocks + 1][9] column by column; the last one only lets vectors of four numbers be read to the end
+  Blocks9<B>
+      value;  ///< [blocks + 1][9] column by column; the last one only lets vectors of four numbers be read to the end
 
   int blocks() const { return static_cast<int>(column.extent(0)); }
 };

@@ -88,8 +88,9 @@ struct Body {
   std::optional<TriangleSurface> surface;        ///< embedded in every level; contact acts on its vertices
 };
 
-/// Whether any of it is damped in proportion to its mass, or its stiffness.
+/// Whether any of it is damped in proportion to its mass.
 bool damps_by_mass(const Body& body);
+/// Whether any of it is damped in proportion to its stiffness.
 bool damps_by_stiffness(const Body& body);
 
 /// How the linear systems of an implicit level are solved.

@@ -103,7 +103,7 @@ struct PositiveTangent {
       for (int i = 0; i < 9; ++i)
         for (int j = 0; j < i; ++j) C.a[i][j] = C.a[j][i] = T(0.5f) * (C.a[i][j] + C.a[j][i]);
       using Real = typename LaneOf<T>::type;
-      if (!positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>)*size)) clamp_eigenvalues(C);
+      if (!positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>) * size)) clamp_eigenvalues(C);
     }
     struct Corner {
       Vec3<T> g;

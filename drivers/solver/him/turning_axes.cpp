@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/spaces/sparse_rows.hpp>
 #include <plica/drivers/solver/him/turning_axes.hpp>
+#include <plica/drivers/solver/spaces/sparse_rows.hpp>
 #include <plica/kernels/contact/where_touching.hpp>
 #include <plica/kernels/him/coarse_axes.hpp>
 

@@ -9,7 +9,8 @@ namespace plica {
 /// resolve moves as if it were heavier; order 1. Of a body that stiffens, C stays behind until it is fitted again.
 struct VCycleEuler {
   static constexpr const char* name = "v_cycle_euler";
-  static constexpr const char* summary = "implicit Euler by one V-cycle of multigrid per step; needs coarser levels";
+  static constexpr const char* summary =
+      "implicit, order 1: Euler by one V-cycle of multigrid per step; needs coarser levels";
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{0.0};
   static constexpr const char* linear_solver = "v_cycle";  ///< whatever integration.implicit.solver says

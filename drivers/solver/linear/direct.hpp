@@ -21,17 +21,15 @@ struct Direct {
     using Exec = typename B::Exec;
     using Matrix = Eigen::SparseMatrix<double>;
 
-    Of(const Level<B>& level, const LinearSolverParts&) : system_(level, true) {}
+    Of(const Level<B>& level, const LinearSolverParts& parts)
+        : system_(level, true), projects_(parts.options.tangent == "auto") {}
 
     void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
                  const ImplicitWeights& weights, bool positive) override {
-      system_.prepare(exec, level, forces, state, weights, positive);
-      const BlockMatrix<B>& A = system_.matrix(exec);
-      exec.fence("plica::direct");
-      if (lower_.rows() == 0) analyse(A);
-      double* value = lower_.valuePtr();
-      for (const auto& [block, entry] : entries_) *value++ = static_cast<double>(A.value(block, entry));
-      factor_.factorize(lower_);
+      factorise(exec, level, forces, state, weights, positive);
+      if (positive || !projects_ || !indefinite()) return;
+      factorise(exec, level, forces, state, weights, true);  // its answer would climb
+      ++projected_;
     }
 
     SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
@@ -44,23 +42,40 @@ struct Direct {
       if (size == 0) b.setZero();
       const Eigen::VectorXd answer = factor_.info() == Eigen::Success ? Eigen::VectorXd(factor_.solve(b)) : b;
       for (int i = 0; i < n; ++i) x(i / 3, i % 3) = static_cast<typename B::Real>(answer[i]);
-      out.indefinite = factor_.info() == Eigen::Success && (factor_.vectorD().array() < 0).any();
+      out.indefinite = indefinite();
       out.relative_residual =
           size > 0 ? (b - lower_.template selfadjointView<Eigen::Lower>() * answer).norm() / size : 0.0;
       out.converged = factor_.info() == Eigen::Success && std::isfinite(out.relative_residual);
       return out;
     }
 
+    std::map<std::string, long> counters() const override { return {{"projected_systems", projected_}}; }
+    void persist(StateArchive<B>& archive) override { archive.number(projected_); }
     std::size_t bytes() const override {
       return system_.bytes() + static_cast<std::size_t>(nonzeros_ + lower_.nonZeros()) * (sizeof(double) + sizeof(int));
     }
 
    private:
     StageSystem<B> system_;
+    bool projects_;
+    long projected_ = 0;
     Matrix lower_;
     std::vector<std::pair<int, int>> entries_;  ///< of lower_, in order: block and number in it
     Eigen::SimplicialLDLT<Matrix> factor_;
     Eigen::Index nonzeros_ = 0;
+
+    bool indefinite() const { return factor_.info() == Eigen::Success && (factor_.vectorD().array() < 0).any(); }
+
+    void factorise(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
+                   const ImplicitWeights& weights, bool positive) {
+      system_.prepare(exec, level, forces, state, weights, positive);
+      const BlockMatrix<B>& A = system_.matrix(exec);
+      exec.fence("plica::direct");
+      if (lower_.rows() == 0) analyse(A);
+      double* value = lower_.valuePtr();
+      for (const auto& [block, entry] : entries_) *value++ = static_cast<double>(A.value(block, entry));
+      factor_.factorize(lower_);
+    }
 
     void analyse(const BlockMatrix<B>& A) {
       std::vector<Eigen::Triplet<double, int>> triplets;

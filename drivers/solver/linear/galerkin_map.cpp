@@ -100,10 +100,9 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   return made;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                          \
-  template HostPattern host_pattern<Backend<Real, Exec>>(const BlockMatrix<Backend<Real, Exec>>&);              \
-  template BlockMatrix<Backend<Real, Exec>> block_matrix<Backend<Real, Exec>>(const std::string&,               \
-                                                                              const HostPattern&);              \
+#define PLICA_INSTANTIATE(Real, Exec)                                                                                  \
+  template HostPattern host_pattern<Backend<Real, Exec>>(const BlockMatrix<Backend<Real, Exec>>&);                     \
+  template BlockMatrix<Backend<Real, Exec>> block_matrix<Backend<Real, Exec>>(const std::string&, const HostPattern&); \
   template CoarseMatrix<Backend<Real, Exec>> coarse_matrix<Backend<Real, Exec>>(const HostPattern&, const RowMatrix&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

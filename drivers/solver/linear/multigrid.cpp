@@ -59,8 +59,7 @@ void Multigrid<B>::refit(const Exec& exec) {
     update_vertices<F>(exec, "plica::galerkin", grid.map.blocks(),
                        GalerkinProduct<F>{grid.map, grids_[i - 1].A, grid.A});
     if (i + 1 == grids_.size()) return invert_coarsest(exec);
-    update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows,
-                       InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
+    update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows, InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
     fit_grid(exec, grid);
   }
 }

@@ -69,6 +69,14 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
     solver = small && o.preconditioner == "auto" && o.matrix != "free" ? Direct::name : ConjugateGradients::name;
   }
   o.solver = std::move(solver);
+  if (o.solver == VCycleSolver::name && !multigrid) {  // the cycle of one level is the coarsest one's answer
+    if (!on_host || unknowns(body.levels[level]) > static_cast<std::size_t>(most_dense_unknowns))
+      throw InputError("level " + std::to_string(level) +
+                       " is answered by a V-cycle, but has no coarser mesh of at most " +
+                       std::to_string(most_dense_unknowns / 3) +
+                       " vertices below it; expected more of body.levels, or another integrator");
+    o.solver = Direct::name;
+  }
   const bool cycle = o.solver == VCycleSolver::name, asked = cycle || o.preconditioner == MultigridCycle::name;
   if (o.solver == Direct::name) {
     o.preconditioner = "none", o.matrix = "assembled";
@@ -85,8 +93,6 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
 std::string describe(const LinearSolverParts& parts) {
   const ImplicitOptions& o = parts.options;
   if (o.solver == Direct::name) return o.solver;
-  if (o.solver == VCycleSolver::name && parts.transfers.empty())
-    return o.solver + " without coarser meshes: a polynomial alone";
   const std::string over =
       parts.transfers.empty() ? "" : " over " + std::to_string(parts.transfers.size() + 1) + " meshes";
   return o.solver + ", " + o.preconditioner + over + (o.matrix == "free" ? ", without a matrix" : ", assembled");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/sparse_rows.hpp>
-#include <plica/drivers/solver/spaces/smoothing.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/smoothing.hpp>
 
 namespace plica {
 

@@ -3,9 +3,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <plica/drivers/study/level_probe.hpp>
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include <plica/drivers/study/level_probe.hpp>
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/study/level_probe.hpp>
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include <plica/drivers/study/level_probe.hpp>
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

@@ -9,9 +9,9 @@
 #include <plica/kernels/materials/list.hpp>
 #include <plica/meshes/sphere_surface.hpp>
 
+#include <plica/drivers/study/level_probe.hpp>
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include <plica/drivers/study/level_probe.hpp>
 #include "support/tolerance.hpp"
 
 // What solves the systems of implicit stages, against dense algebra.

@@ -5,9 +5,9 @@
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/implicit/stage_kernels.hpp>
 
+#include <plica/drivers/study/level_probe.hpp>
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
-#include <plica/drivers/study/level_probe.hpp>
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 

@@ -54,7 +54,7 @@ const std::vector<Bad> bad_problems = {
      {"body.initial.parts.0.velocity is"}},
     {[](Problem& p) { p.integration.cycle = "rsvv"; }, {"did you mean 'rsv'?"}},
     {[](Problem& p) { p.integration.distribution = "equl"; }, {"did you mean 'equal'?"}},
-    {[](Problem& p) { p.integration.integrator = {"rk5"}; }, {"did you mean 'rk4'?"}},
+    {[](Problem& p) { p.integration.integrator = {"rk44"}; }, {"did you mean 'rk4'?"}},
     {[](Problem& p) { p.integration.integrator = {}; }, {"integration.integrator has 0 entries for 1 levels"}},
     {[](Problem& p) {
        p.integration.substeps = {1, 2, 3};
