@@ -71,9 +71,12 @@ struct ElasticBlocks {
   using Policy = Kokkos::TeamPolicy<typename B::Exec>;
   using Member = typename Policy::member_type;
   static constexpr int lanes = B::lanes;
-  static constexpr std::size_t near_bytes = Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
-  static constexpr std::size_t far_bytes =
-      static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) * element_numbers * sizeof(Real);
+  static KOKKOS_FUNCTION constexpr std::size_t near_bytes() {
+    return Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
+  }
+  static KOKKOS_FUNCTION constexpr std::size_t far_bytes() {
+    return static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) * element_numbers * sizeof(Real);
+  }
   using T = typename PackOf<Real, lanes>::type;
 
   Patches<B> patches;
@@ -89,8 +92,8 @@ struct ElasticBlocks {
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     const int first = pairs.first_pair(p), count = pairs.first_pair(p + 1) - first;
-    Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(near_bytes, 64));
-    Real* const blocks = static_cast<Real*>(team.team_scratch(1).get_shmem_aligned(far_bytes, 64));
+    Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(near_bytes(), 64));
+    Real* const blocks = static_cast<Real*>(team.team_scratch(1).get_shmem_aligned(far_bytes(), 64));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
       for (int k = 0; k < 3; ++k) local[i * patch_stride<B> + k] = u(patches.vertex(first_vertex + i), k);
     });
@@ -163,8 +166,8 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   const TangentScale<B> scale{model.patches.damping, static_cast<Real>(weights.b / weights.a)};
   const PlaceBlock<B> place{A, model.mass, model.damping, static_cast<Real>(weights.b)};
   typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
-  policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes + 64));
-  policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes + 64));
+  policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
+  policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
   Kokkos::parallel_for("plica::elastic_blocks", policy,
                        Kernel{model.patches, pairs, u, place, shares, scale, static_cast<Real>(weights.a)});
   Kokkos::parallel_for("plica::add_shares",
