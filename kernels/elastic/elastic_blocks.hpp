@@ -75,7 +75,8 @@ struct ElasticBlocks {
     return Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
   }
   static KOKKOS_FUNCTION constexpr std::size_t far_bytes() {
-    return static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) * element_numbers * sizeof(Real);
+    return static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) * element_numbers *
+           sizeof(Real);
   }
   using T = typename PackOf<Real, lanes>::type;
 
