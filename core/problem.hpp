@@ -95,7 +95,7 @@ bool damps_by_stiffness(const Body& body);
 
 /// How the linear systems of an implicit level are solved.
 struct ImplicitOptions {
-  std::string solver = "auto";          ///< auto | conjugate_gradients | direct
+  std::string solver = "auto";          ///< auto | conjugate_gradients | direct | v_cycle
   std::string preconditioner = "auto";  ///< auto | block_jacobi | chebyshev | multigrid
   std::string matrix = "auto";          ///< auto | free | assembled
   int polynomial_degree = 3;            ///< of chebyshev, and of what smooths before and after in multigrid, in 2 .. 16

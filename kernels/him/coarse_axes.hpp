@@ -115,9 +115,7 @@ struct TorqueOnAxes {
     const Vec3<Real> turned = transpose(R) * Vec3<Real>{q(a, 0), q(a, 1), q(a, 2)};
     const Vec3<Real> h =
         matrix_at<Real>(axes.stiffness, a) * (weight * cross(turned, {x(3 * a), x(3 * a + 1), x(3 * a + 2)}));
-    const Mat3<Real> across{Vec3<Real>{Real(0), -h[2], h[1]}, Vec3<Real>{h[2], Real(0), -h[0]},
-                            Vec3<Real>{-h[1], h[0], Real(0)}};
-    set_matrix(axes.torque, a, R * across);
+    set_matrix(axes.torque, a, R * cross_matrix(h));
   }
 };
 
