@@ -14,7 +14,7 @@ if(NOT Kokkos_ENABLE_CUDA)
   target_compile_options(plica_options INTERFACE -Wall -Wextra -Wshadow -Wconversion)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # false positives on "text" + std::string
-    target_compile_options(plica_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds)
+    target_compile_options(plica_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
   endif()
   if(PLICA_WARNINGS_AS_ERRORS)
     target_compile_options(plica_options INTERFACE -Werror)
