@@ -2,7 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 
 namespace plica {
@@ -57,7 +57,6 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
 }  // namespace
 
 std::string Diagnosis::text() const {
-  char text[900];
   const char* what = kind == "inverted"    ? "an element turned inside out"
                      : kind == "energy"    ? "the body has more kinetic energy than was put in"
                      : kind == "speed"     ? "a vertex leaves the body faster than its elements can follow"
@@ -65,19 +64,17 @@ std::string Diagnosis::text() const {
                      : kind == "solver"    ? "the solver failed"
                      : kind == "stability" ? "the cycle lost its stability"
                                            : "a value is not finite";
-  int n = std::snprintf(text, sizeof text, "%s: level %d", what, level);
-  const auto add = [&](const char* format, auto value) {
-    n += std::snprintf(text + n, sizeof text - static_cast<std::size_t>(n), format, value);
-  };
-  if (element >= 0) add(", element %d", element);
-  if (!region.empty()) add(" (region %s)", region.c_str());
-  if (element >= 0) add(" with J = %.3g", J);
-  if (vertex >= 0) add(", vertex %d", vertex);
-  if (!reason.empty()) add("; %.150s", reason.c_str());
-  if (motion_over_edge > 0.1) add("; %.3g edges moved in a sub-step", motion_over_edge);
-  if (substep_over_critical > 0) add("; sub-step %.3g times its critical step at rest", substep_over_critical);
-  if (!remedy.empty()) add("; try %s", remedy.c_str());
-  return text;
+  std::string all = plica::text(what, ": level ", level);
+  if (element >= 0) all += plica::text(", element ", element);
+  if (!region.empty()) all += plica::text(" (region ", region, ")");
+  if (element >= 0) all += " with J = " + number(J, 3);
+  if (vertex >= 0) all += plica::text(", vertex ", vertex);
+  if (!reason.empty()) all += "; " + reason;
+  if (motion_over_edge > 0.1) all += plica::text("; ", number(motion_over_edge, 3), " edges moved in a sub-step");
+  if (substep_over_critical > 0)
+    all += plica::text("; sub-step ", number(substep_over_critical, 3), " times its critical step at rest");
+  if (!remedy.empty()) all += "; try " + remedy;
+  return all;
 }
 
 WorstElement worst_element(const TetMesh& mesh, const std::vector<Point>& displacement) {

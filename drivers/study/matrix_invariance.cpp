@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/simulation.hpp>
@@ -119,9 +119,7 @@ MatrixRow compared(const std::string& material, const std::string& method, const
   p.integration.macro_step = (him ? 8 : 0.9) * study_level(p, 0).critical_step;
   p.integration.allow_unstable = true;
   const double differs = difference(p, other), most = fits ? allowed_of_fits : allowed(other);
-  char outcome[60], expected[60];
-  std::snprintf(outcome, sizeof outcome, "differs by %.2g", differs);
-  std::snprintf(expected, sizeof expected, "differs by at most %.2g", most);
+  const std::string outcome = "differs by " + number(differs, 2), expected = "differs by at most " + number(most, 2);
   return {std::string(other.name) + ", " + material, method, expected, outcome, differs <= most, ""};
 }
 

@@ -2,8 +2,8 @@
 // The table of stiff and extreme cases, and the rules by which each must end.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/study/matrix_bodies.hpp>
@@ -153,8 +153,8 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
       body.refused = line.of == Of::explicit_alone && !body.unstable;
       body.may_lack_inertia = body.may_lack_inertia || line.of == Of::him;
       body.load();
-      char name[80];
-      std::snprintf(name, sizeof name, line.format, value);
+      std::string name = line.format;
+      name.replace(name.find("%g"), 2, number(value));
       for (const std::string& material : names(materials()))
         for (const Method& method : methods(size, line.of, body.problem.body.levels.size() > 1))
           cases.push_back(case_of(body, method, material, name));

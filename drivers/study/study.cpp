@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/judgement.hpp>
 #include <plica/drivers/study/study.hpp>
@@ -77,10 +78,9 @@ class Study {
 
   void leave_out(const StudyCase& one) { leave_out(one.key(), predicted(one)); }
   void leave_out(const std::string& key, double seconds) {
-    char text[160];
-    std::snprintf(text, sizeof text, "predicted to take %.2g s, with %.2g s left of the budget of %.3g s", seconds,
-                  std::max(0.0, *options_.budget - elapsed()), *options_.budget);
-    result_.left_out.push_back({key, text});
+    const double left = std::max(0.0, *options_.budget - elapsed());
+    result_.left_out.push_back({key, text("predicted to take ", number(seconds, 2), " s, with ", number(left, 2),
+                                          " s left of the budget of ", number(*options_.budget, 3), " s")});
   }
 
   void run(const StudyCase& one) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/choose_cycle.hpp>
@@ -160,9 +160,8 @@ struct Builder {
 std::string StudyCase::label() const { return study_label(method, distribution, variant); }
 
 std::string StudyCase::key() const {
-  char text[64] = "auto";
-  if (integration.macro_step) std::snprintf(text, sizeof text, "%.6g s", *integration.macro_step);
-  return label() + ", " + text + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") + " threads";
+  const std::string step = integration.macro_step ? number(*integration.macro_step) + " s" : "auto";
+  return label() + ", " + step + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") + " threads";
 }
 
 StudyLevel study_level(const Problem& problem, int level) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
 #include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
@@ -197,11 +197,8 @@ class HierarchyBuilder {
     double distance = std::numeric_limits<double>::infinity();
     for (const Point& p : coarse) distance = std::min(distance, locators_[i - 1]->locate(p).distance);
     for (const Point& p : fine) distance = std::min(distance, locators_[i]->locate(p).distance);
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "body.levels: levels %zu and %zu do not overlap, they are %.4g m apart; expected meshes of one body",
-                  i - 1, i, distance);
-    throw InputError(text);
+    throw InputError(text("body.levels: levels ", i - 1, " and ", i, " do not overlap, they are ", number(distance, 4),
+                          " m apart; expected meshes of one body"));
   }
 
   void connect(std::size_t i) {

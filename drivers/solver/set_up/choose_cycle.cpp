@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/set_up/choose_cycle.hpp>
@@ -72,11 +72,7 @@ IntegrationOptions alone(IntegrationOptions o, const char* integrator, std::opti
   return o;
 }
 
-std::string as_percent(double part) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * part);
-  return text;
-}
+std::string as_percent(double part) { return number(100 * part, 2) + " %"; }
 
 template <class B>
 class CycleTrials {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/distributions.hpp>
 
@@ -17,24 +17,17 @@ std::vector<double> custom_shares(const std::vector<double>& shares, std::size_t
   for (double w : shares)
     if (!(w > 0)) throw InputError("distribution: a share is " + std::to_string(w) + "; expected each above 0");
   const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-  if (!(std::abs(sum - 1) <= 1e-12)) {
-    char text[96];
-    std::snprintf(text, sizeof text, "distribution: the shares sum to %.15g; expected 1", sum);
-    throw InputError(text);
-  }
+  if (!(std::abs(sum - 1) <= 1e-12))
+    throw InputError(text("distribution: the shares sum to ", number(sum, 15), "; expected 1"));
   return shares;
 }
 
 /// The critical step is 0 under undamped euler and infinite where nothing moves: no proportion then.
 void expect_proportions(const std::vector<double>& weights, const std::string& distribution) {
   for (std::size_t i = 0; i < weights.size(); ++i)
-    if (!(weights[i] > 0 && std::isfinite(weights[i]))) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "distribution: '%s' finds no share for level %zu, where it is %g; use equal or custom",
-                    distribution.c_str(), i, weights[i]);
-      throw InputError(text);
-    }
+    if (!(weights[i] > 0 && std::isfinite(weights[i])))
+      throw InputError(text("distribution: '", distribution, "' finds no share for level ", i, ", where it is ",
+                            number(weights[i]), "; use equal or custom"));
 }
 
 }  // namespace

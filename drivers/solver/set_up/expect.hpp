@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cmath>
-#include <cstdio>
 #include <plica/core/error.hpp>
 #include <plica/core/mesh.hpp>
+#include <plica/core/text.hpp>
 #include <string>
 
 /// The sentences in which validation refuses a value: InputError "OPTION is VALUE; expected WHAT".
 namespace plica {
 
 inline void expect(bool good, const std::string& option, double value, const std::string& expectation) {
-  if (good) return;
-  char number[40];
-  std::snprintf(number, sizeof number, "%.9g", value);
-  throw InputError(option + " is " + number + "; expected " + expectation);
+  if (!good) throw InputError(option + " is " + number(value, 9) + "; expected " + expectation);
 }
 inline void positive(const std::string& option, double v, const std::string& unit) {
   expect(v > 0 && std::isfinite(v), option, v, "a number above 0" + unit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/initial_shape.hpp>
 #include <random>
 
@@ -39,10 +39,8 @@ std::string inverted_at_start(const TetMesh& mesh, const std::vector<Point>& u) 
     if (worst < 0 || J < least) worst = static_cast<int>(e), least = J;
   }
   if (count == 0) return {};
-  char text[160];
-  std::snprintf(text, sizeof text, "%d of %zu elements of level 0 start flat or inside out (element %d with J = %.3g)",
-                count, mesh.tets.size(), worst, least);
-  return text;
+  return text(count, " of ", mesh.tets.size(), " elements of level 0 start flat or inside out (element ", worst,
+              " with J = ", number(least, 3), ")");
 }
 
 }  // namespace plica

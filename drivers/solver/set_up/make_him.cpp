@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/cycles/him.hpp>
 #include <plica/drivers/solver/set_up/make_him.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
@@ -61,12 +61,10 @@ HimParts<B> him_parts(const Problem& problem, const std::vector<LevelConstants>&
 }
 
 [[noreturn]] void refuse_step(double t, double fits, double critical) {
-  char text[300];
-  std::snprintf(text, sizeof text,
-                "integration.macro_step %.4g s is %.3g times the finest level's critical step %.4g s, and no inertia "
-                "makes it stable in cycle him; expected at most about %.3g s, or a finer coarsest level",
-                t, t / critical, critical, fits);
-  throw InputError(text);
+  throw InputError(text("integration.macro_step ", number(t, 4), " s is ", number(t / critical, 3),
+                        " times the finest level's critical step ", number(critical, 4),
+                        " s, and no inertia makes it stable in cycle him; expected at most about ", number(fits, 3),
+                        " s, or a finer coarsest level"));
 }
 
 /// The fit to the scene's macro step, or to the longest that it takes by itself.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/distributions.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 
@@ -54,37 +54,29 @@ int automatic_substeps(const IntegrationOptions& o, const LevelLimits& level, do
 }
 
 void refuse_unstable(const LevelLimits& level, std::size_t i, double span, int substeps) {
-  char text[400];
-  if (!(level.critical_step > 0)) {
-    std::snprintf(text, sizeof text,
-                  "level %zu: integrator '%s' is stable at no step here: undamped it grows at every step; use"
-                  " symplectic_euler, damp the body (body.damping.mass), or set integration.allow_unstable: true",
-                  i, level.integrator.c_str());
-    throw InputError(text);
-  }
+  if (!(level.critical_step > 0))
+    throw InputError(
+        text("level ", i, ": integrator '", level.integrator,
+             "' is stable at no step here: undamped it grows at every step; use symplectic_euler, damp the body"
+             " (body.damping.mass), or set integration.allow_unstable: true"));
   const double step = span / substeps;
   if (step <= level.critical_step * (1 + 1e-9)) return;
-  std::snprintf(
-      text, sizeof text,
-      "level %zu: the %s sub-step %.4g s is %.3g times its critical step %.4g s; use a macro_step %.3g times smaller,"
-      " substeps: %d or auto, an implicit integrator, or set integration.allow_unstable: true",
-      i, level.integrator.c_str(), step, step / level.critical_step, level.critical_step, step / level.critical_step,
-      static_cast<int>(std::ceil(span / level.critical_step)));
+  const std::string times = number(step / level.critical_step, 3);
+  const std::string words =
+      text("level ", i, ": the ", level.integrator, " sub-step ", number(step, 4), " s is ", times,
+           " times its critical step ", number(level.critical_step, 4), " s; use a macro_step ", times,
+           " times smaller, substeps: ", static_cast<int>(std::ceil(span / level.critical_step)),
+           " or auto, an implicit integrator, or set integration.allow_unstable: true");
   std::optional<StiffElement> named;
   if (level.stiffest.step < named_below * level.typical_element) named = level.stiffest;
-  throw SubstepRefused(text, static_cast<int>(i), named);
+  throw SubstepRefused(words, static_cast<int>(i), named);
 }
 
 std::string with_element(const std::string& words, const std::optional<StiffElement>& e) {
   if (!e) return words;
-  char text[200];
-  std::snprintf(text, sizeof text, "; its element %d", e->element);
-  std::string all = words + text;
-  if (!e->region.empty()) all += " (region " + e->region + ")";
-  std::snprintf(text, sizeof text,
-                ", longest edge over smallest height %.3g, allows no more than about %.3g s by itself", e->height_ratio,
-                e->step);
-  return all + text;
+  const std::string region = e->region.empty() ? "" : " (region " + e->region + ")";
+  return text(words, "; its element ", e->element, region, ", longest edge over smallest height ",
+              number(e->height_ratio, 3), ", allows no more than about ", number(e->step, 3), " s by itself");
 }
 
 }  // namespace

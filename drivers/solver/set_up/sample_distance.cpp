@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/meshes/signed_distance.hpp>
 
@@ -33,13 +33,10 @@ DistanceGrid sample_distance(const TriangleSurface& surface, int cells) {
   DistanceGrid grid;
   grid.cell = cell_size(extent, cells);
   grid.margin = cells_around * grid.cell;
-  char text[300];
-  if (const double nodes = nodes_of(extent, grid.cell); nodes > most) {
-    std::snprintf(text, sizeof text,
-                  "cells is %d, a grid of %.3g nodes around %.3g x %.3g x %.3g m; expected at most %.3g", cells, nodes,
-                  extent[0], extent[1], extent[2], most);
-    throw InputError(text);
-  }
+  const std::string size = text(number(extent[0], 3), " x ", number(extent[1], 3), " x ", number(extent[2], 3), " m");
+  if (const double nodes = nodes_of(extent, grid.cell); nodes > most)
+    throw InputError(text("cells is ", cells, ", a grid of ", number(nodes, 3), " nodes around ", size,
+                          "; expected at most ", number(most, 3)));
   std::size_t total = 1;
   for (int k = 0; k < 3; ++k) {
     const int across = static_cast<int>(std::ceil(extent[k] / grid.cell)) + 2 * cells_around;
@@ -57,13 +54,10 @@ DistanceGrid sample_distance(const TriangleSurface& surface, int cells) {
         last = distance(grid.origin + grid.cell * Point(x, y, z), bound);
         grid.value.push_back(last);
       }
-  if (*std::min_element(grid.value.begin(), grid.value.end()) >= 0) {
-    std::snprintf(text, sizeof text,
-                  "no node of its distance grid, with cells of %.3g m, lies inside the surface of %.3g x %.3g x %.3g m;"
-                  " give cells above %.0f",
-                  grid.cell, extent[0], extent[1], extent[2], std::ceil(extent.maxCoeff() / grid.cell));
-    throw InputError(text);
-  }
+  if (*std::min_element(grid.value.begin(), grid.value.end()) >= 0)
+    throw InputError(text("no node of its distance grid, with cells of ", number(grid.cell, 3),
+                          " m, lies inside the surface of ", size, "; give cells above ",
+                          number(std::ceil(extent.maxCoeff() / grid.cell), 15)));
   return grid;
 }
 

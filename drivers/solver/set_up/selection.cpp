@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstdio>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
@@ -9,12 +9,7 @@ namespace plica {
 
 namespace {
 
-std::string text(double x) {
-  char number[32];
-  std::snprintf(number, sizeof number, "%g", x);
-  return number;
-}
-std::string text(const Point& p) { return "[" + text(p[0]) + ", " + text(p[1]) + ", " + text(p[2]) + "]"; }
+std::string coordinates(const Point& p) { return text("[", number(p[0]), ", ", number(p[1]), ", ", number(p[2]), "]"); }
 
 /// Chooses among points: the vertices, or the elements' centroids.
 struct Among {
@@ -54,11 +49,11 @@ struct Among {
 
 std::string described(const Selection& selection) {
   if (const auto* box = std::get_if<Box>(&selection))
-    return "the box from " + text(box->min) + " to " + text(box->max) + " m";
+    return "the box from " + coordinates(box->min) + " to " + coordinates(box->max) + " m";
   if (const auto* ball = std::get_if<BallSelection>(&selection))
-    return "the sphere of radius " + text(ball->radius) + " m at " + text(ball->centre) + " m";
+    return "the sphere of radius " + number(ball->radius) + " m at " + coordinates(ball->centre) + " m";
   const auto& half = std::get<HalfSpaceSelection>(selection);
-  return "the plane at " + text(half.point) + " m with normal " + text(half.normal);
+  return "the plane at " + coordinates(half.point) + " m with normal " + coordinates(half.normal);
 }
 
 std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points, const Selection& selection,
@@ -67,8 +62,8 @@ std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points, c
   const auto chosen = std::visit(Among{points, 1e-9 * (all.max - all.min).norm()}, selection);
   if (chosen.empty())
     throw InputError(who.option + ": " + described(selection) + " selects no " + what + " on level " +
-                     std::to_string(who.level) + ", which reaches from " + text(all.min) + " to " + text(all.max) +
-                     " m at rest");
+                     std::to_string(who.level) + ", which reaches from " + coordinates(all.min) + " to " +
+                     coordinates(all.max) + " m at rest");
   return chosen;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstdio>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/expect.hpp>
 #include <plica/drivers/solver/set_up/initial_shape.hpp>
@@ -97,9 +97,7 @@ void check_retry(const IntegrationOptions& o) {
 
 void check_auto(const IntegrationOptions& o) {
   if (o.cycle != "auto") return;
-  char step[40];
-  std::snprintf(step, sizeof step, "%.6g s", o.macro_step.value_or(0));
-  if (o.macro_step) refuse(o, "macro_step", step, "chooses the macro step");
+  if (o.macro_step) refuse(o, "macro_step", number(*o.macro_step) + " s", "chooses the macro step");
   for (const std::string& name : o.integrator)
     if (name != "symplectic_euler") refuse(o, "integrator", name, "chooses how levels are stepped");
   for (const int n : o.substeps)

@@ -15,12 +15,9 @@ void check_times(const std::string& option, const Knots& knots) {
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const std::string at = option + "." + std::to_string(i) + ".time";
     not_negative(at, knots[i].time, " s");
-    if (i > 0) {
-      char before[40];
-      std::snprintf(before, sizeof before, "%.9g s", knots[i - 1].time);
+    if (i > 0)
       expect(knots[i].time > knots[i - 1].time, at, knots[i].time,
-             std::string("a time after that of the entry before, ") + before);
-    }
+             "a time after that of the entry before, " + number(knots[i - 1].time, 9) + " s");
   }
 }
 

@@ -60,6 +60,20 @@ TYPED_TEST(Divergence, AboveTheCriticalStepStopsBeforeItIsNotFinite) {
   }
 }
 
+// Names of regions come from mesh files and may have any length.
+TEST(Diagnosis, HoldsNamesOfAnyLength) {
+  const std::string name(6000, 'r'), reason(2000, 's');
+  const Diagnosis d{.kind = "inverted",
+                    .level = 1,
+                    .element = 3,
+                    .region = name,
+                    .J = -0.5,
+                    .reason = reason,
+                    .remedy = "a smaller macro_step"};
+  EXPECT_EQ(d.text(), "an element turned inside out: level 1, element 3 (region " + name + ") with J = -0.5; " +
+                          reason + "; try a smaller macro_step");
+}
+
 TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
   Problem p = small_cube("neo_hookean", 5);
   p.body.levels[0] = with_regions(p.body.levels[0], 0.05, "left", "right");
