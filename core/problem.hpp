@@ -102,7 +102,7 @@ struct ImplicitOptions {
   double relative_residual = 1e-6;      ///< |r|/|b| at which the conjugate gradients end, in (0, 1)
   int iterations = 0;                   ///< > 0: exactly so many iterations instead
   int max_iterations = 2000;            ///< a solve that has not converged by then is counted as a miss
-  int newton_iterations = 1;            ///< 1: linearly implicit
+  int newton_iterations = 0;            ///< at most, per stage; 1: linearly implicit; 0: auto, see newton_iterations()
   double newton_tolerance = 1e-6;       ///< on |residual| relative to the first, where newton_iterations > 1
   double newton_residual = 0;           ///< or below this [N], >= 0
   std::string tangent =

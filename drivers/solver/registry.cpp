@@ -69,7 +69,7 @@ std::vector<Choice> tangents() {
 
 std::vector<Choice> newton_outcomes() {
   return {{"accept", "goes on, and counts it (newton_misses)"},
-          {"halve", "takes it again in two halves, up to integration.implicit.halvings times"},
+          {"halve", "takes it again in two halves while that leaves less of the residual, then as accept"},
           {"stop", "ends the run: kind solver"}};
 }
 
@@ -83,6 +83,15 @@ bool integrates_coarse_levels(std::string_view cycle) {
   bool integrates = false;
   Cycles::visit(cycle, [&](auto member) { integrates = decltype(member)::integrates_coarse_levels; });
   return integrates;
+}
+
+int newton_iterations(const ImplicitOptions& options, std::string_view integrator) {
+  constexpr int enough = 20;
+  bool conserves = false;
+  Integrators::visit(integrator, [&](auto member) {
+    if constexpr (requires { member.conserves(options); }) conserves = member.conserves(options);
+  });
+  return options.newton_iterations > 0 ? options.newton_iterations : conserves ? enough : 1;
 }
 
 bool allows_inversion(const MaterialOptions& material) {

@@ -36,6 +36,10 @@ bool uses_coarse_levels(std::string_view cycle);
 /// Whether coarser levels have states of their own there, and shares of the macro step.
 bool integrates_coarse_levels(std::string_view cycle);
 
+/// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 1 or,
+/// where it conserves energy on the linear problem, 20. What one iteration leaves unsolved is energy lost or won in every step.
+int newton_iterations(const ImplicitOptions& options, std::string_view integrator);
+
 /// Whether a body of that material goes on with inverted elements: as its options say, else as the material has it.
 bool allows_inversion(const MaterialOptions& material);
 /// Whether inverted elements of that material are pushed back; false for a name it does not know.

@@ -19,13 +19,14 @@ void describe(V& v, ImplicitOptions& o) {
     Quantity{number, {.min = 0, .max = 1, .min_excluded = true, .max_excluded = true}}, "at which a linear solve ends");
   v("iterations", o.iterations, Count{0}, "above 0: exactly so many per linear solve, whatever the residual");
   v("max_iterations", o.max_iterations, Count{1}, "a solve that is not done by then is counted as a miss");
-  v("newton_iterations", o.newton_iterations, Count{1}, "per step; 1: linearly implicit");
+  v("newton_iterations", o.newton_iterations, AutoCount{},
+    "per step, at most; 1: linearly implicit; auto: 20 where the integrator conserves energy, else 1");
   v("newton_tolerance", o.newton_tolerance, Quantity{number, positive}, "of the residual, relative to the first");
   v("newton_residual", o.newton_residual, Quantity{force, not_negative},
     "or, where that is less strict, this residual");
   v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
   v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");
-  v("halvings", o.halvings, Count{1}, "of such a step, at most, with halve; up to 20");
+  v("halvings", o.halvings, Count{1}, "of such a step, at most, with halve; up to 20; the shortest are accepted");
   v("rho_infinity", o.rho_infinity, Quantity{number, {.min = 0, .max = 1}},
     "of generalized_alpha: what a step leaves of the fastest motion");
 }

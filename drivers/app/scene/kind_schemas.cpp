@@ -29,6 +29,7 @@ Json schema_of(const Quantity& kind) {
 Json schema_of(const AutoQuantity& kind) { return any_of({{{"const", "auto"}}, schema_of(kind.quantity)}); }
 Json schema_of(const Vector& kind) { return triple_of(schema_of(Quantity{kind.dimension, kind.range})); }
 Json schema_of(const Count& kind) { return {{"type", "integer"}, {"minimum", kind.min}}; }
+Json schema_of(const AutoCount&) { return any_of({{{"const", "auto"}}, schema_of(Count{1})}); }
 Json schema_of(const Counts& kind) { return triple_of(schema_of(Count{kind.min})); }
 Json schema_of(const Flag&) { return {{"type", "boolean"}}; }
 Json schema_of(const Text&) { return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}}; }
@@ -40,7 +41,7 @@ Json schema_of(const NamePerLevel& kind) {
 }
 
 Json schema_of(const AutoCountPerLevel&) {
-  const Json one = any_of({{{"const", "auto"}}, schema_of(Count{1})});
+  const Json one = schema_of(AutoCount{});
   return any_of({one, list_of(one)});
 }
 

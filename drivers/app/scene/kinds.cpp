@@ -58,13 +58,6 @@ std::string listed(const Values& values) {
   return values.size() == 1 ? fmt::format("{}", *values.begin()) : fmt::format("[{}]", fmt::join(values, ", "));
 }
 
-struct AutoCount {
-  void read(const Value& value, int& target) const {
-    target = 0;
-    if (value.scalar("a whole number >= 1, or auto") != "auto") Count{1}.read(value, target);
-  }
-};
-
 template <class Kind, class T>
 void read_per_level(const Value& value, const Kind& kind, const std::string& expected, std::vector<T>& target) {
   if (value.tree.kind == Tree::Kind::scalar) {
@@ -125,6 +118,11 @@ void Count::read(const Value& value, int& target) const {
   if (error != std::errc{} || rest != text.data() + text.size() || target < min) value.mismatch(expects());
 }
 
+void AutoCount::read(const Value& value, int& target) const {
+  target = 0;
+  if (value.scalar(expects()) != "auto") Count{1}.read(value, target);
+}
+
 void Counts::read(const Value& value, std::array<int, 3>& target) const {
   value.list(expects(), 3);
   for (std::size_t i = 0; i < 3; ++i) Count{min}.read(value.item(i), target[i]);
@@ -164,7 +162,7 @@ void AutoCountPerLevel::read(const Value& value, std::vector<int>& target) const
 
 std::string AutoCountPerLevel::shown(const std::vector<int>& value) const {
   std::vector<std::string> words;
-  for (const int count : value) words.push_back(count == 0 ? "auto" : std::to_string(count));
+  for (const int count : value) words.push_back(AutoCount{}.shown(count));
   return listed(words);
 }
 

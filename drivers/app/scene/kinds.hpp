@@ -75,6 +75,13 @@ struct Count {
   std::string shown(int value) const { return std::to_string(value); }
 };
 
+/// A whole number >= 1, or `auto`, which is 0.
+struct AutoCount {
+  void read(const Value& value, int& target) const;
+  std::string expects() const { return "a whole number >= 1, or auto"; }
+  std::string shown(int value) const { return value == 0 ? "auto" : std::to_string(value); }
+};
+
 /// Three whole numbers.
 struct Counts {
   int min = 0;

@@ -15,6 +15,7 @@ nlohmann::ordered_json schema_of(const AutoQuantity& kind);
 nlohmann::ordered_json schema_of(const Vector& kind);
 nlohmann::ordered_json schema_of(const Count& kind);
 nlohmann::ordered_json schema_of(const Counts& kind);
+nlohmann::ordered_json schema_of(const AutoCount& kind);
 nlohmann::ordered_json schema_of(const Flag& kind);
 nlohmann::ordered_json schema_of(const Text& kind);
 nlohmann::ordered_json schema_of(const Name& kind);

@@ -15,6 +15,7 @@ struct GeneralizedAlpha {
       "implicit, order 2, damps fast motion by integration.implicit.rho_infinity; no limit";
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
+  static constexpr bool conserves(const ImplicitOptions& options) { return options.rho_infinity == 1; }
 
   template <class B>
   class Step final : public ImplicitStep<B> {

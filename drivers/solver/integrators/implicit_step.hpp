@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/integrators/stage_solver.hpp>
 
@@ -23,13 +24,10 @@ class ImplicitStep : public Integrator<B> {
   void advance(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int steps) override {
     stages_.begin();
     failed_ = false;
-    for (int s = 0; s < steps && !failed_; ++s) failed_ = !attempt(exec, level, forces, time + s * h, h, 0);
+    for (int s = 0; s < steps && !failed_; ++s)
+      failed_ = !attempt(exec, level, forces, time + s * h, h, 0, std::numeric_limits<double>::infinity());
   }
-  std::string failure() const override {
-    return failed_ ? "Newton's method has not solved a step" +
-                         (most_halvings_ > 0 ? " halved " + std::to_string(most_halvings_) + " times" : std::string())
-                   : std::string();
-  }
+  std::string failure() const override { return failed_ ? "Newton's method has not solved a step" : std::string(); }
   double residual() const override { return stages_.residual(); }
   std::map<std::string, long> counters() const override {
     std::map<std::string, long> all = stages_.counters();
@@ -60,20 +58,28 @@ class ImplicitStep : public Integrator<B> {
   long halvings_ = 0;
   bool failed_ = false;
 
-  bool attempt(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int depth) {
-    if (depth < most_halvings_) before_[static_cast<std::size_t>(depth)].copy(exec, level.state);
+  /// `before`: what was left unsolved of the step that this is a half of. A half that leaves no less is not halved again: it and
+  /// one that is too short to halve are taken as they are, like any step with `accept`. False with `stop` alone.
+  bool attempt(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int depth,
+               double before) {
+    const bool halves = depth < most_halvings_;
+    if (halves) before_[static_cast<std::size_t>(depth)].copy(exec, level.state);
+    const long misses = stages_.misses();
     prescribe(exec, level, level.state, time, h);
     const bool solved = step(exec, level, forces, time, h);
     prescribe(exec, level, level.state, time + h);
     if (solved || unfinished_ == "accept") return true;
-    if (depth >= most_halvings_) return false;
+    if (unfinished_ == "stop") return false;
+    const double left = stages_.unsolved();
+    if (!halves || !(left < before)) return true;
     ++halvings_;
+    stages_.set_misses(misses);
     level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);
     this->forget();
-    const bool both = attempt(exec, level, forces, time, h / 2, depth + 1) &&
-                      attempt(exec, level, forces, time + h / 2, h / 2, depth + 1);
+    attempt(exec, level, forces, time, h / 2, depth + 1, left);
+    attempt(exec, level, forces, time + h / 2, h / 2, depth + 1, left);
     this->forget();
-    return both;
+    return true;
   }
 };
 

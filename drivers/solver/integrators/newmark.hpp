@@ -7,12 +7,14 @@ namespace plica {
 
 /// Newmark's method with beta = 1/4, gamma = 1/2: the trapezoidal rule, half a step of forward Euler, then half a step of
 /// backward Euler. Order 2; on the linear problem stable at every step (A-stable) and without loss of energy, so that motion
-/// too fast for the step rings on; with large strains energy may grow (Hughes, The Finite Element Method, 9.1).
+/// too fast for the step rings on; with large strains energy wavers and may grow (Hughes, The Finite Element Method, 9.1), and
+/// with one Newton iteration per step it is lost.
 struct Newmark {
   static constexpr const char* name = "newmark";
-  static constexpr const char* summary = "implicit, order 2 (trapezoidal), keeps energy; no limit";
+  static constexpr const char* summary = "implicit, order 2 (trapezoidal), keeps the energy of linear motion; no limit";
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
+  static constexpr bool conserves(const ImplicitOptions&) { return true; }
 
   template <class B>
   class Step final : public ImplicitStep<B> {

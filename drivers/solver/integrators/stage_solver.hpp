@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/explicit/updates.hpp>
@@ -48,6 +49,12 @@ class StageSolver {
     return true;
   }
 
+  /// Of the last stage that Newton's method has not solved: what is left of its first residual.
+  double unsolved() const { return unsolved_; }
+  /// Stages that were not solved; those of a step that is taken again are taken back.
+  long misses() const { return unfinished_; }
+  void set_misses(long misses) { unfinished_ = misses; }
+
   /// The largest relative residual of a linear solve since begin().
   double residual() const { return residual_; }
   void begin() { residual_ = 0; }
@@ -81,7 +88,7 @@ class StageSolver {
   BlockSums<B> blocks_;
   Kokkos::View<double*, typename B::Memory> result_;
   long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
-  double residual_ = 0;
+  double residual_ = 0, unsolved_ = 0;
 
   /// A state on the way.
   struct Potential {
@@ -89,6 +96,7 @@ class StageSolver {
     double residual = 0;  ///< |R| [N]
     double slope = 0;     ///< R.change [J]
     double scale = 0;     ///< of what `value` adds up [J]
+    bool solved = false;
     bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
   };
 
@@ -126,33 +134,51 @@ class StageSolver {
     const Potential now = potential(exec, level, forces, end, w);
     const double enough = std::max(options_.newton_residual, options_.newton_tolerance * now.residual);
     const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
-    const bool done = iterate(exec, level, forces, end, w, now, enough);
+    const Potential last = iterate(exec, level, forces, end, w, now, enough);
     level.flags = flags;
-    unfinished_ += done ? 0 : 1;
-    return done;
-  }
-
-  bool iterate(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w,
-               Potential now, double enough) {
-    for (int i = 0; i < options_.newton_iterations; ++i) {
-      ++newtons_;
-      const Potential next = search(exec, level, forces, end, w, now, i == 0);
-      if (!next.finite()) return false;
-      // where what a step can still win is lost in rounding, this is as near as it gets
-      const double lost = 16 * Kokkos::Experimental::epsilon_v<Real> * next.scale;
-      const bool done = next.residual <= enough || (next.residual <= now.residual && std::abs(next.slope) <= lost);
-      now = next;
-      if (done) return true;
-    }
+    if (last.solved) return true;
+    ++unfinished_;
+    unsolved_ = last.residual / now.residual;
     return false;
   }
 
+  /// The last state that it gets to: solved, or as near as it came.
+  Potential iterate(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w,
+                    Potential now, double enough) {
+    for (int i = 0; i < options_.newton_iterations && !now.solved; ++i) {
+      ++newtons_;
+      const std::optional<Potential> next = search(exec, level, forces, end, w, now, i == 0);
+      if (!next) return now;
+      // where what a step can still win is lost in rounding, this is as near as it gets
+      const double lost = 16 * Kokkos::Experimental::epsilon_v<Real> * next->scale;
+      const bool done = next->residual <= enough || (next->residual <= now.residual && std::abs(next->slope) <= lost);
+      now = *next;
+      now.solved = done;
+    }
+    return now;
+  }
+
   /// From a state that is linearised to the next, which then is: along Newton's direction as far as the potential, or the
-  /// residual where forces have none, goes down.
-  Potential search(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w,
-                   const Potential& now, bool first) {
+  /// residual where forces have none, goes down. Where it does not, along that of the projected tangents; where it does not
+  /// there either, none, and the state is where it was.
+  std::optional<Potential> search(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end,
+                                  const ImplicitWeights& w, const Potential& now, bool first) {
     const bool moving = first && level.prescribed.count > 0;  // given motions have changed what is compared
-    const double slope = descend(exec, level, forces, w, first, moving);
+    bool projected = options_.tangent == "positive";
+    double slope = descend(exec, level, forces, w, first, moving, projected);
+    for (;;) {
+      if (auto next = shorten(exec, level, forces, end, w, now, slope, moving)) return next;
+      if (projected || options_.tangent != "auto") return {};
+      projected = true;
+      forces.linearise(level, level.state, end, w, 0, level.f);
+      correct(exec, level, forces, w, false, true);
+      slope = vertex_terms(exec, level, w, 1)[2];
+    }
+  }
+
+  /// Shortens the change that the state has made until it leads down; none, and the change is undone, where it never does.
+  std::optional<Potential> shorten(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end,
+                                   const ImplicitWeights& w, const Potential& now, double slope, bool moving) {
     double part = 1;
     for (int i = 0;; ++i) {
       forces.linearise(level, level.state, end, w, 0, level.f);
@@ -160,21 +186,24 @@ class StageSolver {
       next.slope *= part;
       const double rounding = 16 * Kokkos::Experimental::epsilon_v<Real> * std::max(now.scale, next.scale);
       const bool lower = next.value - now.value <= sufficient * part * slope + rounding;
-      if (i == most_halvings || (next.finite() && (moving || lower || next.residual < now.residual))) return next;
+      if (next.finite() && (moving || !now.finite() || lower || next.residual < now.residual)) return next;
+      if (i == most_halvings) break;
       ++searches_;
       part /= 2;
       retreat(exec, level, w, part);
     }
+    retreat(exec, level, w, part);
+    return {};
   }
 
   /// Newton's step, and the potential's slope along it where it began. Where the tangent has no minimum in that direction,
   /// that of the elements' projected tangents.
   double descend(const Exec& exec, Level<B>& level, LevelForces<B>& forces, const ImplicitWeights& w, bool first,
-                 bool moving) {
-    const bool positive = options_.tangent == "positive";
-    const SolveOutcome out = correct(exec, level, forces, w, first, positive);
+                 bool moving, bool& projected) {
+    const SolveOutcome out = correct(exec, level, forces, w, first, projected);
     const double slope = vertex_terms(exec, level, w, 1)[2];
     if (options_.tangent != "auto" || moving || (!out.indefinite && !(slope >= 0))) return slope;
+    projected = true;
     retreat(exec, level, w, 1);
     correct(exec, level, forces, w, false, true);
     return vertex_terms(exec, level, w, 1)[2];

@@ -246,8 +246,10 @@ class HierarchyBuilder {
         report.critical_step = critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
                                                 Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
                                                 damping_limit(constants_[i]));
+        ImplicitOptions implicit = problem_.integration.implicit;
+        implicit.newton_iterations = newton_iterations(implicit, report.integrator);
         h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
-            level, IntegratorParts<B>{problem_.integration.implicit, [&] {
+            level, IntegratorParts<B>{implicit, [&] {
                                         std::string solver = problem_.integration.implicit.solver;
                                         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
                                         const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);

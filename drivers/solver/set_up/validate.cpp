@@ -133,17 +133,21 @@ void check_integration(const IntegrationOptions& o, std::size_t levels) {
          i.relative_residual, "above 0 and below 1");
   expect(i.iterations >= 0, "integration.implicit.iterations", i.iterations, "0 or more");
   expect(i.max_iterations >= 1, "integration.implicit.max_iterations", i.max_iterations, "1 or more");
-  expect(i.newton_iterations >= 1, "integration.implicit.newton_iterations", i.newton_iterations, "1 or more");
+  expect(i.newton_iterations >= 0, "integration.implicit.newton_iterations", i.newton_iterations,
+         "auto, or a number from 1");
   positive("integration.implicit.newton_tolerance", i.newton_tolerance, "");
   not_negative("integration.implicit.newton_residual", i.newton_residual, " N");
   known("tangent", i.tangent, tangents());
   known("outcome of Newton's method", i.unfinished, newton_outcomes());
   expect(i.halvings >= 1 && i.halvings <= 20, "integration.implicit.halvings", i.halvings, "1 to 20");
   expect(i.rho_infinity >= 0 && i.rho_infinity <= 1, "integration.implicit.rho_infinity", i.rho_infinity, "0 to 1");
-  if (i.unfinished != "accept" && i.newton_iterations == 1)
-    throw InputError("integration.implicit.unfinished is " + i.unfinished +
-                     ", but newton_iterations is 1: a linearly implicit step has no residual to judge; expected "
-                     "newton_iterations above 1, or accept");
+  const bool judged = std::ranges::any_of(
+      o.integrator, [&](const std::string& integrator) { return newton_iterations(i, integrator) > 1; });
+  if (i.unfinished != "accept" && !judged)
+    throw InputError("integration.implicit.unfinished is " + i.unfinished + ", but newton_iterations is " +
+                     (i.newton_iterations == 0 ? "auto, here 1" : "1") +
+                     ": a linearly implicit step has no residual to judge; expected newton_iterations above 1, or "
+                     "accept");
 }
 
 void check_contact(const Problem& problem) {

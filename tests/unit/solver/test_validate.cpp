@@ -68,7 +68,7 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.integration.outside = "clip"; }, {"clip", "clamp"}},
     {[](Problem& p) { p.integration.implicit.relative_residual = 1; }, {"integration.implicit.relative_residual is 1"}},
     {[](Problem& p) { p.integration.implicit.max_iterations = 0; }, {"integration.implicit.max_iterations is 0"}},
-    {[](Problem& p) { p.integration.implicit.newton_iterations = 0; }, {"newton_iterations is 0"}},
+    {[](Problem& p) { p.integration.implicit.newton_iterations = -1; }, {"newton_iterations is -1"}},
     {[](Problem& p) {
        p.contact.obstacles.push_back({SphereOptions{}, {}, {}});
      },
