@@ -4,20 +4,22 @@
 include(CheckCXXCompilerFlag)
 include(CheckCXXSourceCompiles)
 
-add_library(plica_options INTERFACE)
+add_library(plica_rules INTERFACE)   # for any processor
+add_library(plica_options INTERFACE) # the same, for this one
+target_link_libraries(plica_options INTERFACE plica_rules)
 
 # Sums keep their order and NaN stays NaN (no -ffast-math); nobody reads errno or traps.
-target_compile_options(plica_options INTERFACE -fno-math-errno -fno-trapping-math)
+target_compile_options(plica_rules INTERFACE -fno-math-errno -fno-trapping-math)
 
 # nvcc hands the host compiler generated code, on which warnings say nothing about ours.
 if(NOT Kokkos_ENABLE_CUDA)
-  target_compile_options(plica_options INTERFACE -Wall -Wextra -Wshadow -Wconversion)
+  target_compile_options(plica_rules INTERFACE -Wall -Wextra -Wshadow -Wconversion)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # false positives on "text" + std::string
-    target_compile_options(plica_options INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+    target_compile_options(plica_rules INTERFACE -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
   endif()
   if(PLICA_WARNINGS_AS_ERRORS)
-    target_compile_options(plica_options INTERFACE -Werror)
+    target_compile_options(plica_rules INTERFACE -Werror)
   endif()
 endif()
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/inlining.hpp>
 #include <plica/core/patches.hpp>
 #include <plica/core/small.hpp>
 #include <plica/core/transposed.hpp>
@@ -109,7 +110,7 @@ struct PatchKernel {
     });
   }
 
-  KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
     ElementShape<T> shape;
     Mat3<T> G[fields];
     load_pack<B, fields>(patches, patch, pack, local, shape, G);

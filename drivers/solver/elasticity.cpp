@@ -2,59 +2,18 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/kernels/elastic/elastic_blocks.hpp>
-#include <plica/kernels/elastic/elastic_energy.hpp>
-#include <plica/kernels/elastic/elastic_force.hpp>
-#include <plica/kernels/elastic/elastic_stress.hpp>
-#include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/materials/list.hpp>
-#include <plica/kernels/materials/positive_tangent.hpp>
 
 namespace plica {
 
-namespace {
-
+/// In a source of its own for each material.
 template <class B, class Material>
-class ElasticityOf final : public Elasticity<B> {
-  using Exec = typename B::Exec;
-
- public:
-  void force(const Exec& exec, const Patches<B>& patches, const State<B>& state, const ElementFlags<B>& flags,
-             int evaluation, const Vectors<B>& partial) const override {
-    elastic_force<B, Material>(exec, patches, state, flags, evaluation, partial);
-  }
-  void tangent(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p, double over,
-               const Vectors<B>& partial) const override {
-    elastic_tangent<B, Material>(exec, patches, u, p, over, partial);
-  }
-  void diagonal(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction, double over,
-                const Vectors<B>& partial) const override {
-    elastic_diagonal<B, Material>(exec, patches, u, direction, over, partial);
-  }
-  void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,
-              const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,
-              const BlockMatrix<B>& A) const override {
-    if (positive)
-      elastic_blocks<B, PositiveTangent<Material>::template Of>(exec, model, pairs, u, weights, shares, A);
-    else
-      elastic_blocks<B, Material::template Tangent>(exec, model, pairs, u, weights, shares, A);
-  }
-  void energy(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
-              const Vectors<B>& partial) const override {
-    elastic_energy<B, Material>(exec, patches, u, partial);
-  }
-  void stress(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Scalars<B>& von_mises,
-              const Scalars<B>& J) const override {
-    elastic_stress<B, Material>(exec, patches, u, von_mises, J);
-  }
-};
-
-}  // namespace
+std::unique_ptr<Elasticity<B>> make_elasticity_of();
 
 template <class B>
 std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material) {
   std::unique_ptr<Elasticity<B>> made;
-  Materials::visit(material, [&](auto m) { made = std::make_unique<ElasticityOf<B, decltype(m)>>(); });
+  Materials::visit(material, [&](auto m) { made = make_elasticity_of<B, decltype(m)>(); });
   if (!made) throw InputError(unknown_name("material", material, names(materials())));
   return made;
 }

@@ -6,7 +6,6 @@
 #include <plica/drivers/solver/set_up/distributions.hpp>
 #include <plica/drivers/solver/set_up/error_classes.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/kernels/materials/list.hpp>
 
 namespace plica {
 
@@ -21,7 +20,6 @@ std::vector<Choice> choices() {
 
 }  // namespace
 
-std::vector<Choice> materials() { return choices<Materials>(); }
 std::vector<Choice> integrators() { return choices<Integrators>(); }
 std::vector<Choice> cycles() { return choices<Cycles>(); }
 std::vector<Choice> error_classes() { return choices<ErrorClasses>(); }
@@ -92,18 +90,6 @@ int newton_iterations(const ImplicitOptions& options, std::string_view integrato
     if constexpr (requires { member.conserves(options); }) conserves = member.conserves(options);
   });
   return options.newton_iterations > 0 ? options.newton_iterations : conserves ? enough : 1;
-}
-
-bool allows_inversion(const MaterialOptions& material) {
-  bool allows = false;
-  Materials::visit(material.model, [&](auto member) { allows = decltype(member)::allows_inversion; });
-  return material.allow_inversion.value_or(allows);
-}
-
-bool recovers(std::string_view material) {
-  bool recovers = false;
-  Materials::visit(material, [&](auto member) { recovers = decltype(member)::recovers; });
-  return recovers;
 }
 
 std::vector<std::string> names(const std::vector<Choice>& choices) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/parts.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/choose_cycle.hpp>
@@ -10,7 +11,6 @@
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation.hpp>
-#include <plica/kernels/materials/list.hpp>
 
 namespace plica {
 
@@ -28,7 +28,7 @@ struct Simulation<B>::Inside {
     budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                    std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                                 [](const ObstacleOptions& o) { return moves(o.motion); });
-    Materials::visit(p.body.material.model, [&](auto material) { linear = !decltype(material)::rotation_invariant; });
+    linear = !find_material(p.body.material.model)->rotation_invariant;
     keep();
     open_budget();
   }

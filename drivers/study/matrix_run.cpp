@@ -3,10 +3,10 @@
 #include <cmath>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
-#include <plica/kernels/materials/list.hpp>
 
 namespace plica {
 
@@ -67,9 +67,8 @@ void run(const MatrixCase& one, MatrixRow& row) {
 }  // namespace
 
 bool forbids_inversion(const std::string& material) {
-  bool allowed = true;
-  Materials::visit(material, [&](auto member) { allowed = decltype(member)::allows_inversion; });
-  return !allowed;
+  const MaterialInfo* info = find_material(material);
+  return info != nullptr && !info->allows_inversion;
 }
 
 bool MatrixResult::ok() const {

@@ -22,9 +22,16 @@ struct ElasticForce {
     stress_to_corners(Material::stress(F, shape.lame), shape, corner);
     if constexpr (Watched) {
       const T J = determinant(F);
-      for (int l = 0; l < LaneOf<T>::count; ++l)
-        if (!(lane(J, l) > 0)) flags.raise(patch, evaluation, pack * LaneOf<T>::count + l, lane(J, l));
+      bool upright = true;
+      for (int l = 0; l < LaneOf<T>::count; ++l) upright = upright && lane(J, l) > 0;
+      if (!upright) raise(J, patch, pack);
     }
+  }
+
+  template <class T>
+  PLICA_SELDOM KOKKOS_FUNCTION void raise(const T& J, int patch, int pack) const {
+    for (int l = 0; l < LaneOf<T>::count; ++l)
+      if (!(lane(J, l) > 0)) flags.raise(patch, evaluation, pack * LaneOf<T>::count + l, lane(J, l));
   }
 };
 

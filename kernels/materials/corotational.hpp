@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/inlining.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 namespace plica {
@@ -11,7 +12,7 @@ inline constexpr double least_turning = 1e-3;
 /// The same rotation R as below for one F, where several may maximise R:F and one of them is chosen: from the unit quaternion q
 /// that maximises q.K q = R(q):F (Horn 1987), found by squaring K, shifted, until its largest eigenvalue alone is left.
 template <class Real>
-KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F) {
+PLICA_SELDOM KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F) {
   const Real shift = sqrt(Real(3) * inner(F, F)) + Real(Kokkos::Experimental::norm_min_v<Real>);
   const Real xx = F[0][0], yy = F[1][1], zz = F[2][2];
   Real M[4][4] = {{xx + yy + zz, F[2][1] - F[1][2], F[0][2] - F[2][0], F[1][0] - F[0][1]},

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The kernels of each material of kernels/materials/list.hpp, in a source of its own: sets material_sources. A material NeoHookean
+# is in neo_hookean.hpp.
+set(list ${PROJECT_SOURCE_DIR}/kernels/materials/list.hpp)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+file(READ ${list} text)
+if(NOT text MATCHES "using Materials = TypeList<([^>]*)>")
+  message(FATAL_ERROR "${list}: no line 'using Materials = TypeList<...>;' found")
+endif()
+string(REGEX MATCHALL "[A-Za-z0-9_]+" materials "${CMAKE_MATCH_1}")
+set(material_sources)
+foreach(Material IN LISTS materials)
+  string(REGEX REPLACE "([a-z0-9])([A-Z])" "\\1_\\2" file ${Material})
+  string(TOLOWER ${file} file)
+  if(NOT EXISTS ${PROJECT_SOURCE_DIR}/kernels/materials/${file}.hpp)
+    message(FATAL_ERROR "${list} names ${Material}; its file kernels/materials/${file}.hpp is not there")
+  endif()
+  set(source ${PROJECT_BINARY_DIR}/materials/elasticity_of_${file}.cpp)
+  configure_file(drivers/solver/elasticity_of.cpp.in ${source} @ONLY)
+  list(APPEND material_sources ${source})
+endforeach()
+set_source_files_properties(${material_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
