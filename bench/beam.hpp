@@ -4,7 +4,7 @@
 #include <cmath>
 #include <plica/core/backend.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/meshes/box_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 #include <string>
 #include <vector>
 

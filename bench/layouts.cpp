@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
 #include <iomanip>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/kernels/materials/list.hpp>
 #include <sstream>
 
@@ -21,18 +22,23 @@ namespace plica::bench {
 
 namespace {
 
+std::vector<double> constants_of(const std::string& material) {
+  const MaterialInfo& info = *find_material(material);
+  return info.kernel_constants(parameter_values(info, {material, 1e5, 0.45}, {}));
+}
+
 /// A bent beam, and what its forces are.
 template <class B, class Material>
 struct LayoutProblem {
   TetMesh mesh;
-  Lame<double> lame = lame_constants(1e5, 0.45);
+  std::vector<double> constants = constants_of(Material::name);
   Vectors<B> u, f;
   std::vector<typename B::Real> expected;
 
   explicit LayoutProblem(const Cells& cells) : mesh(beam_mesh(cells)) {
     u = to_field<B>(bent(mesh, 0.1 / cells[0]));
     f = Vectors<B>("bench::f", mesh.vertices.size());
-    Patched<B, Material>(mesh, lame)({}, u, f);
+    Patched<B, Material>(mesh, constants)({}, u, f);
     expected = forces();
   }
   std::vector<typename B::Real> forces() const {
@@ -68,7 +74,7 @@ void run_layout(benchmark::State& state, const Case& c) {
   struct Fixture {
     LayoutProblem<B, Material> problem;
     Layout<B, Material> layout;
-    explicit Fixture(const Cells& cells) : problem(cells), layout(problem.mesh, problem.lame) {}
+    explicit Fixture(const Cells& cells) : problem(cells), layout(problem.mesh, problem.constants) {}
   };
   const std::string name = std::string(Layout<B, Material>::name) + " " + c.name;
   auto& now = fixture<Fixture>(name, [&] { return std::make_shared<Fixture>(c.cells); });

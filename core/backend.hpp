@@ -25,20 +25,35 @@ struct Backend {
 /// The backends that are built. Tests and the program walk this list; a new one is one more line.
 #if defined(KOKKOS_ENABLE_SERIAL)
 #define PLICA_FOR_SERIAL(DO) DO(float, Kokkos::Serial) DO(double, Kokkos::Serial)
+#define PLICA_ON_SERIAL(DO) DO(Kokkos::Serial)
 #else
 #define PLICA_FOR_SERIAL(DO)
+#define PLICA_ON_SERIAL(DO)
 #endif
 #if defined(KOKKOS_ENABLE_OPENMP)
 #define PLICA_FOR_OPENMP(DO) DO(float, Kokkos::OpenMP) DO(double, Kokkos::OpenMP)
+#define PLICA_ON_OPENMP(DO) DO(Kokkos::OpenMP)
 #else
 #define PLICA_FOR_OPENMP(DO)
+#define PLICA_ON_OPENMP(DO)
 #endif
 #if defined(KOKKOS_ENABLE_CUDA)
 #define PLICA_FOR_CUDA(DO) DO(float, Kokkos::Cuda) DO(double, Kokkos::Cuda)
+#define PLICA_ON_CUDA(DO) DO(Kokkos::Cuda)
 #else
 #define PLICA_FOR_CUDA(DO)
+#define PLICA_ON_CUDA(DO)
 #endif
 #define PLICA_FOR_EACH_BACKEND(DO) PLICA_FOR_SERIAL(DO) PLICA_FOR_OPENMP(DO) PLICA_FOR_CUDA(DO)
+
+/// The execution spaces alone.
+#define PLICA_FOR_EACH_SPACE(DO) PLICA_ON_SERIAL(DO) PLICA_ON_OPENMP(DO) PLICA_ON_CUDA(DO)
+/// The memory spaces that their fields live in, each once.
+#if defined(KOKKOS_ENABLE_CUDA)
+#define PLICA_FOR_EACH_MEMORY(DO) DO(Kokkos::HostSpace) DO(Kokkos::CudaSpace)
+#else
+#define PLICA_FOR_EACH_MEMORY(DO) DO(Kokkos::HostSpace)
+#endif
 
 /// Threads of a team: one on a CPU, where teams run side by side, `on_device` on a GPU.
 template <class B>
@@ -55,5 +70,8 @@ using Vectors = Kokkos::View<typename B::Real* [3], Kokkos::LayoutRight, typenam
 /// Numbers of vertices, elements ...
 template <class B>
 using Indices = Kokkos::View<int*, Kokkos::LayoutRight, typename B::Memory>;
+/// Sums and other numbers that are double in either precision.
+template <class B>
+using Doubles = Kokkos::View<double*, Kokkos::LayoutRight, typename B::Memory>;
 
 }  // namespace plica

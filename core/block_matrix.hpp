@@ -4,6 +4,9 @@
 
 namespace plica {
 
+/// A symmetric 3x3 block per row: the six numbers of a SymMat3.
+template <class B>
+using Blocks = Kokkos::View<typename B::Real* [6], Kokkos::LayoutRight, typename B::Memory>;
 /// A 3x3 block per row.
 template <class B>
 using Blocks9 = Kokkos::View<typename B::Real* [9], Kokkos::LayoutRight, typename B::Memory>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/backend.hpp>
+#include <plica/core/fields.hpp>
 
 namespace plica {
 
@@ -22,15 +22,16 @@ struct ElementFlags {
 
   void clear(const typename B::Exec& exec) const {
     if (evaluation.extent(0) == 0) return;
-    Kokkos::deep_copy(exec, raised, 0);
-    Kokkos::deep_copy(exec, evaluation, 0);
+    fill(exec, raised, 0);
+    fill(exec, evaluation, 0);
   }
 };
 
 template <class B>
 ElementFlags<B> make_element_flags(int patches) {
-  return {Kokkos::View<int, typename B::Memory>("plica::flags.raised"), Indices<B>("plica::flags.evaluation", patches),
-          Indices<B>("plica::flags.element", patches), Scalars<B>("plica::flags.J", patches)};
+  return {Kokkos::View<int, typename B::Memory>("plica::flags.raised"),
+          zeros<Indices<B>>("plica::flags.evaluation", patches), zeros<Indices<B>>("plica::flags.element", patches),
+          zeros<Scalars<B>>("plica::flags.J", patches)};
 }
 
 }  // namespace plica

@@ -22,14 +22,14 @@ struct ConstantCourse {};
 
 /// From 0 to 1 over the duration, smoothly: (1 - cos(pi t / duration)) / 2.
 struct RampCourse {
-  double duration = 1;  ///< [s] > 0
+  double duration = 1;  ///< [s]
 };
 
 /// Straight from one factor to the next; the first holds before it, the last after it.
 struct PolygonCourse {
   /// A factor at a time.
   struct Knot {
-    double time = 0;    ///< [s] >= 0, each after the one before
+    double time = 0;    ///< [s], each after the one before
     double factor = 1;  ///< of the load
   };
   std::vector<Knot> knots;  ///< at least one
@@ -37,7 +37,7 @@ struct PolygonCourse {
 
 /// sin(2 pi frequency t + phase)
 struct SineCourse {
-  double frequency = 1;  ///< [1/s] > 0
+  double frequency = 1;  ///< [1/s]
   double phase = 0;      ///< [rad]
 };
 

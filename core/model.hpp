@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/fields.hpp>
 #include <plica/core/patches.hpp>
 #include <string>
 
@@ -36,12 +37,13 @@ struct State {
   State() = default;
   State(const Vectors<B>& u_, const Vectors<B>& v_) : u(u_), v(v_) {}
   State(const std::string& name, int vertices)
-      : u("plica::" + name + ".u", vertices), v("plica::" + name + ".v", vertices) {}
+      : u(zeros<Vectors<B>>("plica::" + name + ".u", vertices)),
+        v(zeros<Vectors<B>>("plica::" + name + ".v", vertices)) {}
 
   /// Takes the other's values, in the order of `exec`.
   void copy(const typename B::Exec& exec, const State& from) const {
-    Kokkos::deep_copy(exec, u, from.u);
-    Kokkos::deep_copy(exec, v, from.v);
+    plica::copy(exec, u, from.u);
+    plica::copy(exec, v, from.v);
   }
 };
 

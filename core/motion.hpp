@@ -20,7 +20,7 @@ struct SteadyMotion {
 struct PathMotion {
   /// A displacement at a time.
   struct Knot {
-    double time = 0;                     ///< [s] >= 0, each after the one before
+    double time = 0;                     ///< [s], each after the one before
     Point displacement = Point::Zero();  ///< [m]
   };
   std::vector<Knot> knots;  ///< at least one
@@ -30,7 +30,7 @@ struct PathMotion {
 /// without speed.
 struct SineMotion {
   Point amplitude = Point::Zero();  ///< [m]
-  double frequency = 1;             ///< [1/s] > 0
+  double frequency = 1;             ///< [1/s]
   double phase = 0;                 ///< [rad]
 };
 

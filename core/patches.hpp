@@ -33,7 +33,7 @@ struct Patches {
   Indices<B> vertex;        ///< [patch vertices]
   Array<std::uint16_t* [4][lanes]> corner;
   Array<Real* [10][lanes]> shape;
-  Array<Real* [2]> lame;       ///< [count] lambda, mu [Pa]: a patch never spans two regions
+  Scalars<B> constants;        ///< [count * n] the n constants of its material: a patch never spans two regions
   Scalars<B> damping;          ///< [count] part of its stiffness that damps [s]; empty: none anywhere
   Indices<B> first_slot;       ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]

@@ -9,31 +9,34 @@
 #include <vector>
 
 /// What is to be simulated, in SI and without files: the library's whole input. Every struct is plain; a default is the
-/// value a scene gets that leaves the key out. Ranges are checked where the simulation is set up.
+/// value a scene gets that leaves the key out. Ranges and names are in describe.hpp; they
+/// are checked where the simulation is set up.
 namespace plica {
 
 /// What a body is made of.
 struct MaterialOptions {
-  std::string model = "st_venant_kirchhoff";  ///< a name of kernels/materials/list.hpp
-  double young_modulus = 20e3;                ///< [Pa] > 0
-  double poisson_ratio = 0.4;                 ///< in [0, 0.5)
-  double density = 1000;                      ///< [kg/m^3] > 0
+  std::string model = "st_venant_kirchhoff";  ///< of materials()
+  double young_modulus = 20e3;                ///< [Pa]
+  double poisson_ratio = 0.4;                 ///< lateral contraction
+  double density = 1000;                      ///< [kg/m^3]
   std::optional<bool> allow_inversion = {};   ///< whether elements may turn inside out; none: as the material has it
+  std::map<std::string, double> parameters = {};  ///< what else this material declares, by name, in SI
 };
 
 /// What of DampingOptions a region has of its own.
 struct RegionDamping {
-  std::optional<double> mass;       ///< [1/s] >= 0
-  std::optional<double> stiffness;  ///< [s] >= 0
+  std::optional<double> mass;       ///< [1/s]
+  std::optional<double> stiffness;  ///< [s]
 };
 
 /// What a region has of its own; the rest is the body's.
 struct RegionOptions {
-  std::optional<Selection> where;       ///< its elements; none: those of the mesh's region of that name
-  std::optional<double> young_modulus;  ///< [Pa] > 0
-  std::optional<double> poisson_ratio;  ///< in [0, 0.5)
-  std::optional<double> density;        ///< [kg/m^3] > 0
-  RegionDamping damping;                ///< likewise
+  std::optional<Selection> where;                 ///< its elements; none: those of the mesh's region of that name
+  std::optional<double> young_modulus;            ///< [Pa]
+  std::optional<double> poisson_ratio;            ///< lateral contraction
+  std::optional<double> density;                  ///< [kg/m^3]
+  RegionDamping damping;                          ///< likewise
+  std::map<std::string, double> parameters = {};  ///< of the material, likewise
 };
 
 /// Vertices whose motion is given.
@@ -45,8 +48,8 @@ struct PrescribedMotion {
 /// Rayleigh damping: forces -(mass M + stiffness K) v, K the tangent stiffness at the state. A mode of frequency w [rad/s]
 /// decays like exp(-(mass + stiffness w^2) t / 2).
 struct DampingOptions {
-  double mass = 0;       ///< [1/s] >= 0
-  double stiffness = 0;  ///< [s] >= 0
+  double mass = 0;       ///< [1/s]
+  double stiffness = 0;  ///< [s]
 };
 
 /// Initial velocity of a part of the body, chosen on level 0.
@@ -95,62 +98,61 @@ bool damps_by_stiffness(const Body& body);
 
 /// How the linear systems of an implicit level are solved.
 struct ImplicitOptions {
-  std::string solver = "auto";          ///< auto | conjugate_gradients | direct | v_cycle
-  std::string preconditioner = "auto";  ///< auto | block_jacobi | chebyshev | multigrid
-  std::string matrix = "auto";          ///< auto | free | assembled
-  int polynomial_degree = 3;            ///< of chebyshev, and of what smooths before and after in multigrid, in 2 .. 16
-  double relative_residual = 1e-6;      ///< |r|/|b| at which the conjugate gradients end, in (0, 1)
-  int iterations = 0;                   ///< > 0: exactly so many iterations instead
+  std::string solver = "auto";          ///< of linear_solver_choices()
+  std::string preconditioner = "auto";  ///< of preconditioner_choices()
+  std::string matrix = "auto";          ///< of matrix_choices()
+  int polynomial_degree = 3;            ///< of chebyshev, and of what smooths before and after in multigrid
+  double relative_residual = 1e-6;      ///< |r|/|b| at which the conjugate gradients end
+  int iterations = 0;                   ///< above 0: exactly so many iterations instead
   int max_iterations = 2000;            ///< a solve that has not converged by then is counted as a miss
   int newton_iterations = 0;            ///< at most, per stage; 1: linearly implicit; 0: auto, see newton_iterations()
   double newton_tolerance = 1e-6;       ///< on |residual| relative to the first, where newton_iterations > 1
-  double newton_residual = 0;           ///< or below this [N], >= 0
-  std::string tangent =
-      "auto";  ///< exact | positive | auto: projected to positive semi-definite elements, where needed
+  double newton_residual = 0;           ///< or below this [N]
+  std::string tangent = "auto";         ///< of tangents()
   std::string unfinished =
-      "accept";               ///< accept | halve | stop: what becomes of a step that Newton's method did not solve
-  int halvings = 6;           ///< of a step, at most, in 1 .. 20, with `halve`
-  double rho_infinity = 0.8;  ///< of generalized_alpha: what is left of the fastest modes after a step, in [0, 1]
+      "accept";               ///< of newton_outcomes(): what becomes of a step that Newton's method did not solve
+  int halvings = 6;           ///< of a step, at most, with `halve`
+  double rho_infinity = 0.8;  ///< of generalized_alpha: what is left of the fastest modes after a step
 };
 
 /// Of the cycle `him`.
 struct HimOptions {
-  double sigma = 0.8;                 ///< part of the stability limit that steps use at rest, in (0, 1)
-  std::optional<double> dissipation;  ///< of slowed motion, per step, in [0, 1); none: 1e-4 where the body turns
+  double sigma = 0.8;                 ///< part of the stability limit that steps use at rest
+  std::optional<double> dissipation;  ///< of slowed motion, per step; none: 1e-4 where the body turns
   bool smoothing = true;              ///< of its transfers
 };
 
 /// What becomes of a macro step that does not pass its checks.
 struct RetryOptions {
-  int halvings = 0;  ///< it is halved at most so often, each half again where it is bad too, 0 to 10; 0: the run ends
+  int halvings = 0;  ///< it is halved at most so often, each half again where it is bad too; 0: the run ends
 };
 
 /// How a body is stepped in time.
 struct IntegrationOptions {
-  std::string cycle = "single";           ///< a name of drivers/solver/cycles/list.hpp, or auto: chosen by short trials
-  std::string error_class = "balanced";   ///< of cycle auto: interactive | balanced | accurate
-  std::optional<double> macro_step;       ///< [s] > 0; none: 0.9 of the predicted limit
-  std::string distribution = "critical";  ///< equal | inverse_elements | critical | custom
+  std::string cycle = "single";           ///< of cycle_choices()
+  std::string error_class = "balanced";   ///< of cycle auto, of error_classes()
+  std::optional<double> macro_step;       ///< [s]; none: 0.9 of the predicted limit
+  std::string distribution = "critical";  ///< of distributions()
   std::vector<double> shares;             ///< of the macro step, finest first, with `custom`; their sum is 1 to 1e-12
-  double shift_to_coarsest = 0;           ///< this part of every finer level's share goes to the coarsest, in [0, 1)
+  double shift_to_coarsest = 0;           ///< this part of every finer level's share goes to the coarsest
   std::vector<std::string> integrator = {"symplectic_euler"};  ///< one for all levels, or one each, finest first
   std::vector<int> substeps = {0};                             ///< likewise; 0: as many as the level's limit asks for
-  double safety = 0.9;            ///< of the limit that automatic sub-steps keep, in (0, 1]
-  bool allow_unstable = false;    ///< run explicit sub-steps above the limit all the same
-  double switch_threshold = 0.1;  ///< epsilon of the switched mappings, > 0
-  std::string outside = "clamp";  ///< clamp | extrapolate | keep: vertices outside the other mesh
-  ImplicitOptions implicit;       ///< of implicit levels
-  HimOptions him;                 ///< of the hierarchical inverse mass
-  RetryOptions retry;             ///< of a bad macro step
+  double safety = 0.9;                                         ///< of the limit that automatic sub-steps keep
+  bool allow_unstable = false;                                 ///< run explicit sub-steps above the limit all the same
+  double switch_threshold = 0.1;                               ///< epsilon of the switched mappings
+  std::string outside = "clamp";                               ///< of outside_rules(): vertices outside the other mesh
+  ImplicitOptions implicit;                                    ///< of implicit levels
+  HimOptions him;                                              ///< of the hierarchical inverse mass
+  RetryOptions retry;                                          ///< of a bad macro step
 };
 
 /// Penalty contact of the embedded surface's vertices. The scales multiply, per surface point, the stiffness E A / h
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
   std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch
-  double stiffness_scale = 1;              ///< > 0
-  double damping_scale = 1;                ///< >= 0
-  double tangential_damping_scale = 1;     ///< >= 0, caps what friction can do at small sliding speed
+  double stiffness_scale = 1;              ///< of the penalty
+  double damping_scale = 1;                ///< of the approach
+  double tangential_damping_scale = 1;     ///< caps what friction can do at small sliding speed
 };
 
 /// A body, what acts on it, and how it is integrated.

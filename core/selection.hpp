@@ -11,13 +11,13 @@ namespace plica {
 /// What lies in a ball.
 struct BallSelection {
   Point centre = Point::Zero();  ///< [m]
-  double radius = 1;             ///< [m] > 0, its surface included
+  double radius = 1;             ///< its surface included [m]
 };
 
 /// What lies on the plane or below it: on the side its normal points away from.
 struct HalfSpaceSelection {
   Point point = Point::Zero();    ///< on the plane [m]
-  Point normal = Point::UnitZ();  ///< any length > 0
+  Point normal = Point::UnitZ();  ///< its length does not matter
 };
 
 /// The mesh's vertex set of that name or, where there is none, its region.

@@ -109,4 +109,34 @@ KOKKOS_INLINE_FUNCTION T determinant(const Mat3<T>& A) {
   return dot(A[0], cross(A[1], A[2]));
 }
 
+/// A symmetric 3x3 matrix by its six numbers xx yy zz xy xz yz.
+template <class T>
+struct SymMat3 {
+  T a[6] = {T(0), T(0), T(0), T(0), T(0), T(0)};
+
+  KOKKOS_INLINE_FUNCTION T& operator[](int i) { return a[i]; }
+  KOKKOS_INLINE_FUNCTION const T& operator[](int i) const { return a[i]; }
+  /// Which of the six entry k of all nine is, row by row.
+  static KOKKOS_INLINE_FUNCTION int place(int k) {
+    constexpr int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
+    return places[k];
+  }
+  friend KOKKOS_INLINE_FUNCTION Vec3<T> operator*(const SymMat3& A, const Vec3<T>& x) {
+    return {A[0] * x[0] + A[3] * x[1] + A[4] * x[2], A[3] * x[0] + A[1] * x[1] + A[5] * x[2],
+            A[4] * x[0] + A[5] * x[1] + A[2] * x[2]};
+  }
+};
+
+/// Whether A is positive definite, and then its inverse.
+template <class T>
+KOKKOS_INLINE_FUNCTION bool invert_positive(const SymMat3<T>& A, SymMat3<T>& inverse) {
+  const T xx = A[0], yy = A[1], zz = A[2], xy = A[3], xz = A[4], yz = A[5];
+  const T cx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - yy * xz;
+  const T det = xx * cx + xy * cxy + xz * cxz;
+  if (!(xx > 0 && xx * yy - xy * xy > 0 && det > 0)) return false;
+  const T s = 1 / det;
+  inverse = {{s * cx, s * (xx * zz - xz * xz), s * (xx * yy - xy * xy), s * cxy, s * cxz, s * (xy * xz - xx * yz)}};
+  return true;
+}
+
 }  // namespace plica

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 

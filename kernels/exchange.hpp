@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
 #include <plica/core/surface.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // What a simulation gives to and takes from its caller's arrays, whatever their precision and layout. Per vertex 3 or 6 values
 // in and 3 out.
@@ -12,14 +11,8 @@ namespace plica {
 template <class B>
 KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u, const Vectors<B>& v, int p,
                                           Vec3<typename B::Real>& x, Vec3<typename B::Real>& speed) {
-  for (int k = 0; k < 3; ++k) {
-    x[k] = s.rest(p, k), speed[k] = 0;
-    for (int c = 0; c < 4; ++c) {
-      const int a = s.embedding.source(p, c);
-      x[k] += s.embedding.weight(p, c) * u(a, k);
-      speed[k] += s.embedding.weight(p, c) * v(a, k);
-    }
-  }
+  x = value_at<B>(s.embedding, u, p, vector_at<B>(s.rest, p));
+  speed = value_at<B>(s.embedding, v, p);
 }
 
 /// out = rest + u

@@ -4,7 +4,6 @@
 #include <plica/core/patches.hpp>
 #include <plica/core/small.hpp>
 #include <plica/core/transposed.hpp>
-#include <plica/kernels/materials/material.hpp>
 
 namespace plica {
 
@@ -13,7 +12,6 @@ template <class T>
 struct ElementShape {
   Vec3<T> gradient[3];  ///< of the shape functions of corners 1, 2, 3 [1/m]; corner 0's is minus their sum
   T volume;             ///< [m^3]
-  Lame<T> lame;         ///< [Pa]
 };
 
 /// Where a pack's numbers lie in scratch.
@@ -31,7 +29,7 @@ KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from, [
 
 /// A pack's elements, and the gradients G of the vertex fields in `local`.
 template <class B, int fields, class T>
-KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int patch, int pack, const typename B::Real* local,
+KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const typename B::Real* local,
                                       ElementShape<T>& shape, Mat3<T> (&G)[fields]) {
   using Real = typename B::Real;
   constexpr int lanes = B::lanes;
@@ -46,7 +44,6 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int patch, int 
   for (int c = 0; c < 3; ++c)
     for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(3 * c + k);
   shape.volume = load(9);
-  shape.lame = {T(patches.lame(patch, 0)), T(patches.lame(patch, 1))};
   for (int f = 0; f < fields; ++f) {
     Vec3<T> u[4];
     for (int c = 0; c < 4; ++c) {
@@ -113,7 +110,7 @@ struct PatchKernel {
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
     ElementShape<T> shape;
     Mat3<T> G[fields];
-    load_pack<B, fields>(patches, patch, pack, local, shape, G);
+    load_pack<B, fields>(patches, pack, local, shape, G);
     Vec3<T> corner[4];
     integrand(G, shape, corner, patch, pack);
     for (int c = 0; c < 4; ++c)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/backend.hpp>
+#include <plica/core/fields.hpp>
 
 namespace plica {
 
 /// N sums at once, always in double; the last `Maxima` of them are the largest instead, of values not below 0.
 template <int N, int Maxima = 0>
 struct Sums {
+  static constexpr int maxima = Maxima;
   double value[N] = {};
   KOKKOS_INLINE_FUNCTION double& operator[](int i) { return value[i]; }
   KOKKOS_INLINE_FUNCTION double operator[](int i) const { return value[i]; }
@@ -32,66 +33,66 @@ class BlockSums {
  public:
   static constexpr int block = 512;  ///< items added up by one team, whatever the number of threads
   static constexpr int widest = 16;
+  using View = Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory>;
   BlockSums() = default;
-  explicit BlockSums(int items) : sums_("plica::block_sums", (items + block - 1) / block + 1) {}
-  const Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory>& view() const { return sums_; }
+  explicit BlockSums(int items) : sums_(zeros<View>("plica::block_sums", (items + block - 1) / block + 1)) {}
+  const View& view() const { return sums_; }
 
-  private : Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory> sums_;
+ private:
+  View sums_;
 };
 
-/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally operator()(int) const.
+/// blocks(b, k) = the sum of term(i)[k] over the items i of block b; a CPU's thread takes a block at a time, a GPU's team.
 template <class B, int N, class Term, class Tally>
-struct BlockReduction {
-  using Policy = Kokkos::TeamPolicy<typename B::Exec>;
-  using Member = typename Policy::member_type;
-  using Block = Kokkos::View<double * [BlockSums<B>::widest], Kokkos::LayoutRight, typename B::Memory>;
-  struct Terms {};
-  struct Blocks {};
-
+struct SumOfBlock {
+  using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
   int n;
   Term term;
-  Block blocks;
-  Kokkos::View<double*, typename B::Memory> result;
+  typename BlockSums<B>::View blocks;
 
-  KOKKOS_INLINE_FUNCTION void operator()(Terms, const Member& team) const {
-    const int first = team.league_rank() * BlockSums<B>::block, last = Kokkos::min(first + BlockSums<B>::block, n);
+  KOKKOS_INLINE_FUNCTION int first(int b) const { return b * BlockSums<B>::block; }
+  KOKKOS_INLINE_FUNCTION int last(int b) const { return Kokkos::min(first(b) + BlockSums<B>::block, n); }
+  KOKKOS_INLINE_FUNCTION void operator()(int b) const {
     Tally total;
-    Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, first, last), [&](int i, Tally& sum) { sum += term(i); },
-        Kokkos::Sum<Tally, typename B::Memory>(total));
-    Kokkos::single(Kokkos::PerTeam(team), [&]() {
-      for (int k = 0; k < N; ++k) blocks(team.league_rank(), k) = total[k];
-    });
+    for (int i = first(b); i < last(b); ++i) total += term(i);
+    for (int k = 0; k < N; ++k) blocks(b, k) = total[k];
   }
-
-  KOKKOS_INLINE_FUNCTION void operator()(Blocks, const Member& team) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int b = team.league_rank();
     Tally total;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, (n + BlockSums<B>::block - 1) / BlockSums<B>::block),
-        [&](int b, Tally& sum) {
-          Tally block;
-          for (int k = 0; k < N; ++k) block[k] = blocks(b, k);
-          sum += block;
-        },
+        Kokkos::TeamThreadRange(team, first(b), last(b)), [&](int i, Tally& sum) { sum += term(i); },
         Kokkos::Sum<Tally, typename B::Memory>(total));
     Kokkos::single(Kokkos::PerTeam(team), [&]() {
-      for (int k = 0; k < N; ++k) result(k) = total[k];
+      for (int k = 0; k < N; ++k) blocks(b, k) = total[k];
     });
   }
 };
 
+/// result(k) = sum over b < count of blocks(b, k) for k < n; the last `maxima` of them the largest instead.
+template <class B>
+void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
+                const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
+
+/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally operator()(int) const.
+///
+///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     one after the other in each block
+///                  |                      |                  |
+///   blocks    sum of block 0        sum of block 1         ...         one after the other
+///                  \_______________________|__________________/
+///   result                       their sum
 template <class B, int N, class Term, class Tally = Sums<N>>
 void reduce(const typename B::Exec& exec, const char* label, int n, const Term& term, const BlockSums<B>& blocks,
-            const Kokkos::View<double*, typename B::Memory>& result) {
+            const Doubles<B>& result) {
   static_assert(N <= BlockSums<B>::widest);
-  using Reduction = BlockReduction<B, N, Term, Tally>;
-  const Reduction reduction{n, term, blocks.view(), result};
-  const int teams = (n + BlockSums<B>::block - 1) / BlockSums<B>::block;
-  Kokkos::parallel_for(label,
-                       Kokkos::TeamPolicy<typename B::Exec, typename Reduction::Terms>(exec, teams, team_size<B>(256)),
-                       reduction);
-  Kokkos::parallel_for(
-      label, Kokkos::TeamPolicy<typename B::Exec, typename Reduction::Blocks>(exec, 1, team_size<B>(256)), reduction);
+  using Exec = typename B::Exec;
+  const SumOfBlock<B, N, Term, Tally> sum{n, term, blocks.view()};
+  const int count = (n + BlockSums<B>::block - 1) / BlockSums<B>::block;
+  if constexpr (B::on_host)
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
+  else
+    Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
+  sum_blocks<B>(exec, label, count, N, Tally::maxima, blocks.view(), result);
 }
 
 }  // namespace plica

@@ -1,10 +1,189 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <plica/core/error.hpp>
 #include <plica/meshes/checked.hpp>
-#include <plica/meshes/edge_lengths.hpp>
 #include <plica/meshes/embedding.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+#include <unsupported/Eigen/BVH>
 
 namespace plica {
+
+namespace {
+
+// Weights of the nearest point of a triangle. Names: ab_p is the product of edge ab with the way from a to p.
+std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a;
+  const double ab_p = ab.dot(p - a), ac_p = ac.dot(p - a);
+  if (ab_p <= 0.0 && ac_p <= 0.0) return {1.0, 0.0, 0.0};
+  const double ab_q = ab.dot(p - b), ac_q = ac.dot(p - b);
+  if (ab_q >= 0.0 && ac_q <= ab_q) return {0.0, 1.0, 0.0};
+  const double over_ab = ab_p * ac_q - ab_q * ac_p;  // below zero: p lies beyond edge ab
+  if (over_ab <= 0.0 && ab_p >= 0.0 && ab_q <= 0.0) {
+    const double t = ab_p / (ab_p - ab_q);
+    return {1.0 - t, t, 0.0};
+  }
+  const double ab_r = ab.dot(p - c), ac_r = ac.dot(p - c);
+  if (ac_r >= 0.0 && ab_r <= ac_r) return {0.0, 0.0, 1.0};
+  const double over_ac = ab_r * ac_p - ab_p * ac_r;
+  if (over_ac <= 0.0 && ac_p >= 0.0 && ac_r <= 0.0) {
+    const double t = ac_p / (ac_p - ac_r);
+    return {1.0 - t, 0.0, t};
+  }
+  const double over_bc = ab_q * ac_r - ab_r * ac_q;
+  if (over_bc <= 0.0 && ac_q >= ab_q && ab_r >= ac_r) {
+    const double t = (ac_q - ab_q) / ((ac_q - ab_q) + (ab_r - ac_r));
+    return {0.0, 1.0 - t, t};
+  }
+  const double v = over_ac / (over_ab + over_ac + over_bc), w = over_ab / (over_ab + over_ac + over_bc);
+  return {1.0 - v - w, v, w};
+}
+
+}  // namespace
+
+Weights barycentric(const Point& p, const std::array<Point, 4>& corners) {
+  const Point a = corners[1] - corners[0], b = corners[2] - corners[0], c = corners[3] - corners[0];
+  const Point bc = b.cross(c), r = p - corners[0];
+  const Point ar = a.cross(r);
+  const double six_volumes = a.dot(bc);
+  const double w1 = r.dot(bc) / six_volumes, w2 = ar.dot(c) / six_volumes, w3 = -ar.dot(b) / six_volumes;
+  return {1.0 - w1 - w2 - w3, w1, w2, w3};
+}
+
+Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners) {
+  static constexpr std::array<std::array<std::size_t, 3>, 4> faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  const Weights own = barycentric(p, corners);
+  Weights best = own;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < 4; ++f) {
+    if (own[f] >= 0.0) continue;  // p is on the inner side: another face is nearer
+    const auto& [i, j, k] = faces[f];
+    const std::array<double, 3> t = nearest_in_triangle(p, corners[i], corners[j], corners[k]);
+    Weights candidate = {};
+    candidate[i] = t[0], candidate[j] = t[1], candidate[k] = t[2];
+    const double d = (weighted(candidate, corners) - p).squaredNorm();
+    if (d < nearest) nearest = d, best = candidate;
+  }
+  return best;
+}
+
+Point weighted(const Weights& weights, const std::array<Point, 4>& corners) {
+  // From corner 0, as coordinates far from the origin would round more than the edges do
+  return corners[0] + weights[1] * (corners[1] - corners[0]) + weights[2] * (corners[2] - corners[0]) +
+         weights[3] * (corners[3] - corners[0]);
+}
+
+std::array<Point, 4> corners_of(const TetMesh& mesh, int tet) {
+  const auto& v = mesh.tets[static_cast<std::size_t>(tet)];
+  const auto at = [&](int i) -> const Point& { return mesh.vertices[static_cast<std::size_t>(i)]; };
+  return {at(v[0]), at(v[1]), at(v[2]), at(v[3])};
+}
+
+struct TetLocator::Tree : Eigen::KdBVH<double, 3, int> {
+  using KdBVH::KdBVH;
+};
+
+namespace {
+
+using Volume = Eigen::AlignedBox3d;
+
+constexpr double inside_tolerance = 1e-9;  // of an edge
+constexpr double tie_tolerance = 1e-9;     // of the distance
+constexpr double farthest = 1e100;         // products of distances still fit a double
+
+double smallest(const Weights& weights) { return *std::min_element(weights.begin(), weights.end()); }
+
+// Keeps the tetrahedron with the largest smallest weight; done when that is not negative
+struct Containing {
+  const TetMesh& mesh;
+  const Point& p;
+  double depth = -inside_tolerance;
+  Located found = {};
+
+  bool intersectVolume(const Volume& box) const { return box.contains(p); }
+  bool intersectObject(int tet) {
+    const Weights weights = barycentric(p, corners_of(mesh, tet));
+    if (const double d = smallest(weights); d >= depth) depth = d, found = {tet, weights, 0.0};
+    return depth >= 0.0;
+  }
+};
+
+double squared_distance(const Point& p, const TetMesh& mesh, int tet) {
+  const auto corners = corners_of(mesh, tet);
+  return (weighted(nearest_inside(p, corners), corners) - p).squaredNorm();
+}
+
+struct Nearest {
+  using Scalar = double;
+  const TetMesh& mesh;
+  const Point& p;
+  int tet = -1;
+  double least = std::numeric_limits<double>::infinity();
+
+  double minimumOnVolume(const Volume& box) const { return box.squaredExteriorDistance(p); }
+  double minimumOnObject(int candidate) {
+    const double d = squared_distance(p, mesh, candidate);
+    if (d < least) least = d, tet = candidate;
+    return d;
+  }
+};
+
+// Among all as near as the nearest, the one extrapolated least
+struct LeastExtrapolated {
+  const TetMesh& mesh;
+  const Point& p;
+  double reach;
+  Located found;
+
+  bool intersectVolume(const Volume& box) const { return box.squaredExteriorDistance(p) <= reach; }
+  bool intersectObject(int tet) {
+    if (squared_distance(p, mesh, tet) > reach) return false;
+    const Weights weights = barycentric(p, corners_of(mesh, tet));
+    const double own = smallest(weights), best = smallest(found.weights);
+    if (own > best || (own == best && tet < found.tet)) found.tet = tet, found.weights = weights;
+    return false;
+  }
+};
+
+}  // namespace
+
+TetLocator::TetLocator(const TetMesh& mesh) : mesh_(&mesh) {
+  if (mesh.tets.empty()) throw InputError("the mesh has no tetrahedron to locate points in");
+  std::vector<int> tets(mesh.tets.size());
+  std::iota(tets.begin(), tets.end(), 0);
+  std::vector<Volume> boxes;
+  boxes.reserve(tets.size());
+  for (const int tet : tets) {
+    Volume box;
+    for (const Point& corner : corners_of(mesh, tet)) box.extend(corner);
+    const Point margin = Point::Constant(inside_tolerance * box.diagonal().norm());
+    boxes.emplace_back(box.min() - margin, box.max() + margin);
+  }
+  tree_ = std::make_unique<Tree>(tets.begin(), tets.end(), boxes.begin(), boxes.end());
+}
+
+TetLocator::~TetLocator() = default;
+TetLocator::TetLocator(TetLocator&&) noexcept = default;
+TetLocator& TetLocator::operator=(TetLocator&&) noexcept = default;
+
+Located TetLocator::locate(const Point& point) const {
+  checked_point("a point to locate", point);
+  if (point.lpNorm<Eigen::Infinity>() > farthest) throw InputError("a point is more than 1e100 m away from the origin");
+  Containing containing{*mesh_, point};
+  Eigen::BVIntersect(*tree_, containing);
+  if (containing.found.tet >= 0) return containing.found;
+
+  Nearest nearest{*mesh_, point};
+  Eigen::BVMinimize(*tree_, nearest);
+  LeastExtrapolated choice{*mesh_, point, nearest.least * (1.0 + tie_tolerance), {}};
+  choice.found = {nearest.tet, barycentric(point, corners_of(*mesh_, nearest.tet)), std::sqrt(nearest.least)};
+  Eigen::BVIntersect(*tree_, choice);
+  Located& found = choice.found;
+  if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet)) found.distance = 0.0;
+  return found;
+}
 
 namespace {
 

@@ -1,10 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <plica/core/mesh.hpp>
 #include <string>
 #include <vector>
 
 namespace plica {
+
+/// The edges of a mesh, each once, lower vertex first, ascending.
+std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh);
+std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface);  ///< the same of a surface
+
+/// Per vertex the mean length of the edges that meet there [m]; 0 for a vertex of no tetrahedron.
+std::vector<double> local_edge_lengths(const TetMesh& mesh);
+
+/// The mean over all edges [m]; 0 without any.
+double mean_edge_length(const TetMesh& mesh);
+
+/// The mean over the six edges of one tetrahedron. [m]
+double mean_edge_length(const TetMesh& mesh, int tet);
+
+/// The number of parts of a mesh that share no vertex; vertices of no tetrahedron do not count.
+int count_parts(const TetMesh& mesh);
+int count_parts(const TriangleSurface& surface);
+
+/// Per point one with a lower number within `tolerance` [m], from zero; -1: there is none.
+std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance);
+
+/// The number of vertices within `tolerance` [m] of one with a lower number. Two meshes glued together
+/// without merging their common vertices show up here: they come apart when simulated.
+int count_duplicate_vertices(const TetMesh& mesh, double tolerance);
 
 /// How many values lie in each interval [bounds[i], bounds[i + 1]); the last one takes its end as well.
 struct Histogram {
@@ -42,7 +67,7 @@ struct RegionSize {
   double volume = 0.0;  ///< [m^3]
 };
 
-/// All that can be told of a mesh before it is simulated.
+/// What is known of a mesh before it is simulated.
 struct MeshQuality {
   int vertices = 0;            ///< their number
   int tets = 0;                ///< likewise

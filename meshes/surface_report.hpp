@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/mesh.hpp>
 #include <string>
 
 namespace plica {
 
-/// What a reader of surfaces found, mended and left out.
+/// What a reader of surfaces found, repaired and left out.
 struct SurfaceReport {
   std::string format;          ///< like "STL binary"
   int unreferenced = 0;        ///< vertices of no triangle, dropped
@@ -19,5 +20,8 @@ struct SurfaceReport {
   /// Whether it has an inside.
   bool closed() const { return open_edges == 0 && crowded_edges == 0 && inconsistent_edges == 0; }
 };
+
+/// Adds its edges that keep a surface from having an inside to the report.
+void count_edges(const TriangleSurface& surface, SurfaceReport& report);
 
 }  // namespace plica

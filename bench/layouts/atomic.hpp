@@ -28,7 +28,7 @@ class Atomic {
  public:
   static constexpr const char* name = "atomic";
 
-  Atomic(const TetMesh& mesh, const Lame<double>& lame) : packs_(mesh, lame, mesh_order(mesh)) {}
+  Atomic(const TetMesh& mesh, const std::vector<double>& constants) : packs_(mesh, constants, mesh_order(mesh)) {}
 
   void operator()(const typename B::Exec& exec, const Vectors<B>& u, const Vectors<B>& f) const {
     Kokkos::deep_copy(exec, f, 0);

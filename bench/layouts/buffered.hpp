@@ -44,9 +44,9 @@ class Buffered {
  public:
   static constexpr const char* name = "buffered";
 
-  Buffered(const TetMesh& mesh, const Lame<double>& lame)
+  Buffered(const TetMesh& mesh, const std::vector<double>& constants)
       : vertices_(static_cast<int>(mesh.vertices.size())),
-        packs_(mesh, lame, mesh_order(mesh)),
+        packs_(mesh, constants, mesh_order(mesh)),
         buffer_("bench::buffer", packs_.packs) {
     VertexElements elements(mesh);
     for (int& i : elements.entry) i = (i / 4 / B::lanes * 4 + i % 4) * 3 * B::lanes + i / 4 % B::lanes;

@@ -33,7 +33,7 @@ class Coloured {
  public:
   static constexpr const char* name = "coloured";
 
-  Coloured(const TetMesh& mesh, const Lame<double>& lame) {
+  Coloured(const TetMesh& mesh, const std::vector<double>& constants) {
     std::vector<std::vector<int>> colours;
     std::vector<std::uint64_t> taken(mesh.vertices.size(), 0);  // colours at each vertex
     for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
@@ -51,7 +51,7 @@ class Coloured {
       while (order.size() % B::lanes != 0) order.push_back(-1);
       first_.push_back(static_cast<int>(order.size() / B::lanes));
     }
-    packs_ = Packs(mesh, lame, order);
+    packs_ = Packs(mesh, constants, order);
   }
 
   void operator()(const typename B::Exec& exec, const Vectors<B>& u, const Vectors<B>& f) const {

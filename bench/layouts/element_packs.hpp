@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <plica/core/mesh.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 #include <vector>
 
@@ -23,13 +24,13 @@ struct ElementPacks {
   int packs = 0;
   Array<int* [4][lanes]> corner;
   Array<Real* [10][lanes]> shape;
-  Lame<Real> lame;
+  Scalars<B> constants;
 
   ElementPacks() = default;
   /// `order` lists the tetrahedra, -1: padding.
-  ElementPacks(const TetMesh& mesh, const Lame<double>& constants, const std::vector<int>& order)
+  ElementPacks(const TetMesh& mesh, const std::vector<double>& of_material, const std::vector<int>& order)
       : packs(static_cast<int>((order.size() + lanes - 1) / lanes)),
-        lame{static_cast<Real>(constants.lambda), static_cast<Real>(constants.mu)} {
+        constants(to_device<Scalars<B>>("bench.constants", std::vector<Real>(of_material.begin(), of_material.end()))) {
     const std::size_t n = static_cast<std::size_t>(packs);
     std::vector<std::array<std::array<int, lanes>, 4>> corners(n);
     std::vector<std::array<std::array<Real, lanes>, 10>> shapes(n);
@@ -56,7 +57,6 @@ struct ElementPacks {
         for (int k = 0; k < 3; ++k) set_lane(s.gradient[c][k], l, shape(q, 3 * c + k, l));
       set_lane(s.volume, l, shape(q, 9, l));
     }
-    s.lame = {T(lame.lambda), T(lame.mu)};
     return s;
   }
 
@@ -68,7 +68,7 @@ struct ElementPacks {
       for (int c = 0; c < 4; ++c)
         for (int k = 0; k < 3; ++k) set_lane(x[c][k], l, u(corner(q, c, l), k));
     const ElementShape<T> s = load_shape(q);
-    stress_to_corners(Material::stress(deformation(x, s), s.lame), s, f);
+    stress_to_corners(Material::stress(deformation(x, s), load_constants<Material, T>(constants, 0)), s, f);
   }
 
   static KOKKOS_INLINE_FUNCTION Mat3<T> deformation(const Vec3<T> (&u)[4], const ElementShape<T>& s) {

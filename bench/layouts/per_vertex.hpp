@@ -17,7 +17,7 @@ class PerVertex {
     Indices<B> first, entry;  // 4 * element + corner
     Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;
     Kokkos::View<Real* [10], Kokkos::LayoutRight, typename B::Memory> shape;  // one element after the other
-    Lame<Real> lame;
+    Scalars<B> constants;
     Vectors<B> u, f;
 
     KOKKOS_INLINE_FUNCTION void operator()(int a) const {
@@ -25,9 +25,8 @@ class PerVertex {
       for (int i = first(a); i < first(a + 1); i += lanes) {
         ElementShape<T> s;
         Vec3<T> x[4], own;
-        s.lame = {T(lame.lambda), T(lame.mu)};
         for (int l = 0; l < lanes && i + l < first(a + 1); ++l) load(entry(i + l), l, s, x, own);
-        sum -= s.volume * (Material::stress(Packs::deformation(x, s), s.lame) * own);
+        sum -= s.volume * (Material::stress(Packs::deformation(x, s), load_constants<Material, T>(constants, 0)) * own);
       }
       for (int k = 0; k < 3; ++k) {
         Real total = 0;
@@ -54,8 +53,9 @@ class PerVertex {
  public:
   static constexpr const char* name = "per_vertex";
 
-  PerVertex(const TetMesh& mesh, const Lame<double>& lame) : vertices_(static_cast<int>(mesh.vertices.size())) {
-    const Packs packs(mesh, lame, mesh_order(mesh));
+  PerVertex(const TetMesh& mesh, const std::vector<double>& constants)
+      : vertices_(static_cast<int>(mesh.vertices.size())) {
+    const Packs packs(mesh, constants, mesh_order(mesh));
     const VertexElements elements(mesh);
     kernel_.first = to_device<Indices<B>>("bench.first", elements.first);
     kernel_.entry = to_device<Indices<B>>("bench.entry", elements.entry);
@@ -71,7 +71,7 @@ class PerVertex {
     }
     Kokkos::deep_copy(kernel_.corner, to_corner);
     Kokkos::deep_copy(kernel_.shape, to_shape);
-    kernel_.lame = packs.lame;
+    kernel_.constants = packs.constants;
   }
 
   void operator()(const typename B::Exec& exec, const Vectors<B>& u, const Vectors<B>& f) const {

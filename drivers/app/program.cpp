@@ -3,23 +3,17 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/completion.hpp>
-#include <plica/drivers/app/commands/explain.hpp>
 #include <plica/drivers/app/commands/list.hpp>
 #include <plica/drivers/app/commands/manual.hpp>
-#include <plica/drivers/app/commands/mesh_convert.hpp>
-#include <plica/drivers/app/commands/mesh_info.hpp>
-#include <plica/drivers/app/commands/options.hpp>
-#include <plica/drivers/app/commands/run.hpp>
-#include <plica/drivers/app/commands/stability.hpp>
-#include <plica/drivers/app/commands/study.hpp>
-#include <plica/drivers/app/commands/verify.hpp>
-#include <plica/drivers/app/commands/version.hpp>
+#include <plica/drivers/app/output/machine.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
-#include <plica/drivers/app/scene/describe.hpp>
-#include <plica/drivers/app/scene/schema.hpp>
+#include <plica/drivers/app/scene/key_list.hpp>
+#include <plica/drivers/app/scene/reader.hpp>
 
 namespace plica::app {
 namespace {
@@ -100,7 +94,7 @@ class CommandLine {
     command->add_option("--duration", duration_, "simulated time [s], instead of the scene's")->type_name("TIME");
     command->add_option("--precision", arguments_.precision, "float or double (double)")
         ->type_name("WORD")
-        ->check(CLI::IsMember({"float", "double"}));
+        ->check(CLI::IsMember(names(precisions())));
     add_threads(command);
     if (name == "explain" || name == "check") command->add_flag("--json", arguments_.json, "print JSON");
     return command;
@@ -109,7 +103,7 @@ class CommandLine {
   void add_threads(CLI::App* command) {
     command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
-        ->check(CLI::Range(1, 512));  // what Kokkos can do with OpenMP
+        ->check(CLI::Range(thread_count.min, thread_count.max));
   }
 
   void add_run() {
@@ -121,9 +115,10 @@ class CommandLine {
         ->add_option("--checkpoint", arguments_.checkpoint,
                      "so many macro steps, or simulated time [s], to resume from")
         ->type_name("every=N|TIME");
-    command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint")
-        ->type_name("FOLDER")
-        ->excludes(folder);
+    CLI::Option* resume =
+        command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint");
+    resume->type_name("FOLDER")->excludes(folder);
+    command->add_flag("--force", arguments_.force, "replace the run that is in the folder")->excludes(resume);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
     command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
   }

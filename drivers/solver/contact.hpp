@@ -37,10 +37,15 @@ class Obstacle {
                     const TouchingPoints<B>&) const = 0;
   /// Energy stored in its penalties [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const BlockSums<B>&,
-                      const Kokkos::View<double*, typename B::Memory>& result) const = 0;
+                      const Doubles<B>& result) const = 0;
   /// Device memory of its own.
   virtual std::size_t bytes() const = 0;
 };
+
+/// Launches the kernels of the shape that the options name.
+template <class B>
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const PenaltyLaw<typename B::Real>& law,
+                                           const DepthWatch<B>& watch);
 
 /// Penalty contact between a level's embedded surface and all obstacles.
 template <class B>
@@ -83,7 +88,7 @@ class Contact {
  private:
   int points_;
   double stiffness_, normal_damping_, damping_, deepest_;
-  Kokkos::View<int, typename B::Memory> lost_;
+  Indices<B> lost_;  ///< [1] see DepthWatch
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
 };
 

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <plica/core/dense.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
-#include <plica/drivers/solver/tridiagonal.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
-#include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/spectrum/scaled_operator.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -28,20 +28,21 @@ class Lanczos {
         stiffness_(stiffness),
         over_(over),
         n_(level.model.vertices),
-        v_("plica::lanczos.v", n_),
-        w_("plica::lanczos.w", n_),
-        before_("plica::lanczos.before", n_),
-        p_("plica::lanczos.p", n_),
+        v_(zeros<Vectors<B>>("plica::lanczos.v", n_)),
+        w_(zeros<Vectors<B>>("plica::lanczos.w", n_)),
+        before_(zeros<Vectors<B>>("plica::lanczos.before", n_)),
+        p_(zeros<Vectors<B>>("plica::lanczos.p", n_)),
         blocks_(n_),
-        result_("plica::lanczos.result", 1) {
+        result_(zeros<Doubles<B>>("plica::lanczos.result", 1)) {
     if (stiffness > 0) {
-      contact_ = Vectors<B>("plica::lanczos.contact", n_);
-      points_ = Vectors<B>("plica::lanczos.points", level.surface.points);
+      contact_ = zeros<Vectors<B>>("plica::lanczos.contact", n_);
+      points_ = zeros<Vectors<B>>("plica::lanczos.points", level.surface.points);
     }
   }
 
   double largest() {
-    const double size = std::sqrt(sum("plica::lanczos_start", FillFromHash<B>{level_.model.inverse_mass, w_}));
+    fill_from_hash<B>(exec_, "plica::lanczos_start", level_.model.inverse_mass, w_, blocks_, result_);
+    const double size = std::sqrt(host_values(exec_, result_)[0]);
     if (!(size > 0)) return 0;
     double beta = 0, scale = 1 / size, value = 0;
     std::vector<double> alphas, betas;
@@ -52,7 +53,7 @@ class Lanczos {
       alphas.push_back(alpha);
       const bool last = !(beta > 1e-12 * std::abs(alpha));
       if (k % 5 == 4 || last) {
-        const RitzBound top = largest_ritz_bound(alphas, betas, beta);
+        const dense::RitzBound top = dense::largest_ritz_bound(alphas, betas, beta);
         value = top.value;
         if (top.residual < 1e-3 * value || last) return value + top.residual;
       }
@@ -71,7 +72,7 @@ class Lanczos {
   int n_;
   Vectors<B> v_, w_, before_, p_, contact_, points_;
   BlockSums<B> blocks_;
-  Kokkos::View<double*, typename B::Memory> result_;
+  Doubles<B> result_;
 
   template <class Work>
   void each(const char* label, const Work& work) {
@@ -80,8 +81,7 @@ class Lanczos {
   template <class Term>
   double sum(const char* label, const Term& term) {
     reduce<B, 1>(exec_, label, n_, term, blocks_, result_);
-    exec_.fence("plica::lanczos");
-    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result_)(0);
+    return host_values(exec_, result_)[0];
   }
 
   /// w = M^-1/2 (K + over D + contact) M^-1/2 v - beta before; v.w
@@ -89,7 +89,7 @@ class Lanczos {
     each("plica::lanczos_scale", ScaleByMass<B>{level_.model.inverse_mass, v_, p_, Real(1)});
     elasticity_.tangent(exec_, level_.model.patches, u_, p_, over_, level_.partial);
     if (stiffness_ > 0) {
-      Kokkos::deep_copy(exec_, contact_, Real(0));
+      fill(exec_, contact_, 0);
       update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.points,
                          PointStiffness<B>{level_.surface, p_, points_, static_cast<Real>(stiffness_)});
       update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.touched,

@@ -33,9 +33,9 @@ class ElasticityOf final : public Elasticity<B> {
               const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,
               const BlockMatrix<B>& A) const override {
     if (positive)
-      elastic_blocks<B, PositiveTangent<Material>::template Of>(exec, model, pairs, u, weights, shares, A);
+      elastic_blocks<B, Material, PositiveTangent<Material>::template Of>(exec, model, pairs, u, weights, shares, A);
     else
-      elastic_blocks<B, Material::template Tangent>(exec, model, pairs, u, weights, shares, A);
+      elastic_blocks<B, Material, Material::template Tangent>(exec, model, pairs, u, weights, shares, A);
   }
   void energy(const Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
               const Vectors<B>& partial) const override {

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/mesh.hpp>
 #include <plica/drivers/solver/simulation.hpp>
-#include <plica/kernels/materials/material.hpp>
+#include <plica/kernels/materials/parameters.hpp>
 #include <vector>
 
 namespace plica {

@@ -5,7 +5,7 @@
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/energies.hpp>
-#include <plica/meshes/edge_lengths.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
 

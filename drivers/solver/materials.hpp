@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/problem.hpp>
+#include <plica/kernels/materials/parameters.hpp>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +15,11 @@ struct MaterialInfo {
   bool survives_inversion;
   bool recovers;
   bool allows_inversion;
+  std::vector<MaterialParameter> parameters;
+  /// What its kernels get, of the values of its parameters in their order.
+  std::vector<double> (*kernel_constants)(const std::vector<double>& values);
+  /// Lame's constants of its tangent at rest [Pa].
+  Lame<double> (*small_strains)(const std::vector<double>& values);
 };
 
 /// Those of kernels/materials/list.hpp, in its order.
@@ -20,5 +27,16 @@ const std::vector<MaterialInfo>& material_list();
 
 /// The one of that name, or a null pointer.
 const MaterialInfo* find_material(std::string_view name);
+
+/// The values of its parameters, in their order: the region's where it has one of its own, else the body's, else the standard.
+std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOptions& body,
+                                     const RegionOptions& region);
+
+/// Throws InputError where a value of the body or of one of its regions is out of range, or belongs to none of the
+/// material's parameters.
+void check_parameters(const MaterialInfo& info, const Body& body);
+
+/// Young's modulus at rest [Pa]: as given, or of small strains where the material has no such parameter.
+double stiffness_at_rest(const MaterialOptions& material);
 
 }  // namespace plica

@@ -23,8 +23,8 @@ std::size_t bytes_of(const State<B>& s) {
 }
 template <class B>
 std::size_t bytes_of(const Patches<B>& p) {
-  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.lame, p.first_slot, p.slot, p.first_copy,
-               p.copy, p.element);
+  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.first_slot, p.slot,
+               p.first_copy, p.copy, p.element);
 }
 template <class B>
 std::size_t bytes_of(const EmbeddedSurface<B>& s) {

@@ -38,6 +38,12 @@ std::vector<Choice> distributions() {
   return list;
 }
 
+std::vector<Choice> outside_rules() {
+  return {{"clamp", "moves with the nearest point of the other mesh"},
+          {"extrapolate", "continues the nearest tetrahedron"},
+          {"keep", "keeps its own motion"}};
+}
+
 std::vector<Choice> linear_solvers() { return choices<LinearSolvers>(); }
 std::vector<Choice> preconditioners() { return choices<Preconditioners>(); }
 
@@ -90,12 +96,6 @@ int newton_iterations(const ImplicitOptions& options, std::string_view integrato
     if constexpr (requires { member.conserves(options); }) conserves = member.conserves(options);
   });
   return options.newton_iterations > 0 ? options.newton_iterations : conserves ? enough : 1;
-}
-
-std::vector<std::string> names(const std::vector<Choice>& choices) {
-  std::vector<std::string> list;
-  for (const Choice& choice : choices) list.push_back(choice.name);
-  return list;
 }
 
 }  // namespace plica

@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/keys.hpp>
 #include <plica/core/problem.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// The families a scene chooses from, as lists to print and to check names against. Each walks the family's own list.
+/// The families a scene chooses from, as lists to print, beside those of core/keys.hpp. Each walks the family's own list.
 namespace plica {
 
-/// A member of a family.
-struct Choice {
-  std::string name;     ///< in scenes and options
-  std::string summary;  ///< one line
-};
-
-std::vector<Choice> materials();        ///< constitutive laws
-std::vector<Choice> integrators();      ///< one-level ODE solvers
 std::vector<Choice> cycles();           ///< ways to share a macro step
-std::vector<Choice> cycle_choices();    ///< the same, and auto
-std::vector<Choice> error_classes();    ///< of cycle auto
-std::vector<Choice> distributions();    ///< sizes of the shares
 std::vector<Choice> obstacle_shapes();  ///< for contact
 std::vector<Choice> linear_solvers();   ///< of implicit levels
 std::vector<Choice> preconditioners();  ///< of conjugate gradients
-
-std::vector<Choice> linear_solver_choices();   ///< the same, and auto
-std::vector<Choice> preconditioner_choices();  ///< the same, and auto
-std::vector<Choice> matrix_choices();          ///< of linear systems, and auto
-
-std::vector<Choice> tangents();         ///< of the elements, in their systems
-std::vector<Choice> newton_outcomes();  ///< of steps that Newton's method does not solve
 
 /// Whether that cycle uses more than the finest level; false for a name it does not know.
 bool uses_coarse_levels(std::string_view cycle);
@@ -44,8 +27,5 @@ int newton_iterations(const ImplicitOptions& options, std::string_view integrato
 bool allows_inversion(const MaterialOptions& material);
 /// Whether inverted elements of that material are pushed back; false for a name it does not know.
 bool recovers(std::string_view material);
-
-/// Their names alone, in the same order.
-std::vector<std::string> names(const std::vector<Choice>& choices);
 
 }  // namespace plica

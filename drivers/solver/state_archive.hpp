@@ -39,15 +39,14 @@ class StateArchive {
   /// A device field, which may be empty.
   template <class View>
   void field(const std::string& what, const View& view) {
-    const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), view);
-    const std::size_t size = host.span() * sizeof(typename View::value_type);
+    const std::size_t size = fields::bytes_of(view);
     same<std::uint64_t>("the size of " + what, size);
     if (task_ == Task::save) {
-      Kokkos::deep_copy(host, view);
-      put(host.data(), size);
+      bytes_.resize(bytes_.size() + size);
+      Kokkos::fence("plica::archive");
+      fields::download(typename B::Exec(), bytes_.data() + bytes_.size() - size, view.data(), size);
     } else if (const unsigned char* from = take(size); task_ == Task::restore && size > 0) {
-      std::memcpy(host.data(), from, size);
-      Kokkos::deep_copy(view, host);
+      fields::upload<typename View::memory_space>(view.data(), from, size);
     }
   }
   void state(const std::string& what, const State<B>& state) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <cmath>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <vector>

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <array>
 #include <plica/core/small.hpp>
 #include <plica/kernels/materials/list.hpp>
 #include <random>
@@ -31,6 +32,22 @@ inline Eigen::Matrix3d eigen(const Mat3<double>& A) {
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) m(r, c) = A[r][c];
   return m;
+}
+
+/// A material's constants for young_modulus 20 kPa, poisson_ratio 0.4 and the standard of what else it declares.
+template <class M>
+typename M::template Constants<double> sample_constants() {
+  std::array<double, M::parameters.size()> values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = M::parameters[i].standard;
+  return M::kernel_constants(values.data());
+}
+
+/// The same for numbers of another kind, or packs.
+template <class M, class T>
+typename M::template Constants<T> sample_constants_as() {
+  const std::vector<double> values = as_list(sample_constants<M>());
+  return load_constants<M, T>(
+      [&](int k) { return static_cast<typename LaneOf<T>::type>(values[static_cast<std::size_t>(k)]); }, 0);
 }
 
 /// A gradient and the scale on which it may be varied: its smallest singular value, or that of its neighbours where that is 0.

@@ -4,16 +4,58 @@
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/study/about_rest.hpp>
+#include <plica/drivers/study/cycle_growth.hpp>
 #include <plica/drivers/study/small_motion.hpp>
 #include <plica/drivers/study/stability.hpp>
-#include <plica/drivers/study/stability_scene.hpp>
-#include <plica/drivers/study/study_growth.hpp>
-#include <plica/drivers/study/study_methods.hpp>
+#include <plica/drivers/study/study_case.hpp>
 
 namespace plica {
 
 namespace {
+
+/// Why the run did not come to its end; none where it did.
+template <class B>
+std::optional<SceneLimit> failure_of(const Problem& problem, double duration, const std::function<void()>& go_on) {
+  SceneLimit failed;
+  failed.failed_step = problem.integration.macro_step;
+  try {
+    Simulation<B> simulation(problem);
+    const long steps = std::lround(std::ceil(duration / simulation.macro_step() - 1e-9));
+    for (long n = 0; n < steps; ++n) {
+      failed.failed_time = simulation.time();
+      simulation.step();
+      failed.failure = simulation.check();
+      if (failed.failure) {
+        failed.reason = failed.failure->text();
+        return failed;
+      }
+      go_on();
+    }
+  } catch (const InputError& error) {
+    failed.reason = error.what();
+    return failed;
+  }
+  return {};
+}
+
+/// Runs the problem as it is for `duration` [s], time and again, for the largest macro step with which it comes to the end. Explicit
+/// sub-steps may be above their limit.
+/// @param go_on  called after every macro step; what it throws ends the search
+template <class B>
+SceneLimit scene_limit(const Problem& problem, double duration, const StepRange& range,
+                       const std::function<void()>& go_on) {
+  SceneLimit found;
+  Problem p = problem;
+  p.integration.allow_unstable = true;
+  const LargestStep largest = largest_stable(range, [&](double step) {
+    p.integration.macro_step = step;
+    const auto failed = failure_of<B>(p, duration, go_on);
+    if (failed && (!found.failed_step || step < *found.failed_step)) found = *failed;
+    return !failed;
+  });
+  if (largest.kind != LargestStep::Kind::growing) found.step = largest.step;
+  return found;
+}
 
 using Clock = std::chrono::steady_clock;
 using Exec = Kokkos::DefaultExecutionSpace;

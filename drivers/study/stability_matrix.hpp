@@ -7,12 +7,57 @@
 
 namespace plica {
 
+/// A body of the stability matrix, and what is known of its run beforehand.
+struct MatrixBody {
+  Problem problem;
+  std::vector<Point> displacement;  ///< at the start [m]; empty: none
+  double step = 0;                  ///< macro step over the finest critical step; 0: the method's own
+  double load_ratio = 1e-4;         ///< rho g L / E, from which gravity follows; 0: none
+  /// The shape that it starts in.
+  enum class Start { rest, stretched, thin, flat, turned, mirrored, random } start = Start::rest;
+  double impact = 0;      ///< speed at which it strikes, over that of its waves
+  bool refused = false;   ///< its step is above the limit
+  bool unstable = false;  ///< and is taken all the same
+
+  /// About: a cantilever four times as long as thick is strained by 12 times the load ratio at rest, 24 times when it is let go.
+  double strain() const { return 24 * load_ratio; }
+  bool inside_out() const { return start >= Start::flat; }  ///< elements have J <= 0 at the start
+  void load();                                              ///< sets gravity
+};
+
+/// 0.4 x 0.1 x 0.1 m, clamped at x = 0, of 192 tetrahedra and 24.
+MatrixBody clamped_beam();
+
+void set_young_modulus(MatrixBody& body, double pascal);
+void set_young_modulus_on_earth(MatrixBody& body, double pascal);
+void set_poisson_ratio(MatrixBody& body, double ratio);
+void set_density(MatrixBody& body, double density);
+void set_size(MatrixBody& body, double length);
+void set_gravity(MatrixBody& body, double factor);
+void set_step(MatrixBody& body, double over_critical);
+void set_unstable_step(MatrixBody& body, double over_critical);
+/// One layer of cells of level 0 is so many times thinner than it is wide.
+void set_slivers(MatrixBody& body, double ratio);
+void set_stretch(MatrixBody& body, double factor);
+/// Across the beam, along z: 0 flattens, below 0 inverts.
+void set_thickness(MatrixBody& body, double factor);
+void set_random(MatrixBody& body, double seed);
+/// Free, it falls flat on a plane.
+void set_impact(MatrixBody& body, double speed);
+/// Its outer half is stiffer.
+void set_contrast(MatrixBody& body, double ratio);
+void set_one_tetrahedron(MatrixBody& body, double edge);
+void set_levels(MatrixBody& body, double count);
+/// Level 1 lies so many lengths of the beam further along.
+void set_overlap(MatrixBody& body, double lengths);
+
 /// What a run may come to. At least one is true.
 struct Expected {
   bool complete = false;     ///< it reaches its end
   bool stop = false;         ///< it is stopped with a diagnosis
   bool refuse = false;       ///< its set-up says no
   std::string kind = {};     ///< of the diagnosis; empty: any that fits what is run
+  std::string why = {};      ///< why more than one is right; empty where only one is
   std::string text() const;  ///< "completed or stopped"
 };
 
@@ -35,6 +80,7 @@ struct MatrixRow {
       outcome;  ///< completed | stopped: KIND | refused | not finite | no diagnosis; of an invariance how much differs
   bool ok = false;
   std::string detail;  ///< diagnosis or message
+  std::string why;     ///< see Expected
 };
 
 struct MatrixResult {

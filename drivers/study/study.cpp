@@ -6,9 +6,8 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/study/judgement.hpp>
+#include <plica/drivers/study/cycle_growth.hpp>
 #include <plica/drivers/study/study.hpp>
-#include <plica/drivers/study/study_growth.hpp>
 
 namespace plica {
 
@@ -65,16 +64,27 @@ class Study {
     return true;
   }
 
-  // of all its runs [s]; what rows of the same kind took corrects it
+  // of one run, and of all its runs [s]; what rows of the same kind took corrects it
+  double predicted_once(const StudyCase& one) {
+    return one.predicted_evaluations * result_.reference.seconds_per_evaluation * correction(one);
+  }
   double predicted(const StudyCase& one) {
-    const double run = one.predicted_evaluations * result_.reference.seconds_per_evaluation * correction(one);
+    const double run = predicted_once(one);
     return run * (1 + timed_runs_of(run, options_.timed_runs));
   }
   double& correction(const StudyCase& one) {
     const std::string kind = study_label(one.method, {}, one.variant) + " " + one.precision;
     return correction_.try_emplace(kind + std::to_string(one.threads), 1.0).first->second;
   }
-  bool fits(const StudyCase& one) { return !options_.budget || elapsed() + predicted(one) <= *options_.budget; }
+  bool fits(double seconds) const { return !options_.budget || elapsed() + seconds <= *options_.budget; }
+
+  // Timed runs that there is time for; none where not even one run fits. Controls make do with one run. The first of them, which
+  // says what the budget would have bought without any cycle, is run as long as anything is left.
+  std::optional<int> affordable(const StudyCase& one) {
+    if (fits(predicted(one))) return options_.timed_runs;
+    if (one.control && fits(one.rank == 0 ? 0 : predicted_once(one))) return 0;
+    return {};
+  }
 
   void leave_out(const StudyCase& one) { leave_out(one.key(), predicted(one)); }
   void leave_out(const std::string& key, double seconds) {
@@ -86,10 +96,10 @@ class Study {
   void run(const StudyCase& one) {
     if (result_.stopped)
       result_.left_out.push_back({one.key(), "the study was stopped before"});
-    else if (!fits(one))
-      leave_out(one);
+    else if (const auto timed_runs = affordable(one))
+      measure(one, *timed_runs);
     else
-      measure(one);
+      leave_out(one);
   }
 
   void find_growth(const StudyCase& one) {
@@ -99,7 +109,7 @@ class Study {
     if (result_.stopped || !tell(key, 0)) return result_.left_out.push_back({key, "the study was stopped before"});
     const double seconds = growth_.predicted_evaluations(one, *row->macro_step, options_.duration) *
                            result_.reference.seconds_per_evaluation * correction(one);
-    if (seconds > 0 && options_.budget && elapsed() + seconds > *options_.budget) return leave_out(key, seconds);
+    if (seconds > 0 && !fits(seconds)) return leave_out(key, seconds);
     if (const auto found = growth_.of(one, *row->macro_step)) {
       row->spectral_radius = found->radius, row->spectral_radius_uncertainty = found->uncertainty;
       row->growth_per_second = found->per_second;
@@ -107,10 +117,10 @@ class Study {
     tell(key, 1, false, true);
   }
 
-  void measure(const StudyCase& one) {
+  void measure(const StudyCase& one, int timed_runs) {
     if (!tell(one.key(), 0)) return result_.left_out.push_back({one.key(), "the study was stopped before"});
     StudyRunOptions options{options_.duration, result_.reference.trajectory.times, one.precision, one.threads,
-                            options_.timed_runs};
+                            timed_runs};
     options.go_on = [&](double part) { return tell(one.key(), part); };
     const StudyRun run = study_run(problem_of(problem_, one), options);
     if (run.status == "stopped") return result_.left_out.push_back({one.key(), "the study was stopped before"});
@@ -208,6 +218,52 @@ StudyResult study(const Problem& problem, const StudyOptions& options, const Stu
   check(options);
   check_study(problem, options);
   return Study(problem, options, watch, std::move(before)).all();
+}
+
+namespace {
+
+constexpr double resolution = 0.1;  // of an error: what the reference's own may be
+
+bool completed(const StudyRow& row) { return row.status == "completed" && row.error && row.wall_time; }
+
+bool dominates(const StudyRow& a, const StudyRow& b) {
+  const bool as_good = *a.error <= *b.error && *a.wall_time <= *b.wall_time;
+  return as_good && (*a.error < *b.error || *a.wall_time < *b.wall_time);
+}
+
+}  // namespace
+
+void mark_pareto(std::vector<StudyRow>& rows) {
+  for (StudyRow& row : rows)
+    row.pareto = completed(row) && std::ranges::none_of(rows, [&](const StudyRow& other) {
+                   return completed(other) && dominates(other, row);
+                 });
+}
+
+bool grows(const StudyRow& row) {
+  return row.spectral_radius && *row.spectral_radius > 1 + 1e-6 + row.spectral_radius_uncertainty.value_or(0);
+}
+
+std::optional<double> smallest_error(const std::vector<StudyRow>& rows) {
+  std::optional<double> smallest;
+  for (const StudyRow& row : rows)
+    if (completed(row) && (!smallest || *row.error < *smallest)) smallest = row.error;
+  return smallest;
+}
+
+bool resolves(const StudyReference& reference, double error) { return reference.own_error <= resolution * error; }
+
+bool good_enough(const StudyResult& result) {
+  const auto smallest = smallest_error(result.rows);
+  return !smallest || resolves(result.reference, *smallest);
+}
+
+const StudyRow* fastest_below(const std::vector<StudyRow>& rows, double error) {
+  const StudyRow* fastest = nullptr;
+  for (const StudyRow& row : rows)
+    if (completed(row) && *row.error < error && (fastest == nullptr || *row.wall_time < *fastest->wall_time))
+      fastest = &row;
+  return fastest;
 }
 
 }  // namespace plica

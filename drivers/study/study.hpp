@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 #include <plica/drivers/study/study_case.hpp>
-#include <plica/drivers/study/study_reference.hpp>
+#include <plica/drivers/study/study_run.hpp>
 
 namespace plica {
 
@@ -60,9 +60,28 @@ struct StudyProgress {
 using StudyWatch = std::function<bool(const StudyProgress&)>;
 
 /// Measures the methods' errors against their run times. The problem's own integration is what cycles take their options from.
+/// With a budget, controls come first, with one run each where more do not fit, then the other rows in the order of what they tell.
 /// @param before  what another study of the same problem and options has found: its reference and rows are taken over
 /// InputError for bad options or problems; methods that refuse or diverge are rows. Kokkos must be initialised.
 StudyResult study(const Problem& problem, const StudyOptions& options, const StudyWatch& watch = {},
                   StudyResult before = {});
+
+/// Sets `pareto` of every row: completed, and none is faster with an error as small, or as fast with a smaller one.
+void mark_pareto(std::vector<StudyRow>& rows);
+
+/// Small motions about rest grow by this cycle, by more than rounding and the uncertainty of what was found.
+bool grows(const StudyRow& row);
+
+/// The smallest error of the rows that are completed.
+std::optional<double> smallest_error(const std::vector<StudyRow>& rows);
+
+/// An error this small can be told: the reference's own is at most a tenth of it.
+bool resolves(const StudyReference& reference, double error);
+
+/// Every error reported can be told.
+bool good_enough(const StudyResult& result);
+
+/// The fastest completed row with an error below this, null where there is none.
+const StudyRow* fastest_below(const std::vector<StudyRow>& rows, double error);
 
 }  // namespace plica

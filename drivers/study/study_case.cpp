@@ -8,7 +8,7 @@
 #include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
-#include <plica/drivers/study/study_methods.hpp>
+#include <plica/drivers/study/study_case.hpp>
 
 namespace plica {
 
@@ -95,6 +95,11 @@ struct Builder {
   const std::vector<StudyLevel>& levels;
   std::vector<StudyCase> cases = {};
 
+  void add_control(StudyCase one, Step macro_step, int rank) {
+    one.control = true;
+    add(one, macro_step, rank);
+  }
+
   void add(StudyCase one, Step macro_step, int rank) {
     if (macro_step && *macro_step > options.duration) return;
     one.integration.macro_step = macro_step;
@@ -102,6 +107,7 @@ struct Builder {
     for (std::size_t p = 0; p < options.precision.size(); ++p)
       for (std::size_t t = 0; t < threads.size(); ++t) {
         one.precision = options.precision[p], one.threads = threads[t];
+        one.control = one.control && p + t == 0;
         one.rank = rank + 20 * static_cast<int>(p + t);
         one.predicted_evaluations = evaluations(one, levels, options.duration);
         const auto same = [&](const StudyCase& c) { return c.key() == one.key() || is_same_run(c, one); };
@@ -113,23 +119,24 @@ struct Builder {
     const std::string integrator = one.integration.integrator.front();
     const bool finest = one.level == 0;
     if (!is_explicit(integrator)) {
-      int rank = 2;
+      std::vector<double> steps;
       for (const Step& step : options.macro_steps)
-        if (step) add(one, step, rank);
+        if (step) steps.push_back(*step);
       if (options.macro_steps.empty())
-        for (const double factor : implicit_factors) add(one, factor * levels[0].critical_step, rank), rank = 6;
+        for (const double factor : implicit_factors) steps.push_back(factor * levels[0].critical_step);
+      for (std::size_t i = 0; i < steps.size(); ++i) i == 0 ? add_control(one, steps[i], 2) : add(one, steps[i], 7);
       if (options.macro_steps.empty()) add_own(one);
       return;
     }
     const double limit = limit_of(integrator, levels[static_cast<std::size_t>(one.level)].critical_step);
-    add(one, {}, finest ? 0 : 1);
-    if (finest && limit > 0) add(one, 0.5 * limit, 4);
+    add_control(one, {}, finest ? 0 : 1);
+    if (finest && limit > 0) add(one, 0.5 * limit, 5);
     for (const Step& step : options.macro_steps)
-      if (step && *step < limit) add(one, step, 4);
+      if (step && *step < limit) add(one, step, 5);
   }
 
   void add_him(const StudyCase& one) {
-    int rank = 2;
+    int rank = 3;
     if (one.integration.cycle == "auto") return add(one, {}, rank);
     for (const Step& step : options.macro_steps) add(one, step, rank++);
     if (!options.macro_steps.empty()) return;
@@ -139,7 +146,7 @@ struct Builder {
 
   void add_cycle(const StudyCase& one) {
     if (!integrates_coarse_levels(one.integration.cycle)) return add_him(one);
-    int rank = (one.distribution == "critical" ? 3 : 5) + (one.variant.empty() ? 0 : 1);
+    int rank = (one.distribution == "critical" ? 4 : 6) + (one.variant.empty() ? 0 : 1);
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
       return;
@@ -151,7 +158,7 @@ struct Builder {
 
   // the problem's own macro step
   void add_own(const StudyCase& one) {
-    if (problem.integration.macro_step) add(one, problem.integration.macro_step, 4);
+    if (problem.integration.macro_step) add(one, problem.integration.macro_step, 5);
   }
 };
 

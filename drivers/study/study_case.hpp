@@ -3,11 +3,29 @@
 #include <map>
 #include <optional>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/study/study_variant.hpp>
 #include <string>
 #include <vector>
 
 namespace plica {
+
+/// Settings put over a problem's own for cycles that are named with it; what is empty stays. See IntegrationOptions.
+struct StudyVariant {
+  std::optional<double> shift_to_coarsest;
+  std::optional<std::vector<std::string>> integrator;
+  std::optional<std::vector<int>> substeps;
+  std::optional<double> safety;
+  std::optional<bool> allow_unstable;
+  std::optional<double> switch_threshold;
+  std::optional<std::string> outside;
+};
+
+IntegrationOptions with(IntegrationOptions options, const StudyVariant& variant);
+
+/// The same run, as far as variants, cycles and steps can tell: a threshold differs only where mappings switch.
+bool steps_alike(const IntegrationOptions& a, const IntegrationOptions& b);
+
+/// "cycle/rsv/critical+hybrid", without what is empty.
+std::string study_label(const std::string& method, const std::string& distribution, const std::string& variant);
 
 /// What a study compares.
 struct StudyOptions {
@@ -46,6 +64,7 @@ struct StudyCase {
   int level = 0;  ///< that is the run's finest
   IntegrationOptions integration;
   int rank = 0;                      ///< the lower, the more there is to learn from it
+  bool control = false;              ///< what all else is compared with: see study_cases()
   double predicted_evaluations = 0;  ///< of tetrahedra, over the duration; 0 where its set-up will refuse
   std::string label() const;         ///< "cycle/rsv/critical", "cycle/rsv/critical+hybrid"
   std::string key() const;           ///< what tells it from the study's other cases
@@ -66,7 +85,8 @@ std::vector<StudyLevel> study_levels(const Problem& problem);
 /// 1, 2, 4, 8 and 16 times the finest level's limit, at `auto`, and at the problem's own macro step; him at 2 to 32 times; auto, within one per cent. Cycles keep the
 /// problem's integrators, sub-steps and all else but for what their variant changes; one that changes nothing that the cycle
 /// uses is not run again. Of the options' macro steps an explicit level alone takes those below
-/// its limit. InputError for an unknown method, with the nearest.
+/// its limit. Controls, of the first precision and number of threads, are the finest level alone, explicit at 0.9 of its limit and
+/// implicit at the first of its steps, and each coarser level alone. InputError for an unknown method, with the nearest.
 std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& options,
                                    const std::vector<StudyLevel>& levels);
 
@@ -76,5 +96,17 @@ Problem problem_of(const Problem& problem, const StudyCase& one);
 /// InputError where a name of options.methods is not in study_methods(), or a variant is no set-up: needs no meshes' critical
 /// steps.
 void check_study(const Problem& problem, const StudyOptions& options);
+
+struct ChosenMethod {
+  std::string method;
+  std::string distribution;  ///< of a cycle
+  std::string variant;       ///< of a cycle
+};
+
+/// The methods of the options, families, distributions and variants spelt out, none twice. InputError for an unknown name.
+std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options);
+
+/// How that method is run: all of a case but its macro step, precision and threads.
+StudyCase study_case(const Problem& problem, const StudyOptions& options, const ChosenMethod& chosen);
 
 }  // namespace plica

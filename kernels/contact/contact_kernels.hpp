@@ -11,10 +11,10 @@ namespace plica {
 /// Where surface points are told of that are further inside an obstacle than makes sense, or nowhere: the last of them + 1.
 template <class B>
 struct DepthWatch {
-  Kokkos::View<int, typename B::Memory> lost;
+  Indices<B> lost;           ///< [1]
   typename B::Real deepest;  ///< [m]
   KOKKOS_INLINE_FUNCTION void look(int p, typename B::Real distance) const {
-    if (!(distance >= -deepest)) Kokkos::atomic_max(&lost(), p + 1);
+    if (!(distance >= -deepest)) Kokkos::atomic_max(&lost(0), p + 1);
   }
 };
 
@@ -33,7 +33,7 @@ struct ObstacleContact {
   Real ahead, a, b;
   bool first;
   Vectors<B> force;
-  Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
+  Blocks<B> block;
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<Real> x, speed;
@@ -45,7 +45,7 @@ struct ObstacleContact {
     if constexpr (Tangent) {
       const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
                  across = c.active ? b * c.drag : Real(0);
-      constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+      constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
       for (int k = 0; k < 6; ++k) {
         const int i = row[k], j = column[k];
         const Real nn = c.normal[i] * c.normal[j], ss = c.slip[i] * c.slip[j];
@@ -67,7 +67,7 @@ struct ScatterToVertices {
     Vec3<typename B::Real> sum;
     for (int s = surface.first(i); s < surface.first(i + 1); ++s)
       for (int k = 0; k < 3; ++k) sum[k] += surface.weight(s) * force(surface.point(s), k);
-    for (int k = 0; k < 3; ++k) f(a, k) += sum[k];
+    set_vector<B>(f, a, vector_at<B>(f, a) + sum);
   }
 };
 
@@ -81,29 +81,21 @@ void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>&
 /// y_p = block_p * (sum of weight * x), the point part of a product with the tangent.
 template <class B>
 struct PointProduct {
-  using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   Vectors<B> x;
-  Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
+  Blocks<B> block;
   Vectors<B> y;
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    Vec3<Real> s;
-    for (int c = 0; c < 4; ++c)
-      for (int k = 0; k < 3; ++k) s[k] += surface.embedding.weight(p, c) * x(surface.embedding.source(p, c), k);
-    y(p, 0) = block(p, 0) * s[0] + block(p, 3) * s[1] + block(p, 4) * s[2];
-    y(p, 1) = block(p, 3) * s[0] + block(p, 1) * s[1] + block(p, 5) * s[2];
-    y(p, 2) = block(p, 4) * s[0] + block(p, 5) * s[1] + block(p, 2) * s[2];
+    set_vector<B>(y, p, block_at<B>(block, p) * value_at<B>(surface.embedding, x, p));
   }
 };
 
 /// Adds the point blocks' share to the vertices' own 3x3 blocks, [vertices][6] as above.
 template <class B>
 struct AddPointBlocks {
-  using Real = typename B::Real;
-  using Blocks = Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory>;
   EmbeddedSurface<B> surface;
-  Blocks block, diagonal;
+  Blocks<B> block, diagonal;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(i);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/block_matrix.hpp>
 #include <plica/core/surface.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -11,20 +11,20 @@ template <class B>
 struct AddContact {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
-  Kokkos::View<Real* [6], Kokkos::LayoutRight, typename B::Memory> block;
+  Blocks<B> block;
   BlockMatrix<B> A;
 
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    constexpr int from[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
     const int a = surface.vertex(item), first = A.first(a), last = A.first(a + 1);
     for (int s = surface.first(item); s < surface.first(item + 1); ++s) {
       const int p = surface.point(s);
+      const SymMat3<Real> C = block_at<B>(block, p);
       for (int c = 0; c < 4; ++c) {
         int at = first;
         while (at < last && A.column(at) != surface.embedding.source(p, c)) ++at;
         if (at == last) continue;
         const Real w = surface.weight(s) * surface.embedding.weight(p, c);
-        for (int k = 0; k < 9; ++k) A.value(at, k) += w * block(p, from[k]);
+        add_block<B>(A, at, w, C);
       }
     }
   }

@@ -12,19 +12,27 @@
 //   normal      n = k (d - t^2/2 N.(e + r)) - c N.(v + t/2 (e + r)), never pulling
 //   tangential  q = -c_t (v + t/2 (e + r)) across N, at most friction times n
 // solved by two sweeps of projected Jacobi, preconditioned by rho = N . (acceleration by a unit force on every touching point).
+// Points do not know each other: they meet in A, the answer of the whole body, which is applied three times.
+//
+//   points                                    vertices
+//   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
+//   2. first forces, from e alone       --W^T-->  f  --A-->  a  --W-->  r
+//   3. forces corrected by r            --W^T-->  f  --A-->  a: the accelerations by contact
+//
+// W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices).
 namespace plica {
 
 /// The nearest obstacle of every surface point, and the answer to it.
 template <class B>
 struct TouchingPoints {
-  Vectors<B> normal;                                ///< [points][3] out of the obstacle
-  Vectors<B> velocity;                              ///< relative to it [m/s]
-  Scalars<B> depth;                                 ///< > 0 inside [m]
-  Scalars<B> tangential;                            ///< its c_t [N s/m]
-  Scalars<B> friction;                              ///< its coefficient
-  Scalars<B> mobility;                              ///< rho [1/kg]
-  Vectors<B> force;                                 ///< on the point [N]
-  Kokkos::View<double*, typename B::Memory> count;  ///< [1] that touch
+  Vectors<B> normal;      ///< [points][3] out of the obstacle
+  Vectors<B> velocity;    ///< relative to it [m/s]
+  Scalars<B> depth;       ///< > 0 inside [m]
+  Scalars<B> tangential;  ///< its c_t [N s/m]
+  Scalars<B> friction;    ///< its coefficient
+  Scalars<B> mobility;    ///< rho [1/kg]
+  Vectors<B> force;       ///< on the point [N]
+  Doubles<B> count;       ///< [1] that touch
 };
 
 /// Depth, normal and velocity where this obstacle is nearer than those before it.
@@ -60,26 +68,18 @@ struct TouchLaw {
   Real t, stiffness, damping;
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int p) const {
-    Vec3<Real> sum;
-    for (int c = 0; c < 4; ++c)
-      for (int k = 0; k < 3; ++k) sum[k] += surface.embedding.weight(p, c) * x(surface.embedding.source(p, c), k);
-    return sum;
+    return value_at<B>(surface.embedding, x, p);
   }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int p) const {
-    return {points.normal(p, 0), points.normal(p, 1), points.normal(p, 2)};
-  }
-  KOKKOS_INLINE_FUNCTION void set_force(int p, const Vec3<Real>& f) const {
-    for (int k = 0; k < 3; ++k) points.force(p, k) = f[k];
-  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int p) const { return vector_at<B>(points.normal, p); }
   /// n for an acceleration at the point
   KOKKOS_INLINE_FUNCTION Real pressure(int p, const Vec3<Real>& e) const {
-    const Vec3<Real> N = normal(p), v{points.velocity(p, 0), points.velocity(p, 1), points.velocity(p, 2)};
+    const Vec3<Real> N = normal(p), v = vector_at<B>(points.velocity, p);
     return stiffness * (points.depth(p) - Real(0.5) * t * t * dot(N, e)) - damping * dot(N, v + Real(0.5) * t * e);
   }
   /// q for an acceleration, before its bound
   KOKKOS_INLINE_FUNCTION Vec3<Real> drag(int p, const Vec3<Real>& e) const {
     const Vec3<Real> N = normal(p);
-    Vec3<Real> v{points.velocity(p, 0), points.velocity(p, 1), points.velocity(p, 2)};
+    Vec3<Real> v = vector_at<B>(points.velocity, p);
     v += Real(0.5) * t * e;
     return -points.tangential(p) * (v - dot(v, N) * N);
   }
@@ -93,7 +93,7 @@ struct StartTouching {
     const auto e = law.at(law.smooth, p), N = law.normal(p);
     const typename B::Real depth = law.points.depth(p) - typename B::Real(0.5) * law.t * law.t * dot(N, e);
     const bool touches = depth > 0 && law.pressure(p, e) > 0;
-    law.set_force(p, touches ? N : Vec3<typename B::Real>{});
+    set_vector<B>(law.points.force, p, touches ? N : Vec3<typename B::Real>{});
     law.points.mobility(p) = 0;
     return {{touches ? 1.0 : 0.0}};
   }
@@ -107,7 +107,7 @@ struct SweepTouching {
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const TouchingPoints<B>& points = law.points;
-    Vec3<Real> force{points.force(p, 0), points.force(p, 1), points.force(p, 2)};
+    Vec3<Real> force = vector_at<B>(points.force, p);
     const Vec3<Real> N = law.normal(p), r = law.at(law.answer, p);
     if (first) {
       if (!(dot(force, force) > 0)) return;
@@ -124,7 +124,7 @@ struct SweepTouching {
     across += (1 / (1 + half * points.tangential(p) * rho)) * (law.drag(p, e) - across);
     const Real size = Kokkos::sqrt(dot(across, across)), most = points.friction(p) * pressure;
     if (size > most) across = (most / size) * across;
-    law.set_force(p, pressure * N + across);
+    set_vector<B>(law.points.force, p, pressure * N + across);
   }
 };
 

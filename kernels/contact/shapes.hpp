@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/obstacles.hpp>
 #include <plica/core/type_list.hpp>
 #include <plica/kernels/contact/shapes/block.hpp>
 #include <plica/kernels/contact/shapes/bowl.hpp>
@@ -9,10 +10,34 @@
 #include <plica/kernels/contact/shapes/sampled_surface.hpp>
 #include <plica/kernels/contact/shapes/sphere.hpp>
 
-// Obstacles: pointwise signed distance functions, Gap operator()(x), with x relative to the obstacle, which may move.
+/// The shapes of obstacles. Each has its own file, with
+///   * a struct of options, in SI, and their table: names, kinds with unit and range, meaning (see core/describe.hpp);
+///   * `name` and `summary`, as scenes and lists show them;
+///   * `Shape<Real>`, the pointwise signed distance for kernels: Gap operator()(x), with x relative to the obstacle, which
+///     may move;
+///   * `shape<Real>(options)`, which makes one of them;
+///   * where it takes them, `check(path, options)`, InputError for values that do not fit each other, and
+///     `complete(options)`, which puts values where the options leave them open.
 namespace plica {
 
 /// Every obstacle shape there is. One more: its file above, its name here.
 using ObstacleShapes = TypeList<Plane, Sphere, Bowl, Capsule, Block, Cylinder, SampledSurface>;
+
+/// f(S{}, options) for the shape S whose options these are, completed; false where there is none.
+template <class F>
+bool visit_shape(const ShapeOptions& shape, const F& f) {
+  bool found = false;
+  ObstacleShapes::for_each([&](auto one) {
+    using S = decltype(one);
+    const auto* options = std::any_cast<typename S::Options>(&shape);
+    if (options == nullptr) return;
+    found = true;
+    if constexpr (requires { S::complete(*options); })
+      f(one, S::complete(*options));
+    else
+      f(one, *options);
+  });
+  return found;
+}
 
 }  // namespace plica

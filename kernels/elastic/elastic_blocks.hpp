@@ -65,7 +65,7 @@ struct PlaceBlock {
   }
 };
 
-template <class B, class Tangent>
+template <class B, class Material, class Tangent>
 struct ElasticBlocks {
   using Real = typename B::Real;
   using Policy = Kokkos::TeamPolicy<typename B::Exec>;
@@ -108,9 +108,10 @@ struct ElasticBlocks {
   KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* blocks) const {
     ElementShape<T> shape;
     Mat3<T> G[1];
-    load_pack<B, 1>(patches, patch, pack, local, shape, G);
+    load_pack<B, 1>(patches, pack, local, shape, G);
     T K[element_numbers];
-    element_blocks(Tangent(Mat3<T>::identity() + G[0], shape.lame), shape, T(a * scale(patch)), K);
+    const Tangent tangent(Mat3<T>::identity() + G[0], load_constants<Material, T>(patches.constants, patch));
+    element_blocks(tangent, shape, T(a * scale(patch)), K);
     for (int k = 0; k < element_numbers; k += 4) {
       const T four[4] = {K[k], K[k + 1], K[k + 2], K[k + 3]};
       store_fours(four, [=](int l) { return blocks + l * element_numbers + k; });
@@ -158,12 +159,12 @@ struct AddShares {
 };
 
 /// A of vertices that are free; the others' rows keep their mass alone.
-template <class B, template <class> class Tangent>
+template <class B, class Material, template <class> class Tangent>
 void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
                     const Vectors<B>& u, const ImplicitWeights& weights, const Blocks9<B>& shares,
                     const BlockMatrix<B>& A) {
   using Real = typename B::Real;
-  using Kernel = ElasticBlocks<B, Tangent<typename PackOf<Real, B::lanes>::type>>;
+  using Kernel = ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>>;
   const TangentScale<B> scale{model.patches.damping, static_cast<Real>(weights.b / weights.a)};
   const PlaceBlock<B> place{A, model.mass, model.damping, static_cast<Real>(weights.b)};
   typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 
 namespace plica {
@@ -10,19 +11,22 @@ template <class B, class Material>
 struct ElasticEnergy {
   static constexpr int fields = 1;
   Vectors<B> field[1];
+  Scalars<B> constants;  ///< of the patches
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4], int,
-                                         int) const {
-    const T quarter = T(0.25f) * shape.volume * Material::energy(Mat3<T>::identity() + G[0], shape.lame);
-    for (int c = 0; c < 4; ++c) corner[c] = {quarter, T(0), T(0)};
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
+                                         int patch, int) const {
+    const auto c = load_constants<Material, T>(constants, patch);
+    const T quarter = T(0.25f) * shape.volume * Material::energy(Mat3<T>::identity() + G[0], c);
+    for (Vec3<T>& at : corner) at = {quarter, T(0), T(0)};
   }
 };
 
 template <class B, class Material>
 void elastic_energy(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
                     const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_energy", patches, ElasticEnergy<B, Material>{{u}}, partial);
+  launch_patches<B>(exec, "plica::elastic_energy", patches, ElasticEnergy<B, Material>{{u}, patches.constants},
+                    partial);
 }
 
 }  // namespace plica

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/element_flags.hpp>
 #include <plica/core/model.hpp>
+#include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 #include <type_traits>
 
@@ -12,6 +13,7 @@ template <class B, class Material, bool Watched>
 struct ElasticForce {
   static constexpr int fields = 1;
   Vectors<B> field[1];
+  Scalars<B> constants;   ///< of the patches
   ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0
   int evaluation;
 
@@ -19,7 +21,7 @@ struct ElasticForce {
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
                                          int patch, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    stress_to_corners(Material::stress(F, shape.lame), shape, corner);
+    stress_to_corners(Material::stress(F, load_constants<Material, T>(constants, patch)), shape, corner);
     if constexpr (Watched) {
       const T J = determinant(F);
       bool upright = true;
@@ -49,7 +51,8 @@ struct DampedElasticForce {
     const Mat3<T> displacement[1] = {G[0]}, F = Mat3<T>::identity() + G[0];
     elastic(displacement, shape, corner, patch, pack);
     Vec3<T> drag[4];
-    stress_to_corners(T(damping(patch)) * Material::stress_change(F, G[1], shape.lame), shape, drag);
+    const auto constants = load_constants<Material, T>(elastic.constants, patch);
+    stress_to_corners(T(damping(patch)) * Material::stress_change(F, G[1], constants), shape, drag);
     for (int c = 0; c < 4; ++c) corner[c] += drag[c];
   }
 };
@@ -59,7 +62,7 @@ template <class B, class Material>
 void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const State<B>& state,
                    const ElementFlags<B>& flags, int evaluation, const Vectors<B>& partial) {
   const auto launch = [&]<bool Watched>(std::bool_constant<Watched>) {
-    const ElasticForce<B, Material, Watched> elastic{{state.u}, flags, evaluation};
+    const ElasticForce<B, Material, Watched> elastic{{state.u}, patches.constants, flags, evaluation};
     if (patches.damping.extent(0) > 0)
       launch_patches<B>(exec, "plica::damped_elastic_force", patches,
                         DampedElasticForce<B, Material, Watched>{{state.u, state.v}, elastic, patches.damping},

@@ -30,8 +30,7 @@ struct ElasticStress {
       for (int r = 0; r < 3; ++r)
         for (int k = 0; k < 3; ++k)
           F[r][k] += (u(vertex[c + 1], r) - u(vertex[0], r)) * patches.shape(pack, 3 * c + k, lane);
-    const Lame<Real> lame{patches.lame(patch, 0), patches.lame(patch, 1)};
-    equivalent(tet) = von_mises(cauchy_stress<Material>(F, lame));
+    equivalent(tet) = von_mises(cauchy_stress<Material>(F, load_constants<Material, Real>(patches.constants, patch)));
     ratio(tet) = determinant(F);
   }
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/patch_kernel.hpp>
 
 namespace plica {
@@ -20,14 +21,16 @@ struct TangentScale {
 template <class B, class Material>
 struct ElasticTangent {
   static constexpr int fields = 2;
-  Vectors<B> field[2];  ///< u, p
+  Vectors<B> field[2];   ///< u, p
+  Scalars<B> constants;  ///< of the patches
   TangentScale<B> scale;
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
                                          int patch, int) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    stress_to_corners(T(scale(patch)) * Material::stress_change(F, G[1], shape.lame), shape, corner);
+    const auto c = load_constants<Material, T>(constants, patch);
+    stress_to_corners(T(scale(patch)) * Material::stress_change(F, G[1], c), shape, corner);
   }
 };
 
@@ -36,6 +39,7 @@ template <class B, class Material>
 struct ElasticDiagonal {
   static constexpr int fields = 1;
   Vectors<B> field[1];
+  Scalars<B> constants;  ///< of the patches
   int direction;
   TangentScale<B> scale;
 
@@ -44,12 +48,13 @@ struct ElasticDiagonal {
                                          int patch, int) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     const T weight = T(scale(patch)) * shape.volume;
+    const auto constant = load_constants<Material, T>(constants, patch);
     for (int c = 0; c < 4; ++c) {
       const Vec3<T> g =
           c > 0 ? shape.gradient[c - 1] : T(-1) * (shape.gradient[0] + shape.gradient[1] + shape.gradient[2]);
       Mat3<T> dF;
       for (int r = 0; r < 3; ++r) dF[r] = r == direction ? g : Vec3<T>{};
-      corner[c] = weight * (Material::stress_change(F, dF, shape.lame) * g);
+      corner[c] = weight * (Material::stress_change(F, dF, constant) * g);
     }
   }
 };
@@ -57,17 +62,19 @@ struct ElasticDiagonal {
 template <class B, class Material>
 void elastic_tangent(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u, const Vectors<B>& p,
                      double over, const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_tangent", patches,
-                    ElasticTangent<B, Material>{{u, p}, {patches.damping, static_cast<typename B::Real>(over)}},
-                    partial);
+  launch_patches<B>(
+      exec, "plica::elastic_tangent", patches,
+      ElasticTangent<B, Material>{{u, p}, patches.constants, {patches.damping, static_cast<typename B::Real>(over)}},
+      partial);
 }
 
 template <class B, class Material>
 void elastic_diagonal(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction,
                       double over, const Vectors<B>& partial) {
-  launch_patches<B>(
-      exec, "plica::elastic_diagonal", patches,
-      ElasticDiagonal<B, Material>{{u}, direction, {patches.damping, static_cast<typename B::Real>(over)}}, partial);
+  launch_patches<B>(exec, "plica::elastic_diagonal", patches,
+                    ElasticDiagonal<B, Material>{
+                        {u}, patches.constants, direction, {patches.damping, static_cast<typename B::Real>(over)}},
+                    partial);
 }
 
 }  // namespace plica

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -17,12 +16,7 @@ struct GatherForces {
   Vectors<B> f;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    Vec3<Real> sum = mass(a) * gravity;
-    for (int s = patches.first_copy(a); s < patches.first_copy(a + 1); ++s) {
-      const int i = patches.copy(s);
-      for (int k = 0; k < 3; ++k) sum[k] += partial(i, k);
-    }
-    for (int k = 0; k < 3; ++k) f(a, k) = sum[k];
+    set_vector<B>(f, a, sum_of_shares<B>(patches, partial, a, mass(a) * gravity));
   }
 };
 

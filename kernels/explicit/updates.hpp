@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a = f/m (0 where the motion
 // is given: prescribe() replaces what they make of those). Undamped, each moves 12 s bytes in and 6 s out per vertex, s =
@@ -107,10 +107,5 @@ struct AddVectors {
     for (int k = 0; k < 3; ++k) sum(a, k) += x(a, k);
   }
 };
-
-template <class B, class Update>
-void update_vertices(const typename B::Exec& exec, const char* label, int vertices, const Update& update) {
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, vertices), update);
-}
 
 }  // namespace plica

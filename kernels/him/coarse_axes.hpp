@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/inverse_mass.hpp>
-#include <plica/core/small.hpp>
-#include <plica/kernels/him/sparse_rows.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/him/inverse_mass.hpp>
+#include <plica/kernels/vectors.hpp>
 
-// The axes of the coarsest level, and the force by which they act back. The kinetic energy p.A(x)p/2 depends on where the body
-// is through R alone; p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. With q the coarse momentum and
-// y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a); R = polar(G), G = W D, turns by
-// R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
+// The axes of the coarsest level, and the force by which they act back.
+//
+// The coarsest level answers forces by a matrix S that was made for the body at rest. A body that has turned must be answered by
+// R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in four steps, each a kernel:
+//
+//   u  --E-->  u_C  --edges-->  F of each element  --sum-->  D of each vertex  --W, polar-->  R of each vertex
+//   finest     coarse           volume times               over its elements       means, then the nearest rotation
+//              vertices         deformation gradient
+//
+// Because A = A(x) depends on where the body is, the kinetic energy p.A(x)p/2 does, too, and its gradient is a force:
+// p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That force goes the same way back, by the transposes:
+//
+//   p  <--E^T--  g  <--edges^T--  forces of each element  <--W^T--  torque on each vertex's axes
+//
+// With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a): that is the torque.
+// R = polar(G), G = W D, turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
+//
+// The force changes the momentum q that it depends on: TurningAxes::push repeats until it no longer does.
 namespace plica {
 
 template <class Real, class View>
@@ -165,7 +178,7 @@ struct NextMomentum {
   SparseRows<B> response;
   Vectors<B> force, given, share;  ///< g; without it; what it adds
   Vectors<B> q;                    ///< their sum
-  Kokkos::View<double*, typename B::Memory> open;
+  Doubles<B> open;
   Real t;
   KOKKOS_INLINE_FUNCTION Sums<3> operator()(int a) const {
     Sums<3> sums;
@@ -182,20 +195,10 @@ struct NextMomentum {
   }
 };
 
-/// q = given + share: where to start from.
-template <class B>
-struct WarmMomentum {
-  Vectors<B> given, share, q;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) q(a, k) = given(a, k) + share(a, k);
-  }
-};
-
 /// Whether to go on: the change over the share while that is more than `tolerance`, and the change more than `least` of all.
 template <class B>
 struct DecideToGoOn {
-  using Values = Kokkos::View<double*, typename B::Memory>;
-  Values sums, open;
+  Doubles<B> sums, open;
   double tolerance, least;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const bool matters = sums(0) > least * least * sums(2);

@@ -1,65 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // One step of the hierarchical inverse mass on the finest level: drift by half a step, kick the momenta, v = A p, drift by half
 // a step; see KickMomentum.
 namespace plica {
 
-/// u += h v, of vertices that forces move.
-template <class B>
-struct Drift {
-  Scalars<B> inverse_mass;
-  State<B> state;
-  typename B::Real h;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    if (inverse_mass(a) > 0)
-      for (int k = 0; k < 3; ++k) state.u(a, k) += h * state.v(a, k);
-  }
-};
-
 /// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turn, at most 1e-4.
 template <class B>
 struct ChooseLoss {
-  using Values = Kokkos::View<double*, typename B::Memory>;
-  Values moved, loss;
+  Doubles<B> moved, loss;
   double given;  ///< < 0: chosen
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const double angle = moved(1) > 0 ? Kokkos::sqrt(moved(0) / moved(1)) : 0.0;
     loss(0) = given >= 0 ? given : Kokkos::min(1e-4, 0.3 * angle);
-  }
-};
-
-/// p = m v, of vertices that forces move.
-template <class B>
-struct PlainMomentum {
-  Model<B> model;
-  Vectors<B> v, p;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) p(a, k) = model.inverse_mass(a) > 0 ? model.mass(a) * v(a, k) : 0;
-  }
-};
-
-/// v of vertices that forces move.
-template <class B>
-struct StartVelocity {
-  Scalars<B> inverse_mass;
-  Vectors<B> answer, v;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    if (inverse_mass(i) > 0)
-      for (int k = 0; k < 3; ++k) v(i, k) = answer(i, k);
-  }
-};
-
-/// g = p - m v: the momentum of what is slowed.
-template <class B>
-struct SlowedMomentum {
-  Model<B> model;
-  Vectors<B> v, p, g;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) g(a, k) = model.inverse_mass(a) > 0 ? p(a, k) - model.mass(a) * v(a, k) : 0;
   }
 };
 
@@ -69,7 +23,7 @@ struct KickMomentum {
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, v, g, p;
-  Kokkos::View<double*, typename B::Memory> loss;
+  Doubles<B> loss;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
@@ -101,7 +55,7 @@ struct KickAndDrift {
   State<B> state;
   Vectors<B> p, f, a, f_before, a_before;
   Vectors<B> contact, contact_force;  ///< its accelerations and forces, empty without obstacles
-  Kokkos::View<double*, typename B::Memory> touching;
+  Doubles<B> touching;
   Real t;
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     if (!(inverse_mass(i) > 0)) return {};
@@ -126,8 +80,7 @@ struct KickAndDrift {
 /// 2 where the axes' force was not found (to 1 %, see DecideToGoOn), the largest.
 template <class B>
 struct WatchSpectrum {
-  using Values = Kokkos::View<double*, typename B::Memory>;
-  Values sums, open, state;
+  Doubles<B> sums, open, state;
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const double answer = sums(0), work = sums(1);
@@ -137,6 +90,49 @@ struct WatchSpectrum {
     const bool lost = open.extent(0) > 0 && open(0) > 0.01;
     if (state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
     if (lost) state(1) = 2;
+  }
+};
+
+/// u += h v, of vertices that forces move.
+template <class B>
+struct Drift {
+  Scalars<B> inverse_mass;
+  State<B> state;
+  typename B::Real h;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    if (inverse_mass(a) > 0)
+      for (int k = 0; k < 3; ++k) state.u(a, k) += h * state.v(a, k);
+  }
+};
+
+/// p = m v, of vertices that forces move.
+template <class B>
+struct PlainMomentum {
+  Model<B> model;
+  Vectors<B> v, p;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) p(a, k) = model.inverse_mass(a) > 0 ? model.mass(a) * v(a, k) : 0;
+  }
+};
+
+/// v of vertices that forces move.
+template <class B>
+struct StartVelocity {
+  Scalars<B> inverse_mass;
+  Vectors<B> answer, v;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (inverse_mass(i) > 0)
+      for (int k = 0; k < 3; ++k) v(i, k) = answer(i, k);
+  }
+};
+
+/// g = p - m v: the momentum of what is slowed.
+template <class B>
+struct SlowedMomentum {
+  Model<B> model;
+  Vectors<B> v, p, g;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) g(a, k) = model.inverse_mass(a) > 0 ? p(a, k) - model.mass(a) * v(a, k) : 0;
   }
 };
 

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m; residuals r in r.m r.
 namespace plica {
+
+/// y = K x from the elements' copies of -K x; none where the motion is given.
+template <class B>
+struct GatherStiffness {
+  Model<B> model;
+  Vectors<B> partial, y;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    using Real = typename B::Real;
+    const bool moves = model.inverse_mass(a) > 0;
+    set_vector<B>(y, a, moves ? Real(-1) * sum_of_shares<B>(model.patches, partial, a) : Vec3<Real>{});
+  }
+};
 
 /// r = v - answer
 template <class B>
@@ -18,30 +29,6 @@ struct StartResidual {
       square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) * static_cast<double>(r(a, k));
     }
     return {{square}};
-  }
-};
-
-/// s = m r + beta s
-template <class B>
-struct NextDirection {
-  using Real = typename B::Real;
-  Model<B> model;
-  Vectors<B> r, s;
-  Real beta;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) s(a, k) = model.mass(a) * r(a, k) + beta * s(a, k);
-  }
-};
-
-template <class B>
-struct DotFree {
-  Model<B> model;
-  Vectors<B> x, y;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    double sum = 0;
-    for (int k = 0; k < 3 && model.inverse_mass(a) > 0; ++k)
-      sum += static_cast<double>(x(a, k)) * static_cast<double>(y(a, k));
-    return {{sum}};
   }
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the rigid part of momenta that are to
 // change neither sum p nor sum x x p.
@@ -16,8 +14,6 @@ struct RigidFrame {
 
 template <class B>
 using RigidFrameOf = Kokkos::View<RigidFrame, typename B::Memory>;
-template <class B>
-using Totals = Kokkos::View<double*, typename B::Memory>;
 
 KOKKOS_INLINE_FUNCTION Vec3<double> vector_of(const double* x) { return {x[0], x[1], x[2]}; }
 
@@ -42,7 +38,7 @@ struct BodyMoments {
 /// Centre and rigid motion from those sums; a body on one line does not turn.
 template <class B>
 struct SetRigidFrame {
-  Totals<B> sums;
+  Doubles<B> sums;
   RigidFrameOf<B> frame;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     RigidFrame& r = frame();
@@ -103,7 +99,7 @@ struct TakeTranslation {
   using Real = typename B::Real;
   Scalars<B> mass;
   Vectors<B> p, rest;
-  Totals<B> sums;
+  Doubles<B> sums;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     for (int k = 0; k < 3; ++k) rest(a, k) = p(a, k) - mass(a) * static_cast<Real>(sums(k + 1) / sums(0));
   }
@@ -114,7 +110,7 @@ template <class B>
 struct PutTranslation {
   using Real = typename B::Real;
   Vectors<B> v;
-  Totals<B> wanted, sums;
+  Doubles<B> wanted, sums;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     for (int k = 0; k < 3; ++k) v(a, k) += static_cast<Real>((wanted(k + 1) - sums(k + 1)) / sums(0));
   }

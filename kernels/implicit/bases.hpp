@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // What the stages of the implicit integrators start from, (u~, v~) of ImplicitWeights, h the step [s]. The acceleration a is
 // (f - c m v)/m, 0 where motion is given.
@@ -14,29 +14,6 @@ struct Accelerations {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const typename B::Real w = model.inverse_mass(i), c = w > 0 ? model.damping(i) : typename B::Real(0);
     for (int k = 0; k < 3; ++k) a(i, k) = w * f(i, k) - c * v(i, k);
-  }
-};
-
-/// u~ += h v~
-template <class B>
-struct DriftBase {
-  State<B> base;
-  typename B::Real h;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) base.u(i, k) += h * base.v(i, k);
-  }
-};
-
-/// base = start + part of increments, in displacement and velocity
-template <class B>
-struct AddIncrements {
-  State<B> start, increment, base;
-  typename B::Real part;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) {
-      base.u(i, k) = start.u(i, k) + part * increment.u(i, k);
-      base.v(i, k) = start.v(i, k) + part * increment.v(i, k);
-    }
   }
 };
 
@@ -69,6 +46,29 @@ struct GeneralizedAlphaEnd {
       state.u(i, k) = start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1);
       state.v(i, k) = start.v(i, k) + h * ((1 - gamma) * a0 + gamma * a1);
       a(i, k) = a1;
+    }
+  }
+};
+
+/// u~ += h v~
+template <class B>
+struct DriftBase {
+  State<B> base;
+  typename B::Real h;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < 3; ++k) base.u(i, k) += h * base.v(i, k);
+  }
+};
+
+/// base = start + part of increments, in displacement and velocity
+template <class B>
+struct AddIncrements {
+  State<B> start, increment, base;
+  typename B::Real part;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < 3; ++k) {
+      base.u(i, k) = start.u(i, k) + part * increment.u(i, k);
+      base.v(i, k) = start.v(i, k) + part * increment.v(i, k);
     }
   }
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // Vertex kernels of an implicit stage, see ImplicitWeights. The base (u~, v~) is what the stage starts from; for vertices
 // whose motion is given it is where they end. r = a/b, c the mass damping. Balance in newtons, as a function of u alone:
@@ -48,12 +46,9 @@ struct StageRightSide {
   bool gap;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const Patches<B>& patches = stage.model.patches;
     const Real m = stage.model.mass(i), c = stage.model.damping(i);
-    Vec3<Real> sum{f(i, 0), f(i, 1), f(i, 2)};
-    if (gap)
-      for (int s = patches.first_copy(i); s < patches.first_copy(i + 1); ++s)
-        for (int k = 0; k < 3; ++k) sum[k] += partial(patches.copy(s), k);
+    Vec3<Real> sum = vector_at<B>(f, i);
+    if (gap) sum = sum_of_shares<B>(stage.model.patches, partial, i, sum);
     for (int k = 0; k < 3; ++k) {
       const Real v = stage.state.v(i, k);
       r(i, k) = stage.is_free(i) ? m * (stage.base.v(i, k) - v) + stage.b * (sum[k] - c * m * v) : Real(0);

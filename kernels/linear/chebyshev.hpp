@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/linear/block_product.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
-#include <plica/kernels/reduce.hpp>
 
 // Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal polynomial smoothers for multigrid V-cycles,
 // 2022, arXiv:2202.08830, alg. 1): they need the largest eigenvalue only, which a few power iterations bound.
@@ -14,11 +12,11 @@ template <class B>
 struct ChebyshevStart {
   using Real = typename B::Real;
   Blocks<B> inverse_diagonal;
-  Kokkos::View<double*, typename B::Memory> largest;
+  Doubles<B> largest;
   Vectors<B> r, d, x;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = static_cast<Real>(4 / (3 * largest(0)));
-    const Vec3<Real> z = vertex_block_product<B>(inverse_diagonal, a, vector_at<B>(r, a));
+    const Vec3<Real> z = block_at<B>(inverse_diagonal, a) * vector_at<B>(r, a);
     for (int k = 0; k < 3; ++k) d(a, k) = w * z[k], x(a, k) = 0;
   }
 };
@@ -29,14 +27,14 @@ struct ChebyshevStep {
   using Real = typename B::Real;
   BlockMatrix<B> A;
   Blocks<B> inverse_diagonal;
-  Kokkos::View<double*, typename B::Memory> largest;
+  Doubles<B> largest;
   Vectors<B> d, r, x, next;
   Real keep, gain;
   bool last;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Vec3<Real> direction = vector_at<B>(d, a), residual = vector_at<B>(r, a) - block_row_product<B>(A, a, d);
-    const Vec3<Real> z = vertex_block_product<B>(inverse_diagonal, a, residual);
+    const Vec3<Real> z = block_at<B>(inverse_diagonal, a) * residual;
     const Real w = gain / static_cast<Real>(largest(0));
     for (int k = 0; k < 3; ++k) {
       const Real ahead = keep * direction[k] + w * z[k];
@@ -65,7 +63,7 @@ struct PowerSize {
   Blocks<B> inverse_diagonal;
   Vectors<B> r, x;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    const auto z = vertex_block_product<B>(inverse_diagonal, a, vector_at<B>(r, a));
+    const auto z = block_at<B>(inverse_diagonal, a) * vector_at<B>(r, a);
     double sum = 0;
     for (int k = 0; k < 3; ++k) sum += static_cast<double>(r(a, k)) * static_cast<double>(z[k]), x(a, k) = z[k];
     return {{sum}};
@@ -76,7 +74,7 @@ struct PowerSize {
 template <class B>
 struct PowerProduct {
   BlockMatrix<B> A;
-  Kokkos::View<double*, typename B::Memory> square;
+  Doubles<B> square;
   Vectors<B> x, r;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const auto y = block_row_product<B>(A, a, x);
@@ -88,7 +86,7 @@ struct PowerProduct {
 /// lambda = margin |r|
 template <class B>
 struct PowerBound {
-  Kokkos::View<double*, typename B::Memory> square, largest;
+  Doubles<B> square, largest;
   double margin;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     largest(0) = square(0) > 0 ? margin * Kokkos::sqrt(square(0)) : 1.0;

@@ -12,15 +12,16 @@ struct DenseInverse {
   static constexpr int block = 16;  ///< rows that lie together when it is applied
   int size = 0;
   Kokkos::View<double**, Kokkos::LayoutRight, typename B::Memory> matrix;
-  Kokkos::View<double*, typename B::Memory> row;  ///< the pivot's
-  Scalars<B> inverse;                             ///< [blocks of rows][size][block]
+  Doubles<B> row;      ///< the pivot's
+  Scalars<B> inverse;  ///< [blocks of rows][size][block]
 
   DenseInverse() = default;
   explicit DenseInverse(int vertices)
       : size(3 * vertices),
         matrix("plica::dense.matrix", size, size),
-        row("plica::dense.row", size),
-        inverse("plica::dense.inverse", static_cast<std::size_t>((size + block - 1) / block) * block * size) {}
+        row(zeros<Doubles<B>>("plica::dense.row", size)),
+        inverse(zeros<Scalars<B>>("plica::dense.inverse",
+                                  static_cast<std::size_t>((size + block - 1) / block) * block * size)) {}
 };
 
 /// One row of blocks of A, written out.
@@ -64,14 +65,16 @@ struct SweepRow {
   }
 };
 
+/// The inverse from its matrix, which holds it times `sign`.
 template <class B>
 struct PackInverse {
   DenseInverse<B> dense;
+  int sign;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     constexpr int block = DenseInverse<B>::block;
     for (int j = 0; j < dense.size; ++j)
       dense.inverse((static_cast<std::size_t>(i / block) * dense.size + j) * block + i % block) =
-          static_cast<typename B::Real>(-dense.matrix(i, j));
+          static_cast<typename B::Real>(sign * dense.matrix(i, j));
   }
 };
 

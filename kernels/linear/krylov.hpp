@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/linear/vertex_blocks.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/core/block_matrix.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1) with its scalars on the device, where they
 // also decide when to stop: iterations after that change nothing, so that the host may look only now and then.
 namespace plica {
 
-/// Where a scalar stands among CgScalars.
+/// Where a scalar stands among those of a solve.
 namespace cg {
 enum : int { curvature, product, last_product, square, right_side, start, alpha, beta, stopped, iterations, count };
 constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3;  // values of `stopped`
 }  // namespace cg
-
-template <class B>
-using CgScalars = Kokkos::View<double*, typename B::Memory>;
 
 /// z = D r and r.z, with D the inverse vertex blocks: the square of the norm that says when it has converged, whatever the
 /// preconditioner.
@@ -23,7 +20,7 @@ struct CgSquare {
   Blocks<B> inverse_diagonal;
   Vectors<B> r, z;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    const auto residual = vector_at<B>(r, a), answer = vertex_block_product<B>(inverse_diagonal, a, residual);
+    const auto residual = vector_at<B>(r, a), answer = block_at<B>(inverse_diagonal, a) * residual;
     for (int k = 0; k < 3; ++k) z(a, k) = answer[k];
     return {{static_cast<double>(dot(residual, answer))}};
   }
@@ -42,7 +39,7 @@ struct CgZero {
 
 template <class B>
 struct CgBegin {
-  CgScalars<B> s;
+  Doubles<B> s;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     s(cg::right_side) = s(cg::start) = s(cg::square);
     s(cg::iterations) = s(cg::last_product) = 0;
@@ -54,7 +51,7 @@ struct CgBegin {
 /// After a guess other than zero; it may be the solution already.
 template <class B>
 struct CgGuess {
-  CgScalars<B> s;
+  Doubles<B> s;
   double tolerance;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     s(cg::start) = s(cg::square);
@@ -64,30 +61,10 @@ struct CgGuess {
   }
 };
 
-/// x . y
-template <class B>
-struct CgDot {
-  Vectors<B> x, y;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) sum += static_cast<double>(x(a, k) * y(a, k));
-    return {{sum}};
-  }
-};
-
-/// sum -= x
-template <class B>
-struct SubtractVectors {
-  Vectors<B> x, sum;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) sum(a, k) -= x(a, k);
-  }
-};
-
 /// beta = r.z / the last r.z
 template <class B>
 struct CgTurn {
-  CgScalars<B> s;
+  Doubles<B> s;
   int product;  ///< where r.z stands
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     s(cg::beta) = s(cg::last_product) > 0 ? s(product) / s(cg::last_product) : 0.0;
@@ -98,7 +75,7 @@ struct CgTurn {
 /// p = z + beta p
 template <class B>
 struct CgDirection {
-  CgScalars<B> s;
+  Doubles<B> s;
   Vectors<B> z, p;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const auto beta = static_cast<typename B::Real>(s(cg::beta));
@@ -109,7 +86,7 @@ struct CgDirection {
 /// alpha = r.z / p.q; a direction without positive curvature ends it, and is not followed.
 template <class B>
 struct CgStep {
-  CgScalars<B> s;
+  Doubles<B> s;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     if (s(cg::stopped) == cg::running && !(s(cg::curvature) > 0)) s(cg::stopped) = cg::indefinite;
     s(cg::alpha) = s(cg::stopped) == cg::running ? s(cg::last_product) / s(cg::curvature) : 0.0;
@@ -119,7 +96,7 @@ struct CgStep {
 /// x += alpha p, r -= alpha q; z = D r, r.z
 template <class B>
 struct CgAdvance {
-  CgScalars<B> s;
+  Doubles<B> s;
   CgSquare<B> square;
   Vectors<B> x, p, q;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
@@ -132,7 +109,7 @@ struct CgAdvance {
 
 template <class B>
 struct CgJudge {
-  CgScalars<B> s;
+  Doubles<B> s;
   double tolerance;  ///< of |r| / |b|; below 0: it goes on
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     if (s(cg::stopped) != cg::running) return;
@@ -141,6 +118,105 @@ struct CgJudge {
       s(cg::stopped) = cg::not_finite;
     else if (s(cg::square) == 0 || (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side)))
       s(cg::stopped) = cg::converged;
+  }
+};
+
+// The first guess of a linear solve: of all combinations of the last few solutions, the one nearest to this system's in its own norm
+// (Fischer, Projection techniques for iterative solution of Ax = b with successive right-hand sides, CMAME 163, 1998).
+
+/// The last solutions w, and q = A w for the matrix of now.
+template <class B>
+struct SolutionSpace {
+  static constexpr int size = 4;
+  static constexpr int sums = size * (size + 1) / 2 + size;
+  Vectors<B> w[size], q[size];
+  Doubles<B> products;  ///< [sums] w_i.q_j for i <= j, then w_i.r; afterwards the weights come first
+};
+
+/// q = A w for all of them, with A read once.
+template <class B>
+struct SpaceProducts {
+  using Real = typename B::Real;
+  BlockMatrix<B> A;
+  SolutionSpace<B> space;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    constexpr int m = SolutionSpace<B>::size;
+    Real y[m][3] = {};
+    for (int s = A.first(a); s < A.first(a + 1); ++s) {
+      const Real* const block = &A.value(s, 0);
+      const int b = A.column(s);
+      for (int i = 0; i < m; ++i)
+        for (int k = 0; k < 3; ++k) {
+          const Real x = space.w[i](b, k);
+          for (int c = 0; c < 3; ++c) y[i][c] += block[3 * k + c] * x;
+        }
+    }
+    for (int i = 0; i < m; ++i)
+      for (int k = 0; k < 3; ++k) space.q[i](a, k) = y[i][k];
+  }
+};
+
+template <class B>
+struct SpaceSums {
+  SolutionSpace<B> space;
+  Vectors<B> r;
+  KOKKOS_INLINE_FUNCTION Sums<SolutionSpace<B>::sums> operator()(int a) const {
+    constexpr int m = SolutionSpace<B>::size;
+    Sums<SolutionSpace<B>::sums> sums;
+    for (int k = 0; k < 3; ++k) {
+      int at = 0;
+      for (int i = 0; i < m; ++i)
+        for (int j = i; j < m; ++j) sums[at++] += static_cast<double>(space.w[i](a, k) * space.q[j](a, k));
+      for (int i = 0; i < m; ++i) sums[at++] += static_cast<double>(space.w[i](a, k) * r(a, k));
+    }
+    return sums;
+  }
+};
+
+/// The weights, by Cholesky's method; solutions that the others make up to rounding are left out.
+template <class B>
+struct SpaceWeights {
+  Doubles<B> products;
+  double least;  ///< what must be left of a solution, of its square
+  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+    constexpr int m = SolutionSpace<B>::size;
+    double G[m][m], y[m];
+    int at = 0;
+    for (int i = 0; i < m; ++i)
+      for (int j = i; j < m; ++j) G[j][i] = products(at++);
+    for (int i = 0; i < m; ++i) y[i] = products(at++);
+    for (int j = 0; j < m; ++j) {
+      const double whole = G[j][j];
+      for (int k = 0; k < j; ++k) G[j][j] -= G[j][k] * G[j][k];
+      const bool used = G[j][j] > least * whole;
+      const double inverse = used ? 1 / Kokkos::sqrt(G[j][j]) : 0.0;
+      for (int i = j + 1; i < m; ++i) {
+        for (int k = 0; k < j; ++k) G[i][j] -= G[i][k] * G[j][k];
+        G[i][j] *= inverse;
+      }
+      for (int k = 0; k < j; ++k) y[j] -= G[j][k] * y[k];
+      y[j] *= inverse, G[j][j] = inverse;
+    }
+    for (int j = m - 1; j >= 0; --j) {
+      for (int i = j + 1; i < m; ++i) y[j] -= G[i][j] * y[i];
+      y[j] *= G[j][j];
+      products(j) = Kokkos::isfinite(y[j]) ? y[j] : 0.0;
+    }
+  }
+};
+
+/// x = sum of weight * w, r -= sum of weight * q
+template <class B>
+struct SpaceGuess {
+  using Real = typename B::Real;
+  SolutionSpace<B> space;
+  Vectors<B> r, x;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int i = 0; i < SolutionSpace<B>::size; ++i) {
+      const Real weight = static_cast<Real>(space.products(i));
+      if (weight == 0) continue;
+      for (int k = 0; k < 3; ++k) x(a, k) += weight * space.w[i](a, k), r(a, k) -= weight * space.q[i](a, k);
+    }
   }
 };
 

@@ -6,7 +6,7 @@ namespace plica {
 
 /// The true stress sigma = P F^T / J [Pa]. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 5.45a.
 template <class Material, class T>
-KOKKOS_INLINE_FUNCTION Mat3<T> cauchy_stress(const Mat3<T>& F, const Lame<T>& c) {
+KOKKOS_INLINE_FUNCTION Mat3<T> cauchy_stress(const Mat3<T>& F, const typename Material::template Constants<T>& c) {
   return (T(1) / determinant(F)) * (Material::stress(F, c) * transpose(F));
 }
 

@@ -82,7 +82,7 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
 /// Psi = mu |F - R|^2 + lambda/2 (R:F - 3)^2 with R the rotation nearest to F: Hooke's law in the rotated frame, with
 /// the exact derivative of R (Chao, Pinkall, Sanan & Schroeder 2010; McAdams et al. 2011). Finite everywhere, and its energy in
 /// the signed singular values has no minimum but at rest: inverted elements are pushed back along the axis that takes least.
-struct Corotational {
+struct Corotational : TwoConstants {
   static constexpr const char* name = "corotational";
   static constexpr const char* summary =
       "Hooke's law in the frame turned with the element; large rotations, small strains; recovers from inversion";

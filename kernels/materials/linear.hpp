@@ -6,7 +6,7 @@ namespace plica {
 
 /// Psi = mu e:e + lambda/2 tr(e)^2 with the small strain e = (F + F^T)/2 - I. Not for rotations: turned by theta about
 /// z, the unstrained body feels sigma_xx = 2 (mu + lambda) (cos theta - 1).
-struct Linear {
+struct Linear : TwoConstants {
   static constexpr const char* name = "linear";
   static constexpr const char* summary = "Hooke's law; small displacements and rotations only";
   static constexpr bool rotation_invariant = false;

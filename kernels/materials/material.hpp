@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
+#include <cstring>
 #include <plica/core/functions.hpp>
 #include <plica/core/small.hpp>
+#include <plica/kernels/materials/parameters.hpp>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 // A material is a struct of pointwise functions of the deformation gradient F = dx/dX, on T = a number or a pack:
 //   energy(F, c)              energy density per rest volume [J/m^3]
@@ -10,7 +16,11 @@
 //                             worked out once. Its corner(g), of a gradient g, and block(p, q) of two such give the matrix
 //                             a -> (dP/dF : (a q^T)) p, symmetric in (p, q) but for a transposition: an element matrix in few operations
 //   stress_change(F, dF, c)   the same for one dF
-// with the constants c [Pa], and says of itself:
+// with constants c of the type Constants<T>, a struct of members of type T and nothing else, as many as it likes. It declares
+//   parameters                std::array of the MaterialParameters that a scene gives
+//   kernel_constants(p)       Constants<double> of their values, in that order; worked out once per region
+//   small_strains(c)          Lame's constants of its tangent at rest, by which steps are bounded
+// and says of itself:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy
 //   survives_inversion        finite with finite derivatives for det F <= 0
@@ -18,16 +28,38 @@
 //   allows_inversion          whether an element with det F <= 0 goes on where a scene does not say, or ends the run
 namespace plica {
 
-/// Lame's constants [Pa]: lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)).
-template <class T>
-struct Lame {
-  T lambda;
-  T mu;
+/// What materials have in common that are given by Young's modulus and Poisson's ratio.
+struct TwoConstants {
+  template <class T>
+  using Constants = Lame<T>;
+  static constexpr std::array parameters{parameter::young_modulus, parameter::poisson_ratio};
+  static Lame<double> kernel_constants(const double* p) { return lame_constants(p[0], p[1]); }
+  static Lame<double> small_strains(const Lame<double>& c) { return c; }
 };
 
-inline Lame<double> lame_constants(double young_modulus, double poisson_ratio) {
-  return {young_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio)),
-          young_modulus / (2 * (1 + poisson_ratio))};
+/// How many constants a material's kernels get.
+template <class Material>
+inline constexpr int constant_count = static_cast<int>(sizeof(typename Material::template Constants<double>) /
+                                                       sizeof(double));
+
+template <class Material, class T, class View, std::size_t... k>
+KOKKOS_INLINE_FUNCTION auto load_each_constant(const View& all, int set, std::index_sequence<k...>) {
+  return typename Material::template Constants<T>{T(all(set * constant_count<Material> + static_cast<int>(k)))...};
+}
+
+/// Constants<double> one after the other, as load_constants() takes them.
+template <class Constants>
+std::vector<double> as_list(const Constants& constants) {
+  static_assert(std::is_trivially_copyable_v<Constants> && sizeof(Constants) % sizeof(double) == 0);
+  std::vector<double> list(sizeof(Constants) / sizeof(double));
+  std::memcpy(list.data(), &constants, sizeof(Constants));
+  return list;
+}
+
+/// Set number `set` of a list of all sets' numbers, the same in all lanes.
+template <class Material, class T, class View>
+KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all, int set) {
+  return load_each_constant<Material, T>(all, set, std::make_index_sequence<constant_count<Material>>());
 }
 
 }  // namespace plica

@@ -18,7 +18,7 @@ namespace plica {
 /// H = cof F: P = A F + g H,
 ///   A = 2 dPsi/dI = mu (r2 (1 + 2/3 s + 5/9 s^2 w) - 12 J0^(-2/3) (1 - I/I0)_+^2)
 ///   g = dPsi/dJ   = kappa/2 (J - (3 - w^2)/(2 J_c)) + dA/dJ I/2,   dA/dJ = -mu r2/J_c (11/9 - 5/9 w^2).
-struct NeoHookean {
+struct NeoHookean : TwoConstants {
   static constexpr const char* name = "neo_hookean";
   static constexpr const char* summary =
       "compressible, large strains; stiffens without bound, inverted elements are pushed back where they are allowed";

@@ -90,7 +90,7 @@ struct PositiveTangent {
   template <class T>
   struct Of {
     Mat9<T> C;
-    KOKKOS_INLINE_FUNCTION Of(const Mat3<T>& F, const Lame<T>& c) {
+    KOKKOS_INLINE_FUNCTION Of(const Mat3<T>& F, const typename Material::template Constants<T>& c) {
       const typename Material::template Tangent<T> tangent(F, c);
       T size = T(0);
       for (int j = 0; j < 9; ++j) {

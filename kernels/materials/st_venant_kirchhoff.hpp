@@ -7,7 +7,7 @@ namespace plica {
 /// Psi = mu E:E + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I)/2; P = F S, S = 2 mu E + lambda tr(E) I.
 /// Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 6.28. Softens in compression and has no barrier
 /// against inversion.
-struct StVenantKirchhoff {
+struct StVenantKirchhoff : TwoConstants {
   static constexpr const char* name = "st_venant_kirchhoff";
   static constexpr const char* summary =
       "linear in Green's strain; large rotations, moderate strains; inverted elements may stay so";

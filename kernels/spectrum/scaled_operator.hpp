@@ -1,32 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
 #include <plica/core/surface.hpp>
-#include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // Vertex kernels of the Lanczos iteration on M^-1/2 (K + contact) M^-1/2, whose largest eigenvalue is w_max^2 [1/s^2]. A zero
 // inverse mass takes the vertex out.
 namespace plica {
-
-/// A start vector with a part in every mode: a hash of the index, in [-1, 1).
-template <class B>
-struct FillFromHash {
-  Scalars<B> inverse_mass;
-  Vectors<B> x;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-      unsigned h = static_cast<unsigned>(3 * a + k) * 2654435769u + 12345u;
-      h = (h ^ (h >> 15)) * 2246822519u;
-      h = (h ^ (h >> 13)) * 3266489917u;
-      const double value = inverse_mass(a) > 0 ? static_cast<double>(h >> 8) / (1 << 23) - 1.0 : 0.0;
-      x(a, k) = static_cast<typename B::Real>(value);
-      sum += value * value;
-    }
-    return {{sum}};
-  }
-};
 
 /// p = scale M^-1/2 x
 template <class B>
@@ -49,10 +28,7 @@ struct PointStiffness {
   Vectors<B> x, y;
   Real stiffness;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    Vec3<Real> s;
-    for (int c = 0; c < 4; ++c)
-      for (int k = 0; k < 3; ++k) s[k] += surface.embedding.weight(p, c) * x(surface.embedding.source(p, c), k);
-    for (int k = 0; k < 3; ++k) y(p, k) = stiffness * s[k];
+    set_vector<B>(y, p, stiffness * value_at<B>(surface.embedding, x, p));
   }
 };
 
@@ -66,9 +42,7 @@ struct LanczosProduct {
   bool with_contact;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     const Real s = Kokkos::sqrt(model.inverse_mass(a));
-    Vec3<Real> sum;
-    for (int i = model.patches.first_copy(a); i < model.patches.first_copy(a + 1); ++i)
-      for (int k = 0; k < 3; ++k) sum[k] += partial(model.patches.copy(i), k);
+    const Vec3<Real> sum = sum_of_shares<B>(model.patches, partial, a);
     double dot = 0;
     for (int k = 0; k < 3; ++k) {
       w(a, k) = s * ((with_contact ? contact(a, k) : Real(0)) - sum[k]) - beta * before(a, k);

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/simulation.hpp>
-#include <plica/meshes/box_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/version.hpp>
 
 int main(int argc, char** argv) {

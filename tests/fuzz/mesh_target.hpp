@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <plica/core/error.hpp>
-#include <plica/meshes/list.hpp>
-#include <plica/meshes/read_mesh.hpp>
-#include <plica/meshes/read_surface.hpp>
-#include <plica/meshes/sound_mesh.hpp>
-#include <plica/meshes/tetgen/parse_tetgen.hpp>
+#include <plica/meshes/files/list.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
 #include <string>
 
 #include "target.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <plica/meshes/memory_file.hpp>
+#include <plica/meshes/files/memory_file.hpp>
 
 #include "target.hpp"
 

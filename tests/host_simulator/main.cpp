@@ -6,7 +6,7 @@
 #include <iostream>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/box_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 
 namespace {
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <plica/meshes/ball_mesh.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

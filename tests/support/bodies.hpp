@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/study/irregular_box.hpp>
+#include <plica/drivers/study/sample_bodies.hpp>
 #include <string>
 
 // Meshes, fields and problems that many tests start from.

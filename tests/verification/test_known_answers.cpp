@@ -2,12 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <plica/drivers/study/stability.hpp>
 #include <plica/drivers/study/verify.hpp>
+#include <plica/meshes/generators.hpp>
 
-// Every problem of `plica verify`, on coarse meshes.
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Every problem of `plica verify`, on coarse meshes; and largest stable steps of bodies that are not among them.
 namespace {
 
 using namespace plica;
+using namespace plica::test;
 
 class KnownAnswer : public testing::TestWithParam<std::string> {};
 
@@ -39,6 +47,50 @@ TEST(KnownAnswers, AreTheseNumbers) {
   EXPECT_LT(cube, 0.28);
   EXPECT_NEAR(*verify({{"cook_membrane"}, true}).rows.at(0).limit, 14.74, 0.15);
   EXPECT_LT(finest("cook_membrane", 0), 14.74);
+}
+
+// A note is about its own row.
+TEST(KnownAnswers, NotesOfTheCantileverAreTheirOwn) {
+  for (const VerifyRow& row : verify({{"cantilever"}, true}).rows) {
+    const bool extrapolated = row.judged == Judged::limit;
+    const std::string percent = std::to_string(std::lround(100 * std::abs(row.ours.back().value / *row.accepted - 1)));
+    EXPECT_EQ(row.note.find("lock") != std::string::npos, extrapolated) << row.quantity << ": " << row.note;
+    EXPECT_EQ(row.note.find(" " + percent + " % off") != std::string::npos, extrapolated) << row.note;
+    EXPECT_EQ(row.note.find("shear") != std::string::npos, row.quantity.starts_with("first bending frequency"))
+        << row.quantity << ": " << row.note;
+  }
+}
+
+TEST(LargestStableStep, OfAStiffInclusion) {
+  Problem p = small_cube("linear", 4);
+  p.body.levels[0] = with_regions(p.body.levels[0], 0.05, "stiff", "soft");
+  p.body.regions["stiff"].young_modulus = 2e6;
+  StudyOptions asked;
+  asked.methods = {"single/symplectic_euler"};
+  const StabilityRow row = stability(p, asked).rows.at(0);
+  ASSERT_EQ(row.status, "limited") << row.reason;
+  EXPECT_NEAR(*row.ratio, 1, 0.02);
+}
+
+// Deep in a plane that resists only along its normal every point is active: the prediction, which takes contact to act
+// in all directions, is on the sure side, and not by much more than the friction-free directions account for.
+TEST(LargestStableStep, InContactIsPredictedOnTheSureSide) {
+  Problem p = small_cube("linear");
+  p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.049, 2);
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.5}, {0, 0, 1}}, {}, {}});
+  p.contact.stiffness_scale = 5;
+  p.body.fixed = {left_face()};
+  p.integration.macro_step = 1e-7;
+  const double predicted = Simulation<Host>(p).levels()[0].critical_step;
+  const auto bounded = [&](double step) {
+    Problem q = p;
+    q.integration.macro_step = step, q.integration.substeps = {1}, q.integration.allow_unstable = true;
+    Simulation<Host> simulation(q);
+    for (int i = 0; i < 800; ++i) simulation.step();
+    return largest(simulation.velocities()) < 1e3;
+  };
+  EXPECT_TRUE(bounded(0.999 * predicted));
+  EXPECT_FALSE(bounded(1.6 * predicted));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/commands/completion.hpp>
 #include <plica/drivers/app/commands/list.hpp>
+#include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/study/verify.hpp>
 
 namespace plica::app {
@@ -25,7 +26,7 @@ std::string words_of(const CLI::App& command) {
 constexpr const char* script = R"(_plica() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=
   case $before in
-    --precision) words="float double" ;;
+    --precision) words="{}" ;;
     -o|--output|--resume) COMPREPLY=($(compgen -d -- "$word")); return ;;
     --checkpoint) words="every=" ;;
     --set|--duration|--threads) return ;;
@@ -57,8 +58,8 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
       add(fmt::format("\"{} {}\"*", command->get_name(), own->get_name()), *own);
     add(fmt::format("\"{} \"*", command->get_name()), *command);
   }
-  const std::string text =
-      fmt::format(script, fmt::join(list_names(), " "), fmt::join(names(verify_problems()), " "), cases, words_of(app));
+  const std::string text = fmt::format(script, fmt::join(names(precisions()), " "), fmt::join(list_names(), " "),
+                                       fmt::join(names(verify_problems()), " "), cases, words_of(app));
   return shell == "zsh" ? "autoload -U +X bashcompinit && bashcompinit\n" + text : text;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
-#include <nlohmann/json.hpp>
-#include <plica/drivers/app/commands/explain.hpp>
+#include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 
@@ -38,26 +38,22 @@ ExitStatus check(const SceneArguments& arguments) {
   try {
     with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine&, double) {
       if (arguments.json)
-        std::cout << Json{{"scene", scene.file},
-                          {"sound", true},
-                          {"error", nullptr},
-                          {"warnings", scene.warnings},
-                          {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}}
-                         .dump(2)
-                  << "\n";
+        std::cout << json_text({{"scene", scene.file},
+                                {"sound", true},
+                                {"error", nullptr},
+                                {"warnings", scene.warnings},
+                                {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
       else
         std::cout << scene.file << ": sound, " << counted(static_cast<long>(simulation.levels().size()), "level")
                   << "\n";
     });
   } catch (const InputError& error) {
     if (arguments.json)
-      std::cout << Json{{"scene", arguments.scene.string()},
-                        {"sound", false},
-                        {"error", error.what()},
-                        {"warnings", Json::array()},
-                        {"levels", Json::array()}}
-                       .dump(2)
-                << "\n";
+      std::cout << json_text({{"scene", arguments.scene.string()},
+                              {"sound", false},
+                              {"error", error.what()},
+                              {"warnings", Json::array()},
+                              {"levels", Json::array()}});
     throw;
   }
   return ExitStatus::done;

@@ -4,10 +4,10 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/commands/list.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
+#include <plica/drivers/app/scene/units.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/meshes/list.hpp>
+#include <plica/meshes/files/list.hpp>
 
 namespace plica::app {
 namespace {
@@ -32,13 +32,24 @@ std::vector<Choice> unit_choices() {
   return choices;
 }
 std::vector<Choice> meshes_read() { return formats(mesh_formats); }
+// With the names of their keys
+std::vector<Choice> shapes_with_keys() {
+  std::vector<Choice> shapes = obstacle_shapes();
+  for (Choice& shape : shapes) {
+    const std::string above = "contact.obstacles[]." + shape.name + ".";
+    std::string between = ": ";
+    for (const KeyInfo& key : scene_keys())
+      if (key.path.starts_with(above)) shape.summary += between + key.path.substr(above.size()), between = ", ";
+  }
+  return shapes;
+}
 
 constexpr Family families[] = {{"materials", "constitutive laws", materials},
                                {"integrators", "how a level is stepped in time", integrators},
                                {"cycles", "how the levels take a macro step together", cycle_choices},
                                {"error_classes", "how far cycle auto may be from the finest level", error_classes},
                                {"distributions", "how they share its time", distributions},
-                               {"shapes", "what a body can touch", obstacle_shapes},
+                               {"shapes", "what a body can touch", shapes_with_keys},
                                {"solvers", "of the implicit levels' linear systems", linear_solvers},
                                {"preconditioners", "of conjugate gradients", preconditioners},
                                {"outside", "what becomes of vertices outside another level's mesh", outside_rules},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/app/commands/exit_status.hpp>
+#include <plica/drivers/app/commands/commands.hpp>
 #include <string>
 #include <vector>
 

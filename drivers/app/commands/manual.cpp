@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/list.hpp>
 #include <plica/drivers/app/commands/manual.hpp>
-#include <plica/drivers/app/commands/verify.hpp>
 
 namespace plica::app {
 namespace {
@@ -19,7 +19,10 @@ Files in the folder, SI units throughout; a killed run leaves whole ones:
   volume.pvd       where output.volume asks: the tetrahedra of level 0, with mass [kg], von Mises stress [Pa],
                    volume ratio J and region; volume_levelN.pvd of level N
   probes.csv       where output.probes asks: positions [m] and velocities [m/s] of named points
-  checkpoint.bin   where --checkpoint asks: at the start, then every so often, at the end and at Ctrl-C
+  checkpoint.bin   where --checkpoint asks: at the start, at each interval, at the end, and at Ctrl-C after a macro step
+
+A folder that holds a run already is refused; --force replaces that run. Set-up that takes more than 2 s says what it
+is doing, on the standard error.
 
 --resume goes on from checkpoint.bin with the same bits as a run that never stopped. The scene, --set and
 --precision are the run's own; given again they must say the same. Only --duration may change.
@@ -32,7 +35,8 @@ Examples:
   plica run --resume out/ball --duration 10s
 
 Exit status: 0 done, 1 a file cannot be written, 2 bad input, 3 diverged (the last good state is written),
-130 interrupted (Ctrl-C ends after the macro step; the files are complete))";
+130 interrupted (Ctrl-C: after the macro step, or within it where that takes longer than half a second; the files are
+complete; a second Ctrl-C ends at once))";
 
 constexpr const char* study_manual =
     R"(Runs the scene with many methods and macro steps and measures each one's error against its run time. Methods:

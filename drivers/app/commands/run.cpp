@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <iostream>
-#include <plica/drivers/app/commands/resume.hpp>
-#include <plica/drivers/app/commands/run.hpp>
-#include <plica/drivers/app/commands/run_loop.hpp>
+#include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/app/output/choice.hpp>
-#include <plica/drivers/app/output/step_count.hpp>
+#include <plica/drivers/app/output/plan.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/scene/tree.hpp>
 #include <plica/version.hpp>
+#include <stdexcept>
 
 namespace plica::app {
 namespace {
@@ -99,6 +99,20 @@ std::filesystem::path folder_of(const RunArguments& arguments) {
   return arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
 }
 
+// A new run deletes the one in its folder, so the user has to say so
+void refuse_to_replace(const std::filesystem::path& folder) {
+  std::vector<std::string> found;
+  for (const char* file : {"checkpoint.bin", "summary.json", "history.csv", "probes.csv", "frames.pvd"})
+    if (std::filesystem::exists(folder / file)) found.emplace_back(file);
+  if (found.empty()) return;
+  const std::string resume =
+      found.front() == "checkpoint.bin" ? fmt::format(", --resume {} to go on with it", folder.string()) : "";
+  throw InputError(
+      fmt::format("the folder {} holds a run already ({}); expected --force to replace it{}, or another "
+                  "folder with -o",
+                  folder.string(), fmt::join(found, ", "), resume));
+}
+
 // Where a run starts: at the beginning, or where the checkpoint stands
 template <class B>
 RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint, const std::filesystem::path& folder) {
@@ -113,46 +127,102 @@ RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint, const s
   return start;
 }
 
+// What Ctrl-C leaves where a macro step does not end: the files as they are, and the summary of the last step that did
+void leave_files(const Scene& scene, Summary summary, const RunArguments& arguments,
+                 const std::filesystem::path& folder) {
+  summary.status = "interrupted";
+  write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
+  message(fmt::format("interrupted within a macro step; the files go up to {:.5g} s", summary.last_good_time));
+  if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
+}
+
+Interval interval_of(const RunArguments& arguments) {
+  return arguments.checkpoint.empty() ? Interval{} : checkpoint_interval(arguments.checkpoint);
+}
+
+template <class B>
+ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine& machine, double set_up_time,
+                    const RunArguments& arguments, Checkpoint checkpoint, InterruptWatch& watch) {
+  const std::filesystem::path folder = folder_of(arguments);
+  make_folder(folder);
+  take_over(checkpoint, machine);
+  const RunEnd start = start_of(simulation, checkpoint, folder);
+  if (start.macro_steps > steps_to_cover(scene.duration, simulation.macro_step()))
+    throw InputError(fmt::format("the run is at {} already, beyond a duration of {}", in_units(start.time, "s"),
+                                 in_units(scene.duration, "s")));
+  auto lock = watch.hold();
+  RunOutput<B> output(scene, simulation, folder, checkpoint, !arguments.resume.empty());
+  const auto summary_at = [&](const RunEnd& end) {
+    Summary summary = summary_of(scene, simulation, machine, end, output);
+    summary.setup_time = set_up_time;
+    return summary;
+  };
+  Summary latest = summary_at(start);
+  const auto leaving = watch.on_leave(lock, [&] { leave_files(scene, latest, arguments, folder); });
+  lock.unlock();
+  if (!arguments.quiet) announce(scene, simulation, machine, start);
+  simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
+  RunEnd end = [&] {
+    Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);
+    return run_loop(simulation, scene.duration, start, output, progress, watch,
+                    [&](const RunEnd& now) { latest = summary_at(now); });
+  }();
+  if (end.diagnosis) end.diagnosis = in_input_numbers(*end.diagnosis, scene);
+  const Summary summary = summary_at(end);
+  write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
+  if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
+  if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
+  return status_of(end);
+}
+
 }  // namespace
 
+Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
+  if (!arguments.precision.empty() && arguments.precision != from.precision)
+    throw InputError("cannot resume in " + arguments.precision + ": the run is in " + from.precision);
+  Tree tree = arguments.scene.empty() ? from.scene : read_tree(arguments.scene);
+  for (const Override& given : arguments.overrides) override_value(tree, given.assignment, given.label);
+  if (const std::string difference = first_difference(from.scene, tree, "duration"); !difference.empty())
+    throw InputError("cannot resume another scene: " + difference + "; only the duration may change");
+  Scene scene = load_scene(tree);
+  if (mesh_digest(scene.problem.body) != from.meshes)
+    throw InputError("cannot resume: the meshes are not those of the run; has a mesh file changed?", {from.scene_file});
+  scene.file = from.scene_file;
+  return scene;
+}
+
+Interval checkpoint_interval(const std::string& text) {
+  const std::string expected =
+      "--checkpoint: expected every=N macro steps or every=TIME, such as every=100 or every=0.1s, got '" + text + "'";
+  if (!text.starts_with("every=")) throw InputError(expected);
+  const std::string interval = text.substr(6);
+  const bool digits = !interval.empty() && interval.find_first_not_of("0123456789") == std::string::npos;
+  try {
+    return parse_interval(digits ? interval + " steps" : interval);
+  } catch (const std::invalid_argument& problem) {
+    throw InputError(expected + ", " + problem.what());
+  }
+}
+
 ExitStatus run(const RunArguments& arguments) {
-  catch_interrupts();
-  const auto start_of_set_up = Clock::now();
+  InterruptWatch watch;
+  SetUpProgress progress(arguments.quiet);
   const bool resumed = !arguments.resume.empty();
-  const Interval every = arguments.checkpoint.empty() ? Interval{} : checkpoint_interval(arguments.checkpoint);
+  const Interval every = interval_of(arguments);
+  if (!resumed && !arguments.force) refuse_to_replace(folder_of(arguments));
   Checkpoint checkpoint;
   if (resumed) checkpoint = read_checkpoint(arguments.resume);
+  progress.phase("reading the scene and its meshes");
   const Scene scene =
       resumed ? scene_to_resume(arguments, checkpoint) : load_scene(arguments.scene, arguments.overrides);
   warn(scene);
   if (!resumed) checkpoint = new_checkpoint(scene, arguments);
   checkpoint.scene = scene.source;  // with a new duration
   if (every != Interval{}) checkpoint.every = every;
-  const auto simulate = [&]<class B>(const Scene&, Simulation<B>& simulation, const Machine& machine,
-                                     double set_up_time) {
-    const std::filesystem::path folder = folder_of(arguments);
-    make_folder(folder);
-    take_over(checkpoint, machine);
-    const RunEnd start = start_of(simulation, checkpoint, folder);
-    if (start.macro_steps > steps_to_cover(scene.duration, simulation.macro_step()))
-      throw InputError(fmt::format("the run is at {} already, beyond a duration of {}", in_units(start.time, "s"),
-                                   in_units(scene.duration, "s")));
-    RunOutput<B> output(scene, simulation, folder, checkpoint, resumed);
-    if (!arguments.quiet) announce(scene, simulation, machine, start);
-    simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
-    RunEnd end = [&] {
-      Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);
-      return run_loop(simulation, scene.duration, start, output, progress);
-    }();
-    if (end.diagnosis) end.diagnosis = in_input_numbers(*end.diagnosis, scene);
-    Summary summary = summary_of(scene, simulation, machine, end, output);
-    summary.setup_time = set_up_time;
-    write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
-    if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
-    if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
-    return status_of(end);
-  };
-  return with_simulation(scene, checkpoint.precision, arguments.kokkos, start_of_set_up, simulate);
+  return with_simulation(scene, checkpoint.precision, arguments.kokkos, progress,
+                         [&](const Scene&, auto& simulation, const Machine& machine, double set_up_time) {
+                           return simulate(scene, simulation, machine, set_up_time, arguments, checkpoint, watch);
+                         });
 }
 
 }  // namespace plica::app

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <chrono>
+#include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
-#include <plica/drivers/app/output/probes.hpp>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/solver/material_points.hpp>
 
 namespace plica::app {
+
+/// The scene of the run to go on with: the checkpoint's own, or the given one where it says the same. Only a longer or shorter
+/// duration may be new. InputError that names what else is.
+Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from);
+
+/// "every=100" macro steps, "every=100 steps", or "every=0.1s" of simulated time.
+Interval checkpoint_interval(const std::string& text);
 
 /// How far a run is, and how it ended.
 struct RunEnd {
@@ -12,6 +25,29 @@ struct RunEnd {
   double time = 0;                   ///< after them [s]
   double wall_time = 0;              ///< of the steps and their checks [s]
   std::optional<Diagnosis> diagnosis;
+};
+
+/// probes.csv: positions and velocities of the scene's probes, by name.
+template <class B>
+class Probes {
+ public:
+  /// Starts the file, or goes on after its first `kept` bytes.
+  Probes(const Scene& scene, const std::filesystem::path& file, std::optional<std::uint64_t> kept = {})
+      : points_(scene.problem.body.levels.front(), points_of(scene.output.probes)),
+        placement_(placement_of(scene.problem.body)),
+        file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, probe_head(names_of(scene.output.probes)))) {}
+
+  void write(const Simulation<B>& simulation, double time) {
+    auto [positions, velocities] = points_.sample({}, simulation.displacement(), simulation.velocity());
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += points_.rest()[i] + placement_;
+    file_.add(probe_row(time, positions, velocities));
+  }
+  const GrowingFile& file() const { return file_; }
+
+ private:
+  MaterialPoints<B> points_;
+  Point placement_;
+  GrowingFile file_;
 };
 
 /// What a run writes while it goes on, each thing at its times: frames with history, probes, checkpoints.
@@ -84,5 +120,47 @@ class RunOutput {
   std::optional<Schedule> saving_;
   long saved_ = -1;
 };
+
+/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. Whole macro steps: the
+/// last one may reach beyond the duration. Calls reached(end) after the start and after macro steps, at most ten times a second and
+/// after every frame: what it keeps is what `watch` may write where a macro step takes too long after Ctrl-C.
+template <class B, class Reached>
+RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutput<B>& output, Progress& progress,
+                InterruptWatch& watch, const Reached& reached) {
+  using Clock = std::chrono::steady_clock;
+  const double step = simulation.macro_step();
+  const long steps = steps_to_cover(duration, step);
+  Clock::time_point told{};
+  const auto record = [&] {
+    const auto lock = watch.hold();
+    const std::size_t frames = output.files().frames();
+    output.record(end);
+    const auto now = Clock::now();
+    if (frames == output.files().frames() && now - told < std::chrono::milliseconds(100)) return;
+    told = now;
+    reached(end);
+  };
+  record();
+  while (end.macro_steps < steps && !interrupted()) {
+    const auto start = Clock::now();
+    simulation.step();
+    end.diagnosis = simulation.check();
+    end.wall_time += std::chrono::duration<double>(Clock::now() - start).count();
+    if (end.diagnosis) break;
+    ++end.macro_steps;
+    end.time = static_cast<double>(end.macro_steps) * step;
+    record();
+    progress.update(end.time, end.macro_steps, [&] { return halvings_of(simulation); });
+  }
+  watch.end_in_order();
+  double last = end.time;
+  if (end.diagnosis) {
+    simulation.return_to_last_good();
+    last = simulation.time();
+  }
+  if (end.diagnosis || end.macro_steps < steps) end.status = end.diagnosis ? "diverged" : "interrupted";
+  output.finish(end, last);
+  return end;
+}
 
 }  // namespace plica::app

@@ -31,6 +31,13 @@ SubstepRefused in_input_numbers(const SubstepRefused& error, const Scene& scene)
   return {error.words, error.level, element};
 }
 
+Scene loaded(const SceneArguments& arguments, SetUpProgress& progress) {
+  progress.phase("reading the scene and its meshes");
+  Scene scene = load_scene(arguments.scene, arguments.overrides);
+  warn(scene);
+  return scene;
+}
+
 void warn(const Scene& scene) {
   for (const std::string& warning : scene.warnings) message(coloured("warning: ", Colour::yellow) + warning);
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Kokkos_Core.hpp>
-#include <chrono>
 #include <optional>
-#include <plica/drivers/app/commands/arguments.hpp>
-#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/commands/set_up_progress.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <type_traits>
@@ -35,13 +34,12 @@ struct Machine {
   std::string precision;
 };
 
-using Clock = std::chrono::steady_clock;
-
-/// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `start` [s]).
+/// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `progress` began [s]).
 template <class Action>
 auto with_simulation(const Scene& scene, const std::string& precision, const KokkosArguments& kokkos,
-                     Clock::time_point start, const Action& action) {
+                     SetUpProgress& progress, const Action& action) {
   const KokkosSession session(kokkos);
+  progress.listen();
   const auto run = [&]<class B>(std::type_identity<B>) {
     std::optional<Simulation<B>> simulation;
     try {
@@ -54,21 +52,22 @@ auto with_simulation(const Scene& scene, const std::string& precision, const Kok
     using Exec = typename B::Exec;
     const Machine machine{Exec::name(), Exec().concurrency(),
                           std::is_same_v<typename B::Real, float> ? "float" : "double"};
-    const std::chrono::duration<double> set_up = Clock::now() - start;
-    return action(scene, *simulation, machine, set_up.count());
+    return action(scene, *simulation, machine, progress.finish());
   };
   using Exec = Kokkos::DefaultExecutionSpace;
   return precision == "float" ? run(std::type_identity<Backend<float, Exec>>{})
                               : run(std::type_identity<Backend<double, Exec>>{});
 }
 
-/// The same for the scene that the arguments name.
+/// The scene that the arguments name, with its meshes; its warnings go to the standard error.
+Scene loaded(const SceneArguments& arguments, SetUpProgress& progress);
+
+/// The same for that scene.
 template <class Action>
 auto with_simulation(const SceneArguments& arguments, const Action& action) {
-  const auto start = Clock::now();
-  const Scene scene = load_scene(arguments.scene, arguments.overrides);
-  warn(scene);
-  return with_simulation(scene, arguments.precision, arguments.kokkos, start, action);
+  SetUpProgress progress(false);
+  const Scene scene = loaded(arguments, progress);
+  return with_simulation(scene, arguments.precision, arguments.kokkos, progress, action);
 }
 
 }  // namespace plica::app

@@ -3,15 +3,14 @@
 
 #include <chrono>
 #include <iostream>
+#include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
-#include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/app/commands/stability.hpp>
-#include <plica/drivers/app/output/progress_line.hpp>
-#include <plica/drivers/app/output/stability_json.hpp>
-#include <plica/drivers/app/output/stability_text.hpp>
+#include <plica/drivers/app/output/stability_table.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
-#include <plica/drivers/study/study_methods.hpp>
+#include <plica/drivers/app/scene/reader.hpp>
+#include <plica/drivers/study/study_case.hpp>
 
 namespace plica::app {
 namespace {
@@ -22,30 +21,40 @@ std::optional<double> budget_of(const StabilityArguments& more) {
   return budget;
 }
 
-void write(const std::filesystem::path& folder, const StabilityTexts& texts) {
-  write_file(folder / "stability.json", texts.json);
-  write_file(folder / "stability.csv", texts.csv);
+std::vector<MemoryFile> files_of(const std::filesystem::path& folder, const StabilityTexts& texts) {
+  return {{folder / "stability.json", texts.json}, {folder / "stability.csv", texts.csv}};
 }
 
-ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& more) {
-  const Scene scene = load_scene(arguments.scene, arguments.overrides);
-  warn(scene);
+ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& more, InterruptWatch& interrupts) {
+  SetUpProgress progress(arguments.quiet);
+  const Scene scene = loaded(arguments, progress);
   StudyOptions options = scene.study;
   options.duration = scene.duration, options.budget = budget_of(more);
   if (!arguments.precision.empty()) options.precision = {arguments.precision};
   const KokkosSession session(arguments.kokkos);
   try {
     check_study(scene.problem, options);
+    progress.finish();
     const auto folder = arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
     make_folder(folder);
     const StudyMachine machine = this_machine();
+    const auto texts = [&](const StabilityResult& result, const std::string& status) {
+      return files_of(folder, stability_texts(scene, machine, result, status));
+    };
+    std::vector<MemoryFile> left;  // by Ctrl-C
+    const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
     const ProgressLine line(arguments.quiet);
     const StabilityResult result = plica::stability(scene.problem, options, [&](const StabilityProgress& p) {
-      if (p.new_row) write(folder, stability_texts(scene, machine, *p.so_far, "unfinished"));
+      if (p.new_row) {
+        const auto lock = interrupts.hold();
+        write_files(texts(*p.so_far, "unfinished"));
+        left = texts(*p.so_far, "interrupted");
+      }
       line.update(fmt::format("{}/{}  {}", p.done, p.of, p.doing));
-      return !interrupted();
+      return !interrupts.noticed();
     });
-    write(folder, stability_texts(scene, machine, result, result.stopped ? "interrupted" : "completed"));
+    interrupts.end_in_order();
+    write_files(texts(result, result.stopped ? "interrupted" : "completed"));
     line.clear();
     if (!arguments.quiet) std::cout << stability_text(scene, result, folder.string());
     return result.stopped ? ExitStatus::interrupted : ExitStatus::done;
@@ -54,7 +63,7 @@ ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& mor
   }
 }
 
-ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& more) {
+ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& more, InterruptWatch& interrupts) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const std::optional<double> budget = budget_of(more);
@@ -62,18 +71,27 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
   const std::filesystem::path folder = arguments.folder.empty() ? "out/stability" : arguments.folder;
   make_folder(folder);
   const StudyMachine machine = this_machine();
+  const auto texts = [&](const MatrixResult& result, const std::string& status) {
+    return files_of(folder, stability_texts(machine, result, status));
+  };
+  std::vector<MemoryFile> left;  // by Ctrl-C
+  const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
   const ProgressLine line(arguments.quiet);
   auto written = start;
   const MatrixWatch watch = [&](const MatrixResult& result, std::size_t of) {
     const auto now = Clock::now();
-    if (std::chrono::duration<double>(now - written).count() > 1)
-      write(folder, stability_texts(machine, result, "unfinished")), written = now;
+    if (left.empty() || std::chrono::duration<double>(now - written).count() > 1) {
+      const auto lock = interrupts.hold();
+      write_files(texts(result, "unfinished"));
+      left = texts(result, "interrupted"), written = now;
+    }
     line.update(
         fmt::format("{}/{}  {}, {}", result.rows.size(), of, result.rows.back().name, result.rows.back().method));
-    return !interrupted() && !(budget && std::chrono::duration<double>(now - start).count() > *budget);
+    return !interrupts.noticed() && !(budget && std::chrono::duration<double>(now - start).count() > *budget);
   };
   const MatrixResult result = run_matrix(stability_matrix(), invariance_cases(), watch);
-  write(folder, stability_texts(machine, result, interrupted() ? "interrupted" : "completed"));
+  interrupts.end_in_order();
+  write_files(texts(result, interrupted() ? "interrupted" : "completed"));
   line.clear();
   if (!arguments.quiet) std::cout << stability_text(result, folder.string());
   return interrupted() ? ExitStatus::interrupted : status_of(result);
@@ -84,8 +102,8 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
 ExitStatus status_of(const MatrixResult& result) { return result.ok() ? ExitStatus::done : ExitStatus::failed; }
 
 ExitStatus stability(const RunArguments& arguments, const StabilityArguments& more) {
-  catch_interrupts();
-  return more.matrix ? of_matrix(arguments, more) : of_scene(arguments, more);
+  InterruptWatch interrupts;
+  return more.matrix ? of_matrix(arguments, more, interrupts) : of_scene(arguments, more, interrupts);
 }
 
 }  // namespace plica::app

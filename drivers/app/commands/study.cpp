@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
-#include <plica/drivers/app/commands/options.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/app/commands/study.hpp>
-#include <plica/drivers/app/output/progress_line.hpp>
 #include <plica/drivers/app/output/study_files.hpp>
-#include <plica/drivers/app/output/study_text.hpp>
+#include <plica/drivers/app/output/study_table.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/reader.hpp>
 
 namespace plica::app {
 namespace {
@@ -24,33 +24,46 @@ StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const
   return options;
 }
 
-StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files, bool quiet) {
+StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files, bool quiet,
+                      InterruptWatch& interrupts) {
   StudyResult before = files.read();
   if (!quiet && !before.rows.empty())
     message(fmt::format("going on with {}: {} there", files.folder().string(),
                         counted(static_cast<long>(before.rows.size()), "row")));
+  std::vector<MemoryFile> left;  // by Ctrl-C
+  std::string doing;
+  const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, files.folder()); });
   const ProgressLine line(quiet);
   const StudyWatch watch = [&](const StudyProgress& p) {
-    if (p.new_reference) files.write_reference(p.so_far->reference);
-    if (p.new_reference || p.new_row) files.write(*p.so_far, "unfinished");
+    const bool has_news = p.new_reference || p.new_row;
+    if (has_news || (p.doing != doing && !left.empty())) {
+      const auto lock = interrupts.hold();
+      if (p.new_reference) files.write_reference(p.so_far->reference);
+      if (has_news) write_files(files.texts(*p.so_far, "unfinished"));
+      left = files.texts(*p.so_far, "interrupted", p.doing);
+      doing = p.doing;
+    }
     line.update(fmt::format("{}/{}  {:3.0f} %  {}", p.done, p.of, 100 * p.part, p.doing));
-    return !interrupted();
+    return !interrupts.noticed();
   };
   StudyResult result = plica::study(scene.problem, options, watch, std::move(before));
-  if (!result.reference.trajectory.u.empty()) files.write(result, result.stopped ? "interrupted" : "completed");
+  interrupts.end_in_order();
+  if (!result.reference.trajectory.u.empty())
+    write_files(files.texts(result, result.stopped ? "interrupted" : "completed"));
   return result;
 }
 
 }  // namespace
 
 ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
-  catch_interrupts();
-  const Scene scene = load_scene(arguments.scene, arguments.overrides);
-  warn(scene);
+  InterruptWatch interrupts;
+  SetUpProgress progress(arguments.quiet);
+  const Scene scene = loaded(arguments, progress);
   const StudyOptions options = options_of(scene, arguments, more);
   const KokkosSession session(arguments.kokkos);
   try {
     check_study(scene.problem, options);
+    progress.finish();
     const auto folder = arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
     make_folder(folder);
     const StudyFiles files(scene, options, folder);
@@ -58,7 +71,7 @@ ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
       message(fmt::format("{}: {:g} s, {} tetrahedra; {} on {}, {}", scene.name, scene.duration,
                           scene.problem.body.levels.front().tets.size(), fmt::join(options.precision, " and "),
                           files.machine().backend, counted(files.machine().threads, "thread")));
-    const StudyResult result = run_study(scene, options, files, arguments.quiet);
+    const StudyResult result = run_study(scene, options, files, arguments.quiet, interrupts);
     if (!arguments.quiet) std::cout << study_text(scene, result, folder.string());
     return result.stopped ? ExitStatus::interrupted : ExitStatus::done;
   } catch (const InputError& error) {

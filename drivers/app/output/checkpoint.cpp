@@ -4,10 +4,11 @@
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <plica/core/valid_utf8.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
 #include <plica/drivers/app/output/digest.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
-#include <plica/drivers/app/scene/tree_json.hpp>
+#include <plica/drivers/app/scene/tree.hpp>
 #include <sstream>
 
 namespace plica::app {
@@ -17,12 +18,23 @@ using Json = nlohmann::ordered_json;
 constexpr const char* title = "plica checkpoint ";
 constexpr int version_written = 1;
 
+// A path is bytes, JSON is UTF-8: where it is not, the bytes' numbers
+Json path_json(const std::string& path) {
+  if (valid_utf8(path) == path) return path;
+  return std::vector<unsigned char>(path.begin(), path.end());
+}
+std::string path_of(const Json& json) {
+  if (json.is_string()) return json.get<std::string>();
+  const auto bytes = json.get<std::vector<unsigned char>>();
+  return {bytes.begin(), bytes.end()};
+}
+
 Json interval_json(const Interval& interval) { return {interval.time, interval.steps}; }
 Interval interval_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<long>()}; }
 
 Json header_of(const Checkpoint& c) {
-  return {{"scene_file", c.scene_file},
-          {"scene_path", c.scene_path},
+  return {{"scene_file", path_json(c.scene_file)},
+          {"scene_path", path_json(c.scene_path)},
           {"scene", json_of(c.scene)},
           {"meshes", c.meshes},
           {"precision", c.precision},
@@ -40,8 +52,7 @@ Json header_of(const Checkpoint& c) {
 
 Checkpoint checkpoint_of(const Json& json) {
   Checkpoint c;
-  json.at("scene_file").get_to(c.scene_file);
-  json.at("scene_path").get_to(c.scene_path);
+  c.scene_file = path_of(json.at("scene_file")), c.scene_path = path_of(json.at("scene_path"));
   c.scene = tree_of(json.at("scene"), c.scene_path);
   json.at("meshes").get_to(c.meshes);
   json.at("precision").get_to(c.precision);

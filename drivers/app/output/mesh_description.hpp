@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <plica/meshes/read_any.hpp>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/obstacles_json.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 
 namespace plica::app {
 
@@ -9,31 +10,35 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 Json point(const Point& p) { return {p.x(), p.y(), p.z()}; }
+Json json_of(const Point& p) { return point(p); }
+template <class T>
+Json json_of(const T& value) {
+  return value;
+}
 
-struct ShapeJson {
-  Json operator()(const PlaneOptions& o) const {
-    return {{"plane", {{"point", point(o.point)}, {"normal", point(o.normal)}}}};
+// Walks the table of a shape and writes its values
+struct ValueWriter {
+  Json values = Json::object();
+  template <class T, class Kind>
+  void operator()(const char* key, const T& member, const Kind&, const char*) {
+    values[key] = json_of(member);
   }
-  Json operator()(const SphereOptions& o) const {
-    return {{"sphere", {{"centre", point(o.centre)}, {"radius", o.radius}}}};
-  }
-  Json operator()(const BowlOptions& o) const {
-    return {{"bowl", {{"centre", point(o.centre)}, {"radius", o.radius}, {"rim", o.rim > 0 ? o.rim : o.radius}}}};
-  }
-  Json operator()(const CapsuleOptions& o) const {
-    return {{"capsule", {{"from", point(o.from)}, {"to", point(o.to)}, {"radius", o.radius}}}};
-  }
-  Json operator()(const BlockOptions& o) const {
-    return {{"box", {{"centre", point(o.centre)}, {"size", point(o.size)}, {"rotation", point(o.rotation)}}}};
-  }
-  Json operator()(const CylinderOptions& o) const {
-    return {{"cylinder", {{"from", point(o.from)}, {"to", point(o.to)}, {"radius", o.radius}}}};
-  }
-  Json operator()(const SurfaceOptions& o) const {
-    const Box box = bounding_box(o.surface.vertices);
-    return {{"surface", {{"triangles", o.surface.triangles.size()}, {"min", point(box.min)}, {"max", point(box.max)}}}};
+  template <class T, class Kind>
+  void required(const char* key, const T& member, const Kind&, const char*) {
+    values[key] = json_of(member);
   }
 };
+
+template <class Options>
+Json shape_json(Options o) {
+  ValueWriter writer;
+  describe(writer, o);
+  return writer.values;
+}
+Json shape_json(const SurfaceOptions& o) {
+  const Box box = bounding_box(o.surface.vertices);
+  return {{"triangles", o.surface.triangles.size()}, {"min", point(box.min)}, {"max", point(box.max)}};
+}
 
 struct AddMotion {
   Json& entry;
@@ -53,7 +58,8 @@ struct AddMotion {
 Json obstacles_json(const std::vector<ObstacleOptions>& obstacles) {
   Json list = Json::array();
   for (const ObstacleOptions& obstacle : obstacles) {
-    Json entry = std::visit(ShapeJson{}, obstacle.shape);
+    Json entry;
+    visit_shape(obstacle.shape, [&](auto shape, const auto& o) { entry[decltype(shape)::name] = shape_json(o); });
     entry["friction"] = obstacle.friction.value_or(0);
     std::visit(AddMotion{entry}, obstacle.motion);
     list.push_back(entry);

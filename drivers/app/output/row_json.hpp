@@ -6,6 +6,12 @@
 
 namespace plica::app {
 
+/// JSON as the program writes it: indented, with an end of line. Bytes that are not UTF-8, as names of files may have them, become
+/// U+FFFD.
+inline std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 /// A row's value: what does not apply is null, also a text that is empty.
 template <class T>
 nlohmann::ordered_json row_value(const T& value) {

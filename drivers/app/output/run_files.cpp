@@ -1,13 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/add_regions.hpp>
+#include <plica/drivers/solver/set_up/lumped_masses.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {
+
+std::vector<double> vertex_masses(const Body& body, int level) {
+  const TetMesh& mesh = body.levels[static_cast<std::size_t>(level)];
+  return lumped_masses(mesh, region_densities(body, mesh));
+}
+
+namespace {
+
+constexpr const char* head =
+    "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
+    "com_x,com_y,com_z,max_speed,rms_speed";
+
+}  // namespace
+
+History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
+                 std::optional<std::uint64_t> kept)
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, std::string(head) + (retries ? ",halvings\n" : "\n"))),
+      masses_(std::move(masses)),
+      retries_(retries) {}
+
+void History::write(const Snapshot& s) {
+  double mass = 0, max_square = 0, sum_square = 0;
+  Point centre = Point::Zero();
+  for (std::size_t i = 0; i < masses_.size(); ++i) {
+    const double square = s.velocities[i].squaredNorm();
+    mass += masses_[i];
+    centre += masses_[i] * s.positions[i];
+    sum_square += masses_[i] * square;
+    max_square = std::max(max_square, square);
+  }
+  centre /= mass;
+  const Energies& e = s.energies;
+  file_.add(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}{}\n", s.time,
+                        e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(), centre.z(),
+                        std::sqrt(max_square), std::sqrt(sum_square / mass),
+                        retries_ ? fmt::format(",{}", s.halvings) : std::string{}));
+}
+
 namespace {
 
 std::vector<Point> displacements(const std::vector<Point>& positions, const std::vector<Point>& rest,
@@ -47,7 +87,7 @@ std::vector<int> written_levels(const Scene& scene) {
   return levels;
 }
 
-// A checkpoint goes first: it must not outlive the files that it speaks of
+// The checkpoint is removed first: without its files it is worthless
 const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv"})
@@ -141,6 +181,33 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& consta
     grid.cell_fields.push_back({"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});
   if (has_numbers) grid.cell_fields.push_back({"number", in_input_order(numbering.tet_ids, tets)});
   return grid;
+}
+
+std::vector<std::string> names_of(const std::map<std::string, Point>& probes) {
+  std::vector<std::string> names;
+  for (const auto& [name, point] : probes) names.push_back(name);
+  return names;
+}
+
+std::vector<Point> points_of(const std::map<std::string, Point>& probes) {
+  std::vector<Point> points;
+  for (const auto& [name, point] : probes) points.push_back(point);
+  return points;
+}
+
+std::string probe_head(const std::vector<std::string>& names) {
+  std::string head = "time";
+  for (const std::string& name : names)
+    for (const char* column : {"x", "y", "z", "vx", "vy", "vz"}) head += "," + name + "_" + column;
+  return head + "\n";
+}
+
+std::string probe_row(double time, const std::vector<Point>& positions, const std::vector<Point>& velocities) {
+  std::string row = fmt::format("{:.9g}", time);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (const Point* p : {&positions[i], &velocities[i]})
+      row += fmt::format(",{:.9g},{:.9g},{:.9g}", p->x(), p->y(), p->z());
+  return row + "\n";
 }
 
 }  // namespace plica::app

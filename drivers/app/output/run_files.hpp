@@ -1,11 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <plica/drivers/app/output/frames.hpp>
-#include <plica/drivers/app/output/history.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/solver/simulation.hpp>
+#include <string>
+#include <vector>
 
 namespace plica::app {
+
+/// The tetrahedra of one level at one point in time.
+struct VolumeSnapshot {
+  int level = 0;
+  std::vector<Point> positions, velocities;  ///< [m, m/s]
+  ElementFields elements;
+};
+
+/// The state of a run at one point in time, on the host, numbered as the scene's meshes are.
+struct Snapshot {
+  double time = 0;                                 ///< [s]
+  std::vector<Point> positions, velocities;        ///< of level 0's vertices [m, m/s]
+  std::vector<Point> surface, surface_velocities;  ///< of the embedded surface's; empty without one
+  std::vector<VolumeSnapshot> volumes;             ///< of the levels that are written
+  Energies energies;
+  long halvings = 0;  ///< of macro steps so far
+};
+
+/// Of macro steps so far; 0 where bad ones are not retried.
+template <class B>
+long halvings_of(const Simulation<B>& simulation) {
+  const auto counters = simulation.counters();
+  const auto found = counters.find("halvings");
+  return found == counters.end() ? 0 : found->second;
+}
+
+template <class B>
+Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::vector<int>& volumes) {
+  Snapshot snapshot{time,
+                    simulation.positions(),
+                    simulation.velocities(),
+                    simulation.surface_positions(),
+                    simulation.surface_velocities(),
+                    {},
+                    simulation.energies(),
+                    halvings_of(simulation)};
+  for (const int level : volumes)
+    snapshot.volumes.push_back(
+        {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
+  return snapshot;
+}
+
+/// Mass at each vertex of a level: a quarter of every tetrahedron around it. [kg]
+std::vector<double> vertex_masses(const Body& body, int level = 0);
+
+/// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
+/// one was halved so far.
+class History {
+ public:
+  /// Starts the file, or goes on after its first `kept` bytes.
+  History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
+          std::optional<std::uint64_t> kept = {});
+  void write(const Snapshot& snapshot);
+  const GrowingFile& file() const { return file_; }
+
+ private:
+  GrowingFile file_;
+  std::vector<double> masses_;
+  bool retries_;
+};
 
 /// How far a run's files are: what a checkpoint remembers of them.
 struct FilesMark {
@@ -50,5 +115,12 @@ class RunFiles {
   std::vector<Frames> volume_frames_;
   History history_;
 };
+
+std::vector<std::string> names_of(const std::map<std::string, Point>& probes);
+std::vector<Point> points_of(const std::map<std::string, Point>& probes);
+
+/// "time,tip_x,tip_y,tip_z,tip_vx,tip_vy,tip_vz" and a row of it.
+std::string probe_head(const std::vector<std::string>& names);
+std::string probe_row(double time, const std::vector<Point>& positions, const std::vector<Point>& velocities);
 
 }  // namespace plica::app

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-#include <plica/drivers/app/output/choice.hpp>
+#include <algorithm>
+#include <cmath>
+#include <plica/core/error.hpp>
 #include <plica/drivers/app/output/obstacles_json.hpp>
+#include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/version.hpp>
@@ -11,6 +14,16 @@
 namespace plica::app {
 
 using Json = nlohmann::ordered_json;
+
+long steps_to_cover(double duration, double macro_step) {
+  constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
+  constexpr double most = 1e12;
+  const double steps = std::ceil(duration / macro_step - rounding);
+  if (!(steps <= most))
+    throw InputError(fmt::format("a duration of {:g} s is {:.3g} macro steps of {:g} s; expected at most {:g}",
+                                 duration, steps, macro_step, most));
+  return std::max(1L, std::lround(steps));
+}
 
 namespace {
 
@@ -84,7 +97,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"last_good_time", s.last_good_time},
                      {"diagnosis", diagnosis_json(s.diagnosis)},
                      {"obstacles", obstacles_json(scene.problem.contact.obstacles)}};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {

@@ -10,6 +10,10 @@
 
 namespace plica::app {
 
+/// The least number of whole macro steps, at least one, that covers a duration [s] but for rounding. InputError where
+/// there are more than 1e12.
+long steps_to_cover(double duration, double macro_step);
+
 /// A run as summary.json tells it. Times in s, memory in bytes.
 struct Summary {
   std::string status;

@@ -58,18 +58,27 @@ std::string in_bytes(std::size_t bytes) {
   return fmt::format("{} B", bytes);
 }
 
+namespace {
+
+// Of UTF-8: bytes that begin a letter
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
 std::string text_table(const std::vector<std::vector<std::string>>& rows, const std::string& alignment,
                        const std::string& indent) {
   std::vector<std::size_t> widths(alignment.size(), 0);
   for (const auto& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], letters(row[c]));
   std::string text;
   for (const auto& row : rows) {
     std::string line = indent;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string gap = c > 0 ? "  " : "";
-      line += gap + (alignment[c] == '>' ? fmt::format("{:>{}}", row[c], widths[c])
-                                         : fmt::format("{:<{}}", row[c], widths[c]));
+      const std::string room(widths[c] - letters(row[c]), ' ');
+      line += gap + (alignment[c] == '>' ? room + row[c] : row[c] + room);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
@@ -87,6 +96,56 @@ std::string wrapped(const std::string& text, std::size_t width, const std::strin
     line += (line.empty() ? "" : " ") + word;
   }
   return result + indent + line + "\n";
+}
+
+void ProgressLine::update(const std::string& line) const {
+  if (!on_) return;
+  const auto width = static_cast<std::size_t>(std::max(1, terminal_width() - 1));
+  std::cerr << "\r\033[K" << coloured(line.substr(0, width), Colour::cyan) << std::flush;
+}
+
+void ProgressLine::clear() const {
+  if (on_) std::cerr << "\r\033[K" << std::flush;
+}
+
+namespace {
+
+std::string in_clock(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const long whole = static_cast<long>(seconds + 0.5);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace
+
+std::string progress_line(double time, double end_time, long steps, double wall_time, int width, double first_time) {
+  const double done = std::clamp(time / end_time, 0.0, 1.0);
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(end_time))), 0, 9);
+  const std::string before = fmt::format("{:.{}f} / {:.{}f} s ", time, decimals, end_time, decimals);
+  const double covered = time - first_time;
+  const std::string after = fmt::format(" {:3.0f} % {:6.0f} steps/s {:6.2f} x real time {:>8} left", 100 * done,
+                                        static_cast<double>(steps) / wall_time, covered / wall_time,
+                                        covered > 0 ? in_clock(wall_time * (end_time - time) / covered) : "?");
+  const int room = width - static_cast<int>(before.size() + after.size()) - 3;
+  if (room < 5) return (before + after).substr(0, static_cast<std::size_t>(std::max(0, width - 1)));
+  const std::size_t size = static_cast<std::size_t>(std::min(room, 40));
+  const std::size_t filled = static_cast<std::size_t>(done * static_cast<double>(size));
+  return before + "[" + std::string(filled, '#') + std::string(size - filled, '.') + "]" + after;
+}
+
+Progress::Progress(double end_time, bool quiet, double first_time, long first_step)
+    : line_(quiet), duration_(end_time), first_time_(first_time), first_step_(first_step) {}
+
+void Progress::update(double time, long steps, const std::function<long()>& halvings) {
+  const Clock::time_point now = Clock::now();
+  if (!line_.on() || now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  const double wall_time = std::chrono::duration<double>(now - start_).count();
+  const long halved = halvings ? halvings() : 0;
+  const std::string retries = halved > 0 ? " " + counted(halved, "halving") : "";
+  const int width = terminal_width() - static_cast<int>(retries.size());
+  line_.update(progress_line(time, duration_, steps - first_step_, wall_time, width, first_time_) + retries);
 }
 
 }  // namespace plica::app

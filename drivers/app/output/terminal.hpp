@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,5 +38,39 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows, const 
 
 /// The text broken into lines of at most `width`, each after the indent.
 std::string wrapped(const std::string& text, std::size_t width, const std::string& indent);
+
+/// One line that is written over and over, on a terminal; nothing where there is none, or where told to be quiet.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : on_(!quiet && on_terminal()) {}
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  bool on() const { return on_; }
+  void update(const std::string& line) const;
+  void clear() const;
+
+ private:
+  bool on_;
+};
+
+/// That line, telling how far a run is.
+class Progress {
+ public:
+  /// The run goes on from `first_time` and `first_step`.
+  Progress(double end_time, bool quiet, double first_time = 0, long first_step = 0);
+  /// After a macro step; draws ten times a second at most. `halvings` of macro steps are told of where there are any.
+  void update(double time, long steps, const std::function<long()>& halvings = {});
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  ProgressLine line_;
+  double duration_, first_time_;
+  long first_step_;
+  Clock::time_point start_ = Clock::now(), drawn_{};
+};
+
+/// The line; `steps` took `wall_time` and led from `first_time` to here: "0.62 / 3.00 s [###.......]  21 %    812 steps/s   1.58 x real time    1.5 s left".
+std::string progress_line(double time, double end_time, long steps, double wall_time, int width, double first_time = 0);
 
 }  // namespace plica::app

@@ -5,14 +5,10 @@
 #include <limits>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/mesh_warnings.hpp>
-#include <plica/meshes/ball_mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/box_mesh.hpp>
-#include <plica/meshes/cylinder_mesh.hpp>
-#include <plica/meshes/merge_duplicates.hpp>
-#include <plica/meshes/read_mesh.hpp>
-#include <plica/meshes/read_surface.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 
 namespace plica::app {
 namespace {
@@ -191,7 +187,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
   }
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
     if (const auto& tool = scene.obstacles[i].tool)
-      std::get<SurfaceOptions>(scene.problem.contact.obstacles[i].shape).surface =
+      std::any_cast<SurfaceOptions&>(scene.problem.contact.obstacles[i].shape).surface =
           tool_surface(*tool, scene, place_of(tree, fmt::format("contact.obstacles.{}.surface.file", i)));
   check_names(body, tree);
 }

@@ -1,105 +1,235 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <map>
+#include <nlohmann/json.hpp>
 #include <plica/drivers/app/scene/describe.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
+#include <plica/drivers/app/scene/units.hpp>
 
 namespace plica::app {
+
+using Json = nlohmann::ordered_json;
+
 namespace {
 
-// Walks the same tables as the reader, with defaults for values
-class KeyList {
+// What each kind of value may look like
+
+constexpr const char* magnitude = "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?\\s*";
+
+Json any_of(std::initializer_list<Json> choices) { return {{"anyOf", Json(choices)}}; }
+Json list_of(const Json& item) { return {{"type", "array"}, {"items", item}, {"minItems", 1}}; }
+Json triple_of(const Json& item) { return {{"type", "array"}, {"items", item}, {"minItems", 3}, {"maxItems", 3}}; }
+
+Json schema_of(const Quantity& kind) {
+  Json plain = {{"type", "number"}};
+  if (kind.range.min > -std::numeric_limits<double>::infinity())
+    plain[kind.range.min_excluded ? "exclusiveMinimum" : "minimum"] = kind.range.min;
+  if (kind.range.max < std::numeric_limits<double>::infinity())
+    plain[kind.range.max_excluded ? "exclusiveMaximum" : "maximum"] = kind.range.max;
+  const std::string sign = kind.range.min < 0 ? "^\\s*[+-]?" : "^\\s*\\+?";
+  const std::string pattern = sign + magnitude + "(" + unit_pattern(kind.dimension) + ")?\\s*$";
+  return any_of({plain, {{"type", "string"}, {"pattern", pattern}}});
+}
+
+Json schema_of(const AutoQuantity& kind) { return any_of({{{"const", "auto"}}, schema_of(kind.quantity)}); }
+Json schema_of(const Vector& kind) { return triple_of(schema_of(Quantity{kind.dimension, kind.range})); }
+Json schema_of(const Direction&) { return schema_of(Vector{plain}); }
+Json schema_of(const Count& kind) {
+  Json count = {{"type", "integer"}, {"minimum", kind.min}};
+  if (kind.max < std::numeric_limits<int>::max()) count["maximum"] = kind.max;
+  return count;
+}
+Json schema_of(const AutoCount&) { return any_of({{{"const", "auto"}}, schema_of(Count{1})}); }
+Json schema_of(const Counts& kind) { return triple_of(schema_of(Count{kind.min})); }
+Json schema_of(const Flag&) { return {{"type", "boolean"}}; }
+Json schema_of(const Text&) { return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}}; }
+Json schema_of(const Name& kind) { return {{"enum", names(kind.choices())}}; }
+
+Json schema_of(const NamePerLevel& kind) {
+  const Json one = schema_of(kind.name);
+  return any_of({one, list_of(one)});
+}
+
+Json schema_of(const AutoCountPerLevel&) {
+  const Json one = schema_of(AutoCount{});
+  return any_of({one, list_of(one)});
+}
+
+Json schema_of(const Entry& kind) { return schema_of(kind.quantity); }
+
+Json schema_of(const Every&) {
+  const Json steps = {{"type", "string"}, {"pattern", "^0*[1-9][0-9]* *steps?$"}};
+  return any_of({schema_of(Quantity{duration, positive}), steps});
+}
+
+Json schema_of(const LevelChoice&) {
+  Json levels = list_of(schema_of(Count{0}));
+  levels["uniqueItems"] = true;
+  return any_of({{{"type", "boolean"}}, {{"const", "all"}}, levels});
+}
+
+Json schema_of(const NamedPoints&) {
+  return {{"type", "object"},
+          {"minProperties", 1},
+          {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]+$"}}},
+          {"additionalProperties", schema_of(Vector{length})}};
+}
+
+Json schema_of(const Shares& kind) { return any_of({schema_of(kind.name), list_of(schema_of(Shares::share))}); }
+
+template <auto Member, class Kind>
+Json schema_of(const As<Member, Kind>& as) {
+  return schema_of(as.kind);
+}
+
+template <class Kind>
+Json schema_of(const ListOf<Kind>& kind) {
+  const Json one = schema_of(kind.kind);
+  return any_of({one, list_of(one)});
+}
+
+// Walks the tables as the reader does, with defaults for values, and notes every key: in a list, and as JSON Schema
+class Catalogue {
  public:
-  KeyList(std::vector<KeyInfo>& keys, std::string path) : keys_(keys), path_(std::move(path)) {}
+  Catalogue(std::vector<KeyInfo>& keys, std::string path) : keys_(keys), path_(std::move(path)) {}
 
   template <class T, class Kind>
   void operator()(const char* key, T&& member, const Kind& kind, const char* help) {
-    if constexpr (requires { kind.shown(member); })
-      add(key, kind.expects(), kind.shown(member), help);
-    else
-      add(key, kind.expects(), member ? kind.shown(*member) : "", help);
+    add(key, member, kind, help, default_of(kind, member));
   }
   template <class T, class Kind>
-  void required(const char* key, T&&, const Kind& kind, const char* help) {
-    add(key, kind.expects(), "required", help);
+  void required(const char* key, T&& member, const Kind& kind, const char* help) {
+    required_.push_back(key);
+    add(key, member, kind, help, "required");
   }
-  template <class T>
-  void group(const char* key, T& member, const char* help) {
-    add(key, "a map", "", help);
-    walk(member, key);
-  }
-  template <class T>
-  void group(const char* key, std::optional<T>&, const char* help) {
-    add(key, "a map", "", help);
-    walk_new<T>(key);
-  }
-  template <class T>
-  void required_group(const char* key, T& member, const char* help) {
-    add(key, "a map", "required", help);
-    walk(member, key);
-  }
-  template <class T>
-  void list(const char* key, std::vector<T>&, const char* help) {
-    add(key, "a list of maps", "", help);
-    walk_new<T>(std::string(key) + "[]");
-  }
-  template <class T>
-  void required_list(const char* key, std::vector<T>&, const char* help) {
-    add(key, "a list of maps", "required", help);
-    walk_new<T>(std::string(key) + "[]");
-  }
-  template <class T>
-  void map(const char* key, std::map<std::string, T>&, const char* help) {
-    add(key, "a map of maps", "", help);
-    walk_new<T>(std::string(key) + ".<name>");
-  }
-  void one_of() { choice_ = "one of these"; }
-  void at_most_one() { choice_ = "at most one of these"; }
-  template <class Target, class T>
-  void alternative(const char* key, Target&, T alternative, const char* help) {
-    add(key, "a map", choice_, help);
-    walk(alternative, key);
-  }
+  void one_of() { choices_.push_back({"one of these", Json::array()}); }
+  void at_most_one() { choices_.push_back({"at most one of these", Json::array()}); }
   template <class T, class Kind>
-  void alternative_value(const char* key, T&, const Kind& kind, const char* help) {
-    add(key, kind.expects(), choice_, help);
+  void alternative(const char* key, T& target, const Kind& kind, const char* help) {
+    choices_.back().keys.push_back({{"required", {key}}});
+    add(key, target, kind, help, choices_.back().words);
   }
-  template <class Target, class T, class Item>
-  void alternative_list(const char* key, Target&, const T&, std::vector<Item> T::*, const char* help) {
-    add(key, "a list of maps", choice_, help);
-    walk_new<Item>(std::string(key) + "[]");
+
+  Json schema() const {
+    Json object = {{"type", "object"}, {"properties", properties_}, {"additionalProperties", false}};
+    if (!required_.empty()) object["required"] = required_;
+    for (const Alternatives& choice : choices_) {
+      Json cases = choice.keys;
+      if (choice.words != "one of these") cases.push_back({{"not", {{"anyOf", choice.keys}}}});
+      object["allOf"].push_back({{"oneOf", cases}});
+    }
+    return object;
   }
 
  private:
-  std::string below(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  void add(const char* key, std::string expects, std::string otherwise, const char* help) {
-    keys_.push_back({below(key), std::move(expects), std::move(otherwise), help});
-  }
-  template <class T>
-  void walk(T& member, const std::string& key) {
-    KeyList deeper(keys_, below(key));
-    describe(deeper, member);
-  }
-  template <class T>
-  void walk_new(const std::string& key) {
-    T member{};
-    walk(member, key);
+  template <class Kind, class T>
+  static std::string default_of(const Kind& kind, T& member) {
+    if constexpr (requires { kind.shown(member); })
+      return kind.shown(member);
+    else if constexpr (requires { kind.shown(*member); })
+      return member ? kind.shown(*member) : "";
+    else
+      return "";
   }
 
+  template <class T, class Kind>
+  void add(const char* key, T& member, const Kind& kind, const std::string& help, const std::string& otherwise) {
+    const std::size_t place = keys_.size();
+    keys_.push_back({path_.empty() ? key : path_ + "." + key, {}, otherwise, help});
+    std::string description = help;
+    if constexpr (requires { kind.expects(); }) {
+      const std::string standard = default_of(kind, member);
+      properties_[key] = schema_of(kind);
+      keys_[place].expects = kind.expects();
+      description += "\n" + kind.expects() + (otherwise != standard || standard.empty() ? "" : "; default " + standard);
+    } else {
+      keys_[place].expects = words_of(kind);
+      properties_[key] = inside(member, kind, std::string(keys_[place].path));
+    }
+    properties_[key]["description"] = description;
+  }
+
+  static const char* words_of(const Group&) { return "a map"; }
+  static const char* words_of(const List&) { return "a list of maps"; }
+  static const char* words_of(const Map&) { return "a map of maps"; }
+  template <class T>
+  static const char* words_of(const Case<T>&) {
+    return "a map";
+  }
+  template <auto Member>
+  static const char* words_of(const CaseList<Member>&) {
+    return "a list of maps";
+  }
+
+  // The schema of a key with keys below it
+  template <class T>
+  Json object(T& member, const std::string& path) {
+    Catalogue deeper(keys_, path);
+    describe(deeper, member);
+    return deeper.schema();
+  }
+  template <class T>
+  Json object(const std::string& path) {
+    T member{};
+    return object(member, path);
+  }
+  template <class Item>
+  Json list(const std::string& path) {
+    return list_of(object<Item>(path + "[]"));
+  }
+  template <class T>
+  Json inside(T& member, const Group&, const std::string& path) {
+    return object(member, path);
+  }
+  template <class T>
+  Json inside(std::optional<T>&, const Group&, const std::string& path) {
+    return object<T>(path);
+  }
+  template <class T>
+  Json inside(std::vector<T>&, const List&, const std::string& path) {
+    return list<T>(path);
+  }
+  template <class T>
+  Json inside(std::map<std::string, T>&, const Map&, const std::string& path) {
+    return {{"type", "object"}, {"additionalProperties", object<T>(path + ".<name>")}};
+  }
+  template <class Target, class T>
+  Json inside(Target&, const Case<T>&, const std::string& path) {
+    return object<T>(path);
+  }
+  template <class Target, auto Member>
+  Json inside(Target&, const CaseList<Member>&, const std::string& path) {
+    return list<typename CaseList<Member>::Value::value_type>(path);
+  }
+
+  struct Alternatives {
+    std::string words;
+    Json keys;
+  };
   std::vector<KeyInfo>& keys_;
-  std::string path_, choice_;
+  std::string path_;
+  Json properties_ = Json::object(), required_ = Json::array();
+  std::vector<Alternatives> choices_;
 };
+
+struct All {
+  std::vector<KeyInfo> keys;
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "a scene of Plica"}};
+};
+
+const All& all() {
+  static const All made = [] {
+    All result;
+    Catalogue catalogue(result.keys, {});
+    Scene scene;
+    describe(catalogue, scene);
+    result.schema.update(catalogue.schema());
+    return result;
+  }();
+  return made;
+}
 
 }  // namespace
 
-const std::vector<KeyInfo>& scene_keys() {
-  static const std::vector<KeyInfo> keys = [] {
-    std::vector<KeyInfo> list;
-    KeyList visitor(list, {});
-    Scene scene;
-    describe(visitor, scene);
-    return list;
-  }();
-  return keys;
-}
+const std::vector<KeyInfo>& scene_keys() { return all().keys; }
+const Json& scene_schema() { return all().schema; }
 
 }  // namespace plica::app

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,9 @@ struct KeyInfo {
 
 /// Every key, in the order of the tables.
 const std::vector<KeyInfo>& scene_keys();
+
+/// What a scene may say as JSON Schema (draft 7, which editors know best), from the tables that read it. It is a little more
+/// lenient than the reader: a quantity's unit may be one unit, or one times a power of another.
+const nlohmann::ordered_json& scene_schema();
 
 }  // namespace plica::app

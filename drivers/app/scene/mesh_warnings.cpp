@@ -3,8 +3,7 @@
 
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/mesh_warnings.hpp>
-#include <plica/meshes/connectivity.hpp>
-#include <plica/meshes/edge_lengths.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 
 namespace plica::app {
 namespace {

@@ -1,13 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
+#include <plica/drivers/app/scene/units.hpp>
+#include <stdexcept>
 
 namespace plica::app {
 
+void Value::error(const std::string& message) const { throw InputError(path + ": " + message, tree.where); }
+
+void Value::mismatch(const std::string& expected, const std::string& remark) const {
+  error("expected " + expected + ", got " + tree.shown() + (remark.empty() ? "" : ", " + remark));
+}
+
+const std::string& Value::scalar(const std::string& expected) const {
+  if (tree.kind != Tree::Kind::scalar) mismatch(expected);
+  return tree.text;
+}
+
+const std::vector<Tree>& Value::list(const std::string& expected, std::size_t size) const {
+  if (tree.kind != Tree::Kind::list || (size > 0 && tree.items.size() != size)) mismatch(expected);
+  return tree.items;
+}
+
+Value Value::item(std::size_t index) const { return {tree.items[index], fmt::format("{}.{}", path, index)}; }
+
 namespace {
+
+void read_quantity(const Value& value, const Quantity& kind, double& target, const std::string& expected) {
+  Measured measured;
+  try {
+    measured = measure(value.scalar(expected));
+  } catch (const std::invalid_argument& problem) {
+    value.mismatch(expected, problem.what());
+  }
+  if (measured.dimension.value_or(kind.dimension) != kind.dimension)
+    value.mismatch(expected, name_of(*measured.dimension));
+  if (!kind.range.contains(measured.value)) value.mismatch(expected);
+  target = measured.value;
+}
+
+template <class T, class ReadOne>
+void read_per_level(const Value& value, const std::string& expected, std::vector<T>& target, const ReadOne& read_one) {
+  if (value.tree.kind == Tree::Kind::scalar) {
+    target.resize(1);
+    return read_one(value, target[0]);
+  }
+  target.resize(value.list(expected).size());
+  if (target.empty()) value.mismatch(expected);
+  for (std::size_t i = 0; i < target.size(); ++i) read_one(value.item(i), target[i]);
+}
 
 // Where a misplaced key would be right: "body.material or body.regions.<name>"; empty where that says too little
 std::string homes_of(const std::string& key) {
@@ -20,6 +65,123 @@ std::string homes_of(const std::string& key) {
 }
 
 }  // namespace
+
+void read(const Value& value, const Quantity& kind, double& target) {
+  read_quantity(value, kind, target, kind.expects());
+}
+
+void read(const Value& value, const AutoQuantity& kind, std::optional<double>& target) {
+  if (value.tree.kind == Tree::Kind::scalar && value.tree.text == "auto") {
+    target.reset();
+  } else {
+    read_quantity(value, kind.quantity, target.emplace(), kind.expects());
+  }
+}
+
+void read(const Value& value, const Vector& kind, Point& target) {
+  value.list(kind.expects(), 3);
+  for (int axis = 0; axis < 3; ++axis)
+    read(value.item(static_cast<std::size_t>(axis)), Quantity{kind.dimension, kind.range}, target[axis]);
+}
+
+void read(const Value& value, const Direction& kind, Point& target) {
+  read(value, Vector{plain}, target);
+  if (target.isZero(0)) value.error("expected a direction, got " + kind.shown(target));
+}
+
+void read(const Value& value, const Count& kind, int& target) {
+  const std::string& text = value.scalar(kind.expects());
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), target);
+  if (error != std::errc{} || rest != text.data() + text.size() || target < kind.min || target > kind.max)
+    value.mismatch(kind.expects());
+}
+
+void read(const Value& value, const AutoCount& kind, int& target) {
+  target = 0;
+  if (value.scalar(kind.expects()) != "auto") read(value, Count{1}, target);
+}
+
+void read(const Value& value, const Counts& kind, std::array<int, 3>& target) {
+  value.list(kind.expects(), 3);
+  for (std::size_t i = 0; i < 3; ++i) read(value.item(i), Count{kind.min}, target[i]);
+}
+
+void read(const Value& value, const Flag& kind, bool& target) {
+  const std::string& text = value.scalar(kind.expects());
+  if (text != "true" && text != "false") value.mismatch(kind.expects());
+  target = text == "true";
+}
+
+void read(const Value& value, const Text& kind, std::string& target) {
+  target = value.scalar(kind.expects());
+  if (target.empty()) value.mismatch(kind.expects());
+}
+
+void read(const Value& value, const Name& kind, std::string& target) {
+  const std::string& text = value.scalar(kind.expects());
+  const std::vector<std::string> known = names(kind.choices());
+  if (std::ranges::find(known, text) == known.end()) value.error(unknown_name(kind.family, text, known));
+  target = text;
+}
+
+void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target) {
+  read_per_level(value, kind.expects(), target,
+                 [&](const Value& one, std::string& name) { read(one, kind.name, name); });
+}
+
+void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target) {
+  read_per_level(value, kind.expects(), target, [](const Value& one, int& count) { read(one, AutoCount{}, count); });
+}
+
+void read(const Value& value, const Shares& kind, const Shares::Target& target) {
+  if (value.tree.kind != Tree::Kind::list) return read(value, kind.name, target.rule);
+  target.rule = "custom";
+  target.shares.resize(value.list(kind.expects()).size());
+  for (std::size_t i = 0; i < target.shares.size(); ++i) read(value.item(i), Shares::share, target.shares[i]);
+}
+
+void read(const Value& value, const Entry& kind, Entry::Map& target) { read(value, kind.quantity, target[kind.name]); }
+
+void read(const Value& value, const Every& kind, Interval& target) {
+  try {
+    target = parse_interval(value.scalar(kind.expects()));
+  } catch (const std::invalid_argument& problem) {
+    value.mismatch(kind.expects(), problem.what());
+  }
+}
+
+void read(const Value& value, const LevelChoice& kind, VolumeLevels& target) {
+  target = {};
+  if (value.tree.kind == Tree::Kind::list) {
+    for (std::size_t i = 0; i < value.tree.items.size(); ++i) {
+      const Value item = value.item(i);
+      read(item, Count{0}, target.levels.emplace_back());
+      if (std::ranges::count(target.levels, target.levels.back()) > 1) item.error("this level is in the list already");
+    }
+    if (target.levels.empty()) value.mismatch(kind.expects());
+  } else if (value.scalar(kind.expects()) == "all") {
+    target.all = true;
+  } else if (value.tree.text == "true") {
+    target.levels = {0};
+  } else if (value.tree.text != "false") {
+    value.mismatch(kind.expects());
+  }
+}
+
+std::string LevelChoice::shown(const VolumeLevels& value) const {
+  return value.all ? "all" : value.levels.empty() ? "false" : fmt::format("[{}]", fmt::join(value.levels, ", "));
+}
+
+void read(const Value& value, const NamedPoints& kind, std::map<std::string, Point>& target) {
+  if (value.tree.kind != Tree::Kind::map || value.tree.items.empty()) value.mismatch(kind.expects());
+  for (const Tree& item : value.tree.items) {
+    const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+    if (item.key.empty() || !std::ranges::all_of(item.key, plain))
+      throw InputError(fmt::format("{}: expected a name of letters, digits, _ and -, got '{}'", value.path, item.key),
+                       item.key_where);
+    read({item, value.path + "." + item.key}, Vector{length}, target[item.key]);
+  }
+}
 
 Reader::Reader(const Value& map) : map_(map) { check_map(map); }
 

@@ -1,9 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <map>
+#include <algorithm>
+#include <any>
+#include <array>
 #include <plica/drivers/app/scene/describe.hpp>
+#include <string>
+#include <vector>
 
 namespace plica::app {
+
+/// A value to be read and the path that led to it.
+struct Value {
+  const Tree& tree;
+  std::string path;
+
+  [[noreturn]] void mismatch(const std::string& expected, const std::string& remark = {}) const;
+  [[noreturn]] void error(const std::string& message) const;
+  const std::string& scalar(const std::string& expected) const;  ///< its text; an error when it is no scalar
+  const std::vector<Tree>& list(const std::string& expected, std::size_t size = 0) const;  ///< size 0: any
+  Value item(std::size_t index) const;
+};
+
+/// Reads a value of a kind into `target`. InputError with place, value and what is expected. A new kind needs one more, and
+/// one in key_list.cpp.
+void read(const Value& value, const Quantity& kind, double& target);
+void read(const Value& value, const AutoQuantity& kind, std::optional<double>& target);
+void read(const Value& value, const Vector& kind, Point& target);
+void read(const Value& value, const Direction& kind, Point& target);
+void read(const Value& value, const Count& kind, int& target);
+void read(const Value& value, const AutoCount& kind, int& target);
+void read(const Value& value, const Counts& kind, std::array<int, 3>& target);
+void read(const Value& value, const Flag& kind, bool& target);
+void read(const Value& value, const Text& kind, std::string& target);
+void read(const Value& value, const Name& kind, std::string& target);
+void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target);
+void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target);
+void read(const Value& value, const Shares& kind, const Shares::Target& target);
+void read(const Value& value, const Entry& kind, Entry::Map& target);
+void read(const Value& value, const Every& kind, Interval& target);
+void read(const Value& value, const LevelChoice& kind, VolumeLevels& target);
+void read(const Value& value, const NamedPoints& kind, std::map<std::string, Point>& target);
+
+template <class Kind, class T>
+void read(const Value& value, const ListOf<Kind>& kind, std::vector<T>& target) {
+  const bool one = value.tree.kind == Tree::Kind::scalar;
+  target.resize(one ? 1 : value.list(kind.expects()).size());
+  if (target.empty()) value.mismatch(kind.expects());
+  for (std::size_t i = 0; i < target.size(); ++i) read(one ? value : value.item(i), kind.kind, target[i]);
+}
+
+template <auto Member, class Kind, class Target>
+void read(const Value& value, const As<Member, Kind>& as, Target& target) {
+  typename As<Member, Kind>::Type made;
+  read(value, as.kind, made.*Member);
+  target = std::move(made);
+}
+
+/// What may be left out, and was not.
+template <class Kind, class T>
+requires(!std::is_same_v<Kind, AutoQuantity>) void read(const Value& value, const Kind& kind,
+                                                        std::optional<T>& target) {
+  read(value, kind, target.emplace());
+}
 
 /// Walks the table of one struct and fills it from one map of the scene. Strict: whatever the table does not name, or
 /// the map lacks, is an error with its place.
@@ -13,63 +71,17 @@ class Reader {
 
   template <class T, class Kind>
   void operator()(const char* key, T&& member, const Kind& kind, const char*) {
-    if (const Tree* tree = take(key)) read(kind, at(*tree), member);
+    if (const Tree* tree = take(key)) fill(at(*tree), kind, member);
   }
   template <class T, class Kind>
   void required(const char* key, T&& member, const Kind& kind, const char*) {
-    if (const Tree* tree = take(key, true)) read(kind, at(*tree), member);
+    if (const Tree* tree = take(key, true)) fill(at(*tree), kind, member);
   }
-  template <class T>
-  void group(const char* key, T& member, const char*) {
-    if (const Tree* tree = take(key)) read_struct(at(*tree), member);
-  }
-  template <class T>
-  void group(const char* key, std::optional<T>& member, const char*) {
-    if (const Tree* tree = take(key)) read_struct(at(*tree), member.emplace());
-  }
-  template <class T>
-  void required_group(const char* key, T& member, const char*) {
-    if (const Tree* tree = take(key, true)) read_struct(at(*tree), member);
-  }
-  template <class T>
-  void list(const char* key, std::vector<T>& member, const char*) {
-    if (const Tree* tree = take(key)) read_list(at(*tree), member);
-  }
-  template <class T>
-  void required_list(const char* key, std::vector<T>& member, const char*) {
-    if (const Tree* tree = take(key, true)) read_list(at(*tree), member);
-  }
-  template <class T>
-  void map(const char* key, std::map<std::string, T>& member, const char*) {
-    const Tree* tree = take(key);
-    if (tree == nullptr) return;
-    check_map(at(*tree));
-    for (const Tree& item : tree->items) read_struct({item, at(*tree).path + "." + item.key}, member[item.key]);
-  }
-  /// The alternatives that follow, up to the next call: exactly one of them is given, or at most one.
   void one_of() { choices_.push_back({true, {}, {}}); }
   void at_most_one() { choices_.push_back({false, {}, {}}); }
-
-  /// `target` takes the alternative as read: a variant or an optional.
-  template <class Target, class T>
-  void alternative(const char* key, Target& target, T alternative, const char*) {
-    if (const Tree* tree = take_alternative(key)) {
-      read_struct(at(*tree), alternative);
-      target = alternative;
-    }
-  }
   template <class T, class Kind>
-  void alternative_value(const char* key, T& member, const Kind& kind, const char*) {
-    if (const Tree* tree = take_alternative(key)) read(kind, at(*tree), member);
-  }
-
-  /// An alternative that is a list, in its member `items`.
-  template <class Target, class T, class Item>
-  void alternative_list(const char* key, Target& target, T alternative, std::vector<Item> T::*items, const char*) {
-    if (const Tree* tree = take_alternative(key)) {
-      read_list(at(*tree), alternative.*items);
-      target = alternative;
-    }
+  void alternative(const char* key, T& target, const Kind& kind, const char*) {
+    if (const Tree* tree = take_alternative(key)) fill(at(*tree), kind, target);
   }
 
   /// After the table: unknown keys, missing ones, none or several of the alternatives.
@@ -83,23 +95,41 @@ class Reader {
   [[noreturn]] void unknown(const Tree& entry) const;
 
   template <class Kind, class T>
-  static void read(const Kind& kind, const Value& value, T& member) {
-    if constexpr (requires { kind.read(value, member); })
-      kind.read(value, member);
-    else
-      kind.read(value, member.emplace());
+  static void fill(const Value& value, const Kind& kind, T& member) {
+    read(value, kind, member);
   }
   template <class T>
-  static void read_struct(const Value& value, T& member) {
+  static void fill(const Value& value, const Group&, T& member) {
     Reader reader(value);
     describe(reader, member);
     reader.finish();
   }
   template <class T>
-  static void read_list(const Value& value, std::vector<T>& member) {
+  static void fill(const Value& value, const Group& kind, std::optional<T>& member) {
+    fill(value, kind, member.emplace());
+  }
+  template <class T>
+  static void fill(const Value& value, const List&, std::vector<T>& member) {
     const std::size_t size = value.list("a list").size();
     if (size == 0) value.mismatch("at least one entry");
-    for (std::size_t i = 0; i < size; ++i) read_struct(value.item(i), member.emplace_back());
+    for (std::size_t i = 0; i < size; ++i) fill(value.item(i), Group{}, member.emplace_back());
+  }
+  template <class T>
+  static void fill(const Value& value, const Map&, std::map<std::string, T>& member) {
+    check_map(value);
+    for (const Tree& item : value.tree.items) fill({item, value.path + "." + item.key}, Group{}, member[item.key]);
+  }
+  template <class T, class Target>
+  static void fill(const Value& value, const Case<T>&, Target& target) {
+    T made{};
+    fill(value, Group{}, made);
+    target = std::move(made);
+  }
+  template <auto Member, class Target>
+  static void fill(const Value& value, const CaseList<Member>&, Target& target) {
+    typename CaseList<Member>::Type made;
+    fill(value, List{}, made.*Member);
+    target = std::move(made);
   }
 
   struct Alternatives {
@@ -109,6 +139,49 @@ class Reader {
   Value map_;
   std::vector<std::string> known_, missing_;
   std::vector<Alternatives> choices_;
+};
+
+/// The value of an option of the command line, read and checked as a scene's would be.
+template <class Kind, class Target>
+void read_option(const std::string& option, const std::string& text, const Kind& kind, Target& target) {
+  const Tree tree{Tree::Kind::scalar, text, {}, {}, {}, {}};
+  read({tree, option}, kind, target);
+}
+
+/// "young_modulus" on the command line: "--young-modulus".
+inline std::string option_of(std::string key) {
+  std::ranges::replace(key, '_', '-');
+  return "--" + key;
+}
+
+/// Walks a table and fills its struct from options of the command line of the same names.
+class OptionReader {
+ public:
+  explicit OptionReader(const std::map<std::string, std::string>& given) : given_(given) {}
+  template <class T, class Kind>
+  void operator()(const char* key, T& member, const Kind& kind, const char*) const {
+    if (const auto text = given_.find(key); text != given_.end())
+      read_option(option_of(key), text->second, kind, member);
+  }
+
+ private:
+  const std::map<std::string, std::string>& given_;
+};
+
+/// Walks the same table and calls add(option, key, what it may be, what it means).
+template <class Add>
+class OptionList {
+ public:
+  explicit OptionList(const Add& add) : add_(add) {}
+  template <class T, class Kind>
+  void operator()(const char* key, const T& member, const Kind& kind, const char* help) const {
+    std::string expects = kind.expects();
+    if constexpr (requires { kind.shown(member); }) expects += "; default " + kind.shown(member);
+    add_(option_of(key), std::string(key), expects, std::string(help));
+  }
+
+ private:
+  const Add& add_;
 };
 
 }  // namespace plica::app

@@ -4,10 +4,11 @@
 #include <map>
 #include <optional>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/app/scene/interval.hpp>
-#include <plica/drivers/app/scene/numbering.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
+#include <plica/drivers/app/scene/units.hpp>
 #include <plica/drivers/study/study_case.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/reordering.hpp>
 #include <string>
 #include <vector>
 
@@ -16,21 +17,21 @@
 namespace plica::app {
 
 struct BoxRecipe {
-  Point size = Point::Ones();            ///< [m] > 0
-  std::array<int, 3> cells = {1, 1, 1};  ///< >= 1
+  Point size = Point::Ones();            ///< [m]
+  std::array<int, 3> cells = {1, 1, 1};  ///< along each edge
   Point origin = Point::Zero();          ///< its lowest corner [m]
 };
 
 struct BallRecipe {
-  double radius = 1;             ///< [m] > 0
+  double radius = 1;             ///< [m]
   int cells = 1;                 ///< across the diameter
   Point centre = Point::Zero();  ///< [m]
 };
 
 /// Stands on its base and rises along z.
 struct CylinderRecipe {
-  double radius = 1;           ///< [m] > 0
-  double length = 1;           ///< [m] > 0
+  double radius = 1;           ///< [m]
+  double length = 1;           ///< [m]
   int across = 1;              ///< cells across the diameter
   int along = 1;               ///< cells along the axis
   Point base = Point::Zero();  ///< centre of the lower disc [m]
@@ -42,12 +43,12 @@ struct LevelRecipe {
   std::optional<BallRecipe> ball;
   std::optional<CylinderRecipe> cylinder;
   std::string file;                        ///< relative to the scene
-  double scale = 1;                        ///< metres per unit of the file > 0
-  std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m] >= 0
+  double scale = 1;                        ///< metres per unit of the file
+  std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m]
 };
 
 struct BallSurfaceRecipe {
-  double radius = 1;            ///< [m] > 0
+  double radius = 1;            ///< [m]
   int subdivisions = 3;         ///< of an icosahedron: 12, 42, 162, 642 ... points
   std::optional<Point> centre;  ///< none: the centre of level 0's bounding box [m]
 };
@@ -57,22 +58,46 @@ struct SurfaceRecipe {
   std::optional<BallSurfaceRecipe> sphere;
   bool boundary = false;  ///< the boundary of level 0
   std::string file;       ///< relative to the scene
-  double scale = 1;       ///< metres per unit of the file > 0
+  double scale = 1;       ///< metres per unit of the file
 };
 
 /// A rigid solid of a file of triangles: scaled, turned about the file's origin, then moved.
 struct ToolRecipe {
   std::string file;                ///< relative to the scene
-  double scale = 1;                ///< metres per unit of the file > 0
+  double scale = 1;                ///< metres per unit of the file
   Point rotation = Point::Zero();  ///< its direction is the axis, its length the angle [rad]
   Point position = Point::Zero();  ///< of the file's origin [m]
-  int cells = 0;                   ///< see SurfaceOptions
+  SurfaceOptions options;          ///< but for its surface, which is the file's
 };
 
 struct ObstacleRecipe {
   ObstacleOptions options;
   std::optional<ToolRecipe> tool;  ///< where the shape comes from a file
 };
+
+/// How a level's mesh is numbered where it comes from. What is read from a file is put in an order that is faster to
+/// simulate; whatever people see has the file's order and numbers.
+struct Numbering {
+  Reordering input;             ///< per place in the input its number here; empty: the same
+  std::vector<int> vertex_ids;  ///< per vertex here its number in the file; empty: the same, from 0
+  std::vector<int> tet_ids;     ///< per tetrahedron, likewise
+};
+
+/// The number in the input of vertex or tetrahedron `index`; -1 stays -1.
+inline int input_number(const std::vector<int>& ids, int index) {
+  return index < 0 || ids.empty() ? index : ids[static_cast<std::size_t>(index)];
+}
+
+/// Values per vertex or tetrahedron in the order of the input.
+template <class Value>
+std::vector<Value> in_input_order(const std::vector<Value>& values, const std::vector<int>& order) {
+  return order.empty() ? values : permuted(values, order);
+}
+
+/// The mesh as the input has it.
+inline TetMesh in_input_order(const TetMesh& mesh, const Numbering& numbering) {
+  return numbering.input.vertices.empty() ? mesh : reordered(mesh, numbering.input);
+}
 
 /// Levels whose tetrahedra are written.
 struct VolumeLevels {
@@ -91,7 +116,7 @@ struct OutputOptions {
 struct Scene {
   std::string file;
   std::string name;                   ///< none given: the file's
-  double duration = 0;                ///< [s] > 0
+  double duration = 0;                ///< [s]
   Problem problem;                    ///< complete once its meshes are built
   std::vector<Numbering> numbering;   ///< of each of these meshes
   std::vector<std::string> warnings;  ///< about what was found in it and its files, a sentence each

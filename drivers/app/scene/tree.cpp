@@ -5,7 +5,9 @@
 
 #include <charconv>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <plica/core/valid_utf8.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <sstream>
 
@@ -30,13 +32,14 @@ class Conversion {
 void Conversion::add_entry(Tree& map, const YAML::Node& key, const YAML::Node& value) {
   const Where where = place(file_, key.Mark());
   if (!key.IsScalar()) throw InputError("a key must be a word", where);
-  if (const Tree* earlier = map.find(key.Scalar())) {
-    throw InputError("the key '" + key.Scalar() + "' stands here for the second time; the first is in line " +
+  const std::string name = valid_utf8(key.Scalar());
+  if (const Tree* earlier = map.find(name)) {
+    throw InputError("the key '" + name + "' stands here for the second time; the first is in line " +
                          std::to_string(earlier->key_where.line),
                      where);
   }
   Tree entry = (*this)(value);
-  entry.key = key.Scalar();
+  entry.key = name;
   entry.key_where = where;
   if (entry.kind == Tree::Kind::nothing) entry.where = where;
   map.items.push_back(std::move(entry));
@@ -50,7 +53,7 @@ Tree Conversion::operator()(const YAML::Node& node) {
   if (++values_ > most) throw InputError(fmt::format("more than {} values, aliases included", most), tree.where);
   if (node.IsScalar()) {
     tree.kind = Tree::Kind::scalar;
-    tree.text = node.Scalar();
+    tree.text = valid_utf8(node.Scalar());
   } else if (node.IsSequence()) {
     tree.kind = Tree::Kind::list;
     for (const YAML::Node& item : node) tree.items.push_back((*this)(item));
@@ -162,7 +165,7 @@ void override_value(Tree& root, const std::string& assignment, const std::string
     throw InputError("not YAML: " + error.msg, where);
   }
   Tree* target = &root;
-  std::istringstream path(assignment.substr(0, equals));
+  std::istringstream path(valid_utf8(assignment.substr(0, equals)));
   for (std::string part; std::getline(path, part, '.');) target = &stepped(*target, part, where);
   const auto place_all = [&where](Tree& tree, const auto& self) -> void {
     tree.where = tree.key_where = where;  // a line within the argument says nothing
@@ -186,6 +189,73 @@ Where place_of(const Tree& root, std::string_view path) {
     tree = next;
   }
   return tree->key_where;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Tree& tree) {
+  if (tree.kind == Tree::Kind::scalar) return tree.text;
+  if (tree.kind == Tree::Kind::nothing) return nullptr;
+  Json json = tree.kind == Tree::Kind::list ? Json::array() : Json::object();
+  for (const Tree& item : tree.items) {
+    if (tree.kind == Tree::Kind::list)
+      json.push_back(json_of(item));
+    else
+      json[item.key] = json_of(item);
+  }
+  return json;
+}
+
+Tree tree_of(const Json& json, const std::string& file) {
+  Tree tree;
+  tree.where.file = tree.key_where.file = file;
+  if (json.is_string()) {
+    tree.kind = Tree::Kind::scalar;
+    tree.text = json.get<std::string>();
+  } else if (json.is_structured()) {
+    tree.kind = json.is_array() ? Tree::Kind::list : Tree::Kind::map;
+    for (const auto& [key, value] : json.items()) {
+      tree.items.push_back(tree_of(value, file));
+      if (json.is_object()) tree.items.back().key = key;
+    }
+  }
+  return tree;
+}
+
+namespace {
+
+std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+
+std::string difference(const Tree& before, const Tree& now, const std::string& path, const std::string& but_for);
+
+std::string map_difference(const Tree& before, const Tree& now, const std::string& path, const std::string& but_for) {
+  for (const Tree& item : before.items) {
+    if (item.key == but_for) continue;
+    const Tree* other = now.find(item.key);
+    if (other == nullptr) return below(path, item.key) + ": " + item.shown() + " is not there any more";
+    if (std::string found = difference(item, *other, below(path, item.key), {}); !found.empty()) return found;
+  }
+  for (const Tree& item : now.items)
+    if (item.key != but_for && before.find(item.key) == nullptr) return below(path, item.key) + ": is new";
+  return {};
+}
+
+std::string difference(const Tree& before, const Tree& now, const std::string& path, const std::string& but_for) {
+  if (before.kind != now.kind || before.text != now.text ||
+      (before.kind == Tree::Kind::list && before.items.size() != now.items.size()))
+    return path + ": " + before.shown() + " became " + now.shown();
+  if (before.kind == Tree::Kind::map) return map_difference(before, now, path, but_for);
+  for (std::size_t i = 0; i < before.items.size(); ++i)
+    if (std::string found = difference(before.items[i], now.items[i], below(path, std::to_string(i)), {});
+        !found.empty())
+      return found;
+  return {};
+}
+
+}  // namespace
+
+std::string first_difference(const Tree& before, const Tree& now, const std::string& but_for) {
+  return difference(before, now, {}, but_for);
 }
 
 }  // namespace plica::app

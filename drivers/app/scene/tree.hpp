@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <plica/core/error.hpp>
 #include <string>
 #include <string_view>
@@ -36,5 +37,13 @@ void override_value(Tree& root, const std::string& assignment, const std::string
 
 /// Where the value of "integration.macro_step" stands, or the nearest key above it that the file has.
 Where place_of(const Tree& root, std::string_view path);
+
+/// A scene as JSON, its values as the words that stand there, and back; places are lost but for the file.
+nlohmann::ordered_json json_of(const Tree& tree);
+Tree tree_of(const nlohmann::ordered_json& json, const std::string& file);
+
+/// Where two scenes first differ: "body.material.density: '1000' became '900'"; empty where they say the same in whatever
+/// order. A key of the top level may be left out of this.
+std::string first_difference(const Tree& before, const Tree& now, const std::string& but_for = {});
 
 }  // namespace plica::app

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,34 +14,6 @@
 
 namespace plica::app {
 namespace {
-
-struct Named {
-  Dimension dimension;
-  const char* name;
-  const char* plural;
-  const char* unit;
-};
-constexpr std::array named_dimensions = {Named{number, "a number", "numbers", ""},
-                                         Named{length, "a length", "lengths", "m"},
-                                         Named{duration, "a time", "times", "s"},
-                                         Named{rate, "a rate", "rates", "1/s"},
-                                         Named{velocity, "a velocity", "velocities", "m/s"},
-                                         Named{acceleration, "an acceleration", "accelerations", "m/s^2"},
-                                         Named{angular_velocity, "an angular velocity", "angular velocities", "rad/s"},
-                                         Named{pressure, "a pressure", "pressures", "Pa"},
-                                         Named{density, "a density", "densities", "kg/m^3"},
-                                         Named{{.angle = 1}, "an angle", "angles", "rad"},
-                                         Named{{.mass = 1}, "a mass", "masses", "kg"},
-                                         Named{{.length = 2}, "an area", "areas", "m^2"},
-                                         Named{{.length = 3}, "a volume", "volumes", "m^3"},
-                                         Named{{.mass = 1, .length = 1, .time = -2}, "a force", "forces", "N"},
-                                         Named{{.mass = 1, .length = 2, .time = -2}, "an energy", "energies", "J"}};
-
-const Named* find_name(const Dimension& dimension) {
-  for (const Named& named : named_dimensions)
-    if (named.dimension == dimension) return &named;
-  return nullptr;
-}
 
 struct Unit {
   const char* symbol;
@@ -60,8 +34,8 @@ constexpr std::array units = {Unit{"m", 1, length, true},
                               Unit{"min", 60, duration, false},
                               Unit{"bar", 1e5, pressure, true},
                               Unit{"mmHg", 133.322387415, pressure, false},
-                              Unit{"%", 1e-2, number, false},
-                              Unit{"1", 1, number, false}};
+                              Unit{"%", 1e-2, plain, false},
+                              Unit{"1", 1, plain, false}};
 
 Dimension times(const Dimension& a, const Dimension& b, int n) {  // a b^n
   return {a.mass + n * b.mass, a.length + n * b.length, a.time + n * b.time, a.angle + n * b.angle};
@@ -116,7 +90,7 @@ void multiply(Measured& product, std::string_view factor, int sign) {
 }
 
 Measured unit_product(std::string_view text) {
-  Measured product{1, number};
+  Measured product{1, plain};
   int sign = 1;
   if (text.starts_with('/')) sign = -1, text.remove_prefix(1);
   while (true) {
@@ -139,28 +113,6 @@ std::size_t number_prefix(std::string_view text, double& value) {
 }
 
 }  // namespace
-
-std::string unit_of(const Dimension& dimension) {
-  if (const Named* named = find_name(dimension)) return named->unit;
-  std::string text;
-  const auto add = [&text](const char* symbol, int exponent) {
-    if (exponent == 0) return;
-    text += (text.empty() ? "" : " ") + std::string(symbol);
-    if (exponent != 1) text += "^" + std::to_string(exponent);
-  };
-  add("kg", dimension.mass), add("m", dimension.length), add("s", dimension.time), add("rad", dimension.angle);
-  return text;
-}
-
-std::string name_of(const Dimension& dimension) {
-  const Named* named = find_name(dimension);
-  return named != nullptr ? named->name : "a quantity in " + unit_of(dimension);
-}
-
-std::string plural_of(const Dimension& dimension) {
-  const Named* named = find_name(dimension);
-  return named != nullptr ? named->plural : "quantities in " + unit_of(dimension);
-}
 
 std::vector<UnitInfo> unit_infos() {
   std::string symbols;
@@ -188,12 +140,12 @@ std::string unit_pattern(const Dimension& dimension) {
   };
   for (const Unit& a : units) {
     for (int n = 1; n <= 3; ++n)
-      if (a.symbol != std::string_view("1") && times(number, a.dimension, n) == dimension) add(power(a, n));
+      if (a.symbol != std::string_view("1") && times(plain, a.dimension, n) == dimension) add(power(a, n));
     if (a.symbol == std::string_view("%")) continue;
     for (const Unit& b : units)
-      for (int n = 1; n <= 4 && dimension != number && b.dimension != number; ++n) {
+      for (int n = 1; n <= 4 && dimension != plain && b.dimension != plain; ++n) {
         if (times(a.dimension, b.dimension, -n) == dimension) add(power(a, 1) + " */ *" + power(b, n));
-        if (a.dimension != number && times(a.dimension, b.dimension, n) == dimension)
+        if (a.dimension != plain && times(a.dimension, b.dimension, n) == dimension)
           add(power(a, 1) + " *\\* *" + power(b, n));
       }
   }
@@ -216,5 +168,36 @@ Measured measure(std::string_view text) {
   const Measured product = unit_product(unit);
   return {value * product.value, product.dimension};
 }
+
+Interval parse_interval(std::string_view text) {
+  Interval interval;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), interval.steps);
+  const std::size_t digits = static_cast<std::size_t>(rest - text.data());
+  const std::string_view word = text.substr(std::min(text.find_first_not_of(' ', digits), text.size()));
+  if (error == std::errc{} && (word == "steps" || word == "step")) {
+    if (interval.steps < 1) throw std::invalid_argument("less than a step");
+    return interval;
+  }
+  const Measured measured = measure(text);
+  if (measured.dimension.value_or(duration) != duration) throw std::invalid_argument(name_of(*measured.dimension));
+  if (!(measured.value > 0)) throw std::invalid_argument("no time at all");
+  return {measured.value, 0};
+}
+
+std::string text_of(const Interval& interval) {
+  if (interval.steps > 0) return fmt::format("{} {}", interval.steps, interval.steps == 1 ? "step" : "steps");
+  return fmt::format("{:g} s", interval.time);
+}
+
+// How many multiples were passed by then, the zeroth among them. 3 s are 100 steps of 30 ms, whatever the last bit says
+long Schedule::count(long macro_step) const {
+  constexpr double rounding = 1e-9;  // of a step
+  if (macro_step < 0) return 0;
+  if (every_.steps > 0) return macro_step / every_.steps + 1;
+  if (every_.time < step_) return macro_step + 1;
+  return static_cast<long>(std::floor((static_cast<double>(macro_step) + rounding) * step_ / every_.time)) + 1;
+}
+
+bool Schedule::due(long macro_step) const { return count(macro_step) > count(macro_step - 1); }
 
 }  // namespace plica::app

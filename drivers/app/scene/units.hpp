@@ -1,37 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <optional>
+#include <plica/core/keys.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace plica::app {
 
-/// Exponents of kilogram, metre, second and radian. An angle counts as a dimension of its own, so that a frequency is
-/// not taken for an angular velocity.
-struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0;
-  bool operator==(const Dimension&) const = default;
-};
-
-inline constexpr Dimension number{};
-inline constexpr Dimension length{.length = 1};
-inline constexpr Dimension duration{.time = 1};
-inline constexpr Dimension rate{.time = -1};
-inline constexpr Dimension velocity{.length = 1, .time = -1};
-inline constexpr Dimension acceleration{.length = 1, .time = -2};
-inline constexpr Dimension angular_velocity{.time = -1, .angle = 1};
-inline constexpr Dimension pressure{.mass = 1, .length = -1, .time = -2};
-inline constexpr Dimension density{.mass = 1, .length = -3};
-inline constexpr Dimension force{.mass = 1, .length = 1, .time = -2};
-inline constexpr Dimension angle{.angle = 1};
-
-/// "a pressure", "a length"; a product of SI units where the dimension has no name.
-std::string name_of(const Dimension& dimension);
-std::string plural_of(const Dimension& dimension);
-
-/// "Pa", "m", "kg/m^3"; empty for a number.
-std::string unit_of(const Dimension& dimension);
+using namespace keys;
 
 /// A unit that numbers may have.
 struct UnitInfo {
@@ -54,5 +31,30 @@ Measured measure(std::string_view text);
 
 /// Reads a finite decimal number that takes up all of the text.
 std::optional<double> parse_number(std::string_view text);
+
+/// What lies between two frames, probes or checkpoints: simulated time or macro steps.
+struct Interval {
+  double time = 0;  ///< [s], used where `steps` is 0
+  long steps = 0;
+  bool operator==(const Interval&) const = default;
+};
+
+/// Reads "20 ms" or "10 steps". Throws std::invalid_argument with what is wrong.
+Interval parse_interval(std::string_view text);
+
+/// "0.02 s", "10 steps".
+std::string text_of(const Interval& interval);
+
+/// Which macro steps an interval picks: the zeroth, and the first at or after each of its multiples.
+class Schedule {
+ public:
+  Schedule(const Interval& every, double macro_step) : every_(every), step_(macro_step) {}
+  bool due(long macro_step) const;
+
+ private:
+  long count(long macro_step) const;
+  Interval every_;
+  double step_;
+};
 
 }  // namespace plica::app

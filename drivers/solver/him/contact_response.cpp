@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/him/contact_response.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
-#include <plica/kernels/contact/where_touching.hpp>
 
 namespace plica {
 
@@ -21,17 +20,17 @@ template <class B>
 ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices)
     : contact_(std::move(contact)),
       blocks_(contact_->points()),
-      force_("plica::touching.vertex_force", vertices),
-      answer_("plica::touching.answer", vertices) {
+      force_(zeros<Vectors<B>>("plica::touching.vertex_force", vertices)),
+      answer_(zeros<Vectors<B>>("plica::touching.answer", vertices)) {
   const auto n = static_cast<std::size_t>(contact_->points());
-  points_.normal = Vectors<B>("plica::touching.normal", n);
-  points_.velocity = Vectors<B>("plica::touching.velocity", n);
-  points_.force = Vectors<B>("plica::touching.force", n);
-  points_.depth = Scalars<B>("plica::touching.depth", n);
-  points_.tangential = Scalars<B>("plica::touching.tangential", n);
-  points_.friction = Scalars<B>("plica::touching.friction", n);
-  points_.mobility = Scalars<B>("plica::touching.mobility", n);
-  points_.count = Kokkos::View<double*, typename B::Memory>("plica::touching.count", 1);
+  points_.normal = zeros<Vectors<B>>("plica::touching.normal", n);
+  points_.velocity = zeros<Vectors<B>>("plica::touching.velocity", n);
+  points_.force = zeros<Vectors<B>>("plica::touching.force", n);
+  points_.depth = zeros<Scalars<B>>("plica::touching.depth", n);
+  points_.tangential = zeros<Scalars<B>>("plica::touching.tangential", n);
+  points_.friction = zeros<Scalars<B>>("plica::touching.friction", n);
+  points_.mobility = zeros<Scalars<B>>("plica::touching.mobility", n);
+  points_.count = zeros<Doubles<B>>("plica::touching.count", 1);
 }
 
 template <class B>

@@ -14,8 +14,7 @@ class ContactResponse {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
   /// answer = A force, where `count` is above 0; force stays.
-  using Apply = std::function<void(const Vectors<B>& force, const Vectors<B>& answer,
-                                   const Kokkos::View<double*, typename B::Memory>& count)>;
+  using Apply = std::function<void(const Vectors<B>& force, const Vectors<B>& answer, const Doubles<B>& count)>;
 
   ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices);
 
@@ -25,7 +24,7 @@ class ContactResponse {
   const Vectors<B>& answer() const { return answer_; }
   const Vectors<B>& force() const { return force_; }  ///< of the vertices, which has that answer [N]
   /// [1]: how many points touch; 0: answer() is not to be looked at.
-  const Kokkos::View<double*, typename B::Memory>& count() const { return points_.count; }
+  const Doubles<B>& count() const { return points_.count; }
   std::size_t bytes() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/level.hpp>
-#include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/him/rigid_motion.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -14,8 +14,8 @@ class FreeMotion {
   explicit FreeMotion(const Vectors<B>& rest)
       : rest_(rest),
         blocks_(static_cast<int>(rest.extent(0))),
-        sums_("plica::free.moments", 16),
-        total_("plica::free.total", 4),
+        sums_(zeros<Doubles<B>>("plica::free.moments", 16)),
+        total_(zeros<Doubles<B>>("plica::free.total", 4)),
         frame_("plica::free.frame") {}
 
   /// Notes the sum of the momenta p; `rest`: what is not translation.
@@ -40,7 +40,7 @@ class FreeMotion {
  private:
   Vectors<B> rest_;
   BlockSums<B> blocks_;
-  Totals<B> sums_, total_;
+  Doubles<B> sums_, total_;
   RigidFrameOf<B> frame_;
 };
 

@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
+#include <plica/core/level.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
-#include <plica/drivers/solver/him/coarse_modes.hpp>
 #include <plica/drivers/solver/him/inverse_mass.hpp>
 #include <vector>
 
 namespace plica {
+
+/// y = an operator's product with x.
+template <class B>
+using VectorMap = std::function<void(const Vectors<B>& x, const Vectors<B>& y)>;
+
+/// The largest eigenvalue of A K for a symmetric positive definite A and a positive semi-definite K, by the Lanczos iteration in
+/// the inner product of K (Parlett, The Symmetric Eigenvalue Problem, 15.4) to a relative residual of `tolerance`, which is
+/// added. Waits.
+template <class B>
+double largest_of_product(const typename B::Exec& exec, const Level<B>& level, const VectorMap<B>& A,
+                          const VectorMap<B>& K, double tolerance);
 
 /// How a hierarchical inverse mass was fitted to a step.
 struct InertiaFit {

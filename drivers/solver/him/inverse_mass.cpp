@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/him/inverse_mass.hpp>
-#include <plica/drivers/solver/spaces/sparse_rows.hpp>
-#include <plica/kernels/contact/where_touching.hpp>
-#include <plica/kernels/him/coarse_filter.hpp>
-#include <plica/kernels/him/sparse_rows.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/kernels/him/inverse_mass.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -23,8 +22,8 @@ MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
     level.inverse_diagonal = to_device<Scalars<B>>(
         "him.inverse_diagonal", std::vector<Real>(space.inverse_diagonal.begin(), space.inverse_diagonal.end()));
   }
-  level.force = Vectors<B>("plica::him.force", level.vertices);
-  level.acceleration = Vectors<B>("plica::him.acceleration", level.vertices);
+  level.force = zeros<Vectors<B>>("plica::him.force", level.vertices);
+  level.acceleration = zeros<Vectors<B>>("plica::him.acceleration", level.vertices);
   return level;
 }
 
@@ -37,14 +36,14 @@ InverseMass<B>::InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, 
   for (std::size_t i = 0; i < spaces.size(); ++i) coarser_.push_back(mass_level<B>(spaces[i], i + 1 == spaces.size()));
   if (spaces.empty()) return;
   std::vector<double> mass;
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), finest.model.mass);
+  const auto host = on_host(finest.model.mass);
   for (std::size_t a = 0; a < host.extent(0); ++a) mass.push_back(static_cast<double>(host(a)));
   axes_ = TurningAxes<B>(coarsest, axes_shape(finest_mesh, coarsest, mass), to_finest(spaces));
   constexpr std::size_t block = CoarseFilter<B>::block;
   filter_.vertices = static_cast<int>(coarsest.vertices.size());
-  filter_.turned = Vectors<B>("plica::him.turned", coarsest.vertices.size());
+  filter_.turned = zeros<Vectors<B>>("plica::him.turned", coarsest.vertices.size());
   filter_.rotation = axes_.rotation();
-  filtered_ = Scalars<B>("plica::him.filtered", (3 * coarsest.vertices.size() + block - 1) / block * block);
+  filtered_ = zeros<Scalars<B>>("plica::him.filtered", (3 * coarsest.vertices.size() + block - 1) / block * block);
 }
 
 template <class B>
@@ -61,7 +60,7 @@ void InverseMass<B>::set_answer(const Eigen::MatrixXd& S) {
 }
 
 template <class B>
-void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u, const Count& moved) const {
+void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const {
   if (!coarser_.empty()) axes_.turn(exec, u, moved);
 }
 
@@ -70,7 +69,7 @@ void InverseMass<B>::push(const Exec& exec, const Vectors<B>& q, double t, const
                           const Vectors<B>& p) const {
   if (coarser_.empty()) return;
   go_down(exec, q, {});
-  const auto filter = [&](const Vectors<B>& momentum, const Count& open) -> const Scalars<B>& {
+  const auto filter = [&](const Vectors<B>& momentum, const Doubles<B>& open) -> const Scalars<B>& {
     filter_forces(exec, momentum, open);
     return filtered_;
   };
@@ -78,7 +77,7 @@ void InverseMass<B>::push(const Exec& exec, const Vectors<B>& q, double t, const
 }
 
 template <class B>
-void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, const Count& count) const {
+void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count) const {
   Vectors<B> finer = f;
   for (const MassLevel<B>& level : coarser_) {
     where_touching<B>(exec, count, "plica::him_down", level.vertices, MultiplyRows<B>{level.down, finer, level.force});
@@ -87,14 +86,14 @@ void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, const Count&
 }
 
 template <class B>
-void InverseMass<B>::filter_forces(const Exec& exec, const Vectors<B>& force, const Count& count) const {
+void InverseMass<B>::filter_forces(const Exec& exec, const Vectors<B>& force, const Doubles<B>& count) const {
   where_touching<B>(exec, count, "plica::him_turn_forces", filter_.vertices, TurnForces<B>{filter_, force});
   where_touching<B>(exec, count, "plica::him_filter", static_cast<int>(filtered_.extent(0)) / FilterForces<B>::rows,
                     FilterForces<B>{filter_, filtered_});
 }
 
 template <class B>
-void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Count& count) const {
+void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
   go_down(exec, f, count);
   if (!coarser_.empty()) {
     const MassLevel<B>& level = coarser_.back();

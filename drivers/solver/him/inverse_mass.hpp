@@ -14,7 +14,7 @@ class InverseMass {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
-  using Count = Kokkos::View<double*, typename B::Memory>;
+  using Count = Doubles<B>;
 
   /// @param coarsest  its mesh, placed like the finest
   InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, const TetMesh& coarsest,
@@ -27,11 +27,11 @@ class InverseMass {
   void set_answer(const Eigen::MatrixXd& S);
 
   /// Turns the coarsest level's axes with the finest mesh's state, see TurningAxes.
-  void turn(const Exec& exec, const Vectors<B>& u, const Count& moved) const;
+  void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
   /// p += t times the force by which the axes act on the momenta q, with that force in them.
   void push(const Exec& exec, const Vectors<B>& q, double t, const Model<B>& model, const Vectors<B>& p) const;
   /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that is above 0.
-  void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Count& count = {}) const;
+  void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count = {}) const;
 
   const CoarseFilter<B>& filter() const { return filter_; }
   const TurningAxes<B>& axes() const { return axes_; }
@@ -46,9 +46,9 @@ class InverseMass {
   Scalars<B> filtered_;
   std::vector<double> weights_;
 
-  void go_down(const Exec& exec, const Vectors<B>& f, const Count& count) const;
-  void filter_forces(const Exec& exec, const Vectors<B>& force, const Count& count) const;
-  void answer_coarsest(const Exec& exec, const Count& count) const;
+  void go_down(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count) const;
+  void filter_forces(const Exec& exec, const Vectors<B>& force, const Doubles<B>& count) const;
+  void answer_coarsest(const Exec& exec, const Doubles<B>& count) const;
 };
 
 }  // namespace plica

@@ -1,10 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <plica/core/dense.hpp>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {
+
+namespace {
+
+double answer_of_mode(double square, double t, double kappa) {
+  const double x = t * std::sqrt(std::max(0.0, square));
+  const double cap = x > 0 ? std::min(1.0, kappa / (x * x)) : 1.0;
+  if (x < 1e-4) return 1;
+  return x < std::numbers::pi ? std::min(std::pow(std::sin(x / 2) / (x / 2), 2), cap) : cap;
+}
+
+}  // namespace
+
+CoarseModes::CoarseModes(Eigen::MatrixXd K, Eigen::MatrixXd M) : K_(std::move(K)), M_(std::move(M)) {
+  const double typical = M_.diagonal().maxCoeff();
+  for (Eigen::Index k = 0; k < M_.rows(); ++k) {
+    if (!(M_(k, k) > 0)) M_(k, k) = typical, K_(k, k) = 0;  // nothing reaches it
+    M_(k, k) *= 1 + 1e-9;                                   // vertices that barely differ do not make it singular
+  }
+  if (M_.rows() > most_modes) return;
+  squares_.resize(M_.rows()), modes_.resize(M_.rows(), M_.cols());
+  dense::eigenvectors(static_cast<int>(M_.rows()), K_.data(), M_.data(), squares_.data(), modes_.data());
+  K_.resize(0, 0), M_.resize(0, 0);
+}
+
+Eigen::MatrixXd CoarseModes::answer(double t, double kappa) const {
+  if (squares_.size() == 0) {
+    Eigen::MatrixXd inverse = M_ + (t * t / kappa) * K_;
+    dense::invert(static_cast<int>(inverse.rows()), inverse.data());
+    return inverse;
+  }
+  const Eigen::VectorXd s = squares_.unaryExpr([&](double square) { return answer_of_mode(square, t, kappa); });
+  Eigen::MatrixXd S(modes_.rows(), modes_.rows());
+  dense::recompose(static_cast<int>(s.size()), s.data(), modes_.data(), S.data());
+  return S;
+}
+
+double CoarseModes::largest(double t, double kappa) const {
+  if (squares_.size() == 0) return kappa;
+  double most = 0;
+  for (const double square : squares_) most = std::max(most, t * t * square * answer_of_mode(square, t, kappa));
+  return most;
+}
 
 namespace {
 

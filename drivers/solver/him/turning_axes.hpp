@@ -3,10 +3,21 @@
 #include <functional>
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/model.hpp>
-#include <plica/drivers/solver/him/axes_shape.hpp>
+#include <plica/drivers/solver/him/mass_spaces.hpp>
 #include <plica/kernels/reduce.hpp>
 
 namespace plica {
+
+/// What the axes of the coarsest level are found from, see CoarseAxes.
+struct AxesShape {
+  RowMatrix restriction;  ///< E: means by mass over what hangs on a coarse vertex; rows sum to 1
+  RowMatrix smoothing;    ///< W: six averages over the elements' neighbourhoods, over the volumes; W D = 1 at rest
+  std::vector<std::array<double, 10>>
+      tets;  ///< inverse edges between restricted rest positions, volume / mean; 0: flat
+};
+
+/// @param mass  of the finest level's vertices [kg]
+AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass);
 
 /// The axes of the coarsest level, which turn with the body, and the force by which they act back on it.
 template <class B>
@@ -14,15 +25,14 @@ class TurningAxes {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
-  using Values = Kokkos::View<double*, typename B::Memory>;
   /// Into its own view: S R^T (what q is), where `open` is above 0.
-  using Filter = std::function<const Scalars<B>&(const Vectors<B>& q, const Values& open)>;
+  using Filter = std::function<const Scalars<B>&(const Vectors<B>& q, const Doubles<B>& open)>;
 
   TurningAxes() = default;
   TurningAxes(const TetMesh& coarsest, const AxesShape& shape, const RowMatrix& all);
 
   /// R at a state. Into moved: the sum of the squares of their angles since the last time [rad^2], and their number.
-  void turn(const Exec& exec, const Vectors<B>& u, const Values& moved) const;
+  void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
 
   /// p += t times the force by which the axes act on momenta, at the momenta that this gives: repeated until it changes by less
   /// than a thousandth of itself or a millionth of q, six times at most, warm from the last step.
@@ -35,7 +45,7 @@ class TurningAxes {
   /// What the force added to the coarse momenta in the last step.
   const Vectors<B>& share() const { return share_; }
   /// [1]: by how much of itself that force still changed where it was not found, else 0.
-  const Values& open() const { return open_; }
+  const Doubles<B>& open() const { return open_; }
   std::size_t bytes() const;
 
  private:
@@ -43,7 +53,7 @@ class TurningAxes {
   CoarseAxes<B> axes_;
   Vectors<B> rotation_, share_, momentum_;
   BlockSums<B> blocks_;
-  Values open_, sums_;
+  Doubles<B> open_, sums_;
 };
 
 }  // namespace plica

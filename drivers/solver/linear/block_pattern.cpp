@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-template <class View>
-auto on_host(const View& view) {
-  return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
-}
-
 /// One block of one element: the pair of vertices it is for, first <= second, and whether it is for them turned round.
 struct ElementPair {
   int first, second, turned, slot;
@@ -46,7 +41,7 @@ class PatternBuilder {
     A.first = to_device<Indices<B>>("matrix.first", first_);
     A.column = to_device<Indices<B>>("matrix.column", column_);
     A.diagonal = to_device<Indices<B>>("matrix.diagonal", diagonal_);
-    A.value = Blocks9<B>("plica::matrix.value", column_.size() + 1);
+    A.value = zeros<Blocks9<B>>("plica::matrix.value", column_.size() + 1);
     PatchPairs<B>& P = made.pairs;
     P.shares = first_share_.back();
     P.first_pair = to_device<Indices<B>>("pairs.first_pair", first_pair_);

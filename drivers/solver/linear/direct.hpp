@@ -5,7 +5,7 @@
 #include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 #include <plica/drivers/solver/linear/stage_system.hpp>
-#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <plica/drivers/solver/linear/galerkin_map.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/linear/multigrid.hpp>
 
 namespace plica {
 
@@ -52,8 +51,7 @@ int place_of(const HostPattern& A, int a, int b) {
 template <class B>
 HostPattern host_pattern(const BlockMatrix<B>& A) {
   HostPattern pattern;
-  const auto first = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), A.first);
-  const auto column = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), A.column);
+  const auto first = on_host(A.first), column = on_host(A.column);
   pattern.first.assign(first.data(), first.data() + first.extent(0));
   pattern.column.assign(column.data(), column.data() + column.extent(0));
   return pattern;
@@ -65,7 +63,7 @@ BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern)
   for (int a = 0; a < pattern.rows(); ++a) diagonal.push_back(place_of(pattern, a, a));
   return {pattern.rows(), to_device<Indices<B>>(name + ".first", pattern.first),
           to_device<Indices<B>>(name + ".column", pattern.column), to_device<Indices<B>>(name + ".diagonal", diagonal),
-          Blocks9<B>("plica::" + name + ".value", pattern.column.size() + 1)};
+          zeros<Blocks9<B>>("plica::" + name + ".value", pattern.column.size() + 1)};
 }
 
 template <class B>

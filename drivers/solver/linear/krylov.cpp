@@ -3,17 +3,52 @@
 #include <cmath>
 #include <limits>
 #include <plica/drivers/solver/linear/krylov.hpp>
-#include <plica/drivers/solver/spaces/sparse_rows.hpp>
-#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
 template <class B>
+LastSolutions<B>::LastSolutions(int vertices) {
+  for (auto& w : space_.w) w = zeros<Vectors<B>>("plica::last_solutions.w", vertices);
+  for (auto& q : space_.q) q = zeros<Vectors<B>>("plica::last_solutions.q", vertices);
+  space_.products = zeros<Doubles<B>>("plica::last_solutions.products", SolutionSpace<B>::sums);
+}
+
+template <class B>
+void LastSolutions<B>::start(const Exec& exec, const StageSystem<B>& system, const BlockSums<B>& sums,
+                             const Vectors<B>& r, const Vectors<B>& x) const {
+  if (!any()) return;
+  const int n = system.rows();
+  constexpr double least = 1e4 * Kokkos::Experimental::epsilon_v<typename B::Real>;
+  system.products(exec, space_);
+  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", n, SpaceSums<B>{space_, r}, sums, space_.products);
+  update_vertices<B>(exec, "plica::space_weights", 1, SpaceWeights<B>{space_.products, least});
+  update_vertices<B>(exec, "plica::space_guess", n, SpaceGuess<B>{space_, r, x});
+}
+
+template <class B>
+void LastSolutions<B>::add(const Exec& exec, const Vectors<B>& x) {
+  copy(exec, space_.w[count_++ % SolutionSpace<B>::size], x);
+}
+
+template <class B>
+std::size_t LastSolutions<B>::bytes() const {
+  return bytes_of_views(space_.products) +
+         SolutionSpace<B>::size * (bytes_of_views(space_.w[0]) + bytes_of_views(space_.q[0]));
+}
+
+template <class B>
+void LastSolutions<B>::persist(StateArchive<B>& archive) {
+  archive.number(count_);
+  for (const auto& w : space_.w) archive.field("a last solution", w);
+}
+
+template <class B>
 Krylov<B>::Krylov(int vertices)
-    : z_("plica::cg.z", vertices),
-      p_("plica::cg.p", vertices),
-      q_("plica::cg.q", vertices),
-      scalars_("plica::cg.scalars", cg::count),
+    : z_(zeros<Vectors<B>>("plica::cg.z", vertices)),
+      p_(zeros<Vectors<B>>("plica::cg.p", vertices)),
+      q_(zeros<Vectors<B>>("plica::cg.q", vertices)),
+      scalars_(zeros<Doubles<B>>("plica::cg.scalars", cg::count)),
       sums_(vertices) {}
 
 template <class B>
@@ -23,12 +58,12 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Pr
   const Blocks<B>& D = system.inverse_diagonal();
   if (preconditioner) {
     preconditioner->apply(exec, r, z_);
-    reduce<B, 1>(exec, "plica::cg_product", n, CgDot<B>{r, z_}, sums_, slot(cg::product));
+    dot<B>(exec, "plica::cg_product", r, z_, sums_, slot(cg::product));
   }
   update_vertices<B>(exec, "plica::cg_turn", 1, CgTurn<B>{scalars_, preconditioner ? cg::product : cg::square});
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, z_, p_});
   system.product(exec, p_, q_);
-  reduce<B, 1>(exec, "plica::cg_curvature", n, CgDot<B>{p_, q_}, sums_, slot(cg::curvature));
+  dot<B>(exec, "plica::cg_curvature", p_, q_, sums_, slot(cg::curvature));
   update_vertices<B>(exec, "plica::cg_step", 1, CgStep<B>{scalars_});
   reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square));
   update_vertices<B>(exec, "plica::cg_judge", 1, CgJudge<B>{scalars_, tolerance});
@@ -50,11 +85,8 @@ template <class B>
 KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
                                const LastSolutions<B>* last, const ImplicitOptions& options, const Vectors<B>& r,
                                const Vectors<B>& x) const {
-  const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), scalars_);
-  const auto look = [&] {
-    Kokkos::deep_copy(exec, host, scalars_);
-    exec.fence("plica::cg");
-  };
+  std::vector<double> scalar;
+  const auto look = [&] { scalar = host_values(exec, scalars_); };
   const bool fixed = options.iterations > 0;
   const int most = fixed ? options.iterations : options.max_iterations;
   const double tolerance = fixed ? -1.0 : options.relative_residual;
@@ -62,19 +94,19 @@ KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system, c
   for (int i = 0; i < most; ++i) {
     if (!fixed && i % watch == 0) {
       look();
-      if (host(cg::stopped) != cg::running) break;
+      if (scalar[cg::stopped] != cg::running) break;
     }
     advance(exec, system, preconditioner, tolerance, r, x);
   }
   look();
   KrylovOutcome out;
-  out.iterations = static_cast<int>(host(cg::iterations));
-  out.indefinite = host(cg::stopped) == cg::indefinite;
-  out.converged = host(cg::stopped) == cg::converged || (fixed && host(cg::stopped) == cg::running);
-  out.relative_residual = host(cg::right_side) > 0 ? std::sqrt(host(cg::square) / host(cg::right_side)) : 0;
-  if (host(cg::square) > 0) out.decades = 0.5 * std::log10(host(cg::start) / host(cg::square));
-  if (host(cg::stopped) == cg::not_finite) {  // which must show in the state, for whoever checks it
-    if (out.iterations == 0) Kokkos::deep_copy(exec, x, r);
+  out.iterations = static_cast<int>(scalar[cg::iterations]);
+  out.indefinite = scalar[cg::stopped] == cg::indefinite;
+  out.converged = scalar[cg::stopped] == cg::converged || (fixed && scalar[cg::stopped] == cg::running);
+  out.relative_residual = scalar[cg::right_side] > 0 ? std::sqrt(scalar[cg::square] / scalar[cg::right_side]) : 0;
+  if (scalar[cg::square] > 0) out.decades = 0.5 * std::log10(scalar[cg::start] / scalar[cg::square]);
+  if (scalar[cg::stopped] == cg::not_finite) {  // which must show in the state, for whoever checks it
+    if (out.iterations == 0) copy(exec, x, r);
     out.relative_residual = std::numeric_limits<double>::infinity();
   }
   return out;
@@ -85,7 +117,9 @@ std::size_t Krylov<B>::bytes() const {
   return bytes_of_views(z_, p_, q_, scalars_, sums_.view());
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) template class Krylov<Backend<Real, Exec>>;
+#define PLICA_INSTANTIATE(Real, Exec)                \
+  template class LastSolutions<Backend<Real, Exec>>; \
+  template class Krylov<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

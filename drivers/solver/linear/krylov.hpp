@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/solver/linear/last_solutions.hpp>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
-#include <plica/drivers/solver/linear/preconditioner.hpp>
+#include <plica/drivers/solver/linear/multigrid.hpp>
 #include <plica/drivers/solver/linear/stage_system.hpp>
 #include <plica/kernels/linear/krylov.hpp>
 
 namespace plica {
+
+/// Where a solve starts: the best combination of the last few solutions; see kernels/linear/krylov.hpp.
+template <class B>
+class LastSolutions {
+ public:
+  using Exec = typename B::Exec;
+
+  explicit LastSolutions(int vertices);
+  /// Where there are any: adds the guess to x, which is zero, and takes its part from r.
+  void start(const Exec& exec, const StageSystem<B>& system, const BlockSums<B>& sums, const Vectors<B>& r,
+             const Vectors<B>& x) const;
+  bool any() const { return count_ > 0; }
+  /// Takes in a solution, for the oldest.
+  void add(const Exec& exec, const Vectors<B>& x);
+  std::size_t bytes() const;
+  void persist(StateArchive<B>& archive);
+
+ private:
+  SolutionSpace<B> space_;
+  long count_ = 0;
+};
 
 struct KrylovOutcome : SolveOutcome {
   double decades = 0;  ///< by which the iterations have lowered the residual
@@ -31,10 +51,10 @@ class Krylov {
 
  private:
   Vectors<B> z_, p_, q_;
-  CgScalars<B> scalars_;
+  Doubles<B> scalars_;
   BlockSums<B> sums_;
 
-  CgScalars<B> slot(int k) const { return CgScalars<B>(scalars_.data() + k, 1); }
+  Doubles<B> slot(int k) const { return Doubles<B>(scalars_.data() + k, 1); }
   void begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
              const Vectors<B>& r, const Vectors<B>& x) const;
   void advance(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/spaces/smoothing.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <vector>
 
 namespace plica {

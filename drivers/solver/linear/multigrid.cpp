@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/dense.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
-#include <plica/drivers/solver/spaces/sparse_rows.hpp>
-#include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/linear/chebyshev.hpp>
-#include <plica/kernels/linear/galerkin_product.hpp>
+#include <plica/kernels/linear/dense_inverse.hpp>
 #include <plica/kernels/transfer/multiply_rows.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -13,29 +13,47 @@ namespace {
 constexpr int power_iterations = 12;
 constexpr double power_margin = 1.1;  // what so few fall short by, at most
 
+/// The part of a direction that Chebyshev's next one keeps.
+float keep_of(int k) { return static_cast<float>(2 * k - 1) / static_cast<float>(2 * k + 3); }
+
+/// A^-1 in place, 0 in empty rows. False where A is not positive definite.
+bool invert_on_host(int n, double* A) {
+  const auto diagonal = [&](int i) -> double& { return A[static_cast<std::ptrdiff_t>(i) * (n + 1)]; };
+  std::vector<int> empty;
+  for (int i = 0; i < n; ++i)
+    if (diagonal(i) == 0) empty.push_back(i);
+  for (const int i : empty) diagonal(i) = 1;
+  if (!dense::invert(n, A)) return false;
+  for (const int i : empty) diagonal(i) = 0;
+  return true;
+}
+
 }  // namespace
 
 template <class B>
 Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree)
-    : grids_(transfers.size() + 1), degree_(degree), sums_(A.rows), square_("plica::multigrid.square", 1) {
+    : grids_(transfers.size() + 1),
+      degree_(degree),
+      sums_(A.rows),
+      square_(zeros<Doubles<B>>("plica::multigrid.square", 1)) {
   HostPattern pattern = host_pattern(A);
   for (std::size_t i = 0; i < grids_.size(); ++i) {
     Grid& grid = grids_[i];
     if (i == 0) {
-      grid.A = {A.rows, A.first, A.column, A.diagonal, Blocks9<F>("plica::multigrid.value", A.value.extent(0))};
+      grid.A = {A.rows, A.first, A.column, A.diagonal, zeros<Blocks9<F>>("plica::multigrid.value", A.value.extent(0))};
     } else {
       CoarseMatrix<F> coarse = coarse_matrix<F>(pattern, transfers[i - 1]);
       grid.A = coarse.matrix, grid.map = coarse.map, pattern = std::move(coarse.pattern);
     }
     const int n = grid.A.rows;
-    grid.x = Vectors<F>("plica::multigrid.x", n), grid.r = Vectors<F>("plica::multigrid.r", n);
+    grid.x = zeros<Vectors<F>>("plica::multigrid.x", n), grid.r = zeros<Vectors<F>>("plica::multigrid.r", n);
     if (i > 0 && i + 1 == grids_.size()) {
       coarsest_ = DenseInverse<F>(n);
       continue;
     }
-    grid.inverse_diagonal = Blocks<F>("plica::multigrid.diagonal", n);
-    grid.d = Vectors<F>("plica::multigrid.d", n), grid.e = Vectors<F>("plica::multigrid.e", n);
-    grid.largest = Scalar("plica::multigrid.largest", 1);
+    grid.inverse_diagonal = zeros<Blocks<F>>("plica::multigrid.diagonal", n);
+    grid.d = zeros<Vectors<F>>("plica::multigrid.d", n), grid.e = zeros<Vectors<F>>("plica::multigrid.e", n);
+    grid.largest = zeros<Doubles<B>>("plica::multigrid.largest", 1);
     if (i + 1 == grids_.size()) continue;
     grid.up = sparse_rows<F>("multigrid.up", transfers[i]);
     grid.down = sparse_rows<F>("multigrid.down", RowMatrix(transfers[i].transpose()));
@@ -45,27 +63,28 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
 template <class B>
 void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) {
   const Grid& finest = grids_.front();
-  update_vertices<F>(exec, "plica::multigrid_values", A.blocks(), ConvertBlocks<F, B>{A.value, finest.A.value});
-  Kokkos::deep_copy(exec, finest.inverse_diagonal, inverse_diagonal);
+  convert(exec, "plica::multigrid_values", A.value, finest.A.value);
+  convert(exec, "plica::multigrid_values", inverse_diagonal, finest.inverse_diagonal);
   refit(exec);
 }
 
 /// All levels follow from the finest one's matrix and blocks.
 template <class B>
 void Multigrid<B>::refit(const Exec& exec) {
-  fit_grid(exec, grids_.front());
+  bound_spectrum(exec, grids_.front());
   for (std::size_t i = 1; i < grids_.size(); ++i) {
     const Grid& grid = grids_[i];
     update_vertices<F>(exec, "plica::galerkin", grid.map.blocks(),
                        GalerkinProduct<F>{grid.map, grids_[i - 1].A, grid.A});
-    if (i + 1 == grids_.size()) return invert_coarsest(exec);
+    if (!coarser_than(i)) return invert_coarsest(exec);
     update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows, InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
-    fit_grid(exec, grid);
+    bound_spectrum(exec, grid);
   }
 }
 
+/// The largest eigenvalue of D^-1 A, by a few power iterations.
 template <class B>
-void Multigrid<B>::fit_grid(const Exec& exec, const Grid& grid) const {
+void Multigrid<B>::bound_spectrum(const Exec& exec, const Grid& grid) const {
   const int n = grid.A.rows;
   update_vertices<F>(exec, "plica::power_start", n, PowerStart<F>{grid.r});
   for (int i = 0;; ++i) {
@@ -76,55 +95,77 @@ void Multigrid<B>::fit_grid(const Exec& exec, const Grid& grid) const {
   update_vertices<F>(exec, "plica::power_bound", 1, PowerBound<F>{square_, grid.largest, power_margin});
 }
 
+/// On the device by the sweep operator; where the host shares its memory by Cholesky's method, which is many times faster there,
+/// if the matrix is positive definite but for empty rows.
 template <class B>
 void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   const int n = coarsest_.size;
   update_vertices<F>(exec, "plica::to_dense", n / 3, ToDense<F>{grids_.back().A, coarsest_});
+  if constexpr (B::on_host) {
+    exec.fence("plica::to_dense");
+    if (invert_on_host(n, coarsest_.matrix.data()))
+      return update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_, 1});
+    update_vertices<F>(exec, "plica::to_dense", n / 3, ToDense<F>{grids_.back().A, coarsest_});
+  }
   for (int pivot = 0; pivot < n; ++pivot) {
     update_vertices<F>(exec, "plica::pivot_row", n, TakePivotRow<F>{coarsest_, pivot});
     update_vertices<F>(exec, "plica::sweep", n, SweepRow<F>{coarsest_, pivot});
   }
-  update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_});
+  update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_, -1});
 }
 
-/// Step k of the polynomial; its first after a correction takes that for its direction.
-template <class B>
-void Multigrid<B>::step(const Exec& exec, const Grid& grid, const Vectors<F>& d, const Vectors<F>& next, int k,
-                        bool correcting, bool last) const {
-  const auto keep = static_cast<float>(2 * k - 1) / static_cast<float>(2 * k + 3);
-  const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
-  update_vertices<F>(exec, "plica::chebyshev", grid.A.rows,
-                     ChebyshevStep<F>{grid.A, grid.inverse_diagonal, grid.largest, d, grid.r, grid.x, next,
-                                      correcting ? 0.0F : keep, gain, last});
-}
-
+/// x near A^-1 r, from r alone; r is lost.
 template <class B>
 void Multigrid<B>::cycle(const Exec& exec, std::size_t level) const {
   const Grid& grid = grids_[level];
-  const int n = grid.A.rows;
-  if (level > 0 && level + 1 == grids_.size())
+  if (level > 0 && !coarser_than(level))
     return update_vertices<F>(exec, "plica::coarsest", ApplyDense<F>::items(coarsest_.size),
                               ApplyDense<F>{coarsest_, grid.r, grid.x});
-  update_vertices<F>(exec, "plica::chebyshev_start", n,
-                     ChebyshevStart<F>{grid.inverse_diagonal, grid.largest, grid.r, grid.d, grid.x});
-  Vectors<F> d = grid.d, e = grid.e;
-  const bool alone = level + 1 == grids_.size();
-  for (int k = 1; k <= (alone ? degree_ - 1 : degree_); ++k, std::swap(d, e))
-    step(exec, grid, d, e, k, false, alone && k + 1 == degree_);
-  if (alone) return;
+  relax_from_zero(exec, grid, coarser_than(level));  // x, and the residual in r
+  if (!coarser_than(level)) return;
   const Grid& coarse = grids_[level + 1];
   update_vertices<F>(exec, "plica::restrict_residual", coarse.A.rows, MultiplyRows<F>{grid.down, grid.r, coarse.r});
   cycle(exec, level + 1);
-  update_vertices<F>(exec, "plica::prolong", n, MultiplyRows<F>{grid.up, coarse.x, d});
-  for (int k = 0; k < degree_; ++k, std::swap(d, e)) step(exec, grid, d, e, k, k == 0, k + 1 == degree_);
+  update_vertices<F>(exec, "plica::prolongate", grid.A.rows, MultiplyRows<F>{grid.up, coarse.x, grid.d});
+  relax_from_correction(exec, grid);
+}
+
+/// x = the polynomial's answer to r, starting from x = 0. Leaves the residual in r where asked to; else the last step, which
+/// would only update the residual, is left out.
+template <class B>
+void Multigrid<B>::relax_from_zero(const Exec& exec, const Grid& grid, bool leaves_residual) const {
+  update_vertices<F>(exec, "plica::chebyshev_start", grid.A.rows,
+                     ChebyshevStart<F>{grid.inverse_diagonal, grid.largest, grid.r, grid.d, grid.x});
+  Vectors<F> d = grid.d, next = grid.e;
+  const int steps = leaves_residual ? degree_ : degree_ - 1;
+  for (int k = 1; k <= steps; ++k, std::swap(d, next))
+    chebyshev_step(exec, grid, d, next, k, keep_of(k), !leaves_residual && k == steps);
+}
+
+/// x += the correction in d, r -= A d, and the polynomial's answer to that residual.
+template <class B>
+void Multigrid<B>::relax_from_correction(const Exec& exec, const Grid& grid) const {
+  Vectors<F> d = grid.d, next = grid.e;
+  for (int k = 0; k < degree_; ++k, std::swap(d, next))
+    chebyshev_step(exec, grid, d, next, k, k == 0 ? 0.0F : keep_of(k), k + 1 == degree_);
+}
+
+/// Step k: x += d, r -= A d, and the next direction, which keeps a part of d. The last adds that to x as well.
+template <class B>
+void Multigrid<B>::chebyshev_step(const Exec& exec, const Grid& grid, const Vectors<F>& d, const Vectors<F>& next,
+                                  int k, float keep, bool last) const {
+  const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
+  update_vertices<F>(
+      exec, "plica::chebyshev", grid.A.rows,
+      ChebyshevStep<F>{grid.A, grid.inverse_diagonal, grid.largest, d, grid.r, grid.x, next, keep, gain, last});
 }
 
 template <class B>
 void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const {
   const Grid& finest = grids_.front();
-  update_vertices<F>(exec, "plica::multigrid_in", finest.A.rows, ConvertVectors<F, B>{r, finest.r});
+  convert(exec, "plica::multigrid_in", r, finest.r);
   cycle(exec, 0);
-  update_vertices<B>(exec, "plica::multigrid_out", finest.A.rows, ConvertVectors<B, F>{finest.x, z});
+  convert(exec, "plica::multigrid_out", finest.x, z);
 }
 
 template <class B>

@@ -1,17 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/galerkin_map.hpp>
 #include <plica/core/sparse_rows.hpp>
-#include <plica/drivers/solver/linear/galerkin_map.hpp>
-#include <plica/drivers/solver/linear/preconditioner.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>
 #include <plica/kernels/reduce.hpp>
+#include <string>
 #include <vector>
 
 namespace plica {
 
+/// z = C r with a symmetric positive definite C near the inverse of a matrix. Vertices whose motion is given get 0.
+template <class B>
+class Preconditioner {
+ public:
+  using Exec = typename B::Exec;
+  virtual ~Preconditioner() = default;
+  /// Fits it to a matrix. `inverse_diagonal`: its vertex blocks' inverses, 0 where the motion is given.
+  virtual void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) = 0;
+  virtual void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const = 0;
+  virtual std::size_t bytes() const = 0;
+  /// Names what it has been fitted to; where that has been restored, refit() makes the rest of it.
+  virtual void persist(StateArchive<B>& archive) = 0;
+  virtual void refit(const Exec& exec) = 0;
+};
+
+/// Which blocks a matrix has, on the host.
+struct HostPattern {
+  std::vector<int> first{0}, column;
+  int rows() const { return static_cast<int>(first.size()) - 1; }
+};
+
+template <class B>
+struct CoarseMatrix {
+  HostPattern pattern;
+  BlockMatrix<B> matrix;  ///< P^T A P, its values zero
+  GalerkinMap<B> map;
+};
+
+template <class B>
+HostPattern host_pattern(const BlockMatrix<B>& A);
+template <class B>
+BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern);
+
+/// The pattern of P^T A P, own blocks always in it, and how its blocks follow from A's.
+template <class B>
+CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
+
 /// One symmetric V-cycle over the body's meshes, in float: Galerkin matrices P^T A P, Chebyshev polynomials before and after
 /// (kernels/linear/chebyshev.hpp), the dense inverse of the coarsest level. With no coarser level it is the polynomial alone.
-/// Nothing in it waits for the device.
+///
+///   level 0   relax  residual                                        prolongate  relax
+///                        \\                                           /
+///   level 1               restrict  relax  residual      prolongate  relax
+///                                             \\           /
+///   level 2                                    restrict  solve
+///
+/// The polynomial carries the residual along, so that it costs no product of its own. Nothing in a cycle waits for the device.
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
@@ -30,12 +76,11 @@ class Multigrid final : public Preconditioner<B> {
   void refit(const Exec& exec) override;
 
  private:
-  using Scalar = Kokkos::View<double*, typename B::Memory>;
   struct Grid {
     BlockMatrix<F> A;
     Blocks<F> inverse_diagonal;
     Vectors<F> x, r, d, e;
-    Scalar largest;
+    Doubles<B> largest;
     SparseRows<F> up, down;  ///< P from the next coarser level, and its transpose; none on the coarsest
     GalerkinMap<F> map;      ///< from the next finer level's matrix; none on the finest
   };
@@ -43,13 +88,16 @@ class Multigrid final : public Preconditioner<B> {
   int degree_;
   DenseInverse<F> coarsest_;
   BlockSums<F> sums_;
-  Scalar square_;
+  Doubles<B> square_;
 
-  void fit_grid(const Exec& exec, const Grid& grid) const;
+  bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }
+  void bound_spectrum(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;
   void cycle(const Exec& exec, std::size_t level) const;
-  void step(const Exec& exec, const Grid& grid, const Vectors<F>& d, const Vectors<F>& next, int k, bool correcting,
-            bool last) const;
+  void relax_from_zero(const Exec& exec, const Grid& grid, bool leaves_residual) const;
+  void relax_from_correction(const Exec& exec, const Grid& grid) const;
+  void chebyshev_step(const Exec& exec, const Grid& grid, const Vectors<F>& d, const Vectors<F>& next, int k,
+                      float keep, bool last) const;
 };
 
 }  // namespace plica

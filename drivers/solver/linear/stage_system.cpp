@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/linear/stage_system.hpp>
-#include <plica/drivers/solver/spaces/sparse_rows.hpp>
-#include <plica/kernels/explicit/updates.hpp>
-#include <plica/kernels/linear/block_product.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
 template <class B>
 StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
-    : assembled_(assembled), inverse_diagonal_("plica::linear.inverse_diagonal", level.model.vertices), level_(&level) {
+    : assembled_(assembled),
+      inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
+      level_(&level) {
   if (assembled) pattern();
 }
 
@@ -17,7 +19,7 @@ template <class B>
 const BlockMatrix<B>& StageSystem<B>::pattern() {
   if (pattern_.matrix.rows == 0) {
     pattern_ = block_pattern<B>(level_->model);
-    shares_ = Blocks9<B>("plica::linear.shares", pattern_.pairs.shares);
+    shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
   }
   return pattern_.matrix;
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/level_forces.hpp>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
-#include <plica/kernels/linear/solution_space.hpp>
+#include <plica/kernels/linear/krylov.hpp>
 
 namespace plica {
 

@@ -19,14 +19,13 @@ struct VCycleSolver {
   class Of final : public LinearSolver<B> {
    public:
     using Exec = typename B::Exec;
-    using Scalar = Kokkos::View<double*, typename B::Memory>;
 
     Of(const Level<B>& level, const LinearSolverParts& parts)
         : system_(level, false),
           cycle_(MultigridCycle::template make<B>(parts, system_)),
-          product_("plica::v_cycle.product", level.model.vertices),
-          scaled_("plica::v_cycle.scaled", level.model.vertices),
-          squares_("plica::v_cycle.squares", 2),
+          product_(zeros<Vectors<B>>("plica::v_cycle.product", level.model.vertices)),
+          scaled_(zeros<Vectors<B>>("plica::v_cycle.scaled", level.model.vertices)),
+          squares_(zeros<Doubles<B>>("plica::v_cycle.squares", 2)),
           sums_(level.model.vertices) {}
 
     void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
@@ -41,7 +40,7 @@ struct VCycleSolver {
     }
 
     SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
-      const auto slot = [&](int k) { return Scalar(squares_.data() + k, 1); };
+      const auto slot = [&](int k) { return Doubles<B>(squares_.data() + k, 1); };
       const auto square = [&](int k) {
         reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(), CgSquare<B>{system_.inverse_diagonal(), r, scaled_},
                      sums_, slot(k));
@@ -49,15 +48,13 @@ struct VCycleSolver {
       square(0);
       cycle_->apply(exec, r, x);
       system_.product(exec, x, product_);
-      update_vertices<B>(exec, "plica::v_cycle_residual", system_.rows(), SubtractVectors<B>{product_, r});
+      add<B>(exec, "plica::v_cycle_residual", -1, product_, r);
       square(1);
-      const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), squares_);
-      Kokkos::deep_copy(exec, host, squares_);
-      exec.fence("plica::v_cycle");
+      const std::vector<double> squares = host_values(exec, squares_);
       SolveOutcome out;
       out.iterations = 1;
-      out.relative_residual = host(0) > 0 ? std::sqrt(host(1) / host(0)) : 0;
-      out.converged = std::isfinite(host(0)) && std::isfinite(out.relative_residual);
+      out.relative_residual = squares[0] > 0 ? std::sqrt(squares[1] / squares[0]) : 0;
+      out.converged = std::isfinite(squares[0]) && std::isfinite(out.relative_residual);
       last_ = out.relative_residual;
       if (first_ == 0) first_ = last_;
       return out;
@@ -78,7 +75,7 @@ struct VCycleSolver {
     StageSystem<B> system_;
     std::unique_ptr<Preconditioner<B>> cycle_;
     Vectors<B> product_, scaled_;
-    Scalar squares_;
+    Doubles<B> squares_;
     BlockSums<B> sums_;
     long fitted_ = 0, fits_ = 0;
     double a_ = 0, b_ = 0, first_ = 0, last_ = 0;

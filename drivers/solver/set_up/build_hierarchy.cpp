@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,7 +23,8 @@
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/edge_lengths.hpp>
+#include <plica/meshes/compare_levels.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
 
@@ -58,13 +60,32 @@ class HierarchyBuilder {
   }
 
   BuiltHierarchy<B> build() {
-    place_meshes();
-    embed_levels();
-    for (std::size_t i = 0; i < meshes_; ++i) report_mesh(i);
-    for (std::size_t i = 0; i < levels_; ++i) add_level(i);
-    for (std::size_t i = 1; i < levels_; ++i) connect(i);
-    add_contact();
+    phase("placing the meshes", [&] { place_meshes(); });
+    phase("finding the levels in each other", [&] { embed_levels(); });
+    phase("looking at the elements", [&] {
+      for (std::size_t i = 0; i < meshes_; ++i) report_mesh(i);
+    });
+    phase("building the levels", [&] {
+      for (std::size_t i = 0; i < levels_; ++i) add_level(i);
+      for (std::size_t i = 1; i < levels_; ++i) connect(i);
+    });
+    phase("sampling the obstacles", [&] { add_contact(); });
     plan();
+    phase("building the cycle", [&] { make_cycle(); });
+    if (starts_deformed(problem_.body.initial)) deform();
+    built_.cycle->start(*built_.hierarchy);
+    return std::move(built_);
+  }
+
+ private:
+  /// A region of Kokkos' profiling interface: tools and programs see what the set-up is at.
+  template <class Work>
+  static void phase(const std::string& name, const Work& work) {
+    const Kokkos::Profiling::ScopedRegion region("plica: " + name);
+    work();
+  }
+
+  void make_cycle() {
     Cycles::visit(problem_.integration.cycle, [&](auto cycle) {
       using Of = typename decltype(cycle)::template Of<B>;
       if constexpr (std::is_same_v<decltype(cycle), Him>)
@@ -72,12 +93,8 @@ class HierarchyBuilder {
       else
         built_.cycle = std::make_unique<Of>(*built_.hierarchy);
     });
-    if (starts_deformed(problem_.body.initial)) deform();
-    built_.cycle->start(*built_.hierarchy);
-    return std::move(built_);
   }
 
- private:
   const Problem& problem_;
   BuiltHierarchy<B> built_;
   std::size_t levels_ = 1, meshes_ = 1;  // that are integrated; that are used
@@ -186,6 +203,7 @@ class HierarchyBuilder {
       down_.push_back(embed(built_.meshes[i].vertices, *locators_[i - 1], rule));
       up_.push_back(embed(built_.meshes[i - 1].vertices, *locators_[i], rule));
       expect_overlap(i);
+      expect_same_body(i);
       std::vector<double>& mass = constants_[i].mass;
       if (inherits_masses_) mass = inherited_masses(up_[i], constants_[i - 1].mass, mass, massless_.emplace_back());
     }
@@ -199,6 +217,12 @@ class HierarchyBuilder {
     for (const Point& p : fine) distance = std::min(distance, locators_[i]->locate(p).distance);
     throw InputError(text("body.levels: levels ", i - 1, " and ", i, " do not overlap, they are ", number(distance, 4),
                           " m apart; expected meshes of one body"));
+  }
+
+  void expect_same_body(std::size_t i) const {
+    const auto size = [&](std::size_t l) { return mesh_size(built_.meshes[l], constants_[l].density); };
+    if (const LevelComparison found = compare_levels(size(0), size(i), i); found.same == SameBody::no)
+      throw InputError("body.levels: " + found.sentence);
   }
 
   void connect(std::size_t i) {
@@ -238,6 +262,7 @@ class HierarchyBuilder {
         contact_ ? PointContactLimit{contact_->stiffness(), contact_->damping()} : PointContactLimit{};
     std::vector<LevelLimits> limits;
     for (std::size_t i = 0; i < levels_; ++i) {
+      const Kokkos::Profiling::ScopedRegion region("plica: finding the critical step of level " + std::to_string(i));
       LevelReport& report = built_.reports[i];
       Level<B>& level = h.levels[i].level;
       Integrators::visit(report.integrator, [&](auto integrator) {

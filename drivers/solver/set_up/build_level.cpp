@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
@@ -69,13 +70,15 @@ std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> dens
 
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level) {
   LevelConstants c;
+  const MaterialInfo& material = *find_material(body.material.model);
   std::vector<double> mass_damping;  // per region
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
   for (std::size_t r = 0; r < regions; ++r) {
     const auto own = mesh.region.empty() ? body.regions.end() : body.regions.find(mesh.region_names[r]);
     const RegionOptions o = own == body.regions.end() ? RegionOptions{} : own->second;
-    c.lame.push_back(lame_constants(o.young_modulus.value_or(body.material.young_modulus),
-                                    o.poisson_ratio.value_or(body.material.poisson_ratio)));
+    const std::vector<double> values = parameter_values(material, body.material, o);
+    c.material.push_back(material.kernel_constants(values));
+    c.lame.push_back(material.small_strains(values));
     mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
     c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
   }
@@ -97,7 +100,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.material = body.material.model;
-  level.model.patches = build_patches<B>(placed, c.lame, c.stiffness_damping);
+  level.model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
@@ -122,8 +125,8 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.model.inverse_mass = to_device<Scalars<B>>("model.inverse_mass", inverse);
   level.state.u = to_device<Vectors<B>>("state.u", rows<Real>(displacement));
   level.state.v = to_device<Vectors<B>>("state.v", rows<Real>(velocity));
-  level.f = Vectors<B>("plica::work.f", n);
-  level.partial = Vectors<B>("plica::work.partial", level.model.patches.vertex.extent(0));
+  level.f = zeros<Vectors<B>>("plica::work.f", n);
+  level.partial = zeros<Vectors<B>>("plica::work.partial", level.model.patches.vertex.extent(0));
   if (!allows_inversion(body.material)) level.flags = make_element_flags<B>(level.model.patches.count);
   return level;
 }

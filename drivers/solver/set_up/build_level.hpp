@@ -2,22 +2,23 @@
 #pragma once
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/kernels/materials/material.hpp>
+#include <plica/kernels/materials/parameters.hpp>
 #include <vector>
 
 namespace plica {
 
 /// What a level's set-up works out on the host and other parts of the set-up need too.
 struct LevelConstants {
-  std::vector<Lame<double>> lame;         ///< per region [Pa]; one entry where the mesh names none
-  std::vector<double> density;            ///< per region [kg/m^3]
-  std::vector<double> mass_damping;       ///< per vertex [1/s]; one entry where it is the same everywhere
-  std::vector<double> stiffness_damping;  ///< per region [s]; empty where there is none
-  std::vector<double> mass;               ///< per vertex [kg], a quarter of each of its tetrahedra
-  std::vector<char> constrained;          ///< per vertex: its motion is given
-  std::vector<int> prescribed_vertex;     ///< those of them that may move
-  std::vector<int> prescribed_motion;     ///< which of the body's motions each of them follows
-  std::vector<Point> velocity;            ///< per vertex, where it is free: at the start, level 0 [m/s]
+  std::vector<std::vector<double>> material;  ///< per region, its constants; one entry where the mesh names none
+  std::vector<Lame<double>> lame;             ///< per region, of small strains [Pa]
+  std::vector<double> density;                ///< per region [kg/m^3]
+  std::vector<double> mass_damping;           ///< per vertex [1/s]; one entry where it is the same everywhere
+  std::vector<double> stiffness_damping;      ///< per region [s]; empty where there is none
+  std::vector<double> mass;                   ///< per vertex [kg], a quarter of each of its tetrahedra
+  std::vector<char> constrained;              ///< per vertex: its motion is given
+  std::vector<int> prescribed_vertex;         ///< those of them that may move
+  std::vector<int> prescribed_motion;         ///< which of the body's motions each of them follows
+  std::vector<Point> velocity;                ///< per vertex, where it is free: at the start, level 0 [m/s]
 };
 
 /// `mesh` at rest, before it is placed; `middle` is the point its angular velocity is about. Throws InputError where a

@@ -23,8 +23,13 @@ class PatchBuilder {
   using Lanes = std::array<T, at(W)>;
 
  public:
-  PatchBuilder(const TetMesh& mesh, const std::vector<Lame<double>>& lame, const std::vector<double>& damping)
-      : mesh_(mesh), lame_(lame), damping_(damping), local_(mesh.vertices.size(), -1), copies_(mesh.vertices.size()) {}
+  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
+               const std::vector<double>& damping)
+      : mesh_(mesh),
+        constants_(constants),
+        damping_(damping),
+        local_(mesh.vertices.size(), -1),
+        copies_(mesh.vertices.size()) {}
 
   void add(const std::vector<int>& elements) {
     const std::size_t v0 = vertex_.size(), q0 = shape_.size();
@@ -40,14 +45,14 @@ class PatchBuilder {
     first_pack_.push_back(static_cast<int>(shape_.size()));
     first_vertex_.push_back(static_cast<int>(vertex_.size()));
     const int region = mesh_.region.empty() ? 0 : mesh_.region[at(elements.front())];
-    device_lame_.push_back({static_cast<Real>(lame_[at(region)].lambda), static_cast<Real>(lame_[at(region)].mu)});
+    for (const double c : constants_[at(region)]) device_constants_.push_back(static_cast<Real>(c));
     if (!damping_.empty()) device_damping_.push_back(static_cast<Real>(damping_[at(region)]));
     for (std::size_t i = v0; i < vertex_.size(); ++i) local_[at(vertex_[i])] = -1;
   }
 
   Patches<B> finish() {
     Patches<B> p;
-    p.count = static_cast<int>(device_lame_.size());
+    p.count = static_cast<int>(first_pack_.size()) - 1;
     p.vertices = static_cast<int>(mesh_.vertices.size());
     p.packs = static_cast<int>(shape_.size());
     p.first_pack = to_device<Indices<B>>("patches.first_pack", first_pack_);
@@ -55,7 +60,7 @@ class PatchBuilder {
     p.vertex = to_device<Indices<B>>("patches.vertex", vertex_);
     p.corner = to_device<decltype(p.corner)>("patches.corner", corner_);
     p.shape = to_device<decltype(p.shape)>("patches.shape", shape_);
-    p.lame = to_device<decltype(p.lame)>("patches.lame", device_lame_);
+    p.constants = to_device<Scalars<B>>("patches.constants", device_constants_);
     if (!damping_.empty()) p.damping = to_device<Scalars<B>>("patches.damping", device_damping_);
     p.first_slot = to_device<Indices<B>>("patches.first_slot", first_slot_);
     p.slot = to_device<decltype(p.slot)>("patches.slot", slot_);
@@ -72,14 +77,14 @@ class PatchBuilder {
 
  private:
   const TetMesh& mesh_;
-  const std::vector<Lame<double>>& lame_;
+  const std::vector<std::vector<double>>& constants_;
   const std::vector<double>& damping_;
   std::vector<int> local_;  // a mesh vertex's place in the patch being added
   std::vector<std::vector<int>> copies_;
   std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_slot_{0}, element_;
   std::vector<std::array<Lanes<std::uint16_t>, 4>> corner_;
   std::vector<std::array<Lanes<Real>, 10>> shape_;
-  std::vector<std::array<Real, 2>> device_lame_;
+  std::vector<Real> device_constants_;
   std::vector<Real> device_damping_;
   std::vector<std::uint16_t> slot_;
 
@@ -116,9 +121,9 @@ class PatchBuilder {
 }  // namespace
 
 template <class B>
-Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& lame,
+Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
                          const std::vector<double>& damping) {
-  PatchBuilder<B> builder(mesh, lame, damping);
+  PatchBuilder<B> builder(mesh, constants, damping);
   for (const auto& cluster : element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity))
     builder.add(cluster);
   return builder.finish();
@@ -126,7 +131,7 @@ Patches<B> build_patches(const TetMesh& mesh, const std::vector<Lame<double>>& l
 
 #define PLICA_INSTANTIATE(Real, Exec)                                       \
   template Patches<Backend<Real, Exec>> build_patches<Backend<Real, Exec>>( \
-      const TetMesh&, const std::vector<Lame<double>>&, const std::vector<double>&);
+      const TetMesh&, const std::vector<std::vector<double>>&, const std::vector<double>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
@@ -31,6 +32,7 @@ struct TrialRun {
 
 template <class B>
 TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps, const typename B::Exec& exec) {
+  const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: a trial of " + integration.cycle);
   TrialRun run;
   problem.integration = integration;
   try {
@@ -82,6 +84,7 @@ class CycleTrials {
   CycleTrials(const Problem& problem, const Exec& exec) : problem_(problem), exec_(exec) {
     choice_.error_class = problem.integration.error_class;
     ErrorClasses::visit(choice_.error_class, [&](auto chosen) { choice_.allowed = decltype(chosen)::error; });
+    const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: level 0 alone");
     Problem finest = problem;
     finest.integration = alone(problem.integration, SymplecticEuler::name, {});
     finest.body.levels.resize(1);

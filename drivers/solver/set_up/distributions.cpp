@@ -5,22 +5,11 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/distributions.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 
 namespace plica {
 
 namespace {
-
-std::vector<double> custom_shares(const std::vector<double>& shares, std::size_t levels) {
-  if (shares.size() != levels)
-    throw InputError("distribution: " + std::to_string(shares.size()) + " shares for " + std::to_string(levels) +
-                     " levels; expected one each, finest first");
-  for (double w : shares)
-    if (!(w > 0)) throw InputError("distribution: a share is " + std::to_string(w) + "; expected each above 0");
-  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-  if (!(std::abs(sum - 1) <= 1e-12))
-    throw InputError(text("distribution: the shares sum to ", number(sum, 15), "; expected 1"));
-  return shares;
-}
 
 /// The critical step is 0 under undamped euler and infinite where nothing moves: no proportion then.
 void expect_proportions(const std::vector<double>& weights, const std::string& distribution) {
@@ -36,7 +25,8 @@ std::vector<double> make_shares(const IntegrationOptions& options, const LevelFa
   const std::size_t levels = facts.tets.size();
   std::vector<double> w;
   if (options.distribution == "custom") {
-    w = custom_shares(options.shares, levels);
+    validate_shares(options, levels);
+    w = options.shares;
   } else {
     const bool known = Distributions::visit(options.distribution, [&](auto d) { w = decltype(d)::weights(facts); });
     if (!known) throw InputError(unknown_name("distribution", options.distribution, names(distributions())));

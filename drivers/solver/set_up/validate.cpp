@@ -1,181 +1,264 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <plica/core/text.hpp>
+#include <plica/core/describe.hpp>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/linear/linear_solver_parts.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/expect.hpp>
+#include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/initial_shape.hpp>
+#include <plica/drivers/solver/set_up/lumped_masses.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/solver/set_up/validate_inputs.hpp>
-#include <plica/drivers/solver/set_up/validate_linear_solver.hpp>
-#include <plica/drivers/solver/set_up/validate_mesh.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/compare_levels.hpp>
+#include <plica/meshes/surface_report.hpp>
+#include <type_traits>
 
 namespace plica {
 
 namespace {
 
-void known(const std::string& kind, const std::string& name, const std::vector<Choice>& choices) {
-  const auto all = names(choices);
-  if (std::find(all.begin(), all.end(), name) == all.end()) throw InputError(unknown_name(kind, name, all));
+// What the values of one struct must be to each other
+template <class T>
+void check_together(const std::string&, const T&) {}
+
+void check_together(const std::string& path, const Box& box) {
+  for (int k = 0; k < 3; ++k)
+    if (box.min[k] > box.max[k])
+      throw InputError(path + ".min is " + Vector{length}.shown(box.min) + "; expected at most max, " +
+                       Vector{length}.shown(box.max));
 }
 
-void check_constants(const std::string& at, double young, double poisson, double density) {
-  positive(at + "young_modulus", young, " Pa");
-  expect(poisson >= 0 && poisson < 0.5, at + "poisson_ratio", poisson, "0 or more and below 0.5");
-  positive(at + "density", density, " kg/m^3");
+template <class Knots>
+void check_times(const std::string& path, const Knots& knots) {
+  if (knots.empty()) throw InputError(path + " is empty; expected at least one time");
+  const auto shown = [&](std::size_t i) { return Quantity{duration}.shown(knots[i].time, 9); };
+  for (std::size_t i = 1; i < knots.size(); ++i)
+    if (!(knots[i].time > knots[i - 1].time))
+      throw InputError(path + "." + std::to_string(i) + ".time is " + shown(i) +
+                       "; expected a time after that of the entry before, " + shown(i - 1));
+}
+void check_together(const std::string& path, const PathMotion& o) { check_times(path, o.knots); }
+void check_together(const std::string& path, const PolygonCourse& o) { check_times(path, o.knots); }
+
+void check_together(const std::string& path, const TwistOptions& o) { check_apart(path, o.from, o.to); }
+
+void check_together(const std::string& path, const InitialOptions& o) {
+  if (o.random && o.stretch != Point::Ones())
+    throw InputError(path + " has stretch and random, which puts vertices anywhere; expected one of them");
 }
 
-void check_damping(const std::string& at, double mass, double stiffness) {
-  not_negative(at + "mass", mass, " 1/s");
-  not_negative(at + "stiffness", stiffness, " s");
+// Walks the tables of core/describe.hpp and checks every value
+class Checker {
+ public:
+  explicit Checker(std::string path) : path_(std::move(path)) {}
+
+  template <class T, class Kind>
+  void operator()(const char* key, T&& member, const Kind& kind, const char*) const {
+    inside(path_ + "." + key, kind, member);
+  }
+  template <class T, class Kind>
+  void required(const char* key, T&& member, const Kind& kind, const char*) const {
+    inside(path_ + "." + key, kind, member);
+  }
+  void one_of() const {}
+  void at_most_one() const {}
+  template <class Variant, class T>
+  void alternative(const char* key, Variant& target, const Case<T>&, const char*) const {
+    if (auto* held = std::get_if<T>(&target)) inside(path_ + "." + key, Group{}, *held);
+  }
+  template <class Variant, auto Member, class Kind>
+  void alternative(const char* key, Variant& target, const As<Member, Kind>& as, const char*) const {
+    if (auto* held = std::get_if<typename As<Member, Kind>::Type>(&target))
+      inside(path_ + "." + key, as.kind, held->*Member);
+  }
+  template <class Variant, auto Member>
+  void alternative(const char* key, Variant& target, const CaseList<Member>&, const char*) const {
+    const std::string path = path_ + "." + key;
+    if (auto* held = std::get_if<typename CaseList<Member>::Type>(&target)) {
+      inside(path, List{}, held->*Member);
+      check_together(path, *held);
+    }
+  }
+
+  template <class Kind, class T>
+  static void inside(const std::string& path, const Kind& kind, T& value) {
+    kind.check(path, value);
+  }
+  template <class Kind, class T>
+  requires(!std::is_same_v<Kind, AutoQuantity>) static void inside(const std::string& path, const Kind& kind,
+                                                                   std::optional<T>& value) {
+    if (value) inside(path, kind, *value);
+  }
+  template <class T>
+  static void inside(const std::string& path, const Group&, T& value) {
+    Checker deeper(path);
+    describe(deeper, value);
+    check_together(path, value);
+  }
+  template <class T>
+  static void inside(const std::string& path, const Group& group, std::optional<T>& value) {
+    if (value) inside(path, group, *value);
+  }
+  template <class T>
+  static void inside(const std::string& path, const List&, std::vector<T>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) inside(path + "." + std::to_string(i), Group{}, values[i]);
+  }
+  template <class T>
+  static void inside(const std::string& path, const Map&, std::map<std::string, T>& values) {
+    for (auto& [name, value] : values) inside(path + "." + name, Group{}, value);
+  }
+
+ private:
+  std::string path_;
+};
+
+// A table takes what a reader may fill; a Checker only looks
+template <class T>
+void check_values(const std::string& path, const T& options) {
+  Checker::inside(path, Group{}, const_cast<T&>(options));
 }
 
-void check_body(const Body& body) {
-  if (body.levels.empty()) throw InputError("body.levels is empty; expected at least one mesh, finest first");
-  for (std::size_t i = 0; i < body.levels.size(); ++i) validate_mesh(body.levels[i], static_cast<int>(i));
-  known("material", body.material.model, materials());
-  const MaterialOptions& m = body.material;
-  check_constants("body.material.", m.young_modulus, m.poisson_ratio, m.density);
-  for (const auto& [name, region] : body.regions) {
-    const auto& all = body.levels.front().region_names;
-    if (region.where)
-      validate_selection("body.regions." + name + ".where", *region.where);
-    else if (std::find(all.begin(), all.end(), name) == all.end())
+void check_obstacle(const std::string& path, const ObstacleOptions& o) {
+  const bool known = visit_shape(o.shape, [&](auto shape, const auto& options) {
+    using S = decltype(shape);
+    const std::string inside = path + "." + S::name;
+    check_values(inside, options);
+    if constexpr (requires { S::check(inside, options); }) S::check(inside, options);
+  });
+  if (!known) throw InputError(path + " has no shape; expected the options of one, such as SphereOptions");
+  check_values(path, o);
+}
+
+void check_closed(const std::string& option, const TriangleSurface& surface) {
+  if (surface.triangles.empty()) throw InputError(option + " has no triangle");
+  for (const Point& p : surface.vertices) Vector{length}.check(option + " vertex", p);
+  const Count vertex{0, static_cast<int>(surface.vertices.size()) - 1};
+  for (const auto& t : surface.triangles)
+    for (const int v : t) vertex.check(option + " triangle's vertex", v);
+  SurfaceReport edges;
+  count_edges(surface, edges);
+  if (!edges.closed())
+    throw InputError(option + " has no inside: of its edges " + std::to_string(edges.open_edges) +
+                     " are open (of one triangle), " + std::to_string(edges.crowded_edges) +
+                     " of more than two triangles and " + std::to_string(edges.inconsistent_edges) +
+                     " between triangles that look to different sides; expected a closed surface");
+  Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,", enclosed_volume(surface));
+}
+
+void check_multigrid(const Body& body, const ImplicitOptions& o) {
+  if (o.preconditioner != "multigrid" && o.solver != "v_cycle") return;
+  if (body.levels.size() < 2)
+    throw InputError(
+        "integration.implicit.preconditioner is multigrid, or its solver v_cycle, which needs a coarser mesh, but the "
+        "body has one "
+        "level; expected more of body.levels, or block_jacobi or chebyshev");
+  const std::size_t vertices = body.levels.back().vertices.size();
+  if (3 * vertices > static_cast<std::size_t>(most_dense_unknowns))
+    throw InputError(
+        "integration.implicit.preconditioner is multigrid, which answers its coarsest level by a dense matrix; level " +
+        std::to_string(body.levels.size() - 1) + " has " + std::to_string(vertices) + " vertices, expected at most " +
+        std::to_string(most_dense_unknowns / 3) + ": add a coarser level, of 50 to 200 vertices");
+}
+
+void check_regions(const Body& body) {
+  const auto& all = body.levels.front().region_names;
+  for (const auto& [name, region] : body.regions)
+    if (!region.where && std::find(all.begin(), all.end(), name) == all.end())
       throw InputError(unknown_name("region", name, all));
-    check_constants("body.regions." + name + ".", region.young_modulus.value_or(m.young_modulus),
-                    region.poisson_ratio.value_or(m.poisson_ratio), region.density.value_or(m.density));
-    check_damping("body.regions." + name + ".damping.", region.damping.mass.value_or(0),
-                  region.damping.stiffness.value_or(0));
-  }
-  check_damping("body.damping.", body.damping.mass, body.damping.stiffness);
-  if (body.initial.position) finite("body.initial.position", *body.initial.position);
-  validate_velocities(body.initial);
-  const auto numbered = [](const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i); };
-  for (std::size_t i = 0; i < body.fixed.size(); ++i) validate_selection(numbered("body.fixed", i), body.fixed[i]);
-  for (std::size_t i = 0; i < body.prescribed.size(); ++i) {
-    validate_selection(numbered("body.prescribed", i), body.prescribed[i].where);
-    validate_motion(numbered("body.prescribed", i), body.prescribed[i].motion);
-  }
-  for (std::size_t i = 0; i < body.loads.size(); ++i) validate_load(numbered("body.loads", i), body.loads[i]);
-}
-
-void check_lengths(const IntegrationOptions& o, std::size_t levels) {
-  const auto check = [&](const std::string& option, std::size_t size) {
-    if (size != 1 && size != levels)
-      throw InputError(option + " has " + std::to_string(size) + " entries for " + std::to_string(levels) +
-                       " levels; expected one for all, or one each, finest first");
-  };
-  check("integration.integrator", o.integrator.size());
-  check("integration.substeps", o.substeps.size());
-}
-
-[[noreturn]] void refuse(const IntegrationOptions& o, const char* key, const std::string& value, const char* why) {
-  throw InputError("integration." + std::string(key) + " is " + value + ", but cycle " + o.cycle + " " + why +
-                   "; leave it out");
-}
-
-void check_him(const IntegrationOptions& o) {
-  expect(o.him.sigma > 0 && o.him.sigma < 1, "integration.him.sigma", o.him.sigma, "above 0 and below 1");
-  const double loss = o.him.dissipation.value_or(0);
-  expect(loss >= 0 && loss < 1, "integration.him.dissipation", loss, "auto, or 0 or more and below 1");
-  if (o.cycle != "him") return;
-  for (const std::string& name : o.integrator)
-    if (name != "symplectic_euler") refuse(o, "integrator", name, "steps level 0 by leapfrog and no other level");
-  for (const int n : o.substeps)
-    if (n > 1) refuse(o, "substeps", std::to_string(n), "takes one step per macro step");
-  if (o.distribution != "critical") refuse(o, "distribution", o.distribution, "does not divide the macro step");
-  if (o.shift_to_coarsest > 0) refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
-  if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
-}
-
-void check_retry(const IntegrationOptions& o) {
-  expect(o.retry.halvings >= 0 && o.retry.halvings <= 10, "integration.retry.halvings", o.retry.halvings, "0 to 10");
-  if (o.retry.halvings > 0 && (o.cycle == "him" || o.cycle == "auto"))
-    refuse(o, "retry.halvings", std::to_string(o.retry.halvings),
-           o.cycle == "him" ? "fits its inertia to one macro step, and again by itself where stability is lost"
-                            : "may choose him, which fits its inertia to one macro step");
-}
-
-void check_auto(const IntegrationOptions& o) {
-  if (o.cycle != "auto") return;
-  if (o.macro_step) refuse(o, "macro_step", number(*o.macro_step) + " s", "chooses the macro step");
-  for (const std::string& name : o.integrator)
-    if (name != "symplectic_euler") refuse(o, "integrator", name, "chooses how levels are stepped");
-  for (const int n : o.substeps)
-    if (n > 1) refuse(o, "substeps", std::to_string(n), "chooses how levels are stepped");
-  if (o.distribution != "critical") refuse(o, "distribution", o.distribution, "does not divide the macro step");
-  if (o.shift_to_coarsest > 0) refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
-  if (o.allow_unstable) refuse(o, "allow_unstable", "true", "chooses among stable steps");
-  if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
-}
-
-void check_integration(const IntegrationOptions& o, std::size_t levels) {
-  known("cycle", o.cycle, cycle_choices());
-  known("error class", o.error_class, error_classes());
-  known("distribution", o.distribution, distributions());
-  for (const std::string& name : o.integrator) known("integrator", name, integrators());
-  check_lengths(o, levels);
-  if (o.macro_step) positive("integration.macro_step", *o.macro_step, " s");
-  expect(o.shift_to_coarsest >= 0 && o.shift_to_coarsest < 1, "integration.shift_to_coarsest", o.shift_to_coarsest,
-         "0 or more and below 1");
-  for (int n : o.substeps) expect(n >= 0, "integration.substeps", n, "auto, or a number from 1");
-  expect(o.safety > 0 && o.safety <= 1, "integration.safety", o.safety, "above 0, at most 1");
-  positive("integration.switch_threshold", o.switch_threshold, "");
-  known("treatment of outside vertices", o.outside, {{"clamp", ""}, {"extrapolate", ""}, {"keep", ""}});
-  if (o.cycle == "fas" && o.outside != "clamp" && levels > 1)
-    throw InputError("integration.outside is " + o.outside +
-                     ", but cycle fas hands masses down by its weights, which "
-                     "must not be negative or missing; expected clamp");
-  check_him(o);
-  check_auto(o);
-  check_retry(o);
-  const ImplicitOptions& i = o.implicit;
-  expect(i.relative_residual > 0 && i.relative_residual < 1, "integration.implicit.relative_residual",
-         i.relative_residual, "above 0 and below 1");
-  expect(i.iterations >= 0, "integration.implicit.iterations", i.iterations, "0 or more");
-  expect(i.max_iterations >= 1, "integration.implicit.max_iterations", i.max_iterations, "1 or more");
-  expect(i.newton_iterations >= 0, "integration.implicit.newton_iterations", i.newton_iterations,
-         "auto, or a number from 1");
-  positive("integration.implicit.newton_tolerance", i.newton_tolerance, "");
-  not_negative("integration.implicit.newton_residual", i.newton_residual, " N");
-  known("tangent", i.tangent, tangents());
-  known("outcome of Newton's method", i.unfinished, newton_outcomes());
-  expect(i.halvings >= 1 && i.halvings <= 20, "integration.implicit.halvings", i.halvings, "1 to 20");
-  expect(i.rho_infinity >= 0 && i.rho_infinity <= 1, "integration.implicit.rho_infinity", i.rho_infinity, "0 to 1");
-  const bool judged = std::ranges::any_of(
-      o.integrator, [&](const std::string& integrator) { return newton_iterations(i, integrator) > 1; });
-  if (i.unfinished != "accept" && !judged)
-    throw InputError("integration.implicit.unfinished is " + i.unfinished + ", but newton_iterations is " +
-                     (i.newton_iterations == 0 ? "auto, here 1" : "1") +
-                     ": a linearly implicit step has no residual to judge; expected newton_iterations above 1, or "
-                     "accept");
 }
 
 void check_contact(const Problem& problem) {
-  const ContactOptions& c = problem.contact;
-  if (!c.obstacles.empty() && !problem.body.surface)
+  const auto& obstacles = problem.contact.obstacles;
+  if (!obstacles.empty() && !problem.body.surface)
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
-  if (!c.obstacles.empty() && problem.body.surface->triangles.empty())
+  if (!obstacles.empty() && problem.body.surface->triangles.empty())
     throw InputError("body.surface has no triangle; contact needs its area");
-  for (std::size_t i = 0; i < c.obstacles.size(); ++i)
-    validate_obstacle("contact.obstacles." + std::to_string(i), c.obstacles[i]);
-  positive("contact.stiffness_scale", c.stiffness_scale, "");
-  not_negative("contact.damping_scale", c.damping_scale, "");
-  not_negative("contact.tangential_damping_scale", c.tangential_damping_scale, "");
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
+      check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
 }
 
 }  // namespace
 
-void validate(const Problem& problem) {
-  check_body(problem.body);
-  finite("gravity", problem.gravity);
-  check_integration(problem.integration, problem.body.levels.size());
-  validate_linear_solver(problem);
+void validate_mesh(const TetMesh& mesh, int level) {
+  const auto refuse = [level](const std::string& what) {
+    throw InputError("body.levels: level " + std::to_string(level) + what);
+  };
+  const int vertices = static_cast<int>(mesh.vertices.size()), regions = static_cast<int>(mesh.region_names.size());
+  if (mesh.tets.empty()) refuse(" has no tetrahedron");
+  for (int v = 0; v < vertices; ++v)
+    if (!mesh.vertices[static_cast<std::size_t>(v)].allFinite())
+      refuse(": vertex " + std::to_string(v) + " is not at a finite place");
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    const auto& t = mesh.tets[e];
+    for (int v : t) {
+      if (v < 0 || v >= vertices)
+        refuse(": tetrahedron " + std::to_string(e) + " has vertex " + std::to_string(v) + " of " +
+               std::to_string(vertices));
+      used[static_cast<std::size_t>(v)] = 1;
+    }
+    const auto x = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    if (!(tet_volume(x(0), x(1), x(2), x(3)) > 0))
+      refuse(": tetrahedron " + std::to_string(e) + " is flat or inside out; expected a positive volume");
+  }
+  if (const auto unused = std::find(used.begin(), used.end(), 0); unused != used.end())
+    refuse(": no tetrahedron has vertex " + std::to_string(unused - used.begin()));
+  if (!mesh.region.empty() && mesh.region.size() != mesh.tets.size())
+    refuse(" has regions for " + std::to_string(mesh.region.size()) + " of " + std::to_string(mesh.tets.size()) +
+           " tetrahedra; expected all or none");
+  for (std::size_t e = 0; e < mesh.region.size(); ++e)
+    if (mesh.region[e] < 0 || mesh.region[e] >= regions)
+      refuse(": tetrahedron " + std::to_string(e) + " is in region " + std::to_string(mesh.region[e]) + " of " +
+             std::to_string(regions));
+}
+
+void validate_options(const Problem& problem, std::size_t levels) {
+  check_values("body", problem.body);
+  check_parameters(*find_material(problem.body.material.model), problem.body);
+  Vector{acceleration}.check("gravity", problem.gravity);
+  check_values("integration", problem.integration);
+  check_values("contact", problem.contact);
+  for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i)
+    check_obstacle("contact.obstacles." + std::to_string(i), problem.contact.obstacles[i]);
+  validate_methods(problem.integration, levels);
   if (damps_by_stiffness(problem.body) && problem.integration.cycle == "him")
     throw InputError(
         "body.damping.stiffness is above 0, but cycle him answers for the stability of forces without it; use "
         "body.damping.mass or another cycle");
+}
+
+void validate(const Problem& problem) {
+  const Body& body = problem.body;
+  if (body.levels.empty()) throw InputError("body.levels is empty; expected at least one mesh, finest first");
+  for (std::size_t i = 0; i < body.levels.size(); ++i) validate_mesh(body.levels[i], static_cast<int>(i));
+  check_regions(body);
+  validate_options(problem, body.levels.size());
+  check_multigrid(body, problem.integration.implicit);
   check_contact(problem);
 }
+
+namespace {
+
+// Of coarse levels that are somewhat another body; where one is quite another, the set-up refuses it
+void doubt_levels(const Problem& problem, std::vector<std::string>& sentences) {
+  const bool automatic = problem.integration.cycle == "auto";
+  if (!automatic && !uses_coarse_levels(problem.integration.cycle)) return;
+  MeshSize finest;
+  for (std::size_t i = 0; i < problem.body.levels.size(); ++i) {
+    TetMesh mesh = problem.body.levels[i];
+    add_regions(mesh, problem.body.regions, static_cast<int>(i));
+    const MeshSize size = mesh_size(mesh, region_densities(problem.body, mesh));
+    if (i == 0) finest = size;
+    const LevelComparison found = compare_levels(finest, size, i);
+    if (found.same == SameBody::doubtful || (automatic && found.same == SameBody::no))
+      sentences.push_back("body.levels: " + found.sentence);
+  }
+}
+
+}  // namespace
 
 std::vector<std::string> doubts(const Problem& problem) {
   std::vector<std::string> sentences;
@@ -185,6 +268,7 @@ std::vector<std::string> doubts(const Problem& problem) {
       sentences.push_back("body.levels: level " + std::to_string(i) + " is not coarser than level " +
                           std::to_string(i - 1) + ": " + std::to_string(levels[i].tets.size()) + " tetrahedra after " +
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
+  if (levels.size() > 1) doubt_levels(problem, sentences);
   if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
     const TetMesh& mesh = levels.front();
     const std::string inverted =

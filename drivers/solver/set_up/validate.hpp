@@ -6,9 +6,23 @@
 
 namespace plica {
 
-/// Throws InputError for the first value out of its range, unknown name or combination without meaning: names the option as a
-/// scene would ("body.material.young_modulus is -1 Pa; expected above 0").
+/// Throws InputError for the first value out of its range, unknown name or combination without meaning. It names the option as
+/// a scene would: "body.material.young_modulus is -1 Pa; expected a pressure (Pa) > 0". Ranges and names are those of the
+/// tables in core/describe.hpp and kernels/contact/shapes/.
 void validate(const Problem& problem);
+
+/// The part of it that needs no mesh, for a body of so many levels.
+void validate_options(const Problem& problem, std::size_t levels);
+
+/// The part of that about methods: what cycle, integrators and linear solvers cannot do together.
+void validate_methods(const IntegrationOptions& options, std::size_t levels);
+
+/// The part of that about shares of the macro step that the options list: one for each level, above 0, 1 together.
+void validate_shares(const IntegrationOptions& options, std::size_t levels);
+
+/// What readers and generators promise and a caller's own mesh may not keep: numbers in range, finite places, positive volumes,
+/// every vertex used, a region for every tetrahedron. InputError otherwise, with level and number.
+void validate_mesh(const TetMesh& mesh, int level);
 
 /// What is allowed, but hardly meant: a sentence each. Of a problem that is valid.
 std::vector<std::string> doubts(const Problem& problem);

@@ -1,10 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/solver/spaces/smoothing.hpp>
+#include <Eigen/SparseCore>
+#include <plica/core/fields.hpp>
+#include <plica/core/mesh.hpp>
+#include <plica/core/sparse_rows.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <vector>
 
 namespace plica {
+
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// Values at a mesh's vertices smoothed over their edges, [vertices x vertices]: each vertex takes a weighted average over itself
+/// and its neighbours, by moving least squares of degree one (Lancaster & Salkauskas 1981), so that linear fields stay as they
+/// are. The weight is the spline (1 - s)^2 (1 + 2 s) of the distance over 1.2 times the vertex's longest edge. Vertices with too
+/// few neighbours, or whose weights would grow beyond 3, keep their value.
+RowMatrix ring_smoothing(const TetMesh& mesh);
+
+/// A sparse matrix on the device.
+template <class B>
+SparseRows<B> sparse_rows(const std::string& name, const RowMatrix& A) {
+  std::vector<int> first{0}, column;
+  std::vector<typename B::Real> value;
+  for (Eigen::Index a = 0; a < A.rows(); ++a) {
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) {
+      column.push_back(static_cast<int>(entry.col()));
+      value.push_back(static_cast<typename B::Real>(entry.value()));
+    }
+    first.push_back(static_cast<int>(column.size()));
+  }
+  return {static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", first),
+          to_device<Indices<B>>(name + ".column", column), to_device<Scalars<B>>(name + ".value", value)};
+}
+
+template <class... Views>
+std::size_t bytes_of_views(const Views&... views) {
+  return (0 + ... + (views.span() * sizeof(typename Views::value_type)));
+}
+
+template <class B>
+std::size_t bytes_of_rows(const SparseRows<B>& A) {
+  return bytes_of_views(A.first, A.column, A.value);
+}
 
 /// P, [fine vertices x coarse vertices]: the fine vertices' places in the coarse mesh, `up`, smoothed on the fine mesh where asked for.
 /// Vertices whose motion is given (`constrained`, one per vertex) have no part in it; neither have weights below 1e-6.

@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
 
+/// A solid box.
+struct BlockOptions {
+  Point centre = Point::Zero();    ///< [m]
+  Point size = Point::Ones();      ///< edges [m]
+  Point rotation = Point::Zero();  ///< about the centre: its direction is the axis, its length the angle [rad]
+};
+
+template <class V>
+void describe(V& v, BlockOptions& o) {
+  using namespace keys;
+  v("centre", o.centre, Vector{length}, "centre");
+  v.required("size", o.size, Vector{length, positive}, "edges");
+  v("rotation", o.rotation, Vector{angle}, "about the centre: [0, 0, 30 deg] turns it by 30 degrees about z");
+}
+
 /// A box, turned as one likes: the nearest point of a face, an edge or a corner.
 struct Block {
   static constexpr const char* name = "box";
-  static constexpr const char* summary = "a solid box: centre, size, rotation";
+  static constexpr const char* summary = "a solid box";
+  using Options = BlockOptions;
   template <class Real>
   struct Shape {
     Vec3<Real> centre;
@@ -31,6 +48,16 @@ struct Block {
       return {r, (Real(1) / r) * (transpose(axes) * beyond)};
     }
   };
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    const double turn = o.rotation.norm();
+    const Point axis = turn > 0 ? Point(o.rotation / turn) : Point::UnitZ();
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn, axis).toRotationMatrix();
+    Mat3<Real> axes;
+    for (int k = 0; k < 3; ++k) axes[k] = vec3<Real>(turned.col(k));
+    return {vec3<Real>(o.centre), axes, vec3<Real>(o.size / 2)};
+  }
 };
 
 }  // namespace plica

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/error.hpp>
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
+
+/// A block with flat top out of which a sphere is hollowed: the inside of a spherical shell, up to its rim.
+struct BowlOptions {
+  Point centre = Point::Zero();  ///< of the sphere [m]
+  double radius = 1;             ///< [m]
+  double rim = 0;  ///< height of the flat top above the bowl's lowest point, at most the radius; 0: radius [m]
+};
+
+template <class V>
+void describe(V& v, BowlOptions& o) {
+  using namespace keys;
+  v("centre", o.centre, Vector{length}, "of the sphere");
+  v.required("radius", o.radius, Quantity{length, positive}, "of the sphere");
+  v("rim", o.rim, Quantity{length, not_negative}, "height of the rim above the lowest point; 0: the radius");
+}
 
 /// A block whose flat top is at height `rim` above the lowest point of a sphere hollowed out of it: inside a spherical shell
 /// below the rim, the top's plane beside it, and the rim's edge seen from above.
 struct Bowl {
   static constexpr const char* name = "bowl";
-  static constexpr const char* summary =
-      "the inside of a spherical shell up to its rim: centre, radius, rim (height above the lowest point)";
+  static constexpr const char* summary = "the inside of a spherical shell, up to a rim";
+  using Options = BowlOptions;
   template <class Real>
   struct Shape {
     Vec3<Real> centre;
@@ -32,6 +49,22 @@ struct Bowl {
       return {above, {Real(0), Real(0), Real(1)}};
     }
   };
+
+  static Options complete(Options o) {
+    if (!(o.rim > 0)) o.rim = o.radius;
+    return o;
+  }
+
+  static void check(const std::string& path, const Options& o) {
+    if (o.rim > o.radius)
+      throw InputError(path + ".rim is " + keys::Quantity{keys::length}.shown(o.rim) +
+                       "; expected at most the radius, " + keys::Quantity{keys::length}.shown(o.radius));
+  }
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    return {vec3<Real>(o.centre), static_cast<Real>(o.radius), static_cast<Real>(o.rim - o.radius)};
+  }
 };
 
 }  // namespace plica

@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
 
+/// All points within the radius of the straight line between two points, its ends round.
+struct CapsuleOptions {
+  Point from = Point::Zero();  ///< [m]
+  Point to = Point::UnitZ();   ///< another point [m]
+  double radius = 1;           ///< [m]
+};
+
+template <class V>
+void describe(V& v, CapsuleOptions& o) {
+  using namespace keys;
+  v.required("from", o.from, Vector{length}, "one end of its middle line");
+  v.required("to", o.to, Vector{length}, "the other end");
+  v.required("radius", o.radius, Quantity{length, positive}, "around the line and its ends");
+}
+
 /// All points within `radius` of a straight line with two ends.
 struct Capsule {
   static constexpr const char* name = "capsule";
-  static constexpr const char* summary = "a cylinder with round ends: from, to, radius";
+  static constexpr const char* summary = "a cylinder with round ends";
+  using Options = CapsuleOptions;
   template <class Real>
   struct Shape {
     Vec3<Real> from, axis;  ///< axis: a unit vector
@@ -21,6 +38,15 @@ struct Capsule {
       return {r - radius, direction_across(axis, across, r)};
     }
   };
+
+  static void check(const std::string& path, const Options& o) { check_apart(path, o.from, o.to); }
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    const Point along = o.to - o.from;
+    return {vec3<Real>(o.from), vec3<Real>(along.normalized()), static_cast<Real>(along.norm()),
+            static_cast<Real>(o.radius)};
+  }
 };
 
 }  // namespace plica

@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
 
+/// A solid cylinder with flat ends.
+struct CylinderOptions {
+  Point from = Point::Zero();  ///< centre of one end [m]
+  Point to = Point::UnitZ();   ///< of the other, another point [m]
+  double radius = 1;           ///< [m]
+};
+
+template <class V>
+void describe(V& v, CylinderOptions& o) {
+  using namespace keys;
+  v.required("from", o.from, Vector{length}, "centre of one end");
+  v.required("to", o.to, Vector{length}, "centre of the other end");
+  v.required("radius", o.radius, Quantity{length, positive}, "radius");
+}
+
 /// A cylinder with flat ends.
 struct Cylinder {
   static constexpr const char* name = "cylinder";
-  static constexpr const char* summary = "a cylinder with flat ends: from, to, radius";
+  static constexpr const char* summary = "a cylinder with flat ends";
+  using Options = CylinderOptions;
   template <class Real>
   struct Shape {
     Vec3<Real> centre, axis;  ///< axis: a unit vector
@@ -28,6 +45,15 @@ struct Cylinder {
       return {above, up};
     }
   };
+
+  static void check(const std::string& path, const Options& o) { check_apart(path, o.from, o.to); }
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    const Point along = o.to - o.from;
+    return {vec3<Real>((o.from + o.to) / 2), vec3<Real>(along.normalized()), static_cast<Real>(along.norm() / 2),
+            static_cast<Real>(o.radius)};
+  }
 };
 
 }  // namespace plica

@@ -1,18 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
 
+/// The half-space below a plane is solid.
+struct PlaneOptions {
+  Point point = Point::Zero();    ///< on the plane [m]
+  Point normal = Point::UnitZ();  ///< out of the solid; its length does not matter
+};
+
+template <class V>
+void describe(V& v, PlaneOptions& o) {
+  using namespace keys;
+  v("point", o.point, Vector{length}, "on the plane");
+  v("normal", o.normal, Direction{}, "out of the solid; its length does not matter");
+}
+
 /// The solid below a plane through `point` with unit normal `normal`.
 struct Plane {
   static constexpr const char* name = "plane";
-  static constexpr const char* summary = "the half-space below a plane: point, normal";
+  static constexpr const char* summary = "the half-space below a plane";
+  using Options = PlaneOptions;
   template <class Real>
   struct Shape {
     Vec3<Real> point, normal;
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const { return {dot(normal, x - point), normal}; }
   };
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    return {vec3<Real>(o.point), vec3<Real>(o.normal.normalized())};
+  }
 };
 
 }  // namespace plica

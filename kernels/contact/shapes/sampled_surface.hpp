@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/error.hpp>
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
+
+/// The inside of a closed surface, by its signed distance on a regular grid.
+struct SurfaceOptions {
+  TriangleSurface surface;  ///< closed, every triangle counter-clockwise seen from outside
+  int cells = 0;            ///< of the grid along the surface's longest extent; 0: chosen from its shape
+};
+
+template <class V>
+void describe(V& v, SurfaceOptions& o) {
+  using namespace keys;
+  v("cells", o.cells, Count{0, 512},
+    "of its distance grid, along the longest extent; 0: 64, and more where it is thin");
+}
 
 /// The inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in between; the normal is the
 /// gradient's direction. Outside the grid the distance is a lower bound: that to the grid and its margin.
 struct SampledSurface {
   static constexpr const char* name = "surface";
-  static constexpr const char* summary = "the inside of a closed triangulated surface: file, scale, position, rotation";
+  static constexpr const char* summary = "the inside of a closed triangulated surface";
+  using Options = SurfaceOptions;
   template <class Real>
   struct Shape {
     const Real* value;  ///< [nodes of z][of y][of x] m, in the memory of whoever asks
@@ -59,6 +75,12 @@ struct SampledSurface {
       return gap;
     }
   };
+
+  static void check(const std::string& path, const Options& o) {
+    if (o.cells > 0 && o.cells < 4)
+      throw InputError(path + ".cells is " + std::to_string(o.cells) +
+                       "; expected at least 4, or 0 to have them chosen");
+  }
 };
 
 }  // namespace plica

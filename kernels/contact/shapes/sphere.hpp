@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
 
 /// A solid sphere.
+struct SphereOptions {
+  Point centre = Point::Zero();  ///< [m]
+  double radius = 1;             ///< [m]
+};
+
+template <class V>
+void describe(V& v, SphereOptions& o) {
+  using namespace keys;
+  v("centre", o.centre, Vector{length}, "centre");
+  v.required("radius", o.radius, Quantity{length, positive}, "radius");
+}
+
+/// A solid sphere.
 struct Sphere {
   static constexpr const char* name = "sphere";
-  static constexpr const char* summary = "a solid sphere: centre, radius";
+  static constexpr const char* summary = "a solid sphere";
+  using Options = SphereOptions;
   template <class Real>
   struct Shape {
     Vec3<Real> centre;
@@ -19,6 +34,11 @@ struct Sphere {
       return {r - radius, (Real(1) / r) * d};
     }
   };
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    return {vec3<Real>(o.centre), static_cast<Real>(o.radius)};
+  }
 };
 
 }  // namespace plica

@@ -3,10 +3,10 @@
 
 #include <numbers>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/box_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 
+#include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
-#include "unit/app/temporary_folder.hpp"
 
 // Selections, motions, loads and tools as scenes write them.
 namespace plica::app::test {
@@ -72,9 +72,9 @@ TEST(Inputs, Shapes) {
             "[1, 2, 3], rotation: [0, 0, 90 deg]}}, {cylinder: {from: [0, 0, 0], to: [1, 0, 0], radius: 2}}]"});
   const auto& obstacles = scene.problem.contact.obstacles;
   ASSERT_EQ(obstacles.size(), 3u);
-  EXPECT_DOUBLE_EQ(std::get<CapsuleOptions>(obstacles[0].shape).radius, 0.01);
-  EXPECT_DOUBLE_EQ(std::get<BlockOptions>(obstacles[1].shape).rotation[2], pi / 2);
-  EXPECT_EQ(std::get<CylinderOptions>(obstacles[2].shape).to, Point(1, 0, 0));
+  EXPECT_DOUBLE_EQ(std::any_cast<const CapsuleOptions&>(obstacles[0].shape).radius, 0.01);
+  EXPECT_DOUBLE_EQ(std::any_cast<const BlockOptions&>(obstacles[1].shape).rotation[2], pi / 2);
+  EXPECT_EQ(std::any_cast<const CylinderOptions&>(obstacles[2].shape).to, Point(1, 0, 0));
 }
 
 std::string obj_of(const TriangleSurface& surface) {
@@ -92,7 +92,7 @@ TEST(Inputs, ToolsAreScaledTurnedAndMoved) {
   const Scene scene =
       with({"contact.obstacles.0={surface: {file: " + file +
             ", scale: 0.001, rotation: [0, 0, 90 deg], position: [1, 2, 3], cells: 20}, friction: 0.1}"});
-  const auto& tool = std::get<SurfaceOptions>(scene.problem.contact.obstacles[0].shape);
+  const auto& tool = std::any_cast<const SurfaceOptions&>(scene.problem.contact.obstacles[0].shape);
   const Box box = bounding_box(tool.surface.vertices);
   EXPECT_LE((box.min - Point(0.98, 2, 3)).norm(), 1e-12);
   EXPECT_LE((box.max - Point(1, 2.01, 3.03)).norm(), 1e-12);
@@ -155,7 +155,7 @@ TEST(Inputs, TheLibrarysErrorsHaveTheirPlaceToo) {
   EXPECT_EQ(refusal(damaged("friction: 0.2",
                             "path: [{time: 1, displacement: [0, 0, 0]},\n"
                             "        {time: 1, displacement: [0, 0, 0]}]")),
-            "a.yaml:15: contact.obstacles.0.path.1.time is 1; expected a time after that of the entry before, 1 s");
+            "a.yaml:15: contact.obstacles.0.path.1.time is 1 s; expected a time after that of the entry before, 1 s");
   const Tree tree = parse_tree(sound_scene, "a.yaml");
   EXPECT_STREQ(located(InputError("body.levels.1: too small"), tree).what(), "a.yaml:6: body.levels.1: too small");
   EXPECT_STREQ(located(InputError("level 0: a step"), tree).what(), "a.yaml: level 0: a step");

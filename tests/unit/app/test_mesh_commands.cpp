@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <plica/meshes/read_any.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 
 #include "unit/app/child.hpp"
 

@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <plica/core/error.hpp>
+#include <plica/drivers/app/output/plan.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
-#include <plica/drivers/app/output/step_count.hpp>
 #include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <sstream>
 
@@ -238,6 +239,77 @@ TEST(Vtu, IsReadByVtk) {
   EXPECT_EQ(surface, (std::vector<double>{26, 48, 5, 0.125, 0, 0, 13, 78, 0, 104}));
   const auto volume = read_by_vtk(folder / "frames/volume_0000.vtu", folder);
   EXPECT_EQ(volume, (std::vector<double>{27, 48, 10, 0.125, 0, 0, 13.5, 81, 0, 108}));
+}
+
+// What is printed of elements that hold a step back, and of steps that were bad.
+LevelReport level_with(double worst) {
+  LevelReport level;
+  level.element_bound = worst, level.typical_element = 1e-3, level.critical_step = 1.1 * worst;
+  level.share = 1, level.substeps = 1;
+  level.stiffest = {{71, "bone", 25, worst}, {8, "", 1.9, 0.6e-3}};
+  return level;
+}
+
+TEST(PlanText, NamesElementsThatAreOutOfTheOrdinary) {
+  const Scene scene = scene_of(sound_scene);
+  Plan plan;
+  plan.macro_step = 1e-3, plan.levels = {level_with(0.04e-3)};
+  const std::string text = plan_text(scene, plan);
+  EXPECT_NE(text.find("Elements that hold the step back"), std::string::npos) << text;
+  EXPECT_NE(text.find("71"), std::string::npos);
+  EXPECT_NE(text.find("bone"), std::string::npos);
+  EXPECT_EQ(text.find("0.6 ms"), std::string::npos) << text;  // more than half the median
+  plan.levels = {level_with(0.55e-3)};
+  EXPECT_EQ(plan_text(scene, plan).find("hold the step back"), std::string::npos);
+}
+
+TEST(LevelsJson, HaveTheStiffestElements) {
+  const nlohmann::ordered_json levels = levels_json({level_with(0.04e-3)});
+  EXPECT_EQ(levels[0]["typical_element"], 1e-3);
+  ASSERT_EQ(levels[0]["stiffest"].size(), 2u);
+  EXPECT_EQ(levels[0]["stiffest"][0],
+            (nlohmann::ordered_json{{"element", 71}, {"region", "bone"}, {"height_ratio", 25}, {"step", 0.04e-3}}));
+}
+
+TEST(Keys, OfBadStatesAndSteps) {
+  const Scene scene = scene_of(sound_scene, {"body.initial.stretch=[1, 0, -1]", "body.material.allow_inversion=true",
+                                             "integration.retry.halvings=3"});
+  EXPECT_EQ(scene.problem.body.initial.stretch, Point(1, 0, -1));
+  EXPECT_EQ(scene.problem.body.material.allow_inversion, true);
+  EXPECT_EQ(scene.problem.integration.retry.halvings, 3);
+  EXPECT_EQ(scene_of(sound_scene, {"body.initial.random=7"}).problem.body.initial.random, 7);
+  EXPECT_FALSE(scene_of(sound_scene).problem.body.material.allow_inversion);
+  EXPECT_NE(error_of(sound_scene, {"body.initial.random=seven"}).find("body.initial.random"), std::string::npos);
+}
+
+TEST(Text, NumbersInUnits) {
+  EXPECT_EQ(in_units(0.00194, "s"), "1.94 ms");
+  EXPECT_EQ(in_units(0.99999, "s"), "1 s");
+  EXPECT_EQ(in_units(4500, "s"), "4.5e+03 s");
+  EXPECT_EQ(in_units(50e3, "Pa"), "50 kPa");
+  EXPECT_EQ(in_units(3e-6, "m"), "3 um");
+  EXPECT_EQ(in_units(1.331, "kg"), "1.331 kg");
+  EXPECT_EQ(in_units(0, "s"), "0 s");
+  EXPECT_EQ(counted(1, "frame"), "1 frame");
+  EXPECT_EQ(counted(0, "frame"), "0 frames");
+  EXPECT_EQ(in_bytes(999), "999 B");
+  EXPECT_EQ(in_bytes(12345678), "12.3 MB");
+}
+
+TEST(Text, TablesAlign) {
+  EXPECT_EQ(text_table({{"a", "bb", "c"}, {"aaa", "b", ""}}, "<>>", ""), "a    bb  c\naaa   b\n");
+  EXPECT_EQ(text_table({{"\xC3\xA4\xC3\xA4", "b"}, {"a", "b"}}, ">>", ""), "\xC3\xA4\xC3\xA4  b\n a  b\n")
+      << "letters, not bytes";
+}
+
+TEST(Text, LinesWrap) { EXPECT_EQ(wrapped("one two three", 10, "  "), "  one two\n  three\n"); }
+
+TEST(Text, ProgressFitsItsTerminal) {
+  const std::string line = progress_line(0.62, 3, 500, 0.5, 100);
+  EXPECT_EQ(line,
+            "0.62 / 3.00 s [#####........................]  21 %   1000 steps/s   1.24 x real time    1.9 s left");
+  for (int width = 1; width < 140; ++width)
+    EXPECT_LT(progress_line(0.62, 3, 500, 0.5, width).size(), static_cast<std::size_t>(width)) << width;
 }
 
 }  // namespace

@@ -135,6 +135,101 @@ TEST_F(Program, CtrlCEndsWithWholeFiles) {
   }
 }
 
+// Set-up that takes minutes: trials on a large mesh
+TEST_F(Program, SetUpSaysWhatItDoesAndCanBeInterrupted) {
+  const std::vector<std::string> slow = {
+      "run",
+      scene,
+      "-o",
+      out,
+      "--set",
+      "body.levels=[{box: {size: [1, 1, 1], cells: [60, 60, 60]}}, {box: {size: [1, 1, 1], "
+      "cells: [30, 30, 30]}}]",
+      "--set",
+      "integration={cycle: auto}"};
+  const auto spoken = [&] { return content_of(folder / "stderr.txt").find("set-up, ") != std::string::npos; };
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Child run = plica(slow, [&](pid_t id) { return spoken() && kill(id, signal) == 0; });
+    EXPECT_EQ(run.status, 130) << run.errors;
+    EXPECT_NE(run.errors.find(" s: "), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find("interrupted during the set-up; nothing was written"), std::string::npos) << run.errors;
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+}
+
+TEST_F(Program, CtrlCEndsWithinAMacroStep) {
+  const std::vector<std::string> one_step = {"run",        scene,
+                                             "-o",         out,
+                                             "--duration", "1e6 s",
+                                             "--set",      "integration.macro_step=1e6 s",
+                                             "--set",      "output.every=1 step"};
+  const auto begun = [&] {
+    return content_of(folder / "stderr.txt").find("macro step 1e+06 s") != std::string::npos &&
+           content_of(folder / "out/history.csv").find("\n0,") != std::string::npos;
+  };
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::filesystem::remove_all(out);
+    const Child run = plica(one_step, [&](pid_t id) { return begun() && kill(id, signal) == 0; });
+    EXPECT_EQ(run.status, 130) << run.errors;
+    EXPECT_NE(run.errors.find("interrupted within a macro step; the files go up to 0 s"), std::string::npos)
+        << run.errors;
+    EXPECT_NE(run.output.find("block: interrupted"), std::string::npos) << run.output;
+    EXPECT_EQ(summary()["status"], "interrupted");
+    EXPECT_EQ(summary()["macro_steps"], 0);
+    EXPECT_EQ(summary()["frames"], 1);
+    EXPECT_EQ(lines("out/history.csv"), 2);
+  }
+}
+
+TEST_F(Program, SecondCtrlCEndsAtOnce) {
+  const Child run =
+      plica({"run", scene, "-o", out, "--duration", "1e6 s", "--set", "integration.macro_step=1e6 s"}, [&](pid_t id) {
+        return std::filesystem::exists(folder / "out/frames.pvd") && kill(id, SIGINT) == 0 && kill(id, SIGTERM) == 0;
+      });
+  EXPECT_EQ(run.status, 130);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
+}
+
+TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
+  const std::vector<std::string> again = {"run", scene, "-o", out, "--set", "output.probes={tip: [0, 0, 0]}"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = again;
+    words.insert(words.end(), more.begin(), more.end());
+    return plica(words);
+  };
+  ASSERT_EQ(with({"--checkpoint", "every=5"}).status, 0);
+  const std::string checkpoint = content_of(folder / "out/checkpoint.bin"),
+                    probes = content_of(folder / "out/probes.csv");
+  const Child refused = with({});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.errors, "error: the folder " + out +
+                                " holds a run already (checkpoint.bin, summary.json, history.csv, probes.csv, "
+                                "frames.pvd); expected --force to replace it, --resume " +
+                                out + " to go on with it, or another folder with -o\n");
+  EXPECT_EQ(content_of(folder / "out/checkpoint.bin"), checkpoint);
+  EXPECT_EQ(content_of(folder / "out/probes.csv"), probes);
+  EXPECT_EQ(plica({"run", "--resume", out, "--force"}).status, 2);
+  EXPECT_EQ(plica({"run", "--resume", out}).status, 0);
+  EXPECT_EQ(with({"--force"}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/checkpoint.bin"));
+  EXPECT_EQ(with({}).errors.find("--resume"), std::string::npos) << "there is no checkpoint to go on from";
+}
+
+// A file may not grow beyond some kB, as on a disk that is full
+TEST_F(Program, FullDiskIs1) {
+  const std::string words = std::string("trap '' XFSZ; ulimit -f 8; exec ") + PLICA_EXECUTABLE + " run " + scene +
+                            " -o " + out + " --duration 10s --set output.every='1 step' --checkpoint every=1";
+  const Child run = run_child({"bash", "-c", words}, folder);
+  if (run.status == 127 || run.status < 0) GTEST_SKIP() << "no bash";
+  EXPECT_EQ(run.status, 1) << run.errors;
+  EXPECT_NE(run.errors.find("error: cannot write " + out + "/"), std::string::npos) << run.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
+  EXPECT_TRUE(content_of(folder / "out/history.csv").ends_with("\n"));
+  EXPECT_TRUE(content_of(folder / "out/frames.pvd").ends_with("</VTKFile>\n"));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
 TEST_F(Program, KilledRunLeavesWholeFiles) {
   const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, SIGKILL) == 0; });
   EXPECT_EQ(run.status, 128 + SIGKILL);

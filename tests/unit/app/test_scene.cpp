@@ -28,7 +28,7 @@ TEST(Scene, KeepsWhatItSays) {
   const Box box = bounding_box(scene.problem.body.surface->vertices);
   EXPECT_LT(((box.min + box.max) / 2 - Point(0.05, 0.05, 0.05)).norm(), 1e-12);
   ASSERT_EQ(scene.problem.contact.obstacles.size(), 1);
-  EXPECT_EQ(std::get<PlaneOptions>(scene.problem.contact.obstacles[0].shape).point.z(), -0.1);
+  EXPECT_EQ(std::any_cast<const PlaneOptions&>(scene.problem.contact.obstacles[0].shape).point.z(), -0.1);
   EXPECT_EQ(scene.problem.contact.obstacles[0].friction, 0.2);
 }
 
@@ -116,7 +116,7 @@ TEST(StudyScenes, AreSoundOnAllTheirLevels) {
 TEST(Scene, BallStartsWhereTheyAgreed) {
   const Scene scene = load_scene(std::string(PLICA_SOURCE_DIR) + "/drivers/scenes/ball_in_bowl.yaml");
   EXPECT_EQ(scene.problem.body.surface->vertices.size(), 642);
-  const auto& bowl = std::get<BowlOptions>(scene.problem.contact.obstacles[0].shape);
+  const auto& bowl = std::any_cast<const BowlOptions&>(scene.problem.contact.obstacles[0].shape);
   const Point start = *scene.problem.body.initial.position;
   const double below = bowl.centre.z() - std::sqrt(bowl.radius * bowl.radius - start.x() * start.x());
   EXPECT_NEAR(start.x(), 0.01, 1e-12);

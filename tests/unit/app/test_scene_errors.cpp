@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
 namespace plica::app::test {
@@ -89,11 +93,11 @@ const Damage damages[] = {
     {"ContactWithoutSurface", "  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", "",
      "a.yaml:12: contact.obstacles: the body has no surface to touch them; give body.surface"},
     {"RimAboveRadius", "plane: {point: [0, 0, -0.1]}", "bowl: {radius: 1, rim: 2}",
-     "a.yaml:14: contact.obstacles.0.bowl.rim: expected at most the radius (1 m), got 2 m"},
+     "a.yaml:14: contact.obstacles.0.bowl.rim is 2 m; expected at most the radius, 1 m"},
     {"NoNormal", "point: [0, 0, -0.1]", "normal: [0, 0, 0]",
      "a.yaml:14: contact.obstacles.0.plane.normal: expected a direction, got [0, 0, 0]"},
     {"BoxUpsideDown", "material:", "fixed: [{box: {min: [0, 0, 1], max: [1, 1, 0]}}]\n  material:",
-     "a.yaml:7: body.fixed.0.box: min is above max"},
+     "a.yaml:7: body.fixed.0.box.min is [0, 0, 1] m; expected at most max, [1, 1, 0] m"},
     {"ScaleWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, scale: 2}",
      "a.yaml:5: body.levels.0.scale: only a file has one"},
     {"MergeWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, merge_duplicates: 0}",
@@ -108,6 +112,10 @@ const Damage damages[] = {
      "a.yaml:7: body.regions.tumour: there is no region 'tumour': the meshes name none"},
     {"MissingMesh", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{file: nowhere.msh}",
      "a.yaml:5: there is no mesh file 'nowhere.msh' (its name is relative to the scene)"},
+    {"StepOverDuration", "macro_step: 1 ms", "macro_step: 10 s",
+     "a.yaml:11: integration.macro_step is 10 s; expected at most the duration, 1 s"},
+    {"TooManyHalvings", "macro_step: 1 ms", "retry: {halvings: 11}",
+     "a.yaml:11: integration.retry.halvings: expected a whole number in [0, 10], got '11'"},
     {"NotYaml", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.81", "a.yaml:3: not YAML: "},
     {"TwoDocuments", "gravity:", "---\ngravity:", "a.yaml:2: a scene is one YAML document; here begins another"},
     {"StrayBrace", "duration: 1 s", "}", "a.yaml:"},
@@ -126,6 +134,53 @@ TEST(Scene, EmptyIsAnError) {
 TEST(Scene, MissingFileIsAnError) {
   EXPECT_THROW(load_scene("/nowhere/at/all.yaml"), InputError);
   EXPECT_THROW(load_scene(PLICA_SOURCE_DIR), InputError);
+}
+
+// What the program says to hierarchies and cycles that make no sense: exit 2, and nothing is run.
+class Levels : public testing::Test {
+ protected:
+  Levels() { std::ofstream(folder / "a.yaml") << sound_scene; }
+  Child plica(const std::string& command, const std::vector<std::string>& set) {
+    std::vector<std::string> words = {PLICA_EXECUTABLE, command, folder / "a.yaml"};
+    if (command == "run") words.insert(words.end(), {"-o", folder / "out", "--force"});
+    for (const std::string& assignment : set) words.insert(words.end(), {"--set", assignment});
+    return run_child(words, folder);
+  }
+  void expect_refusal(const std::vector<std::string>& set, const std::string& says) {
+    for (const char* command : {"run", "explain", "check"}) {
+      const Child child = plica(command, set);
+      EXPECT_EQ(child.status, 2) << set[0] << child.output << child.errors;
+      EXPECT_NE(child.errors.find(says), std::string::npos) << child.errors;
+      EXPECT_FALSE(std::filesystem::exists(folder / "out")) << set[0];
+    }
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(Levels, RefusesWhatMakesNoSense) {
+  expect_refusal({"integration.distribution=[0.5, 0.4]"}, "must add up to 1, got 0.9");
+  expect_refusal({"integration.macro_step=10 s", "duration=50 ms"},
+                 "integration.macro_step is 10 s; expected at most the duration, 0.05 s");
+  expect_refusal({"integration.substeps=0"}, "expected a whole number >= 1, got '0'");
+  expect_refusal({"integration.cycle=fas", "integration.outside=extrapolate"}, "expected clamp");
+  expect_refusal({"integration.distribution=[1]"}, "expected one for each level (2 in body.levels), got a list of 1");
+  expect_refusal({"body.levels.1.box.origin=[1, 0, 0]"}, "do not overlap, they are 0.9 m apart");
+  expect_refusal({"body.initial={twist: {from: [0, 0, 0], to: [0, 0, 0], angular_velocity: 3}}"},
+                 "body.initial.twist.to, as a distance from .from, is 0");
+  expect_refusal({"body.initial={parts: [{sphere: {centre: [9, 9, 9], radius: 1}, velocity: [0, 0, 1]}]}"},
+                 "body.initial.parts.0");
+  expect_refusal({"body.initial={parts: [{group: tip, velocity: [0, 0, 1]}]}"},
+                 "body.initial.parts.0.group: there is no group 'tip': the meshes name none");
+}
+
+TEST_F(Levels, WarnsWhereTheyDoNotCoarsen) {
+  for (const char* command : {"run", "explain", "check"}) {
+    const Child child = plica(command, {"body.levels.1.box.cells=[4, 4, 4]", "duration=1 ms"});
+    EXPECT_EQ(child.status, 0) << child.errors;
+    EXPECT_NE(child.errors.find("level 1 is not coarser than level 0: 384 tetrahedra after 384"), std::string::npos)
+        << child.errors;
+    EXPECT_EQ(plica(command, {"duration=1 ms"}).errors.find("coarser"), std::string::npos);
+  }
 }
 
 }  // namespace

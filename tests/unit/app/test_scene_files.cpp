@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/read_mesh.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"

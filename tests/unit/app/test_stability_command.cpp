@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <plica/drivers/app/commands/stability.hpp>
-#include <plica/drivers/app/output/stability_json.hpp>
-#include <plica/drivers/app/output/stability_text.hpp>
+#include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/output/stability_table.hpp>
 #include <set>
 #include <sstream>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <plica/drivers/app/output/study_reference_file.hpp>
+#include <plica/drivers/app/output/study_files.hpp>
 #include <set>
 
 #include "unit/app/child.hpp"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <plica/drivers/app/output/verify_text.hpp>
+#include <plica/drivers/app/output/verify_table.hpp>
 
 #include "unit/app/child.hpp"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Holds JSON files against a JSON Schema, the first file, and prints for each whether it fits; see test_schema.cpp."""
+"""Holds JSON files against a JSON Schema, the first file, and prints for each whether it fits; see test_keys.cpp."""
 import json
 import sys
 

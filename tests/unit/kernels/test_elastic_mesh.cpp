@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 
 #include "support/backends.hpp"
@@ -108,7 +109,7 @@ TYPED_TEST(ElasticMeshOn, PatchTest) {
     const TetMesh& mesh = problem.body.levels[0];
     LevelProbe<TypeParam> probe(problem);
     const auto f = probe.force(affine(mesh, F, {0.01, 0.02, -0.03}));
-    const auto c = lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
+    const auto c = M::kernel_constants(parameter_values(*find_material(M::name), problem.body.material, {}).data());
     Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
     int inner = 0;
     const double size = eigen(M::stress(mat3<double>(F), c)).norm() * 0.025 * 0.025;

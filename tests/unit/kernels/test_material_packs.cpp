@@ -17,8 +17,8 @@ void expect_lanes() {
     using M = decltype(material);
     SCOPED_TRACE(M::name);
     const auto list = gradients(M::survives_inversion);
-    const Lame<Real> c{static_cast<Real>(soft.lambda), static_cast<Real>(soft.mu)};
-    const Lame<T> cs{T(c.lambda), T(c.mu)};
+    const auto c = sample_constants_as<M, Real>();
+    const auto cs = sample_constants_as<M, T>();
     Mat3<T> Fs;
     for (int l = 0; l < N; ++l) {
       const auto F = mat3<Real>(list[static_cast<std::size_t>(l) % list.size()].F);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/materials.hpp>
+
 #include "support/gradients.hpp"
+#include "support/three_constants.hpp"
 #include "support/tolerance.hpp"
 
 // Every registered material, pointwise.
@@ -28,38 +32,45 @@ std::vector<Mat3<double>> directions() {
   return list;
 }
 
+template <class M>
+void expect_stress_of_energy() {
+  for (const Gradient& g : gradients(M::survives_inversion))
+    for (const Mat3<double>& D : directions()) {
+      const Mat3<double> F = mat3<double>(g.F);
+      const double h = 1e-4 * g.smallest;
+      const auto slope = [&](double t) {
+        return (M::energy(F + t * D, sample_constants<M>()) - M::energy(F - t * D, sample_constants<M>())) / (2 * t);
+      };
+      const double fourth_order = (4 * slope(h / 2) - slope(h)) / 3;
+      const Mat3<double> P = M::stress(F, sample_constants<M>());
+      EXPECT_NEAR(inner(P, D), fourth_order, 1e-6 * eigen(P).norm() * eigen(D).norm()) << g.F;
+    }
+}
+
 TEST(Materials, StressIsTheDerivativeOfTheEnergy) {
-  for_each_material([](auto material) {
-    using M = decltype(material);
-    for (const Gradient& g : gradients(M::survives_inversion))
-      for (const Mat3<double>& D : directions()) {
-        const Mat3<double> F = mat3<double>(g.F);
-        const double h = 1e-4 * g.smallest;
-        const auto slope = [&](double t) {
-          return (M::energy(F + t * D, soft) - M::energy(F - t * D, soft)) / (2 * t);
-        };
-        const double fourth_order = (4 * slope(h / 2) - slope(h)) / 3;
-        const Mat3<double> P = M::stress(F, soft);
-        EXPECT_NEAR(inner(P, D), fourth_order, 1e-6 * eigen(P).norm() * eigen(D).norm()) << g.F;
-      }
-  });
+  for_each_material([](auto material) { expect_stress_of_energy<decltype(material)>(); });
+  expect_stress_of_energy<ThreeConstants>();
+}
+
+template <class M>
+void expect_change_of_stress() {
+  for (const Gradient& g : gradients(M::survives_inversion))
+    for (const Mat3<double>& D : directions()) {
+      const Mat3<double> F = mat3<double>(g.F);
+      const double h = 1e-4 * g.smallest;
+      const auto slope = [&](double t) -> Eigen::Matrix3d {
+        return eigen(M::stress(F + t * D, sample_constants<M>()) - M::stress(F - t * D, sample_constants<M>())) /
+               (2 * t);
+      };
+      const Eigen::Matrix3d fourth_order = (4 * slope(h / 2) - slope(h)) / 3;
+      const Eigen::Matrix3d dP = eigen(M::stress_change(F, D, sample_constants<M>()));
+      EXPECT_LE((dP - fourth_order).norm(), 1e-6 * dP.norm()) << g.F;
+    }
 }
 
 TEST(Materials, StressChangeIsTheDerivativeOfTheStress) {
-  for_each_material([](auto material) {
-    using M = decltype(material);
-    for (const Gradient& g : gradients(M::survives_inversion))
-      for (const Mat3<double>& D : directions()) {
-        const Mat3<double> F = mat3<double>(g.F);
-        const double h = 1e-4 * g.smallest;
-        const auto slope = [&](double t) -> Eigen::Matrix3d {
-          return eigen(M::stress(F + t * D, soft) - M::stress(F - t * D, soft)) / (2 * t);
-        };
-        const Eigen::Matrix3d fourth_order = (4 * slope(h / 2) - slope(h)) / 3;
-        const Eigen::Matrix3d dP = eigen(M::stress_change(F, D, soft));
-        EXPECT_LE((dP - fourth_order).norm(), 1e-6 * dP.norm()) << g.F;
-      }
-  });
+  for_each_material([](auto material) { expect_change_of_stress<decltype(material)>(); });
+  expect_change_of_stress<ThreeConstants>();
 }
 
 TEST(Materials, TangentIsSymmetric) {
@@ -67,8 +78,8 @@ TEST(Materials, TangentIsSymmetric) {
     using M = decltype(material);
     const auto d = directions();
     for (const Gradient& g : gradients(M::survives_inversion)) {
-      const Mat3<double> F = mat3<double>(g.F), A = M::stress_change(F, d[0], soft),
-                         B = M::stress_change(F, d[1], soft);
+      const Mat3<double> F = mat3<double>(g.F), A = M::stress_change(F, d[0], sample_constants<M>()),
+                         B = M::stress_change(F, d[1], sample_constants<M>());
       EXPECT_NEAR(inner(A, d[1]), inner(B, d[0]),
                   round_off<double>(1e5, (eigen(A).norm() + eigen(B).norm()) * eigen(d[0]).norm()))
           << g.F;
@@ -80,7 +91,7 @@ template <class Real>
 void expect_rest() {
   for_each_material([](auto material) {
     using M = decltype(material);
-    const Lame<Real> c{static_cast<Real>(soft.lambda), static_cast<Real>(soft.mu)};
+    const auto c = sample_constants_as<M, Real>();
     EXPECT_NEAR(static_cast<double>(M::energy(Mat3<Real>::identity(), c)), 0, round_off<Real>(16, soft.lambda));
     const Mat3<Real> P = M::stress(Mat3<Real>::identity(), c);
     for (int r = 0; r < 3; ++r)
@@ -94,16 +105,20 @@ TEST(Materials, RestIsFreeOfStress) {
   expect_rest<float>();
 }
 
+template <class M>
+void expect_hookes_law() {
+  const Lame<double> small = M::small_strains(sample_constants<M>());
+  for (const Mat3<double>& D : directions()) {
+    const Eigen::Matrix3d e = 0.5 * eigen(D + transpose(D));
+    const Eigen::Matrix3d want = 2 * small.mu * e + small.lambda * e.trace() * Eigen::Matrix3d::Identity();
+    EXPECT_LE((eigen(M::stress_change(Mat3<double>::identity(), D, sample_constants<M>())) - want).norm(),
+              round_off<double>(1e3, want.norm()));
+  }
+}
+
 TEST(Materials, AreHookesLawAtRest) {
-  for_each_material([](auto material) {
-    using M = decltype(material);
-    for (const Mat3<double>& D : directions()) {
-      const Eigen::Matrix3d e = 0.5 * eigen(D + transpose(D));
-      const Eigen::Matrix3d want = 2 * soft.mu * e + soft.lambda * e.trace() * Eigen::Matrix3d::Identity();
-      EXPECT_LE((eigen(M::stress_change(Mat3<double>::identity(), D, soft)) - want).norm(),
-                round_off<double>(1e3, want.norm()));
-    }
-  });
+  for_each_material([](auto material) { expect_hookes_law<decltype(material)>(); });
+  expect_hookes_law<ThreeConstants>();
 }
 
 TEST(Materials, RotationTurnsTheStressWithIt) {
@@ -113,10 +128,11 @@ TEST(Materials, RotationTurnsTheStressWithIt) {
     if (!M::rotation_invariant) return;
     for (const Gradient& g : gradients(M::survives_inversion)) {
       const Eigen::Matrix3d R = random_rotation(random), RF = R * g.F;
-      const double E = M::energy(mat3<double>(g.F), soft), turned = M::energy(mat3<double>(RF), soft);
+      const double E = M::energy(mat3<double>(g.F), sample_constants<M>()),
+                   turned = M::energy(mat3<double>(RF), sample_constants<M>());
       EXPECT_NEAR(turned, E, round_off<double>(1e4, std::abs(E)) / g.smallest) << g.F;
-      const Eigen::Matrix3d P = R * eigen(M::stress(mat3<double>(g.F), soft)),
-                            Q = eigen(M::stress(mat3<double>(RF), soft));
+      const Eigen::Matrix3d P = R * eigen(M::stress(mat3<double>(g.F), sample_constants<M>())),
+                            Q = eigen(M::stress(mat3<double>(RF), sample_constants<M>()));
       EXPECT_LE((P - Q).norm(), round_off<double>(1e4, P.norm()) / g.smallest) << g.F;
     }
   });
@@ -150,9 +166,9 @@ TEST(Materials, InvertedOnesThatSurviveStayFinite) {
     using M = decltype(material);
     if (!M::survives_inversion) return;
     for (const Eigen::Matrix3d& F : degenerate()) {
-      EXPECT_TRUE(std::isfinite(M::energy(mat3<double>(F), soft))) << F;
-      EXPECT_TRUE(eigen(M::stress(mat3<double>(F), soft)).allFinite()) << F;
-      EXPECT_TRUE(eigen(M::stress_change(mat3<double>(F), directions()[0], soft)).allFinite()) << F;
+      EXPECT_TRUE(std::isfinite(M::energy(mat3<double>(F), sample_constants<M>()))) << F;
+      EXPECT_TRUE(eigen(M::stress(mat3<double>(F), sample_constants<M>())).allFinite()) << F;
+      EXPECT_TRUE(eigen(M::stress_change(mat3<double>(F), directions()[0], sample_constants<M>())).allFinite()) << F;
     }
   });
 }
@@ -183,16 +199,17 @@ TEST(NeoHookeanMaterial, IsTheLawAboveItsThresholdAndSmoothAcrossIt) {
 // Downhill from an F, in steps of at most a tenth, to where the stress is gone; its energy there
 template <class M>
 double downhill(Mat3<double>& F) {
-  double energy = M::energy(F, soft), step = 1e-6;
+  double energy = M::energy(F, sample_constants<M>()), step = 1e-6;
   for (int n = 0; n < 20000; ++n) {
-    const Mat3<double> P = M::stress(F, soft);
+    const Mat3<double> P = M::stress(F, sample_constants<M>());
     const double size = std::sqrt(inner(P, P));
     if (size < 1e-6 * soft.mu) break;
     step = std::min(step, 0.1 / size);
     Mat3<double> next = F - step * P;
-    for (; step * size > 1e-15 && M::energy(next, soft) > energy - 1e-4 * step * size * size; next = F - step * P)
+    for (; step * size > 1e-15 && M::energy(next, sample_constants<M>()) > energy - 1e-4 * step * size * size;
+         next = F - step * P)
       step /= 2;
-    F = next, energy = M::energy(F, soft), step *= 2;
+    F = next, energy = M::energy(F, sample_constants<M>()), step *= 2;
   }
   return energy;
 }
@@ -243,6 +260,48 @@ TEST(PolarRotation, IsTheNearestRotation) {
     const double gap = (s[1] + sign[2] * s[2]) / s[0];  // how well defined it is
     EXPECT_LE((eigen(polar_rotation(mat3<double>(g.F))) - want).norm(), round_off<double>(200) / (gap * gap)) << g.F;
   }
+}
+
+MaterialInfo three_constants() {
+  using M = ThreeConstants;
+  return {M::name, "", true, false, false, false, {M::parameters.begin(), M::parameters.end()}, nullptr, nullptr};
+}
+
+std::string refusal(const MaterialInfo& info, const Body& body) {
+  try {
+    check_parameters(info, body);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MaterialParameters, AreTheRegionsThenTheBodysThenTheStandard) {
+  Body body;
+  body.material.parameters = {{"c1", 10}, {"c2", 20}};
+  RegionOptions region;
+  region.parameters = {{"c2", 30}};
+  EXPECT_EQ(parameter_values(three_constants(), body.material, region), (std::vector<double>{10, 30, 30e3}));
+  body.material.young_modulus = 5, region.poisson_ratio = 0.3;
+  EXPECT_EQ(parameter_values(*find_material("linear"), body.material, region), (std::vector<double>{5, 0.3}));
+}
+
+TEST(MaterialParameters, AreRefusedOutOfTheirRangeAndByAWrongName) {
+  Body body;
+  EXPECT_EQ(refusal(three_constants(), body), "");
+  body.material.parameters = {{"c1", 0}};
+  EXPECT_EQ(refusal(three_constants(), body), "body.material.c1 is 0 Pa; expected a pressure (Pa) > 0");
+  body.material.parameters = {{"c2", 2e6}};
+  EXPECT_EQ(refusal(three_constants(), body),
+            "body.material.c2 is 2e+06 Pa; expected a pressure (Pa) in [0, 1e+06] Pa");
+  body.material.parameters = {{"blk", 1}};
+  EXPECT_EQ(
+      refusal(three_constants(), body),
+      "body.material.blk: unknown parameter of three_constants 'blk'; did you mean 'bulk'? (choices: c1, c2, bulk)");
+  body.material.parameters.clear(), body.regions["liver"].parameters = {{"bulk", -1}};
+  EXPECT_EQ(refusal(three_constants(), body), "body.regions.liver.bulk is -1 Pa; expected a pressure (Pa) > 0");
+  EXPECT_EQ(refusal(*find_material("linear"), body),
+            "body.regions.liver.bulk: unknown parameter of linear 'bulk' (choices: young_modulus, poisson_ratio)");
 }
 
 }  // namespace

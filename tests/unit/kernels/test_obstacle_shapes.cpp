@@ -3,7 +3,7 @@
 
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/bodies.hpp"
 #include "support/tolerance.hpp"

@@ -9,10 +9,11 @@
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/transfer/map_state.hpp>
-#include <plica/meshes/box_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/gradients.hpp"
+#include "support/three_constants.hpp"
 #include "support/tolerance.hpp"
 
 // The patch kernel and the transfers against sums written out element by element in double: with few parts of the library, so
@@ -43,6 +44,7 @@ TetMesh irregular_box() {
 /// f_a = -sum V P(F) grad N_a; with a direction p, its change dP/dF : grad p instead of P.
 template <class Material>
 Field plain_force(const TetMesh& mesh, const Field& u, const Field* p) {
+  const auto constants = sample_constants<Material>();
   Field f(mesh.vertices.size(), Point::Zero());
   for (const auto& t : mesh.tets) {
     const auto edges = [&](const Field& x) {
@@ -54,8 +56,8 @@ Field plain_force(const TetMesh& mesh, const Field& u, const Field* p) {
     const Eigen::Matrix3d D = edges(mesh.vertices), inverse = D.inverse();
     const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + edges(u) * inverse;
     const Eigen::Matrix3d P =
-        p == nullptr ? eigen(Material::stress(mat3<double>(F), soft))
-                     : eigen(Material::stress_change(mat3<double>(F), mat3<double>(edges(*p) * inverse), soft));
+        p == nullptr ? eigen(Material::stress(mat3<double>(F), constants))
+                     : eigen(Material::stress_change(mat3<double>(F), mat3<double>(edges(*p) * inverse), constants));
     const Eigen::Matrix3d H = -D.determinant() / 6 * P * inverse.transpose();
     for (int c = 0; c < 3; ++c) {
       f[static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)])] += H.col(c);
@@ -97,28 +99,53 @@ template <class B>
 class PatchKernelOn : public testing::Test {};
 TYPED_TEST_SUITE(PatchKernelOn, EachBackend);
 
-TYPED_TEST(PatchKernelOn, IsTheSumOverTheElements) {
-  using B = TypeParam;
+template <class B, class M>
+void expect_the_sum() {
+  SCOPED_TRACE(M::name);
   const TetMesh mesh = irregular_box();
-  const Patches<B> patches = build_patches<B>(mesh, {soft});
+  const Patches<B> patches = build_patches<B>(mesh, {as_list(sample_constants<M>())});
   ASSERT_GT(patches.count, 1);
-  const Field u = disorder(mesh.vertices.size(), 0.002, 1), p = disorder(mesh.vertices.size(), 0.002, 2);
+  const Field u = disorder(mesh.vertices.size(), 0.001, 1), p = disorder(mesh.vertices.size(), 0.001, 2);
   const Vectors<B> u_here = device<B>(u), p_here = device<B>(p);
-  Materials::for_each([&](auto material) {
-    using M = decltype(material);
-    SCOPED_TRACE(M::name);
-    const Field f = plain_force<M>(mesh, u, nullptr), df = plain_force<M>(mesh, u, &p);
-    EXPECT_LE(largest_difference(through_patches(mesh, patches, ElasticForce<B, M, false>{{u_here}, {}, 0}), f),
-              round_off<typename B::Real>(100, largest(f)));
-    EXPECT_LE(largest_difference(through_patches(mesh, patches, ElasticTangent<B, M>{{u_here, p_here}, {}}), df),
-              round_off<typename B::Real>(100, largest(df)));
-  });
+  const Field f = plain_force<M>(mesh, u, nullptr), df = plain_force<M>(mesh, u, &p);
+  const ElasticForce<B, M, false> force{{u_here}, patches.constants, {}, 0};
+  const ElasticTangent<B, M> tangent{{u_here, p_here}, patches.constants, {}};
+  EXPECT_LE(largest_difference(through_patches(mesh, patches, force), f), round_off<typename B::Real>(100, largest(f)));
+  EXPECT_LE(largest_difference(through_patches(mesh, patches, tangent), df),
+            round_off<typename B::Real>(100, largest(df)));
+}
+
+TYPED_TEST(PatchKernelOn, IsTheSumOverTheElements) {
+  Materials::for_each([](auto material) { expect_the_sum<TypeParam, decltype(material)>(); });
+}
+
+TYPED_TEST(PatchKernelOn, TakesAMaterialOfThreeConstants) { expect_the_sum<TypeParam, ThreeConstants>(); }
+
+// Each region's patches have its constants
+TYPED_TEST(PatchKernelOn, KnowsTheConstantsOfEveryRegion) {
+  using B = TypeParam;
+  TetMesh mesh = irregular_box();
+  mesh.region_names = {"left", "right"};
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region.push_back(e % 3 == 0 ? 1 : 0);
+  const Patches<B> patches = build_patches<B>(mesh, {{1, 2, 3, 4}, {5, 6, 7, 8}});
+  const auto host_of = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+  const auto constants = host_of(patches.constants);
+  const auto element = host_of(patches.element), first = host_of(patches.first_pack);
+  ASSERT_EQ(constants.extent(0), static_cast<std::size_t>(4 * patches.count));
+  for (int p = 0; p < patches.count; ++p) {
+    const auto c = load_constants<ThreeConstants, double>(constants, p);
+    const int region = mesh.region[static_cast<std::size_t>(element(first(p) * B::lanes))];
+    EXPECT_EQ(c.c1, 1 + 4 * region);
+    EXPECT_EQ(c.c2, 2 + 4 * region);
+    EXPECT_EQ(c.bulk, 3 + 4 * region);
+    EXPECT_EQ(c.rest, 4 + 4 * region);
+  }
 }
 
 TYPED_TEST(PatchKernelOn, WatchesEveryLaneForInversion) {
   using B = TypeParam;
   const TetMesh mesh = irregular_box();
-  const Patches<B> patches = build_patches<B>(mesh, {soft});
+  const Patches<B> patches = build_patches<B>(mesh, {as_list(soft)});
   const auto element = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches.element);
   for (const int turned : {0, 7, 100, static_cast<int>(mesh.tets.size()) - 1}) {
     Field u(mesh.vertices.size(), Point::Zero());
@@ -126,7 +153,7 @@ TYPED_TEST(PatchKernelOn, WatchesEveryLaneForInversion) {
     const auto x = [&](std::size_t c) { return mesh.vertices[static_cast<std::size_t>(t[c])]; };
     u[static_cast<std::size_t>(t[0])] = 2.2 * ((x(1) + x(2) + x(3)) / 3 - x(0));  // through the opposite face
     const auto flags = make_element_flags<B>(patches.count);
-    through_patches(mesh, patches, ElasticForce<B, NeoHookean, true>{{device<B>(u)}, flags, 1});
+    through_patches(mesh, patches, ElasticForce<B, NeoHookean, true>{{device<B>(u)}, patches.constants, flags, 1});
     const auto found = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flags.evaluation);
     const auto slot = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flags.element);
     const auto J = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flags.J);

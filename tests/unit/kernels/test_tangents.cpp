@@ -22,7 +22,7 @@ Matrix9 change_matrix(const Mat3<double>& F) {
   for (int j = 0; j < 9; ++j) {
     Mat3<double> dF;
     dF[j / 3][j % 3] = 1;
-    const Mat3<double> dP = Material::stress_change(F, dF, soft);
+    const Mat3<double> dP = Material::stress_change(F, dF, sample_constants<Material>());
     for (int i = 0; i < 9; ++i) C(i, j) = dP[i / 3][i % 3];
   }
   return 0.5 * (C + C.transpose());
@@ -58,8 +58,8 @@ TEST(Tangents, BlocksAreTheirContractions) {
     SCOPED_TRACE(M::name);
     for (const Gradient& g : gradients(M::survives_inversion)) {
       const Mat3<double> F = mat3<double>(g.F);
-      expect_blocks(typename M::template Tangent<double>(F, soft), change_matrix<M>(F));
-      const typename PositiveTangent<M>::template Of<double> projected(F, soft);
+      expect_blocks(typename M::template Tangent<double>(F, sample_constants<M>()), change_matrix<M>(F));
+      const typename PositiveTangent<M>::template Of<double> projected(F, sample_constants<M>());
       expect_blocks(projected, matrix_of(projected.C));
     }
   });
@@ -76,7 +76,7 @@ TEST(Tangents, ProjectedOnesHaveNoNegativeEigenvalueAndKeepTheOthers) {
       const Eigen::SelfAdjointEigenSolver<Matrix9> exact(C);
       const Matrix9 want =
           exact.eigenvectors() * exact.eigenvalues().cwiseMax(0).asDiagonal() * exact.eigenvectors().transpose();
-      const Matrix9 got = matrix_of(typename PositiveTangent<M>::template Of<double>(F, soft).C);
+      const Matrix9 got = matrix_of(typename PositiveTangent<M>::template Of<double>(F, sample_constants<M>()).C);
       EXPECT_LE((got - want).norm(), round_off<double>(1e3, C.norm())) << g.F;
       (exact.eigenvalues().minCoeff() < -1e-9 * C.norm() ? projected : kept) += 1;
     }

@@ -4,7 +4,7 @@
 
 #include <functional>
 #include <plica/core/error.hpp>
-#include <plica/meshes/read_mesh.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 #include <string>
 #include <vector>
 

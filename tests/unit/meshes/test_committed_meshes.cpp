@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <plica/meshes/compare_levels.hpp>
 #include <plica/meshes/embedding.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <plica/meshes/read_mesh.hpp>
 
 namespace {
 
@@ -84,6 +86,51 @@ TEST(CommittedMeshes, HornsAreGradedAndNotNested) {
     EXPECT_GT(down.misses, 0);
     EXPECT_LT(down.largest_distance_over_edge, 0.5);
   }
+}
+
+SameBody same(const TetMesh& finest, const TetMesh& coarse) {
+  return compare_levels(mesh_size(finest, {1000}), mesh_size(coarse, {1000}), 1).same;
+}
+TetMesh only_region_of(TetMesh mesh) {
+  mesh.region.clear();
+  return mesh;
+}
+
+// What is meant as levels of one body is not doubted, from files and from generators.
+TEST(CompareLevels, DoubtsNoCommittedMesh) {
+  const auto read = [](const char* name) { return only_region_of(read_mesh(folder / name)); };
+  for (const char* coarse : {"liver_medium.msh", "liver_coarse.msh"})
+    EXPECT_EQ(same(read("liver_fine.msh"), read(coarse)), SameBody::yes) << coarse;
+  for (const char* coarse : {"graded/horn_medium.msh", "graded/horn_coarse.msh"})
+    EXPECT_EQ(same(read("graded/horn_fine.msh"), read(coarse)), SameBody::yes) << coarse;
+  const auto ball = [](int cells) { return ball_mesh({0, 0, 0}, 0.05, cells); };
+  EXPECT_EQ(same(ball(16), ball(4)), SameBody::yes);
+  EXPECT_EQ(same(ball(4), ball(2)), SameBody::yes);
+  EXPECT_EQ(same(ball(16), ball(1)), SameBody::doubtful);  // a cube of 37 % of the volume
+}
+
+TEST(CompareLevels, RefusesAnotherScaleOrPlace) {
+  const TetMesh fine = box_mesh({{0, 0, 0}, {0.2, 0.1, 0.1}}, {4, 2, 2});
+  const auto coarse = [&](double scale, double shift) {
+    TetMesh mesh = box_mesh({{0, 0, 0}, {0.2, 0.1, 0.1}}, {2, 1, 1});
+    for (Point& p : mesh.vertices) p = scale * p + Point(shift, 0, 0);
+    return mesh;
+  };
+  EXPECT_EQ(same(fine, coarse(1, 0)), SameBody::yes);
+  EXPECT_EQ(same(fine, coarse(1.04, 0)), SameBody::yes);
+  EXPECT_EQ(same(fine, coarse(1.06, 0)), SameBody::doubtful);
+  EXPECT_EQ(same(fine, coarse(1, 0.02)), SameBody::doubtful);
+  for (const double scale : {1e-3, 1e-2, 0.45, 2.1, 100.0, 1000.0})
+    EXPECT_EQ(same(fine, coarse(scale, 0)), SameBody::no) << scale;
+  for (const double shift : {-0.1, 0.06, 0.1}) EXPECT_EQ(same(fine, coarse(1, shift)), SameBody::no) << shift;
+  const MeshSize light = mesh_size(fine, {200}), heavy = mesh_size(fine, {1000});
+  EXPECT_EQ(compare_levels(heavy, light, 1).same, SameBody::no);
+  const std::string said = compare_levels(heavy, mesh_size(coarse(1000, 0), {1000}), 2).sentence;
+  EXPECT_EQ(
+      said,
+      "level 2 is not the body of level 0: 200 x 100 x 100 m, 2e+06 m^3, 2e+09 kg, centroid [100, 50, 50] instead "
+      "of 0.2 x 0.1 x 0.1 m, 0.002 m^3, 2 kg, centroid [0.1, 0.05, 0.05]; is the file of level 2 in mm? Then its "
+      "scale is 0.001");
 }
 
 }  // namespace

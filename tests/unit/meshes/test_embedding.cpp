@@ -4,16 +4,127 @@
 #include <algorithm>
 #include <limits>
 #include <plica/core/error.hpp>
-#include <plica/meshes/ball_mesh.hpp>
-#include <plica/meshes/box_mesh.hpp>
-#include <plica/meshes/edge_lengths.hpp>
 #include <plica/meshes/embedding.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 #include <random>
 
 namespace {
 
 using namespace plica;
+
+// All against all, and without the shortcuts: the reference
+double distance_to_mesh(const TetMesh& mesh, const Point& p) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
+    const auto corners = corners_of(mesh, t);
+    best = std::min(best, (weighted(nearest_inside(p, corners), corners) - p).norm());
+  }
+  return best;
+}
+
+// By sampling the tetrahedron: coarse, but nothing in common with the code
+double sampled_distance(const Point& p, const std::array<Point, 4>& corners) {
+  double best = std::numeric_limits<double>::infinity();
+  const int n = 40;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j)
+      for (int k = 0; i + j + k <= n; ++k) {
+        const Weights w = {double(n - i - j - k) / n, double(i) / n, double(j) / n, double(k) / n};
+        best = std::min(best, (weighted(w, corners) - p).norm());
+      }
+  return best;
+}
+
+std::vector<Point> random_points(int count, double reach, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> coordinate(-reach, reach);
+  std::vector<Point> points;
+  for (int i = 0; i < count; ++i) points.push_back({coordinate(random), coordinate(random), coordinate(random)});
+  return points;
+}
+
+void expect_as_brute_force(const TetMesh& mesh, const std::vector<Point>& points) {
+  const TetLocator locator(mesh);
+  for (const Point& p : points) {
+    const Located at = locator.locate(p);
+    ASSERT_GE(at.tet, 0);
+    EXPECT_NEAR(at.distance, distance_to_mesh(mesh, p), 1e-12);
+    const auto corners = corners_of(mesh, at.tet);
+    EXPECT_NEAR((weighted(at.weights, corners) - p).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((weighted(nearest_inside(p, corners), corners) - p).norm(), at.distance, 1e-9);
+    const double least = *std::min_element(at.weights.begin(), at.weights.end());
+    EXPECT_EQ(at.distance == 0.0, least >= -1e-9);
+  }
+}
+
+TEST(TetLocator, AgreesWithBruteForce) {
+  const Box cube{{-1, -1, -1}, {1, 1, 1}};
+  expect_as_brute_force(box_mesh(cube, {3, 4, 5}), random_points(300, 2.0, 1));
+  expect_as_brute_force(ball_mesh({0, 0, 0}, 1.0, 6), random_points(300, 1.5, 2));
+  expect_as_brute_force(cylinder_mesh({0, 0, -1}, 0.5, 2.0, 4, 5), random_points(300, 1.5, 3));
+}
+
+TEST(TetLocator, AgreesWithBruteForceOnFacesEdgesAndCorners) {
+  const TetMesh coarse = box_mesh({{-1, -1, -1}, {1, 1, 1}}, {2, 3, 2});
+  expect_as_brute_force(coarse, box_mesh({{-1, -1, -1}, {1, 1, 1}}, {6, 6, 6}).vertices);
+  expect_as_brute_force(coarse, box_mesh({{-3, -3, -3}, {3, 3, 3}}, {6, 6, 6}).vertices);
+}
+
+TEST(TetLocator, OneTetrahedron) {
+  TetMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{0, 1, 2, 3}};
+  expect_as_brute_force(mesh, random_points(200, 2.0, 4));
+  EXPECT_DOUBLE_EQ(TetLocator(mesh).locate({-3, 0.2, 0.2}).distance, 3.0);
+  EXPECT_DOUBLE_EQ(TetLocator(mesh).locate({0, 0, 3}).distance, 2.0);
+  EXPECT_DOUBLE_EQ(TetLocator(mesh).locate({0.5, -1, -1}).distance, std::sqrt(2.0));
+}
+
+TEST(TetLocator, NearestPointOfATetrahedron) {
+  const std::array<Point, 4> corners = {Point(0.1, 0, 0), Point(1.3, 0.2, 0), Point(0.3, 0.9, 0.1), Point(0.4, 0.2, 1)};
+  for (const Point& p : random_points(60, 2.0, 5)) {
+    const Weights w = nearest_inside(p, corners);
+    EXPECT_GE(*std::min_element(w.begin(), w.end()), -1e-15);
+    const double d = (weighted(w, corners) - p).norm(), sampled = sampled_distance(p, corners);
+    EXPECT_LE(d, sampled + 1e-12);
+    EXPECT_GE(d, sampled - 0.05);  // the spacing of the samples
+  }
+}
+
+TEST(TetLocator, PointsJustBeyondAFaceAreInside) {
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {4, 4, 4});
+  const TetLocator locator(mesh);
+  EXPECT_EQ(locator.locate({-1e-11, 0.3, 0.6}).distance, 0.0);
+  EXPECT_EQ(locator.locate({1 + 1e-11, 1 + 1e-11, 1 + 1e-11}).distance, 0.0);
+  EXPECT_NEAR(locator.locate({-1e-6, 0.3, 0.6}).distance, 1e-6, 1e-15);
+}
+
+TEST(TetLocator, IsTheSameWhateverTheSizeAndPlace) {
+  const auto points = random_points(200, 1.5, 6);
+  const TetMesh mesh = ball_mesh({0, 0, 0}, 1.0, 5);
+  const TetLocator locator(mesh);
+  for (const double scale : {1e-6, 1e3}) {
+    TetMesh other = mesh;
+    for (Point& p : other.vertices) p = scale * (p + Point(8, -4, 2));
+    const TetLocator elsewhere(other);
+    for (const Point& p : points) {
+      const double d = locator.locate(p).distance, e = elsewhere.locate(scale * (p + Point(8, -4, 2))).distance;
+      EXPECT_NEAR(e / scale, d, 1e-12);
+    }
+  }
+}
+
+TEST(TetLocator, RefusesWhatItCannotLocate) {
+  const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1});
+  const TetLocator locator(mesh);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(locator.locate({nan, 0, 0}), InputError);
+  EXPECT_THROW(locator.locate({0, inf, 0}), InputError);
+  EXPECT_THROW(locator.locate({0, 1e300, 0}), InputError);
+  const TetMesh empty;
+  EXPECT_THROW(TetLocator{empty}, InputError);
+}
 
 const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 

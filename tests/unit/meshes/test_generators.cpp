@@ -4,12 +4,9 @@
 #include <limits>
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/meshes/ball_mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/box_mesh.hpp>
-#include <plica/meshes/cylinder_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <plica/meshes/sphere_surface.hpp>
 #include <set>
 
 namespace {

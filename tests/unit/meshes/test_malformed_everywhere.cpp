@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
-#include <plica/meshes/connectivity.hpp>
-#include <plica/meshes/list.hpp>
-#include <plica/meshes/sound_mesh.hpp>
+#include <plica/meshes/files/list.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+#include <limits>
+
 #include "msh_text.hpp"
 
 namespace {
 
+using namespace plica;
 using namespace plica::test;
 
 void expect_refused_with(const std::string& from, const std::string& to, int line,
@@ -93,6 +97,77 @@ TEST(MalformedMsh, PhysicalNames) {
 
 TEST(MalformedMsh, LongAndUnprintableInputIsCut) {
   expect_refused("\x01" + std::string(100000, 'x'), 1, {"'?" + std::string(59, 'x') + "...'"});
+}
+
+void expect_refused_with_4(const std::string& from, const std::string& to, int line,
+                           const std::vector<std::string>& parts) {
+  expect_refused(with(two_tets_4, from, to), line, parts);
+}
+
+TEST(MalformedMsh4, Entities) {
+  expect_refused_with_4("0 0 1 2\n", "0 0 1 3\n", 15, {"expected an entity", "'$EndEntities'"});
+  expect_refused_with_4("0 0 1 2\n", "0 0 1 1\n", 14, {"expected $EndEntities"});
+  expect_refused_with_4("0 0 1 2\n", "0 0 1 99999999999\n", 11, {"99999999999", "room for"});
+  expect_refused_with_4("0 0 1 2\n", "0 0 1\n", 11, {"line ends", "number of entities"});
+  expect_refused_with_4("2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 2 1 2 0", 14,
+                        {"volume 2", "groups 1 and 2", "one group"});
+  expect_refused_with_4("2 0 0 0 1 1 1 1 2 0", "1 0 0 0 1 1 1 1 2 0", 14, {"volume 1 is defined again"});
+  expect_refused_with_4("2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 1 2 5", 14, {"boundary", "the line ends"});
+  expect_refused_with_4("2 0 0 0 1 1 1 1 2 0", "2 0 0 nan 1 1 1 1 2 0", 14, {"'nan'", "finite"});
+  expect_refused_with_4("2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 1 2 0 4", 14, {"'4' is too much"});
+  expect_refused_with_4("3 2 4 1\n", "3 9 4 1\n", 37, {"volume 9", "does not define"});
+}
+
+TEST(MalformedMsh4, EntitiesComeFirst) {
+  const std::size_t begin = two_tets_4.find("$Entities"), end = two_tets_4.find("$Nodes");
+  const std::string late = two_tets_4.substr(0, begin) + two_tets_4.substr(end) + two_tets_4.substr(begin, end - begin);
+  expect_refused(late, 34, {"$Entities must come before $Elements"});
+  const TetMesh mesh = read_text(two_tets_4.substr(0, begin) + two_tets_4.substr(end));
+  EXPECT_TRUE(mesh.region_names.empty());  // no entities, no groups
+}
+
+TEST(MalformedMsh4, Blocks) {
+  expect_refused_with_4("2 5 1 11", "2 6 1 11", 29, {"the blocks hold 5 nodes and not 6"});
+  expect_refused_with_4("2 5 1 11", "2 4 1 11", 25, {"of a block is 2", "0 to 1", "4 in all"});
+  expect_refused_with_4("2 5 1 11", "9223372036854775807 5 1 11", 17,
+                        {"blocks of nodes is 9223372036854775807", "room"});
+  expect_refused_with_4("2 5 1 11", "2 5 1", 17, {"line ends"});
+  expect_refused_with_4("3 1 0 2", "3 1 2 2", 25, {"parametric is 2"});
+  expect_refused_with_4("3 1 0 2", "4 1 0 2", 25, {"dimension of an entity is 4"});
+  expect_refused_with_4("3 1 0 2", "3 1 1 2", 28, {"line ends", "parametric coordinate"});
+  expect_refused_with_4("3 3 6 8", "3 4 6 8", 38, {"the blocks hold 3 elements and not 4"});
+  expect_refused_with_4("3 1 4 1", "3 1 2 1", 35, {"elements of dimension 2", "entity of dimension 3"});
+  expect_refused_with_4("3 1 4 1", "3 1 11 1", 35, {"type 11, a second-order tetrahedron"});
+}
+
+TEST(MalformedMsh4, NodesAndTetrahedra) {
+  expect_refused_with_4("3\n0 0 0", "1\n0 0 0", 21, {"node 1 is defined again (first on line 19)"});
+  expect_refused_with_4("0 0 1\n1 1 1", "0 0 1\n1 inf 1", 29, {"coordinate y is 'inf'"});
+  expect_refused_with_4("7 1 2 3 10", "7 1 2 3 12", 36, {"tetrahedron 7 names node 12"});
+  expect_refused_with_4("7 1 2 3 10", "7 1 2 3 3", 36, {"names a node twice"});
+  expect_refused_with_4("8 2 3 10 11", "8 3 2 1 10", 38, {"tetrahedron 8 repeats tetrahedron 7 on line 36"});
+}
+
+// Bytes are named where there are no lines
+TEST(MalformedMsh4, Binary) {
+  const MemoryFile file = sample("blocks_41_binary.msh");
+  const std::size_t flag = file.bytes.find("\n4.1 1 8\n") + 9, nodes = file.bytes.find("$Nodes\n") + 7;
+  const auto changed = [&](std::size_t at, auto value) {
+    MemoryFile copy = file;
+    std::memcpy(copy.bytes.data() + at, &value, sizeof(value));
+    return copy;
+  };
+  const auto place = [&](std::size_t at) { return file.name + ": byte " + std::to_string(at); };
+  expect_refused(changed(flag, 2), place(flag), {"order of bytes", "is 2"});
+  expect_refused(changed(nodes, std::uint64_t{1} << 40), place(nodes), {"1099511627776", "room for"});
+  expect_refused(changed(nodes, ~std::uint64_t{0}), place(nodes), {"18446744073709551615", "below 2^63"});
+  const std::size_t first = nodes + 32 + 20;  // the counts; the head of the first block
+  expect_refused(changed(first, std::uint64_t{0}), place(first), {"tag of a node is 0"});
+  expect_refused(changed(first + 16, std::numeric_limits<double>::quiet_NaN()), place(first + 16),
+                 {"coordinate y is nan"});
+  MemoryFile cut = file;  // in the last element: 20 bytes for its last nodes and the end of the section
+  cut.bytes.resize(file.bytes.find("\n$EndElements") - 4);
+  expect_refused(cut, place(cut.bytes.size() - 4), {"expected a node of an element, but the data end"});
 }
 
 }  // namespace

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <plica/meshes/ball_mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/box_mesh.hpp>
-#include <plica/meshes/edge_lengths.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <plica/meshes/box_mesh.hpp>
-#include <plica/meshes/connectivity.hpp>
-#include <plica/meshes/merge_duplicates.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/reordering.hpp>
 

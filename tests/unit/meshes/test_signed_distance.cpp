@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/meshes/signed_distance.hpp>
-#include <plica/meshes/sphere_surface.hpp>
 
 #include "support/bodies.hpp"
 #include "support/tolerance.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/read_surface.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 
 #include "mesh_input.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/meshes/files/list.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <plica/meshes/sound_mesh.hpp>
-#include <plica/meshes/tetgen/parse_tetgen.hpp>
 
 #include "mesh_input.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/meshes/base64.hpp>
+#include <plica/meshes/files/vtu_arrays.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <plica/meshes/vtk/xml_tags.hpp>
 
 #include "mesh_input.hpp"
 
@@ -90,18 +89,19 @@ TEST(MalformedVtu, Files) {
 }
 
 TEST(MalformedVtu, Xml) {
-  expect_refused_with("</Points>", "</Pionts>", 10, {"</Pionts> where <Points> is open"});
-  expect_refused_with("<Points>", "<Points", 6, {"attribute", "'<DataArray"});
-  expect_refused_with("'2'", "2", 4, {"expected =\"...\"", "NumberOfCells"});
-  expect_refused_with("'2'", "'2", 4, {"NumberOfCells", "no end"});
+  expect_refused_with("</Points>", "</Pionts>", 10, {"malformed", "tags mismatch", "'</Pionts>"});
+  expect_refused_with("<Points>", "<Points", 6, {"malformed", "start element tag", "'<DataArray"});
+  expect_refused_with("'2'", "2", 4, {"malformed", "element attribute", "NumberOfCells=2"});
+  expect_refused_with("'2'", "'2", 4, {"malformed", "element attribute", "NumberOfCells='2"});
   expect_refused_with("'2'", "'2' NumberOfPoints='5'", 4, {"second attribute 'NumberOfPoints'"});
-  expect_refused_with("'2'", "'&two;'", 4, {"unknown entity '&two;'"});
+  expect_refused_with("'2'", "'&two;'", 4, {"NumberOfCells is '&two;'"});
   expect_refused_with("<!-- a > comment -->", "<![CDATA[x]]>", 21, {"CDATA", "not supported"});
-  expect_refused_with("-->", "", 21, {"a comment has no end"});
+  expect_refused_with("-->", "", 21, {"malformed", "comment", "'<!-- a > comment"});
   expect_refused(MemoryFile{"m.vtu", two_tets + "<VTKFile/>"}, "m.vtu:24", {"second outermost"});
   std::string deep;
   for (int i = 0; i < 1000; ++i) deep += "<a>";
-  expect_refused(MemoryFile{"m.vtu", two_tets.substr(0, two_tets.find("<Piece")) + deep}, "m.vtu:4", {"nested"});
+  expect_refused(MemoryFile{"m.vtu", two_tets.substr(0, two_tets.find("<Piece")) + deep}, "m.vtu:4",
+                 {"malformed", "tags mismatch"});
 }
 
 TEST(MalformedVtu, Arrays) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/read_any.hpp>
-#include <plica/meshes/write_mesh.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 
 #include "mesh_input.hpp"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 #include "support/backends.hpp"

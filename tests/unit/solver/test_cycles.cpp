@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/meshes/ball_mesh.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -151,7 +151,6 @@ TYPED_TEST(CyclesOn, SwitchingNeverIsVariationAndAlwaysIsState) {
 
 TYPED_TEST(CyclesOn, EveryOneHoldsALoadedBeam) {
   for (const std::string& cycle : names(cycles())) {
-    if (cycle == "rsv_sv" || cycle == "rv") continue;  // known to diverge on a loaded body
     Problem p = body_of({box_mesh(beam_box, {12, 4, 4}), box_mesh(beam_box, {8, 3, 3})}, "corotational");
     p.gravity = {0, 0, -9.81};
     p.body.damping.mass = 20;
@@ -166,7 +165,13 @@ TYPED_TEST(CyclesOn, EveryOneHoldsALoadedBeam) {
         if (mesh.vertices[a][0] == 0) {
           EXPECT_EQ(u[a].norm(), 0) << cycle;
         }
-      EXPECT_GT(largest(u), 1e-3) << cycle;
+      EXPECT_GT(largest(u), 0.1) << cycle;
+    }
+    if (cycle == "rv" || cycle == "rsv_sv") {  // what they hand up grows on a loaded body: by and by, and not unnoticed
+      std::optional<Diagnosis> bad;
+      for (int n = 0; n < 1500 && !bad; ++n) simulation.step(), bad = simulation.check();
+      ASSERT_TRUE(bad) << cycle;
+      EXPECT_TRUE(bad->kind == "energy" || bad->kind == "speed") << cycle << " " << bad->text();
     }
   }
 }

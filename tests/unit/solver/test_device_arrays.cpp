@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

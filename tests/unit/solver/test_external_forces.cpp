@@ -3,8 +3,9 @@
 
 #include <plica/core/error.hpp>
 #include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
 #include <set>
 
 #include "support/backends.hpp"

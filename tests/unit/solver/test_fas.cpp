@@ -74,7 +74,7 @@ TYPED_TEST(CorrectedCycle, KeepsLinearMomentum) {
   };
   const Point before = momentum(kick);
   for (int step = 0; step < 30; ++step) simulation.step();
-  EXPECT_GT(largest(displacements(simulation, p.body.levels[0])), 1e-5);
+  EXPECT_GT(largest(displacements(simulation, p.body.levels[0])), 1e-3);
   EXPECT_LE((momentum(simulation.velocities()) - before).norm(),
             round_off<typename TypeParam::Real>(300, mass_of(p) * 0.1));
 }
@@ -97,7 +97,7 @@ TYPED_TEST(CorrectedCycle, KeepsTheFinestMeshsEquilibrium) {
     for (int step = 0; step < 20; ++step) simulation.step();
     return largest_difference(displacements(simulation, p.body.levels[0]), u) / sag;
   };
-  EXPECT_LE(moved_by("fas"), 1e-3);
+  EXPECT_LE(moved_by("fas"), 1e-5);
   EXPECT_GT(moved_by("rs"), 1e-2);  // the control: the coarse level pulls towards its own
 }
 

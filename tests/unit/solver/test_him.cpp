@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/cycles/him.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 #include "support/him_pieces.hpp"
@@ -28,13 +29,13 @@ TEST(InverseMass, IsSymmetricPositiveAndBoundedByTheMass) {
     const Eigen::MatrixXd scaled = root.asDiagonal() * A * root.asDiagonal();
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-    EXPECT_GT(values.minCoeff(), 1e-6);
+    EXPECT_GT(values.minCoeff(), 1e-3);
     EXPECT_LE(values.maxCoeff(), 1 + 1e-6);  // nothing gets lighter
     // a push that moves the body as a whole: close to its own mass
     Eigen::VectorXd push = Eigen::VectorXd::Zero(A.rows());
     for (Eigen::Index k = 0; k < push.size(); k += 3) push[k] = m[static_cast<std::size_t>(k / 3)];
     const Eigen::VectorXd a = A * push;
-    for (Eigen::Index k = 0; k < push.size(); ++k) EXPECT_NEAR(a[k], k % 3 == 0 ? 1 : 0, 0.02);
+    for (Eigen::Index k = 0; k < push.size(); ++k) EXPECT_NEAR(a[k], k % 3 == 0 ? 1 : 0, 1e-5);
   }
 }
 
@@ -84,7 +85,7 @@ TEST(Him, IsOfSecondOrderAtAFixedInverseMass) {
   };
   const auto exact = end_after(640), coarse = end_after(10), fine = end_after(20);
   const double ratio = largest_difference(coarse, exact) / largest_difference(fine, exact);
-  EXPECT_NEAR(std::log2(ratio), 2, 0.15);
+  EXPECT_NEAR(std::log2(ratio), 2, 0.01);
 }
 
 // Position Verlet: between its half drifts, one level does what symplectic Euler does.
@@ -102,7 +103,7 @@ TEST(Him, WithOneLevelIsCentralDifference) {
   him.set_state(zero, v0);
   single.set_state(half, v0);
   advance(him, 50), advance(single, 50);
-  EXPECT_LE(largest_difference(him.velocities(), single.velocities()), 1e-10);
+  EXPECT_LE(largest_difference(him.velocities(), single.velocities()), 1e-13);
   auto x = single.positions();
   const auto v = single.velocities();
   for (std::size_t a = 0; a < x.size(); ++a) x[a] -= 0.5 * 3e-4 * v[a];
@@ -123,10 +124,10 @@ TEST(Him, KeepsTheEquilibriumOfTheFinestLevel) {
   Simulation<Host> him(p);
   ASSERT_GT(him.macro_step(), 4 * single.macro_step());
   const auto hanging = displacements(single, p.body.levels[0]);
-  EXPECT_GT(largest(hanging), 0.01);
+  EXPECT_GT(largest(hanging), 0.1);
   him.set_state(hanging, std::vector<Point>(hanging.size(), Point::Zero()));
   advance(him, 200);
-  EXPECT_LE(largest_difference(displacements(him, p.body.levels[0]), hanging), 1e-6 * largest(hanging));
+  EXPECT_LE(largest_difference(displacements(him, p.body.levels[0]), hanging), 1e-11 * largest(hanging));
 }
 
 TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
@@ -156,8 +157,8 @@ TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
   coarse.body.levels = {p.body.levels[1]};
   p.integration.cycle = "him";
   const double error = std::abs(fall(p, 4e-3) / exact - 1), coarser = std::abs(fall(coarse, 5e-4) / exact - 1);
-  EXPECT_LE(error, 0.02);
-  EXPECT_GE(coarser, 5 * error);
+  EXPECT_LE(error, 2e-3);
+  EXPECT_GE(coarser, 20 * error);
 }
 
 // A block on a slope, 30 degrees: with little friction it slides, with much it all but stays, as the finest level has it.
@@ -178,11 +179,12 @@ TEST(Him, SlidesAndHoldsAsTheFinestLevelDoes) {
     return mean[0] / std::pow(simulation.time(), 2);
   };
   const double slides = way("single", 0.3), holds = way("single", 0.8);
-  EXPECT_NEAR(way("him", 0.3), slides, 0.03 * slides);
-  EXPECT_NEAR(way("him", 0.8), holds, 0.1 * slides);
+  EXPECT_NEAR(way("him", 0.3), slides, 2e-3 * slides);
+  EXPECT_NEAR(way("him", 0.8), holds, 0.03 * slides);
   EXPECT_LT(holds, 0.4 * slides);
 }
 
+// Where the body stiffens beyond what its inertia was fitted to, that is fitted anew, and the run goes on soundly.
 TEST(Him, LosesNoStabilityUnnoticed) {
   Problem p = him_beam(true, "st_venant_kirchhoff");
   p.body.fixed = {left_face()};
@@ -191,13 +193,7 @@ TEST(Him, LosesNoStabilityUnnoticed) {
   p.gravity = {-9.81, 0, -9.81};
   p.integration.him.sigma = 0.98;
   Simulation<Host> simulation(p);
-  for (int n = 0; n < 400; ++n) {
-    simulation.step();
-    if (const auto bad = simulation.check()) {
-      EXPECT_NE(bad->kind, "non_finite") << bad->text();
-      return;
-    }
-  }
+  advance(simulation, 400);
   EXPECT_GT(simulation.counters().at("inertia_refits"), 0);
 }
 

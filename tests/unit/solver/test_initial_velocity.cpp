@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -68,8 +69,57 @@ TEST(LevelsOfOneBody, MustOverlap) {
     EXPECT_STREQ(e.what(),
                  "body.levels: levels 0 and 1 do not overlap, they are 0.3 m apart; expected meshes of one body");
   }
-  p.body.levels[1] = box_mesh({{0.09, 0, 0}, {0.19, 0.1, 0.1}}, {2, 2, 2});  // barely
+  p.body.levels[1] = box_mesh({{0.02, 0, 0}, {0.12, 0.1, 0.1}}, {2, 2, 2});  // mostly
   EXPECT_NO_THROW(Simulation<Host>{p});
+}
+
+// A wrong scale or place of a coarse level is an error with the numbers; what round bodies differ by is at most a warning.
+TEST(LevelsOfOneBody, HaveOneSizeAndPlace) {
+  Problem p = body_of({box_mesh(decimetre, {4, 4, 4}), box_mesh(decimetre, {2, 2, 2})});
+  p.integration.cycle = "rs";
+  EXPECT_NO_THROW(Simulation<Host>{p});
+  EXPECT_TRUE(doubts(p).empty());
+  const auto refused = [&](const TetMesh& coarse) {
+    p.body.levels[1] = coarse;
+    try {
+      Simulation<Host> simulation(p);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2})),
+      "body.levels: level 1 is not the body of level 0: 100 x 100 x 100 m, 1e+06 m^3, 1e+09 kg, centroid [50, 50, "
+      "50] instead of 0.1 x 0.1 x 0.1 m, 0.001 m^3, 1 kg, centroid [0.05, 0.05, 0.05]; is the file of level 1 in "
+      "mm? Then its scale is 0.001");
+  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {1e-3, 1e-3, 1e-3}}, {2, 2, 2})).find("the file of level 0 in cm?"),
+            std::string::npos);
+  EXPECT_NE(refused(box_mesh({{0.05, 0, 0}, {0.15, 0.1, 0.1}}, {2, 2, 2})).find("must lie at the same place"),
+            std::string::npos);
+  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.04}}, {2, 2, 2})).find("0.1 x 0.1 x 0.04 m"), std::string::npos);
+  p.integration.cycle = "single";  // does not look at the second
+  EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2})), "");
+  EXPECT_TRUE(doubts(p).empty());
+  p.integration.cycle = "rs";
+  EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.08}}, {2, 2, 2})), "");
+  ASSERT_EQ(doubts(p).size(), 1);
+  EXPECT_EQ(doubts(p)[0],
+            "body.levels: level 1 differs from level 0: 0.1 x 0.1 x 0.08 m, 0.0008 m^3, 0.8 kg, centroid [0.05, 0.05, "
+            "0.04] instead of 0.1 x 0.1 x 0.1 m, 0.001 m^3, 1 kg, centroid [0.05, 0.05, 0.05]");
+}
+
+// The same body, but denser on its coarse level: a region that has lost its name there.
+TEST(LevelsOfOneBody, HaveOneMass) {
+  Problem p = body_of({box_mesh(decimetre, {4, 4, 4}), box_mesh(decimetre, {2, 2, 2})});
+  p.integration.cycle = "rs";
+  p.body.levels[1].region.assign(p.body.levels[1].tets.size(), 0);
+  p.body.levels[1].region_names = {"bone"};
+  p.body.regions["bone"].density = 2 * p.body.material.density;
+  ASSERT_EQ(doubts(p).size(), 1);
+  EXPECT_NE(doubts(p)[0].find("0.001 m^3, 2 kg"), std::string::npos) << doubts(p)[0];
+  p.body.regions["bone"].density = 10 * p.body.material.density;
+  EXPECT_THROW(Simulation<Host>{p}, InputError);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(Integrators, KeepTheEnergyTheySayTheyKeep) {
   for (const double step : {0.3, 30.0}) EXPECT_NEAR(energy_left(ringing("newmark", step), 200), 1, 1e-8) << step;
   Problem p = ringing("generalized_alpha", 30);
   p.integration.implicit.rho_infinity = 1;
-  EXPECT_NEAR(energy_left(p, 200), 1, 0.05);
+  EXPECT_NEAR(energy_left(p, 200), 1, 1e-9);
 }
 
 TEST(Integrators, DampWhatIsTooFastForTheStep) {
@@ -85,7 +85,8 @@ TEST(Integrators, FallFreely) {
   }
 }
 
-// Every integrator on every level of every cycle that shares the step.
+// Every integrator on every level of every cycle that shares the step: a fall, from which the clamped side holds back and a step
+// of first order is off by a tenth.
 TEST(Integrators, WorkInCycles) {
   for (const std::string& cycle : sharing_cycles())
     for (const std::string& integrator : names(integrators())) {
@@ -96,7 +97,7 @@ TEST(Integrators, WorkInCycles) {
       Simulation<Host> simulation(p);
       for (int n = 0; n < 40; ++n) simulation.step();
       EXPECT_FALSE(simulation.check()) << cycle << " " << integrator;
-      EXPECT_NEAR(largest(displacements(simulation, p.body.levels[0])), 0.5 * 9.81 * 0.02 * 0.02, 1.2e-3)
+      EXPECT_NEAR(largest(displacements(simulation, p.body.levels[0])), 0.5 * 9.81 * 0.02 * 0.02, 4e-4)
           << cycle << " " << integrator;
     }
 }

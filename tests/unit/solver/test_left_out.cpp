@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

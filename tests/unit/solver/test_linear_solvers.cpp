@@ -7,9 +7,10 @@
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/kernels/materials/list.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include <plica/drivers/study/level_probe.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
 #include "support/tolerance.hpp"

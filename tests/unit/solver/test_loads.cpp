@@ -5,8 +5,8 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/load_factor.hpp>
 #include <plica/drivers/study/level_probe.hpp>
-#include <plica/meshes/ball_mesh.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

@@ -6,7 +6,7 @@
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/implicit/stage_kernels.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/read_mesh.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
 
 #include <plica/drivers/study/level_probe.hpp>
 #include "support/backends.hpp"

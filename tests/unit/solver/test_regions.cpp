@@ -80,7 +80,7 @@ TEST(Regions, SoftHalfTakesTheStretch) {
   int count = 0;
   for (std::size_t a = 0; a < u.size(); ++a)
     if (std::abs(p.body.levels[0].vertices[a][0] - 0.2) < 1e-9) middle += u[a][0], ++count;
-  EXPECT_NEAR(middle / count, 0.01 * 0.2, 0.01 * 0.02);  // 1 : 4
+  EXPECT_NEAR(middle / count, 0.01 * 0.2, 2e-5);  // 1 : 4
 }
 
 TEST(Regions, GroupsSelectVertices) {

@@ -108,7 +108,8 @@ TEST(RetryOptions, AreChecked) {
     }
     return "";
   };
-  EXPECT_NE(refusal(squashed(11)).find("integration.retry.halvings is 11; expected 0 to 10"), std::string::npos);
+  EXPECT_NE(refusal(squashed(11)).find("integration.retry.halvings is 11; expected a whole number in [0, 10]"),
+            std::string::npos);
   EXPECT_NE(refusal(squashed(-1)).find("integration.retry.halvings"), std::string::npos);
   for (const char* cycle : {"him", "auto"}) {
     Problem p = squashed(2, cycle);

@@ -3,7 +3,8 @@
 
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

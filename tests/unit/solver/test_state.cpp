@@ -3,8 +3,8 @@
 
 #include <plica/core/error.hpp>
 #include <plica/drivers/study/level_probe.hpp>
-#include <plica/meshes/edge_lengths.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
+#include <plica/meshes/mesh_quality.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

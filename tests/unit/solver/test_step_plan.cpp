@@ -69,13 +69,14 @@ TEST(Shares, OfOneLevelAreAll) {
 TEST(Shares, RefusesCustomOnesThatDoNotFit) {
   IntegrationOptions o = options("custom", 0, 1e-3);
   o.shares = {0.1, 0.2, 0.3, 0.41};
-  EXPECT_NE(refusal(o).find("sum to 1.01; expected 1"), std::string::npos) << refusal(o);
+  EXPECT_NE(refusal(o).find("the shares must add up to 1, got 1.01"), std::string::npos) << refusal(o);
   o.shares = {0.1, 0.2, 0.3, 0.4 + 1e-11};
-  EXPECT_NE(refusal(o).find("sum to 1.00000000001"), std::string::npos) << refusal(o);
+  EXPECT_NE(refusal(o).find("add up to 1, got 1.00000000001"), std::string::npos) << refusal(o);
   o.shares = {0.5, 0.5};
-  EXPECT_NE(refusal(o).find("2 shares for 4 levels"), std::string::npos) << refusal(o);
+  EXPECT_NE(refusal(o).find("one for each level (4 in body.levels), got a list of 2"), std::string::npos) << refusal(o);
   o.shares = {0.5, 0.6, -0.2, 0.1};
-  EXPECT_NE(refusal(o).find("expected each above 0"), std::string::npos) << refusal(o);
+  EXPECT_NE(refusal(o).find("integration.distribution is -0.2; expected a number > 0"), std::string::npos)
+      << refusal(o);
   o.distribution = "equall";
   EXPECT_NE(refusal(o).find("did you mean 'equal'?"), std::string::npos) << refusal(o);
 }

@@ -5,8 +5,7 @@
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/transfer/map_state.hpp>
-#include <plica/meshes/ball_mesh.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"

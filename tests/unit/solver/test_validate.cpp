@@ -5,7 +5,8 @@
 #include <limits>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/meshes/sphere_surface.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/bodies.hpp"
 
@@ -26,9 +27,10 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.body.levels.clear(); }, {"body.levels", "at least one mesh"}},
     {[](Problem& p) { p.body.levels[0].tets.clear(); }, {"level 0 has no tetrahedron"}},
     {[](Problem& p) { p.body.material.model = "neohookean"; }, {"neohookean", "did you mean 'neo_hookean'?"}},
-    {[](Problem& p) { p.body.material.young_modulus = -1; }, {"body.material.young_modulus is -1", "above 0 Pa"}},
+    {[](Problem& p) { p.body.material.young_modulus = -1; },
+     {"body.material.young_modulus is -1 Pa", "expected a pressure (Pa) > 0"}},
     {[](Problem& p) { p.body.material.young_modulus = nan; }, {"body.material.young_modulus is"}},
-    {[](Problem& p) { p.body.material.poisson_ratio = 0.5; }, {"body.material.poisson_ratio is 0.5", "below 0.5"}},
+    {[](Problem& p) { p.body.material.poisson_ratio = 0.5; }, {"body.material.poisson_ratio is 0.5", "in [0, 0.5)"}},
     {[](Problem& p) { p.body.material.density = 0; }, {"body.material.density is 0"}},
     {[](Problem& p) { p.body.material.density = infinite; }, {"body.material.density is inf"}},
     {[](Problem& p) { p.body.regions["fat"]; }, {"unknown region 'fat'"}},
@@ -55,11 +57,12 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.integration.cycle = "rsvv"; }, {"did you mean 'rsv'?"}},
     {[](Problem& p) { p.integration.distribution = "equl"; }, {"did you mean 'equal'?"}},
     {[](Problem& p) { p.integration.integrator = {"rk44"}; }, {"did you mean 'rk4'?"}},
-    {[](Problem& p) { p.integration.integrator = {}; }, {"integration.integrator has 0 entries for 1 levels"}},
+    {[](Problem& p) { p.integration.integrator = {}; },
+     {"integration.integrator: expected one for all or one for each level (1 in body.levels), got a list of 0"}},
     {[](Problem& p) {
        p.integration.substeps = {1, 2, 3};
      },
-     {"integration.substeps has 3 entries for 1 levels"}},
+     {"integration.substeps: expected one for all or one for each level (1 in body.levels), got a list of 3"}},
     {[](Problem& p) { p.integration.substeps = {-1}; }, {"integration.substeps is -1"}},
     {[](Problem& p) { p.integration.macro_step = 0; }, {"integration.macro_step is 0"}},
     {[](Problem& p) { p.integration.shift_to_coarsest = 1; }, {"integration.shift_to_coarsest is 1"}},
@@ -149,11 +152,11 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
   EXPECT_EQ(motion(PathMotion{{{0, {0, 0, 0}}, {1, {0, 0, 1}}}}), "");
   EXPECT_EQ(motion(PathMotion{}), "body.prescribed.0.path is empty; expected at least one time");
   EXPECT_EQ(motion(PathMotion{{{0.5, {0, 0, 0}}, {0.5, {0, 0, 1}}}}),
-            "body.prescribed.0.path.1.time is 0.5; expected a time after that of the entry before, 0.5 s");
-  EXPECT_EQ(motion(PathMotion{{{-1, {0, 0, 0}}}}), "body.prescribed.0.path.0.time is -1; expected 0 or more s");
+            "body.prescribed.0.path.1.time is 0.5 s; expected a time after that of the entry before, 0.5 s");
+  EXPECT_EQ(motion(PathMotion{{{-1, {0, 0, 0}}}}), "body.prescribed.0.path.0.time is -1 s; expected a time (s) >= 0");
   EXPECT_EQ(motion(PathMotion{{{0, {nan, 0, 0}}}}).substr(0, 41), "body.prescribed.0.path.0.displacement is ");
   EXPECT_EQ(motion(SineMotion{{1, 0, 0}, 0, 0}),
-            "body.prescribed.0.sine.frequency is 0; expected a number above 0 1/s");
+            "body.prescribed.0.sine.frequency is 0 1/s; expected a rate (1/s) > 0");
   const auto load = [&](const LoadOptions& o) {
     Problem p = small_cube();
     p.body.loads = {o};
@@ -161,18 +164,19 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
   };
   EXPECT_EQ(load({all, Traction{{1, 0, 0}}, {}}), "");
   EXPECT_EQ(load({all, Traction{{nan, 0, 0}}, {}}).substr(0, 25), "body.loads.0.traction is ");
-  EXPECT_EQ(load({all, TotalForce{}, RampCourse{0}}), "body.loads.0.ramp is 0; expected a number above 0 s");
+  EXPECT_EQ(load({all, TotalForce{}, RampCourse{0}}), "body.loads.0.ramp is 0 s; expected a time (s) > 0");
   PolygonCourse backwards;
   backwards.knots.resize(2);
   backwards.knots[0].time = 1;
   EXPECT_EQ(load({all, TotalForce{}, backwards}),
-            "body.loads.0.course.1.time is 0; expected a time after that of the entry before, 1 s");
+            "body.loads.0.course.1.time is 0 s; expected a time after that of the entry before, 1 s");
   EXPECT_NE(load({BallSelection{{0, 0, 0}, -1}, TotalForce{}, {}}).find("body.loads.0.sphere.radius is -1"),
             std::string::npos);
   EXPECT_NE(load({HalfSpaceSelection{{0, 0, 0}, {0, 0, 0}}, TotalForce{}, {}})
-                .find("body.loads.0.plane.normal, as a length, is 0"),
+                .find("body.loads.0.plane.normal is [0, 0, 0]; expected a direction"),
             std::string::npos);
-  EXPECT_NE(load({Box{{0, 1, 0}, {1, 0, 1}}, TotalForce{}, {}}).find("body.loads.0.box.min is 1; expected at most"),
+  EXPECT_NE(load({Box{{0, 1, 0}, {1, 0, 1}}, TotalForce{}, {}})
+                .find("body.loads.0.box.min is [0, 1, 0] m; expected at most max, [1, 0, 1] m"),
             std::string::npos);
 }
 
@@ -203,7 +207,8 @@ TEST(Validate, ASurfaceObstacleIsClosedAndLooksOutwards) {
   for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
   EXPECT_NE(with(inside_out).find("contact.obstacles.0.surface, as an enclosed volume, is -"), std::string::npos);
   wild.triangles[0][0] = 42;
-  EXPECT_NE(with(wild).find("triangle's vertex is 42; expected 0 to 41"), std::string::npos) << with(wild);
+  EXPECT_NE(with(wild).find("triangle's vertex is 42; expected a whole number in [0, 41]"), std::string::npos)
+      << with(wild);
 }
 
 TEST(Validate, ChecksObstacles) {

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/study/largest_stable.hpp>
-#include <plica/drivers/study/matrix_bodies.hpp>
 #include <plica/drivers/study/stability.hpp>
-#include <plica/meshes/ball_mesh.hpp>
+#include <plica/drivers/study/stability_matrix.hpp>
+#include <plica/meshes/generators.hpp>
 
 #include "support/bodies.hpp"
 

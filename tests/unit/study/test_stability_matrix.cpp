@@ -41,6 +41,24 @@ TEST(Matrix, NoCaseIsThereTwice) {
   EXPECT_GT(seen.size(), 1000U);
 }
 
+// A case has one outcome, or says why two are right; where every outcome is, there is nothing to check.
+TEST(Matrix, MoreThanOneOutcomeHasAReason) {
+  std::size_t several = 0;
+  const auto all = stability_matrix();
+  for (const MatrixCase& one : all) {
+    const Expected& e = one.expected;
+    const int outcomes = (e.complete ? 1 : 0) + (e.stop ? 1 : 0) + (e.refuse ? 1 : 0);
+    EXPECT_GE(outcomes, 1) << one.name;
+    EXPECT_LE(outcomes, 2) << one.name;
+    EXPECT_EQ(outcomes > 1, !e.why.empty()) << one.name << ", " << one.method;
+    several += outcomes > 1 ? 1 : 0;
+  }
+  EXPECT_LT(several, all.size() / 20);
+  MatrixCase one = all.front();
+  one.expected.why = "a reason";
+  EXPECT_EQ(run_case(one).why, "a reason");
+}
+
 TEST(Matrix, AWrongOutcomeIsSeen) {
   const auto all = stability_matrix(MatrixSize::small);
   const auto find = [&](const std::string& text) {

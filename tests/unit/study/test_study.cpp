@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/study/judgement.hpp>
+#include <plica/drivers/study/study.hpp>
 
 #include "support/bodies.hpp"
 
@@ -206,6 +206,60 @@ TEST(Study, WhatDoesNotFitTheBudgetIsListed) {
   ASSERT_FALSE(result.left_out.empty());
   EXPECT_EQ(result.left_out[0].key.find("single/symplectic_euler"), 0U) << "the most telling first";
   EXPECT_NE(result.left_out[0].reason.find("budget"), std::string::npos);
+}
+
+TEST(Study, ControlsComeFirst) {
+  StudyOptions o = quick({});
+  o.precision = {"double", "float"};
+  std::vector<std::string> order;
+  const auto cases = study_cases(beam(), o, study_levels(beam()));
+  study(beam(), o, [&](const StudyProgress& p) {
+    if (p.new_row) order.push_back(p.doing);
+    return order.size() < 5;
+  });
+  std::size_t controls = 0;
+  for (const StudyCase& c : cases) controls += c.control ? 1 : 0;
+  EXPECT_EQ(controls, 4U) << "explicit, two implicit, one coarser level";
+  ASSERT_EQ(order.size(), 5U);
+  EXPECT_EQ(order[0].find("single/symplectic_euler, auto, double"), 0U) << order[0];
+  EXPECT_EQ(order[1].find("coarse/1, auto, double"), 0U) << order[1];
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto one = std::ranges::find(cases, order[i], &StudyCase::key);
+    ASSERT_NE(one, cases.end()) << order[i];
+    EXPECT_EQ(one->control, i < controls) << order[i];
+  }
+}
+
+// Whatever is said to be too long: what the others are compared with is there, with a run less if need be.
+TEST(Study, TheBaselineIsRunWhileThereIsTime) {
+  StudyOptions o = quick({"single/symplectic_euler", "single/implicit_euler", "coarse"});
+  o.timed_runs = 3;
+  StudyResult before = study(beam(), o, [](const StudyProgress& p) { return !p.new_reference; });
+  ASSERT_FALSE(before.reference.trajectory.u.empty());
+  o.budget = 1e6;
+  before.reference.seconds_per_evaluation = 1e6;  // the slowest of machines
+  const StudyResult result = study(beam(), o, {}, before);
+  const auto baseline = rows_of(result, "single/symplectic_euler");
+  ASSERT_FALSE(baseline.empty());
+  EXPECT_NEAR(*baseline[0]->macro_step_over_critical, 0.9, 1e-6);
+  EXPECT_EQ(baseline[0]->status, "completed");
+  EXPECT_EQ(baseline[0]->timed_runs, 1) << "its only run is timed";
+  EXPECT_TRUE(rows_of(result, "coarse/1").empty());
+  const auto left_out =
+      std::ranges::count_if(result.left_out, [](const LeftOut& l) { return l.key.starts_with("coarse/1"); });
+  EXPECT_EQ(left_out, 1);
+}
+
+TEST(Study, ControlsMakeDoWithOneRun) {
+  StudyOptions o = quick({"coarse"});
+  o.timed_runs = 3;
+  StudyResult before = study(beam(), o, [](const StudyProgress& p) { return !p.new_reference; });
+  const auto coarse = study_cases(beam(), o, study_levels(beam())).at(0);
+  o.budget = 1000;
+  before.reference.seconds_per_evaluation = 500 / coarse.predicted_evaluations;
+  const StudyResult result = study(beam(), o, {}, before);
+  ASSERT_EQ(result.rows.size(), 1U);
+  EXPECT_EQ(result.rows[0].timed_runs, 1);
 }
 
 TEST(Study, AFinerMeshTellsSpaceFromTime) {

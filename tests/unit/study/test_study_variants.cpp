@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/study/judgement.hpp>
-#include <plica/drivers/study/study_methods.hpp>
+#include <plica/drivers/study/study.hpp>
+#include <plica/drivers/study/study_case.hpp>
 
 #include "support/bodies.hpp"
 

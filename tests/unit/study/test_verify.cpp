@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/drivers/study/static_equilibrium.hpp>
+#include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/verify.hpp>
 
 #include "support/backends.hpp"
@@ -102,9 +102,18 @@ TEST(LowestEigenvalues, AreTheDenseOnes) {
   const Eigen::LLT<Eigen::MatrixXd> solver(A);
   const auto found =
       lowest_eigenvalues([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return solver.solve(x); }, 80, 5);
-  const Eigen::VectorXd want = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues();
+  const Eigen::VectorXd want = symmetric_eigenvalues(A);
   ASSERT_EQ(found.size(), 5U);
   for (Eigen::Index i = 0; i < 5; ++i) EXPECT_NEAR(found[static_cast<std::size_t>(i)], want[i], 1e-8 * want[i]);
+}
+
+TEST(LowestEigenvalues, OfASmallMatrixAreAllThereAre) {
+  const Eigen::Vector3d values(2, 5, 7);
+  const auto inverse = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x.cwiseQuotient(values); };
+  const auto all = lowest_eigenvalues(inverse, 3, 5);
+  ASSERT_EQ(all.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(all[i], values[static_cast<Eigen::Index>(i)], 1e-12);
+  EXPECT_NEAR(lowest_eigenvalues(inverse, 3, 1).at(0), 2, 1e-9);
 }
 
 TEST(SparseStiffness, IsTheDenseOneWithoutWhatIsHeld) {

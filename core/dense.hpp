@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+// Dense algebra on the host with the processor's vector instructions, for what is factorised while a simulation runs. Matrices
+// are symmetric, n numbers by n.
+namespace plica::dense {
+
+/// The inverse of a positive definite matrix, in place. False where it is not positive definite: then A is of no use.
+bool invert(int n, double* A);
+
+/// K phi = s M phi for a positive definite M: the eigenvalues s [n], ascending, and the vectors phi, one after the other, with
+/// phi . M phi = 1.
+void eigenvectors(int n, const double* K, const double* M, double* s, double* phi);
+
+/// sum over k of s_k phi_k phi_k^T, for vectors that stand one after the other.
+void recompose(int n, const double* s, const double* phi, double* A);
+
+/// The largest eigenvalue of a Lanczos iteration's tridiagonal matrix, and how far it can be from one of the operator's.
+struct RitzBound {
+  double value = 0;
+  double residual = 0;
+};
+
+/// @param diagonal  at least one
+/// @param beside    one less
+/// @param next      what would stand beside the next one
+RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside, double next);
+
+}  // namespace plica::dense

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/keys.hpp>
+#include <plica/core/problem.hpp>
+
+/// Every option of problem.hpp, once: its name, where it is kept, its kind with unit and range, and what it means.
+/// describe(visitor, options) is the table of a struct. Whoever needs one writes a visitor: the reader of scenes, the
+/// list of keys, the JSON Schema, the checks of set-up. For each line of a table the visitor is called by
+///   v(name, member, kind, help)             a key that may be left out: it has the member's default
+///   v.required(name, member, kind, help)    a key that may not
+///   v.one_of(), v.at_most_one()             of the alternatives that follow exactly one is given, or at most one
+///   v.alternative(name, target, kind, help)
+/// Another option is a member of its struct and a line here. The tables of the obstacles' shapes are in
+/// kernels/contact/shapes/.
+namespace plica {
+
+using namespace keys;
+
+template <class V>
+void describe(V& v, Box& o) {
+  v.required("min", o.min, Vector{length}, "lowest corner");
+  v.required("max", o.max, Vector{length}, "highest corner");
+}
+
+template <class V>
+void describe(V& v, BallSelection& o) {
+  v("centre", o.centre, Vector{length}, "centre");
+  v.required("radius", o.radius, Quantity{length, positive}, "radius");
+}
+
+template <class V>
+void describe(V& v, HalfSpaceSelection& o) {
+  v("point", o.point, Vector{length}, "on the plane");
+  v("normal", o.normal, Direction{}, "away from what is chosen; its length does not matter");
+}
+
+template <class V>
+void describe(V& v, Selection& o) {
+  v.one_of();
+  v.alternative("box", o, Case<Box>{}, "what is inside, at rest");
+  v.alternative("sphere", o, Case<BallSelection>{}, "what is inside, at rest");
+  v.alternative("plane", o, Case<HalfSpaceSelection>{}, "what lies on the plane or below it, at rest");
+  v.alternative("group", o, As<&GroupSelection::name, Text>(Text{}),
+                "a named group of the mesh file: points, lines, surfaces or a volume");
+  v.alternative("region", o, As<&RegionSelection::name, Text>(Text{}),
+                "a volume of the mesh file, or one of body.regions");
+  v.alternative("nearest", o, As<&NearestSelection::to, Vector>(Vector{length}),
+                "the one nearest to this point, on every level");
+}
+
+/// What the body and its regions have in common; a region's are optional.
+template <class V, class Options>
+void describe_constants(V& v, Options& o) {
+  v("young_modulus", o.young_modulus, Quantity{pressure, positive}, "stiffness E");
+  v("poisson_ratio", o.poisson_ratio, Quantity{plain, {.min = 0, .max = 0.5, .max_excluded = true}},
+    "lateral contraction nu; close to 0.5 linear tetrahedra are too stiff");
+  v("density", o.density, Quantity{density, positive}, "mass per volume at rest");
+  for (const MaterialParameter& p : material_parameters()) v(p.name, o.parameters, Entry{p.name, p.kind}, p.help);
+}
+
+template <class V>
+void describe(V& v, MaterialOptions& o) {
+  v("model", o.model, Name{"material", materials}, "constitutive law");
+  describe_constants(v, o);
+  v("allow_inversion", o.allow_inversion, Flag{}, "false: inverted elements end the run; left out: by the material");
+}
+
+/// The body's damping, and what regions have of it.
+template <class V, class Options>
+void describe_damping(V& v, Options& o) {
+  v("mass", o.mass, Quantity{rate, not_negative}, "proportional to the mass: slows all motion, falling too");
+  v("stiffness", o.stiffness, Quantity{duration, not_negative},
+    "proportional to the stiffness: slows what deforms, fast");
+}
+template <class V>
+void describe(V& v, DampingOptions& o) {
+  describe_damping(v, o);
+}
+template <class V>
+void describe(V& v, RegionDamping& o) {
+  describe_damping(v, o);
+}
+
+template <class V>
+void describe(V& v, RegionOptions& o) {
+  v("where", o.where, Group{}, "its elements, by their centroids; left out: the mesh file's volume of that name");
+  describe_constants(v, o);
+  v("damping", o.damping, Group{}, "instead of the body's");
+}
+
+template <class V>
+void describe(V& v, PathMotion::Knot& o) {
+  v.required("time", o.time, Quantity{duration, not_negative}, "after that of the entry before");
+  v.required("displacement", o.displacement, Vector{length}, "at that time, from where it is at rest");
+}
+
+template <class V>
+void describe(V& v, SineMotion& o) {
+  v.required("amplitude", o.amplitude, Vector{length}, "largest displacement from the middle");
+  v.required("frequency", o.frequency, Quantity{rate, positive}, "in hertz");
+  v("phase", o.phase, Quantity{angle}, "at the start, which is at rest's place: -90 deg starts without speed");
+}
+
+template <class V>
+void describe(V& v, Motion& o) {
+  v.alternative("velocity", o, As<&SteadyMotion::velocity, Vector>(Vector{velocity}),
+                "with which it moves from the start");
+  v.alternative("path", o, CaseList<&PathMotion::knots>{},
+                "displacements at given times, straight in between; before the first and after the last it stays");
+  v.alternative("sine", o, Case<SineMotion>{}, "to and fro: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
+}
+
+template <class V>
+void describe(V& v, PrescribedMotion& o) {
+  describe(v, o.where);
+  v.one_of();
+  describe(v, o.motion);
+}
+
+template <class V>
+void describe(V& v, PolygonCourse::Knot& o) {
+  v.required("time", o.time, Quantity{duration, not_negative}, "after that of the entry before");
+  v.required("factor", o.factor, Quantity{plain}, "at that time");
+}
+
+template <class V>
+void describe(V& v, SineCourse& o) {
+  v.required("frequency", o.frequency, Quantity{rate, positive}, "in hertz");
+  v("phase", o.phase, Quantity{angle}, "at the start");
+}
+
+template <class V>
+void describe(V& v, LoadOptions& o) {
+  describe(v, o.where);
+  v.one_of();
+  v.alternative("traction", o.load, As<&Traction::value, Vector>(Vector{pressure}),
+                "force per area, on the boundary triangles at rest with all their vertices chosen");
+  v.alternative("force", o.load, As<&TotalForce::value, Vector>(Vector{force}),
+                "of all chosen vertices together, each in proportion to its mass; on a face, traction is evener");
+  v.at_most_one();
+  v.alternative("ramp", o.course, As<&RampCourse::duration, Quantity>(Quantity{duration, positive}),
+                "rises smoothly from nothing in this time");
+  v.alternative("course", o.course, CaseList<&PolygonCourse::knots>{},
+                "factors at given times, straight in between, constant before and after");
+  v.alternative("sine", o.course, Case<SineCourse>{}, "times sin(2 pi frequency t + phase)");
+}
+
+template <class V>
+void describe(V& v, PartVelocity& o) {
+  describe(v, o.where);
+  v.required("velocity", o.velocity, Vector{velocity}, "of these vertices, on top of all other");
+}
+
+template <class V>
+void describe(V& v, TwistOptions& o) {
+  v.required("from", o.from, Vector{length}, "point on the axis where nothing turns, of the mesh at rest");
+  v.required("to", o.to, Vector{length}, "another one: towards it and beyond, the rotation grows linearly");
+  v.required("angular_velocity", o.angular_velocity, Quantity{angular_velocity}, "there");
+}
+
+template <class V>
+void describe(V& v, InitialOptions& o) {
+  v("position", o.position, Vector{length}, "centre of level 0's bounding box; left out: where the mesh is");
+  v("velocity", o.velocity, Vector{velocity}, "of every free vertex");
+  v("angular_velocity", o.angular_velocity, Vector{angular_velocity}, "about that centre");
+  v("twist", o.twist, Group{}, "rotation that grows along an axis, on top of these");
+  v("parts", o.parts, List{}, "velocities of parts of the body, on top of these");
+  v("stretch", o.stretch, Vector{plain}, "along x, y, z about that centre: 0 flattens, below 0 turns inside out");
+  v("random", o.random, Count{0}, "seed: every free vertex starts anywhere in level 0's bounding box at rest");
+}
+
+/// But for its meshes and its surface.
+template <class V>
+void describe(V& v, Body& o) {
+  v("material", o.material, Group{}, "what the body is made of");
+  v("regions", o.regions, Map{}, "what parts of it have of their own: volumes of the mesh file, or selections");
+  v("fixed", o.fixed, List{}, "vertices that stay where they are");
+  v("prescribed", o.prescribed, List{}, "vertices whose motion is given");
+  v("loads", o.loads, List{}, "forces from outside, of fixed direction");
+  v("damping", o.damping, Group{}, "damping");
+  v("initial", o.initial, Group{}, "state at the start");
+}
+
+template <class V>
+void describe(V& v, ImplicitOptions& o) {
+  v("solver", o.solver, Name{"solver", linear_solver_choices}, "of linear systems; auto: direct for small meshes");
+  v("preconditioner", o.preconditioner, Name{"preconditioner", preconditioner_choices},
+    "of conjugate gradients; auto: multigrid where the body has coarser levels");
+  v("matrix", o.matrix, Name{"matrix", matrix_choices}, "how the system is kept; auto: assembled where that pays");
+  v("polynomial_degree", o.polynomial_degree, Count{2, 16}, "of chebyshev, and of the smoothing in multigrid");
+  v("relative_residual", o.relative_residual, Quantity{plain, inside_zero_one}, "at which a linear solve ends");
+  v("iterations", o.iterations, Count{0}, "above 0: exactly so many per linear solve, whatever the residual");
+  v("max_iterations", o.max_iterations, Count{1}, "a solve that is not done by then is counted as a miss");
+  v("newton_iterations", o.newton_iterations, AutoCount{},
+    "per step, at most; 1: linearly implicit; auto: 20 where the integrator conserves energy, else 1");
+  v("newton_tolerance", o.newton_tolerance, Quantity{plain, positive}, "of the residual, relative to the first");
+  v("newton_residual", o.newton_residual, Quantity{force, not_negative},
+    "or, where that is less strict, this residual");
+  v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
+  v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");
+  v("halvings", o.halvings, Count{1, 20}, "of such a step, at most, with halve; the shortest are accepted");
+  v("rho_infinity", o.rho_infinity, Quantity{plain, zero_to_one},
+    "of generalized_alpha: what a step leaves of the fastest motion");
+}
+
+template <class V>
+void describe(V& v, HimOptions& o) {
+  v("sigma", o.sigma, Quantity{plain, inside_zero_one},
+    "part of its stability limit that a step uses at rest; the rest is room for stiffening");
+  v("dissipation", o.dissipation, AutoQuantity{{plain, below_one}},
+    "of slowed motion, per step; auto: 1e-4 where the body turns");
+  v("smoothing", o.smoothing, Flag{}, "of its transfers between the levels");
+}
+
+template <class V>
+void describe(V& v, RetryOptions& o) {
+  v("halvings", o.halvings, Count{0, 10}, "of a macro step that does not pass its checks; 0: the run ends there");
+}
+
+/// What variants of a study may change too; theirs are optional.
+template <class V, class Options>
+void describe_stepping(V& v, Options& o) {
+  v("shift_to_coarsest", o.shift_to_coarsest, Quantity{plain, below_one},
+    "this part of every finer level's share goes to the coarsest");
+  v("integrator", o.integrator, NamePerLevel{{"integrator", integrators}}, "each level's own");
+  v("substeps", o.substeps, AutoCountPerLevel{}, "auto: as many as the level's limit asks for");
+  v("safety", o.safety, Quantity{plain, up_to_one}, "of that limit that auto keeps");
+  v("allow_unstable", o.allow_unstable, Flag{}, "run explicit sub-steps above their limit all the same");
+  v("switch_threshold", o.switch_threshold, Quantity{plain, positive},
+    "of the switched mappings: drift over the local edge length");
+  v("outside", o.outside, Name{"rule", outside_rules}, "for vertices outside the other level's mesh");
+}
+
+template <class V>
+void describe(V& v, IntegrationOptions& o) {
+  v("cycle", o.cycle, Name{"cycle", cycle_choices}, "how the levels share a macro step; auto: chosen by short trials");
+  v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
+  v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
+  v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
+    "how much of the macro step each level integrates");
+  describe_stepping(v, o);
+  v("implicit", o.implicit, Group{}, "how implicit levels are solved");
+  v("him", o.him, Group{}, "of the cycle him");
+  v("retry", o.retry, Group{}, "of bad macro steps, by halves");
+}
+
+/// But for the body, its integration and contact.
+template <class V>
+void describe(V& v, Problem& o) {
+  v("gravity", o.gravity, Vector{acceleration}, "acceleration of everything that is free");
+}
+
+/// But for its shape.
+template <class V>
+void describe(V& v, ObstacleOptions& o) {
+  v("friction", o.friction, Quantity{plain, not_negative}, "Coulomb's coefficient; left out: frictionless");
+  v.at_most_one();
+  describe(v, o.motion);
+}
+
+/// But for the obstacles.
+template <class V>
+void describe(V& v, ContactOptions& o) {
+  v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive}, "times the penalty stiffness E A / h");
+  v("damping_scale", o.damping_scale, Quantity{plain, not_negative}, "times the damping of the approach");
+  v("tangential_damping_scale", o.tangential_damping_scale, Quantity{plain, not_negative},
+    "times the damping of slow sliding, where friction is not yet at its cap");
+}
+
+}  // namespace plica

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+#include <plica/core/fields.hpp>
+
+namespace plica {
+
+namespace fields {
+
+namespace {
+
+using Unmanaged = Kokkos::MemoryTraits<Kokkos::Unmanaged>;
+template <class Memory>
+using Bytes = Kokkos::View<unsigned char*, Kokkos::LayoutRight, Memory, Unmanaged>;
+template <class Memory>
+using ConstBytes = Kokkos::View<const unsigned char*, Kokkos::LayoutRight, Memory, Unmanaged>;
+
+template <class Memory>
+Bytes<Memory> at(void* x, std::size_t bytes) {
+  return Bytes<Memory>(static_cast<unsigned char*>(x), bytes);
+}
+template <class Memory>
+ConstBytes<Memory> at(const void* x, std::size_t bytes) {
+  return ConstBytes<Memory>(static_cast<const unsigned char*>(x), bytes);
+}
+
+}  // namespace
+
+template <class Exec>
+void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes) {
+  using Memory = typename Exec::memory_space;
+  Kokkos::deep_copy(exec, at<Memory>(to, bytes), at<Memory>(from, bytes));
+}
+
+template <class Memory>
+void upload(void* to, const void* from, std::size_t bytes) {
+  if (bytes > 0) Kokkos::deep_copy(at<Memory>(to, bytes), at<Kokkos::HostSpace>(from, bytes));
+}
+
+template <class Exec>
+void download(const Exec& exec, void* to, const void* from, std::size_t bytes) {
+  using Memory = typename Exec::memory_space;
+  if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>) {
+    exec.fence("plica::download");
+    if (bytes > 0) std::memcpy(to, from, bytes);
+  } else {
+    Kokkos::deep_copy(exec, at<Kokkos::HostSpace>(to, bytes), at<Memory>(from, bytes));
+    exec.fence("plica::download");
+  }
+}
+
+template <class Exec, class Number>
+void set(const Exec& exec, Number* x, std::size_t count, Number value) {
+  using Memory = typename Exec::memory_space;
+  Kokkos::deep_copy(exec, Kokkos::View<Number*, Kokkos::LayoutRight, Memory, Unmanaged>(x, count), value);
+}
+
+#define PLICA_INSTANTIATE_SPACE(Exec)                                           \
+  template void copy_bytes<Exec>(const Exec&, void*, const void*, std::size_t); \
+  template void download<Exec>(const Exec&, void*, const void*, std::size_t);   \
+  template void set<Exec, float>(const Exec&, float*, std::size_t, float);      \
+  template void set<Exec, double>(const Exec&, double*, std::size_t, double);   \
+  template void set<Exec, int>(const Exec&, int*, std::size_t, int);
+PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE_SPACE)
+
+#define PLICA_INSTANTIATE_MEMORY(Memory) template void upload<Memory>(void*, const void*, std::size_t);
+PLICA_FOR_EACH_MEMORY(PLICA_INSTANTIATE_MEMORY)
+
+}  // namespace fields
+
+#define PLICA_INSTANTIATE_FIELDS(Memory) PLICA_FIELDS(, Memory)
+PLICA_FOR_EACH_MEMORY(PLICA_INSTANTIATE_FIELDS)
+
+}  // namespace plica

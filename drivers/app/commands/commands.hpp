@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <plica/drivers/app/scene/load_scene.hpp>
+#include <string>
+#include <vector>
+
+/// The commands of the program, with the arguments each takes from the command line.
+namespace plica {
+struct MatrixResult;
+}
+
+namespace plica::app {
+
+/// What the program tells its caller.
+enum class ExitStatus {
+  done = 0,
+  failed = 1,         ///< a file or folder could not be read or written
+  bad_input = 2,      ///< arguments, scenes, meshes; steps and combinations that are refused
+  diverged = 3,       ///< the run was stopped; its last good state is on disk
+  interrupted = 130,  ///< Ctrl-C; the files are complete up to there
+};
+
+/// What the command line says about Kokkos.
+struct KokkosArguments {
+  int threads = 0;                        ///< 0: as Kokkos finds
+  std::vector<std::string> pass_through;  ///< --kokkos-*
+};
+
+/// What every command that takes a scene knows.
+struct SceneArguments {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+  std::string precision;  ///< float or double; empty: double, or a checkpoint's
+  bool json = false;
+  KokkosArguments kokkos;
+};
+
+struct RunArguments : SceneArguments {
+  std::filesystem::path folder;  ///< empty: out/SCENE
+  std::filesystem::path resume;  ///< the folder of the run to go on with; empty: a new run
+  std::string checkpoint;        ///< "every=100", "every=0.1s"; empty: none, or as the run to go on with
+  bool force = false;            ///< a run that is in the folder is replaced
+  bool quiet = false;
+  bool time_stages = false;        ///< also where that slows the run
+  std::vector<std::string> words;  ///< the command line as it was given
+};
+
+struct StudyArguments {
+  std::string budget;   ///< wall time, "60s"; empty: as long as it takes
+  bool space = false;   ///< a second reference on a finer mesh
+  bool growth = false;  ///< of the linearised cycles too
+};
+
+struct StabilityArguments {
+  std::string budget;   ///< as of a study
+  bool matrix = false;  ///< of stiff and extreme cases, instead of a scene
+};
+
+struct VerifyArguments {
+  std::vector<std::string> problems;  ///< empty: all
+  bool small = false;
+};
+
+struct MeshInfoArguments {
+  std::filesystem::path file;
+  bool json = false;
+  std::string scale = "1";                      ///< metres per unit of the file, as text
+  std::map<std::string, std::string> material;  ///< keys of a scene's body.material, as text; the rest has its defaults
+  KokkosArguments kokkos;
+};
+
+struct ConvertArguments {
+  std::filesystem::path in, out;
+  std::string format;  ///< of those the extension has; empty: the first
+  bool binary = false;
+  std::string scale = "1";                      ///< metres per unit of the file, as text
+  std::optional<std::string> merge_duplicates;  ///< a length, as text
+};
+
+/// plica run: simulates the scene and writes its files. A folder that holds a run already is refused, unless the arguments say
+/// `force` or `resume`.
+ExitStatus run(const RunArguments& arguments);
+
+/// plica explain: what a run of the scene would do, level by level and part by part.
+ExitStatus explain(const SceneArguments& arguments);
+
+/// plica check: sets the scene up, says so, runs nothing.
+ExitStatus check(const SceneArguments& arguments);
+
+/// plica study: measures methods on a scene, keeps study.json and study.csv up to date row by row, and says what came out. Goes
+/// on with the study that it finds in the folder, where that is of the same scene, program and machine.
+ExitStatus study(const RunArguments& arguments, const StudyArguments& more);
+
+/// plica stability: searches the largest stable macro steps of a scene's methods, or runs the matrix of stiff and extreme cases;
+/// keeps stability.json and stability.csv up to date, and says what came out.
+ExitStatus stability(const RunArguments& arguments, const StabilityArguments& more);
+
+/// Of the matrix: failed where a row is wrong.
+ExitStatus status_of(const MatrixResult& result);
+
+/// plica verify: solves problems with known answers, writes the table, and says which rows are not ok.
+ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more);
+
+/// The problems' names, each with what it is, for the manual.
+std::string verify_problems_text();
+
+/// plica mesh info: what a mesh or surface file holds, what was repaired in it, how well its tetrahedra are shaped, and which
+/// explicit step they allow.
+ExitStatus mesh_info(const MeshInfoArguments& arguments);
+
+/// plica mesh convert: writes a mesh or surface in another format. The file OUT may be IN, and is replaced as a whole.
+ExitStatus mesh_convert(const ConvertArguments& arguments);
+
+/// The formats that are written, a line each.
+std::string written_formats_text();
+
+}  // namespace plica::app

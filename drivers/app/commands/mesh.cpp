@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <iostream>
+#include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/mesh_description.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/scene/describe.hpp>
+#include <plica/drivers/app/scene/mesh_warnings.hpp>
+#include <plica/drivers/app/scene/reader.hpp>
+#include <plica/drivers/solver/element_bound.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/list.hpp>
+#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
+
+namespace plica::app {
+
+namespace {
+
+double bound_of(const TetMesh& mesh, int tet, const MaterialOptions& material) {
+  TetMesh alone;
+  for (const int v : mesh.tets[static_cast<std::size_t>(tet)])
+    alone.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+  alone.tets = {{0, 1, 2, 3}};
+  return element_bound(alone, {lame_constants(material.young_modulus, material.poisson_ratio)}, {material.density});
+}
+
+// As a run of this mesh alone would find it
+void find_steps(MeshDescription& m, const KokkosArguments& kokkos) {
+  Problem problem;
+  problem.body.levels = {m.read.mesh};
+  problem.body.material = m.material;
+  const KokkosSession session(kokkos);
+  const Simulation<Backend<double, Kokkos::DefaultExecutionSpace>> simulation(problem);
+  m.critical_step = simulation.levels().front().critical_step;
+  m.element_bound = simulation.levels().front().element_bound;
+  for (const TetShape& shape : m.quality.worst) m.worst_bounds.push_back(bound_of(m.read.mesh, shape.tet, m.material));
+}
+
+std::string info_of(ReadMesh& read, double scale, const MaterialOptions& material, const MeshInfoArguments& arguments) {
+  for (Point& p : read.mesh.vertices) p *= scale;
+  MeshDescription m;
+  m.file = arguments.file.string(), m.read = std::move(read), m.material = material;
+  m.quality = mesh_quality(m.read.mesh);
+  m.warnings = mesh_warnings(m.read.mesh, m.read.report);
+  find_steps(m, arguments.kokkos);
+  return arguments.json ? mesh_json(m) : mesh_text(m);
+}
+
+std::string info_of(ReadSurface& read, double scale, const MaterialOptions&, const MeshInfoArguments& arguments) {
+  if (!arguments.material.empty())
+    throw InputError(
+        option_of(arguments.material.begin()->first) + ": this file holds a surface, which has no material",
+        {arguments.file});
+  for (Point& p : read.surface.vertices) p *= scale;
+  SurfaceDescription s = {arguments.file.string(), std::move(read), {}};
+  s.warnings = surface_warnings(s.read.report);
+  return arguments.json ? surface_json(s) : surface_text(s);
+}
+
+}  // namespace
+
+ExitStatus mesh_info(const MeshInfoArguments& arguments) {
+  double scale = 1;
+  read_option("--scale", arguments.scale, Quantity{plain, positive}, scale);
+  MaterialOptions material;
+  OptionReader reader(arguments.material);
+  describe(reader, material);
+  auto read = read_any(arguments.file);
+  std::cout << std::visit([&](auto& one) { return info_of(one, scale, material, arguments); }, read);
+  return ExitStatus::done;
+}
+
+namespace {
+
+struct Numbers {
+  double scale = 1;
+  std::optional<double> merge_duplicates;
+};
+
+Numbers numbers_of(const ConvertArguments& arguments) {
+  Numbers numbers;
+  read_option("--scale", arguments.scale, Quantity{plain, positive}, numbers.scale);
+  if (arguments.merge_duplicates)
+    read_option("--merge-duplicates", *arguments.merge_duplicates, Quantity{length, not_negative},
+                numbers.merge_duplicates.emplace());
+  return numbers;
+}
+
+void warn(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    message(coloured("warning: ", Colour::yellow) + file.string() + ": " + warning);
+}
+
+bool is_surface_file(const std::filesystem::path& file) {
+  return std::ranges::any_of(surface_writers, [&](const auto& one) { return extension_of(file) == one.extension; });
+}
+
+void check_extension(const std::filesystem::path& file) {
+  struct Known {
+    const char* extension;
+  };
+  std::vector<Known> known;
+  for (const auto& writer : mesh_writers) known.push_back({writer.extension});
+  for (const auto& writer : surface_writers) known.push_back({writer.extension});
+  format_of(file, known, "mesh or surface");
+}
+
+WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const Numbers& numbers) {
+  for (Point& p : read.mesh.vertices) p *= numbers.scale;
+  if (numbers.merge_duplicates) {
+    MergedMesh merged = merge_duplicates(read.mesh, *numbers.merge_duplicates);
+    message(fmt::format("{}: merged {} duplicate vertices", arguments.in.string(), merged.merged));
+    read.mesh = std::move(merged.mesh);
+  }
+  warn(arguments.in, mesh_warnings(read.mesh, read.report));
+  for (const auto& [kind, count] : read.report.other_elements)
+    if (kind != "point")
+      warn(arguments.in, {counted(count, kind) + " not kept, only their groups, as sets of vertices"});
+  if (!is_surface_file(arguments.out)) return write_mesh(arguments.out, read.mesh, arguments.format, arguments.binary);
+  WrittenMesh written =
+      write_surface(arguments.out, boundary_surface(read.mesh).surface, arguments.format, arguments.binary);
+  written.left_out.push_back("this format has triangles only: the boundary of the mesh");
+  return written;
+}
+
+WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments, const Numbers& numbers) {
+  if (numbers.merge_duplicates) throw InputError("--merge-duplicates is for meshes of tetrahedra", {arguments.in});
+  for (Point& p : read.surface.vertices) p *= numbers.scale;
+  warn(arguments.in, surface_warnings(read.report));
+  return write_surface(arguments.out, read.surface, arguments.format, arguments.binary);
+}
+
+}  // namespace
+
+ExitStatus mesh_convert(const ConvertArguments& arguments) {
+  check_extension(arguments.out);
+  const Numbers numbers = numbers_of(arguments);
+  auto read = read_any(arguments.in);
+  const WrittenMesh written = std::visit([&](auto& mesh) { return converted(mesh, arguments, numbers); }, read);
+  write_files(written.files);
+  warn(arguments.out, written.left_out);
+  for (const MemoryFile& file : written.files)
+    std::cout << fmt::format("{}: {}\n", file.name, in_bytes(file.bytes.size()));
+  return ExitStatus::done;
+}
+
+std::string written_formats_text() {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const auto& writers) {
+    for (const auto& writer : writers) {
+      const bool has_text = !rows.empty() && rows.back()[1] == writer.name;
+      rows.push_back({"." + std::string(writer.extension), writer.name, writer.binary && has_text ? "--binary" : "",
+                      writer.description});
+    }
+  };
+  add(mesh_writers), add(surface_writers);
+  return text_table(rows, "<<<<");
+}
+
+}  // namespace plica::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/app/output/machine.hpp>
+#include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/study/stability.hpp>
+#include <plica/drivers/study/stability_matrix.hpp>
+
+namespace plica::app {
+
+/// The texts of stability.json and stability.csv.
+struct StabilityTexts {
+  std::string json, csv;
+};
+
+/// Of a scene's methods; status: completed | interrupted | unfinished.
+StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine, const StabilityResult& result,
+                               const std::string& status);
+
+/// Of the matrix.
+StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result, const std::string& status);
+
+/// What was found, in words.
+std::string stability_text(const Scene& scene, const StabilityResult& result, const std::string& folder);
+
+/// How the matrix ended: counts, and every row that is wrong.
+std::string stability_text(const MatrixResult& result, const std::string& folder);
+
+}  // namespace plica::app

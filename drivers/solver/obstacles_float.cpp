@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/obstacle_of.hpp>
+
+namespace plica {
+
+#define PLICA_INSTANTIATE(Exec)                                           \
+  template std::unique_ptr<Obstacle<Backend<float, Exec>>> make_obstacle( \
+      const ObstacleOptions&, const PenaltyLaw<float>&, const DepthWatch<Backend<float, Exec>>&);
+PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE)
+
+}  // namespace plica

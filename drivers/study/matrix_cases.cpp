@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/study/stability_matrix.hpp>
+#include <plica/drivers/study/study_case.hpp>
+#include <plica/kernels/materials/list.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
+#include <random>
+
+// The bodies of the stability matrix, the table of its cases, and the rules by which each must end.
+namespace plica {
+
+namespace {
+
+const Box beam{{0, 0, 0}, {0.4, 0.1, 0.1}};
+constexpr double earth = 9.81;
+
+double length_of(const MatrixBody& body) {
+  const Box box = bounding_box(body.problem.body.levels.front().vertices);
+  return (box.max - box.min).maxCoeff();
+}
+
+/// Starts with level 0's vertices where to(rest) puts them.
+template <class To>
+void start_at(MatrixBody& body, MatrixBody::Start start, const To& to) {
+  body.displacement.clear();
+  for (const Point& p : body.problem.body.levels.front().vertices) body.displacement.push_back(to(p) - p);
+  body.load_ratio = 0, body.start = start;
+}
+
+void put_on_earth(MatrixBody& body, double factor) {
+  const MaterialOptions& m = body.problem.body.material;
+  body.load_ratio = m.density * factor * earth * length_of(body) / m.young_modulus;
+}
+
+}  // namespace
+
+void MatrixBody::load() {
+  const MaterialOptions& m = problem.body.material;
+  if (load_ratio > 0) problem.gravity = {0, 0, -load_ratio * m.young_modulus / (m.density * length_of(*this))};
+}
+
+MatrixBody clamped_beam() {
+  MatrixBody body;
+  Body& b = body.problem.body;
+  b.levels = {box_mesh(beam, {8, 2, 2}), box_mesh(beam, {4, 1, 1})};
+  b.material = {"", 1e5, 0.4, 1000};
+  b.fixed = {HalfSpaceSelection{Point::Zero(), Point::UnitX()}};
+  return body;
+}
+
+void set_young_modulus(MatrixBody& body, double pascal) { body.problem.body.material.young_modulus = pascal; }
+void set_young_modulus_on_earth(MatrixBody& body, double pascal) {
+  set_young_modulus(body, pascal);
+  put_on_earth(body, 1);
+}
+void set_poisson_ratio(MatrixBody& body, double ratio) { body.problem.body.material.poisson_ratio = ratio; }
+void set_density(MatrixBody& body, double density) { body.problem.body.material.density = density; }
+void set_size(MatrixBody& body, double length) {
+  const double scale = length / length_of(body);
+  for (TetMesh& mesh : body.problem.body.levels)
+    for (Point& p : mesh.vertices) p *= scale;
+}
+void set_gravity(MatrixBody& body, double factor) { put_on_earth(body, factor); }
+void set_step(MatrixBody& body, double over_critical) { body.step = over_critical; }
+void set_unstable_step(MatrixBody& body, double over_critical) { body.step = over_critical, body.unstable = true; }
+
+void set_slivers(MatrixBody& body, double ratio) {
+  for (Point& p : body.problem.body.levels.front().vertices)
+    if (std::abs(p.x() - 0.2) < 1e-9) p.x() = 0.15 + 0.05 / ratio;
+}
+
+void set_stretch(MatrixBody& body, double factor) {
+  start_at(body, MatrixBody::Start::stretched, [=](const Point& p) { return Point(factor * p.x(), p.y(), p.z()); });
+}
+void set_thickness(MatrixBody& body, double factor) {
+  using Start = MatrixBody::Start;
+  const Start start = factor > 0     ? Start::thin
+                      : factor == 0  ? Start::flat
+                      : factor == -1 ? Start::mirrored
+                                     : Start::turned;
+  start_at(body, start, [=](const Point& p) { return Point(p.x(), p.y(), 0.05 + factor * (p.z() - 0.05)); });
+}
+void set_random(MatrixBody& body, double seed) {
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::uniform_real_distribution<double> within(0, 1);
+  start_at(body, MatrixBody::Start::random, [&](const Point&) {
+    const double x = within(random), y = within(random), z = within(random);
+    return Point(beam.max.cwiseProduct(Point(x, y, z)));
+  });
+}
+
+void set_impact(MatrixBody& body, double speed) {
+  Body& b = body.problem.body;
+  b.fixed.clear();
+  const TetMesh& mesh = b.levels.front();
+  b.surface = boundary_surface(mesh).surface;
+  b.initial.velocity = {0, 0, -speed};
+  b.initial.position = Point(0.2, 0.05, 0.051);
+  body.problem.contact.obstacles = {{PlaneOptions{}, 0.3, {}}};
+  body.load_ratio = 0;
+  body.impact = speed / std::sqrt(b.material.young_modulus / b.material.density);  // about the strain
+}
+
+void set_contrast(MatrixBody& body, double ratio) {
+  RegionOptions& stiff = body.problem.body.regions["stiff"];
+  stiff.where = HalfSpaceSelection{{0.2, 0, 0}, -Point::UnitX()};
+  stiff.young_modulus = ratio * body.problem.body.material.young_modulus;
+}
+
+void set_one_tetrahedron(MatrixBody& body, double edge) {
+  TetMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}};
+  mesh.tets = {{0, 1, 2, 3}};
+  body.problem.body.levels = {mesh};
+  body.problem.body.fixed.clear();
+}
+
+void set_levels(MatrixBody& body, double count) {
+  const std::array<int, 3> cells[] = {{12, 3, 3}, {10, 3, 3}, {8, 2, 2}, {6, 2, 2}, {4, 1, 1}, {2, 1, 1}};
+  body.problem.body.levels.clear();
+  for (int i = 0; i < static_cast<int>(count); ++i) body.problem.body.levels.push_back(box_mesh(beam, cells[i]));
+}
+
+void set_overlap(MatrixBody& body, double lengths) {
+  for (Point& p : body.problem.body.levels[1].vertices) p.x() += lengths * 0.4;
+  body.problem.body.fixed.clear();
+}
+
+namespace {
+
+using Values = std::vector<double>;
+
+/// Which methods a line is run with.
+enum class Of { all, implicit_alone, him, explicit_alone };
+
+/// A line of the matrix: one thing that varies.
+struct Line {
+  const char* format;  // of the value
+  Values values;       // the most extreme last
+  void (*set)(MatrixBody&, double);
+  Of of = Of::all;
+};
+
+const Line lines[] = {
+    {"E = %g Pa", {1e2, 1e4, 1e6, 1e8, 1e10}, set_young_modulus},
+    {"E = %g Pa on Earth", {1e10, 1e8, 1e6, 1e4, 1e2}, set_young_modulus_on_earth},
+    {"nu = %g", {0, 0.3, 0.45, 0.49, 0.499}, set_poisson_ratio},
+    {"density %g kg/m^3", {2e4, 1e3, 1}, set_density},
+    {"length %g m", {1, 1e-2, 1e3, 1e-4}, set_size},
+    {"%g x gravity", {1, 10, 100, 1000}, set_gravity},
+    {"%g x critical", {0.1, 1, 10, 100, 1000}, set_step, Of::implicit_alone},
+    {"%g x critical", {1, 2, 4, 8, 16, 32, 64}, set_step, Of::him},
+    {"%g x critical, refused", {1.01, 2, 100}, set_step, Of::explicit_alone},
+    {"%g x critical, allowed", {1.05, 2, 10}, set_unstable_step, Of::explicit_alone},
+    {"slivers 1 : %g", {10, 100, 1000}, set_slivers},
+    {"stretched x %g", {2, 5}, set_stretch},
+    {"flattened to %g", {0.01, 0}, set_thickness},
+    {"turned inside out x %g", {-0.5, -1}, set_thickness},
+    {"vertices at random, seed %g", {1, 2}, set_random},
+    {"impact at %g m/s", {0.1, 1, 10, 50, 200}, set_impact},
+    {"stiffness 1 : %g", {1e2, 1e4, 1e6}, set_contrast},
+    {"one tetrahedron, edge %g m", {1e-3, 1}, set_one_tetrahedron},
+    {"%g levels", {1, 2, 3, 4, 5, 6}, set_levels},
+    {"levels %g lengths apart", {0.5, 0.9, 0.99}, set_overlap},
+};
+
+/// How a method is run here: so many macro steps, of so many critical steps where that is not its own choice.
+struct Method {
+  std::string name;  // as of a study
+  long macro_steps = 400;
+  double step = 0;  // times the finest critical step; 0: auto
+  enum class Kind { stepped, damped, half_damped, conserving, him, shared } kind = Kind::stepped;
+};
+
+// Implicit integrators by what becomes of fast motion: damped in every step, damped but for slow motion, or kept.
+Method::Kind kind_of(const std::string& implicit_integrator) {
+  if (implicit_integrator == "implicit_euler" || implicit_integrator == "v_cycle_euler") return Method::Kind::damped;
+  return implicit_integrator == "bdf2" ? Method::Kind::half_damped : Method::Kind::conserving;
+}
+
+template <class Visit>
+void each_integrator(const Visit& visit) {
+  for (const std::string& name : names(integrators()))
+    Integrators::visit(name, [&](auto member) { visit(name, member); });
+}
+
+/// Explicit ones at 0.9 of their limit, where they have one; implicit ones at ten times it; cycles.
+std::vector<Method> methods(MatrixSize size, Of of, bool several_levels) {
+  std::vector<Method> list;
+  const bool small = size == MatrixSize::small;
+  each_integrator([&](const std::string& name, auto member) {
+    using Kind = decltype(member);
+    if constexpr (Kind::is_explicit) {
+      if (Kind::limit.radius > 0 && (of == Of::all || of == Of::explicit_alone) &&
+          (!small || name == "symplectic_euler"))
+        list.push_back({"single/" + name});
+    } else {
+      if ((of == Of::all || of == Of::implicit_alone) && !small)
+        list.push_back({"single/" + name, 60, 10, kind_of(name)});
+    }
+  });
+  if (several_levels && (of == Of::all || of == Of::him)) {
+    list.push_back({"cycle/him", 100, 0, Method::Kind::him});
+    if (of == Of::all && !small) {
+      list.push_back({"cycle/rs/equal", 200, 1, Method::Kind::shared});
+      list.push_back({"cycle/fas/equal", 200, 1, Method::Kind::shared});
+    }
+  }
+  return list;
+}
+
+Expected completes() { return {.complete = true}; }
+Expected stops(const std::string& kind = {}) { return {.stop = true, .kind = kind}; }
+Expected either(const std::string& why) { return {.complete = true, .stop = true, .why = why}; }
+
+// Strains, and speeds of impact over that of waves, by which a body goes
+constexpr double moderate_strain = 1, large_strain = 50, moderate_impact = 0.2, fast_impact = 2, hypersonic_impact = 10;
+
+// A level alone, explicit. `linear` has one stiffness, so that its step is stable in every state. Another material stiffens
+// where it is strained, and a step that is clear of the limit at rest is above it there.
+Expected of_explicit(const MatrixBody& body, bool linear, bool forbids) {
+  using Start = MatrixBody::Start;
+  if (body.impact > hypersonic_impact) return linear ? stops("contact") : stops();
+  if (linear) return completes();
+  if (body.impact > fast_impact)
+    return either(
+        "struck at several times its waves' speed, its lowest layer stiffens by about what the step is clear of");
+  if (body.impact > 0) return completes();
+  if (body.start == Start::flat || (body.start == Start::thin && !forbids))
+    return either(
+        "its elements leave the plane at once; some combinations damp that before an element stiffens too far");
+  if (body.start != Start::rest || body.strain() > large_strain) return stops();
+  return either(
+      "strained by its own size it stiffens by about what the step is clear of: at which step depends on both");
+}
+
+// Integrators that damp fast motion come to the end at any step, as long as the solver finds a state: with a material that
+// forbids inversion it may not. Those that damp but fast motion gain energy from a strong recoil; those that conserve it do so only
+// while the stiffness stays the same, and at ten times the critical step it does not.
+Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, bool forbids) {
+  using Start = MatrixBody::Start;
+  const bool damped = kind == Method::Kind::damped, pierces = body.impact > hypersonic_impact;
+  if (linear) return pierces && !damped ? stops("contact") : completes();
+  if (kind == Method::Kind::conserving) return stops();
+  if (!damped && pierces) return stops();
+  if (!damped && body.start == Start::stretched)
+    return either("bdf2 damps slow motion little: the recoil may have more energy than was put in");
+  const bool crushed = body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
+  return forbids && crushed ? stops("inverted") : completes();
+}
+
+// The inertia is fitted at rest and turns with the body: it does not know which way where elements are far from their shape.
+// Its long step takes what strikes fast through the plane at once.
+Expected of_him(const MatrixBody& body, bool linear) {
+  using Start = MatrixBody::Start;
+  if (body.impact > fast_impact) return stops("contact");
+  if (body.start == Start::flat || body.start == Start::turned || body.start == Start::mirrored) return stops();
+  if (body.start == Start::random)
+    return either("how far its inertia is from one that fits such a shape is a matter of the shape");
+  if (linear) return completes();
+  if (body.start == Start::stretched) return stops();
+  return either("its inertia is fitted again where the body stiffens, and whether in time depends on the material");
+}
+
+// rs and fas at the finest level's critical step, shared equally: below the limit of each level, as an explicit level alone with
+// twice the margin.
+Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
+  using Start = MatrixBody::Start;
+  if (linear && body.impact > hypersonic_impact)
+    return either("whether a share of the step takes it through the plane depends on where it meets it");
+  if (linear) return completes();
+  if (body.impact > 0) return body.impact > hypersonic_impact ? stops() : completes();
+  if (body.strain() > large_strain || body.start == Start::random) return stops();
+  if (body.start == Start::flat) return completes();
+  if (body.start == Start::thin) return forbids ? stops() : completes();
+  return either("strained by its own size it stiffens by about what the step is clear of: mappings decide where");
+}
+
+// What must become of it, and why:
+// * a step above the limit is refused; where it is allowed, the run has to be stopped, since small motions grow in every step;
+// * an element that is inside out or flat from the start, where the material has no answer to that: stopped at once, as inverted;
+// * strains below 1 from rest, at which no material is stiffer by as much as the steps keep clear of their limit: every method
+//   comes to the end;
+// * a body mirrored whole is at rest in st_venant_kirchhoff, which has no strain there: it stays;
+// * beyond that it depends on the kind of method.
+Expected expected_of(const MatrixBody& body, const Method& method, const std::string& material) {
+  using Start = MatrixBody::Start;
+  if (body.refused) return {.refuse = true};
+  if (body.unstable) return stops();
+  const bool linear = material == Linear::name, forbids = forbids_inversion(material);
+  if (body.inside_out() && forbids) return stops("inverted");
+  if (body.start == Start::rest && body.strain() <= moderate_strain && body.impact <= moderate_impact)
+    return completes();
+  if (body.start == Start::mirrored && material == StVenantKirchhoff::name && method.kind != Method::Kind::shared)
+    return completes();
+  switch (method.kind) {
+    case Method::Kind::stepped:
+      return of_explicit(body, linear, forbids);
+    case Method::Kind::him:
+      return of_him(body, linear);
+    case Method::Kind::shared:
+      return of_shared(body, linear, forbids);
+    default:
+      return of_implicit(body, method.kind, linear, forbids);
+  }
+}
+
+MatrixCase case_of(const MatrixBody& body, const Method& method, const std::string& material, const std::string& name) {
+  MatrixCase one{name + ", " + material,
+                 method.name,
+                 body.problem,
+                 0,
+                 method.macro_steps,
+                 body.displacement,
+                 expected_of(body, method, material)};
+  one.problem.body.material.model = material;
+  const std::size_t first = method.name.find('/'), second = method.name.find('/', first + 1);
+  const bool shares = second != std::string::npos;
+  const StudyCase study =
+      study_case(one.problem, {}, {method.name.substr(0, second), shares ? method.name.substr(second + 1) : "", ""});
+  one.problem = problem_of(one.problem, study);
+  one.step = body.step > 0 ? body.step : method.step;
+  one.problem.integration.allow_unstable = body.unstable || method.kind == Method::Kind::shared;
+  if (shares) one.problem.integration.substeps = {1};
+  return one;
+}
+
+}  // namespace
+
+std::string Expected::text() const {
+  std::string words;
+  const auto add = [&](bool on, const std::string& word) {
+    if (on) words += (words.empty() ? "" : " or ") + word;
+  };
+  add(complete, "completed"), add(stop, kind.empty() ? "stopped" : "stopped: " + kind), add(refuse, "refused");
+  return words;
+}
+
+std::vector<MatrixCase> stability_matrix(MatrixSize size) {
+  std::vector<MatrixCase> cases;
+  for (const Line& line : lines) {
+    Values values = line.values;
+    if (size == MatrixSize::small) values = {values.back()};
+    for (const double value : values) {
+      MatrixBody body = clamped_beam();
+      line.set(body, value);
+      body.refused = line.of == Of::explicit_alone && !body.unstable;
+      body.load();
+      std::string name = line.format;
+      name.replace(name.find("%g"), 2, number(value));
+      for (const std::string& material : names(materials()))
+        for (const Method& method : methods(size, line.of, body.problem.body.levels.size() > 1))
+          cases.push_back(case_of(body, method, material, name));
+    }
+  }
+  return cases;
+}
+
+}  // namespace plica

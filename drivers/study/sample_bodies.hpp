@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/problem.hpp>
+#include <plica/meshes/generators.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+// Bodies that tests and problems with known answers start from.
+namespace plica {
+
+/// Vectors whose components are evenly spread over [-size, size].
+inline std::vector<Point> random_field(std::size_t count, double size, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> within(-size, size);
+  std::vector<Point> field(count);
+  for (Point& p : field) p = {within(random), within(random), within(random)};
+  return field;
+}
+
+/// Whether a vertex lies on one of the box's faces.
+inline bool on_boundary(const Box& box, const Point& p) {
+  const double slack = 1e-9 * (box.max - box.min).norm();
+  return ((p - box.min).array() < slack).any() || ((box.max - p).array() < slack).any();
+}
+
+/// A box whose inner vertices are moved at random by up to `amount` of a cell: no two elements alike.
+inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, double amount = 0.15, unsigned seed = 7) {
+  TetMesh mesh = box_mesh(box, cells);
+  const auto moves = random_field(mesh.vertices.size(), amount, seed);
+  for (std::size_t a = 0; a < moves.size(); ++a)
+    if (!on_boundary(box, mesh.vertices[a]))
+      for (int k = 0; k < 3; ++k) mesh.vertices[a][k] += moves[a][k] * (box.max - box.min)[k] / cells[std::size_t(k)];
+  return mesh;
+}
+
+/// One body of one level, without loads.
+inline Problem verify_body(TetMesh mesh, const MaterialOptions& material) {
+  Problem p;
+  p.body.levels = {std::move(mesh)};
+  p.body.material = material;
+  return p;
+}
+
+/// A soft cube of 0.1 m, no two elements alike.
+inline Problem irregular_cube(const std::string& material, int cells) {
+  return verify_body(jittered_box({{0, 0, 0}, {0.1, 0.1, 0.1}}, {cells, cells, cells}), {material, 20e3, 0.35, 1000});
+}
+
+inline std::vector<Point> affine_field(const TetMesh& mesh, const Eigen::Matrix3d& F, const Point& shift) {
+  std::vector<Point> u;
+  for (const Point& X : mesh.vertices) u.push_back(F * X + shift - X);
+  return u;
+}
+
+/// The mean stress of a body in balance but for its boundary: V P = - sum f X^T [J].
+inline Eigen::Matrix3d virial(const std::vector<Point>& force, const TetMesh& mesh) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t a = 0; a < force.size(); ++a) sum -= force[a] * mesh.vertices[a].transpose();
+  return sum;
+}
+
+/// sqrt of sum w |a - b|^2
+inline double distance(const std::vector<Point>& a, const std::vector<Point>& b, const std::vector<double>& weight) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += weight[i] * (a[i] - b[i]).squaredNorm();
+  return std::sqrt(sum);
+}
+
+/// The largest length; NaN where one is.
+inline double largest_length(const std::vector<Point>& field) {
+  double most = 0;
+  for (const Point& p : field) most = p.norm() <= most ? most : p.norm();
+  return most;
+}
+
+/// The vertex nearest to a point.
+inline std::size_t vertex_at(const TetMesh& mesh, const Point& x) {
+  std::size_t best = 0;
+  for (std::size_t a = 1; a < mesh.vertices.size(); ++a)
+    if ((mesh.vertices[a] - x).norm() < (mesh.vertices[best] - x).norm()) best = a;
+  return best;
+}
+
+}  // namespace plica

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <numbers>
+#include <plica/drivers/study/direct_solves.hpp>
+#include <plica/drivers/study/sample_bodies.hpp>
+#include <plica/drivers/study/verify/list.hpp>
+#include <plica/kernels/materials/linear.hpp>
+#include <plica/meshes/generators.hpp>
+
+namespace plica {
+
+VerifyRows free_cube(const VerifyContext& context) {
+  constexpr double shift = 1;  // [1/s^2], of the size of the lowest: makes the free body's matrix definite
+  VerifyRow row{
+      .quantity = "first elastic frequency, E 1 Pa, nu 0.499, 1 kg/m^3, 1 m", .unit = "Hz", .accepted = 0.2626};
+  row.source = "Ritz' method, polynomials to degree 12: 0.26260 (Demarest, J. Acoust. Soc. Am. 49, 1971)";
+  row.judged = Judged::above, row.power = 2;
+  for (const int n : context.refined(4)) {
+    context.proceed();
+    LevelProbe<HostBackend> probe(verify_body(box_mesh({{0, 0, 0}, {1, 1, 1}}, {n, n, n}), {"linear", 1, 0.499, 1}));
+    for (const double f : SparseStiffness(probe).frequencies(10, shift))
+      if (f > 1e-3) {  // not one of rigid motion
+        row.add(cells_text(n, n, n), 1.0 / n, f);
+        break;
+      }
+  }
+  const int percent = static_cast<int>(std::lround(100 * (row.ours.back().value / *row.accepted - 1)));
+  row.note = "volumetric locking of linear tetrahedra: " + std::to_string(percent) + " % too high on the finest mesh";
+  return {row};
+}
+
+// Half its thickness, one layer of cells: the middle plane does not bend, the surface is free, which is plane stress.
+VerifyRows tapered_membrane(const VerifyContext& context) {
+  constexpr double accepted[] = {44.623, 130.03, 162.70, 246.05, 379.90, 391.44};
+  VerifyRows rows;
+  for (std::size_t k = 0; k < std::size(accepted); ++k) {
+    VerifyRow row{.quantity = "in-plane frequency " + std::to_string(k + 1), .unit = "Hz", .accepted = accepted[k]};
+    row.source = "NAFEMS, Selected Benchmarks for Natural Frequency Analysis, test FV32";
+    row.judged = Judged::finest, row.tolerance = context.small ? 0.01 : 0.005;
+    rows.push_back(row);
+  }
+  for (const int n : context.refined(8)) {
+    context.proceed();
+    TetMesh mesh = grid_mesh({2 * n, n, 1}, {false, true, false}, [](const Point& s) {
+      return Point(10 * s[0], (5 - 4 * s[0]) * (s[1] - 0.5), 0.025 * s[2]);
+    });
+    Problem p = verify_body(std::move(mesh), {"linear", 200e9, 0.3, 8000});
+    p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
+    LevelProbe<HostBackend> probe(p);
+    const auto f =
+        SparseStiffness(probe, [](const Point& X, int axis) { return axis == 2 && X[2] < 1e-9; }).frequencies(6);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].add(cells_text(2 * n, n, 1), 1.0 / n, f[k]);
+  }
+  return rows;
+}
+
+namespace {
+namespace axial {
+
+constexpr double E = 1e5, rho = 1000, length = 0.4, width = 0.02;
+
+double accepted(int k) { return (2 * k - 1) / (4 * length) * std::sqrt(E / rho); }
+
+Problem bar(int n) {
+  Problem p = verify_body(box_mesh({{0, 0, 0}, {length, width, width}}, {n, 2, 2}), {"linear", E, 0, rho});
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
+  return p;
+}
+
+}  // namespace axial
+}  // namespace
+
+// Without lateral strain, nu = 0, motion along the axis alone is the bar's own: the rest of it is held, which leaves bending out.
+VerifyRows axial_bar(const VerifyContext& context) {
+  using namespace axial;
+  constexpr const char* source =
+      "(2k - 1)/4L sqrt(E/rho) (Timoshenko, Vibration Problems in Engineering; the one-dimensional wave equation)";
+  VerifyRows rows;
+  for (int k = 1; k <= 3; ++k) {
+    VerifyRow row{.quantity = "f" + std::to_string(k) + ", eigenvalue, nu = 0", .unit = "Hz", .source = source};
+    row.accepted = accepted(k), row.judged = Judged::finest, row.tolerance = 0.002;
+    rows.push_back(row);
+  }
+  VerifyRow history{.quantity = "f1, from the free end's motion, nu = 0", .unit = "Hz", .source = source};
+  history.accepted = accepted(1), history.judged = Judged::finest, history.tolerance = 0.002;
+  for (const int n : context.refined(20)) {
+    context.proceed();
+    const Problem p = bar(n);
+    LevelProbe<HostBackend> probe(p);
+    const SparseStiffness K(probe, [](const Point&, int axis) { return axis > 0; });
+    const auto f = K.frequencies(3);
+    for (std::size_t k = 0; k < 3; ++k) rows[k].add(cells_text(n, 2, 2), 1.0 / n, f[k]);
+    std::vector<Point> shape;
+    for (const Point& X : p.body.levels[0].vertices)
+      shape.emplace_back(std::sin(std::numbers::pi / 2 * X[0] / length), 0, 0);
+    history.add(cells_text(n, 2, 2), 1.0 / n, frequency_of_motion(p, shape, 1e-5, 3, accepted(1)));
+  }
+  rows.push_back(history);
+  return rows;
+}
+
+namespace {
+namespace slender {
+
+constexpr double E = 1e7, rho = 1000, length = 1, side = 0.05, g = 0.1, load = 0.01;  // SI
+constexpr double A = side * side, I = side * side * side * side / 12;
+
+// Half of it, cut along the plane y = 0 in which it bends
+Problem beam(int n, double nu) {
+  Problem p = verify_body(box_mesh({{0, 0, 0}, {length, side / 2, side}}, {20 * n, n / 2, n}), {"linear", E, nu, rho});
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
+  p.body.loads = {{HalfSpaceSelection{{length, 0, 0}, {-1, 0, 0}}, Traction{{0, 0, -load / A}}, {}}};
+  return p;
+}
+
+bool held(const Point& X, int axis) { return axis == 1 && X[1] < 1e-9; }
+
+// A whole beam in motion beside its eigenvalue on the same mesh
+VerifyRow from_its_motion(int n) {
+  Problem p = verify_body(box_mesh({{0, 0, 0}, {length, side, side}}, {20 * n, n, n}), {"linear", E, 0.3, rho});
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
+  std::vector<Point> shape;
+  for (const Point& X : p.body.levels[0].vertices) shape.emplace_back(0, 0, X[0] * X[0]);
+  LevelProbe<HostBackend> probe(p);
+  VerifyRow row{.quantity = "f1 from the tip's motion against the same mesh's eigenvalue, nu = 0.3", .unit = "Hz"};
+  row.accepted = SparseStiffness(probe).lowest_frequency(shape);
+  row.source = "inverse iteration with direct solves on this mesh";
+  row.judged = Judged::finest, row.tolerance = 1e-3;
+  row.add(cells_text(20 * n, n, n), 1, frequency_of_motion(p, shape, 1e-5, 3, *row.accepted));
+  return row;
+}
+
+// A short beam in motion beside its eigenvalue on the same mesh: small motions are the same in every material
+VerifyRows of_a_short_beam(const VerifyContext& context) {
+  Problem p = verify_body(jittered_box({{0, 0, 0}, {0.4, 0.1, 0.1}}, {12, 3, 3}), {"linear", 1e5, 0.3, 1000});
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
+  std::vector<Point> shape;
+  for (const Point& X : p.body.levels[0].vertices) shape.emplace_back(0, 0, X[0] * X[0]);
+  LevelProbe<HostBackend> probe(p);
+  const double accepted = SparseStiffness(probe).lowest_frequency(shape);
+  VerifyRows rows;
+  const auto add = [&](const std::string& material, const std::string& integrator, double tolerance) {
+    context.proceed();
+    p.body.material.model = material, p.integration.integrator = {integrator};
+    VerifyRow row{.quantity = "f1 of a short beam from its motion, " + material + ", " + integrator, .unit = "Hz"};
+    row.accepted = accepted, row.source = "inverse iteration with direct solves on this mesh, linear";
+    row.judged = Judged::finest, row.tolerance = tolerance;
+    row.add(cells_text(12, 3, 3) + ", irregular", 1, frequency_of_motion(p, shape, 1e-5, 3, accepted));
+    rows.push_back(row);
+  };
+  for (const std::string& material : names(materials()))
+    add(material, "symplectic_euler", material == Linear::name ? 1e-3 : 2e-3);
+  add(Linear::name, "rk4", 1e-3);
+  return rows;
+}
+
+struct Theory {
+  double tip, sag, frequency;
+};
+
+// Timoshenko's beam: the shear of a section of factor 5/6 beside Euler's and Bernoulli's bending
+Theory theory(double nu) {
+  const double shear = 5.0 / 6 * E / (2 * (1 + nu)) * A, beta = 1.8751;
+  const double tip = load * std::pow(length, 3) / (3 * E * I), sag = rho * A * g * std::pow(length, 4) / (8 * E * I);
+  return {tip + load * length / shear, sag + rho * A * g * length * length / (2 * shear),
+          beta * beta / (2 * std::numbers::pi * length * length) * std::sqrt(E * I / (rho * A))};
+}
+
+VerifyRows rows_for(double nu, const VerifyContext& context) {
+  const Theory want = theory(nu);
+  const std::string of = nu == 0 ? ", nu = 0" : nu == 0.3 ? ", nu = 0.3" : ", nu = 0.45";
+  VerifyRows rows = {{.quantity = "deflection under a load at the tip" + of, .unit = "m", .accepted = want.tip},
+                     {.quantity = "deflection under its own weight" + of, .unit = "m", .accepted = want.sag},
+                     {.quantity = "first bending frequency" + of, .unit = "Hz", .accepted = want.frequency}};
+  rows[0].source = "PL^3/3EI + PL/kGA, k = 5/6 (Timoshenko, Strength of Materials, art. 39)";
+  rows[1].source = "rho A g L^4/8EI + rho A g L^2/2kGA (the same)";
+  rows[2].source = "1.8751^2/(2 pi L^2) sqrt(EI/rho A) (Timoshenko, Vibration Problems in Engineering)";
+  for (VerifyRow& row : rows) row.judged = Judged::limit, row.tolerance = 0.015, row.power = -1;
+  rows[2].power = 2;
+  for (const int n : {2, 4, 8}) {
+    context.proceed();
+    const Problem p = beam(n, nu);
+    const TetMesh& mesh = p.body.levels[0];
+    LevelProbe<HostBackend> probe(p);
+    const SparseStiffness K(probe, held);
+    auto weight = probe.zero();
+    const auto mass = probe.mass();
+    for (std::size_t a = 0; a < weight.size(); ++a) weight[a] = {0, 0, -g * mass[a]};
+    const std::size_t tip = vertex_at(mesh, {length, 0, side / 2});
+    const std::string cells = cells_text(20 * n, n, n);
+    rows[0].add(cells, 1.0 / n, -K.equilibrium(probe.force(probe.zero()))[tip][2]);
+    rows[1].add(cells, 1.0 / n, -K.equilibrium(weight)[tip][2]);
+    rows[2].add(cells, 1.0 / n, K.frequencies(1)[0]);
+  }
+  for (VerifyRow& row : rows) {
+    const double off = std::abs(row.ours.back().value / *row.accepted - 1);
+    row.note = "linear tetrahedra lock: " + std::to_string(std::lround(100 * off)) +
+               " % off on the finest mesh; its stiffness is extrapolated";
+  }
+  rows[2].note += "; without the shear and rotary inertia of a real beam, 0.2 %";
+  return rows;
+}
+
+}  // namespace slender
+}  // namespace
+
+VerifyRows cantilever(const VerifyContext& context) {
+  using namespace slender;
+  VerifyRows rows;
+  for (const double nu : context.small ? std::vector{0.3} : std::vector{0.0, 0.3, 0.45})
+    for (VerifyRow& row : rows_for(nu, context)) rows.push_back(std::move(row));
+  context.proceed();
+  rows.push_back(from_its_motion(context.small ? 2 : 3));
+  for (VerifyRow& row : of_a_short_beam(context)) rows.push_back(std::move(row));
+  return rows;
+}
+
+}  // namespace plica

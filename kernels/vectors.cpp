@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/kernels/vectors.hpp>
+
+namespace plica {
+
+namespace {
+
+template <class B>
+struct SumBlocks {
+  using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
+  static constexpr int widest = BlockSums<B>::widest;
+  int count, n, maxima;
+  typename BlockSums<B>::View blocks;
+  Doubles<B> result;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int k) const {
+    double total = 0;
+    for (int b = 0; b < count; ++b) add(k, blocks(b, k), total);
+    result(k) = total;
+  }
+  KOKKOS_INLINE_FUNCTION void add(int k, double value, double& total) const {
+    total = k < n - maxima ? total + value : (total < value ? value : total);
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int k = team.league_rank();
+    double total = 0;
+    if (k < n - maxima)
+      Kokkos::parallel_reduce(
+          Kokkos::TeamThreadRange(team, count), [&](int b, double& sum) { sum += blocks(b, k); },
+          Kokkos::Sum<double, typename B::Memory>(total));
+    else
+      Kokkos::parallel_reduce(
+          Kokkos::TeamThreadRange(team, count), [&](int b, double& most) { add(k, blocks(b, k), most); },
+          Kokkos::Max<double, typename B::Memory>(total));
+    Kokkos::single(Kokkos::PerTeam(team), [&]() { result(k) = k < n - maxima ? total : Kokkos::max(total, 0.0); });
+  }
+};
+
+template <class B>
+struct Add {
+  using Real = typename B::Real;
+  Real a;
+  const Real* x;
+  Real* y;
+  KOKKOS_INLINE_FUNCTION void operator()(std::size_t i) const { y[i] += a * x[i]; }
+};
+
+template <class B>
+struct Combine {
+  using Real = typename B::Real;
+  Real a, b;
+  const Real *x, *y;
+  Real* out;
+  KOKKOS_INLINE_FUNCTION void operator()(std::size_t i) const { out[i] = a * x[i] + b * y[i]; }
+};
+
+template <class From, class To>
+struct Convert {
+  const From* from;
+  To* to;
+  KOKKOS_INLINE_FUNCTION void operator()(std::size_t i) const { to[i] = static_cast<To>(from[i]); }
+};
+
+template <class B>
+struct CombineFree {
+  using Real = typename B::Real;
+  Scalars<B> inverse_mass;
+  Real a, b;
+  Vectors<B> x, y, out;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (inverse_mass(i) > 0)
+      for (int k = 0; k < 3; ++k) out(i, k) = a * x(i, k) + b * y(i, k);
+  }
+};
+
+template <class B>
+struct Weigh {
+  using Real = typename B::Real;
+  Scalars<B> mass, inverse_mass;
+  Real a, b;
+  Vectors<B> x, y, out;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const Real m = a * mass(i);
+    for (int k = 0; k < 3; ++k) out(i, k) = inverse_mass(i) > 0 ? m * x(i, k) + b * y(i, k) : Real(0);
+  }
+};
+
+template <class B>
+struct Dot {
+  Vectors<B> x, y;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += static_cast<double>(x(a, k)) * static_cast<double>(y(a, k));
+    return {{sum}};
+  }
+};
+
+template <class B>
+struct First {
+  Vectors<B> x;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const { return {{static_cast<double>(x(i, 0))}}; }
+};
+
+template <class B>
+struct FillFromHash {
+  Scalars<B> inverse_mass;
+  Vectors<B> x;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      unsigned h = static_cast<unsigned>(3 * a + k) * 2654435769u + 12345u;
+      h = (h ^ (h >> 15)) * 2246822519u;
+      h = (h ^ (h >> 13)) * 3266489917u;
+      const double value = inverse_mass(a) > 0 ? static_cast<double>(h >> 8) / (1 << 23) - 1.0 : 0.0;
+      x(a, k) = static_cast<typename B::Real>(value);
+      sum += value * value;
+    }
+    return {{sum}};
+  }
+};
+
+template <class Exec, class Work>
+void each(const Exec& exec, const char* label, std::size_t count, const Work& work) {
+  using Policy = Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::size_t>>;
+  Kokkos::parallel_for(label, Policy(exec, 0, count), work);
+}
+
+template <class B>
+int rows(const Vectors<B>& x) {
+  return static_cast<int>(x.extent(0));
+}
+
+}  // namespace
+
+template <class B>
+void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
+                const typename BlockSums<B>::View& blocks, const Doubles<B>& result) {
+  using Exec = typename B::Exec;
+  const SumBlocks<B> sum{count, n, maxima, blocks, result};
+  if constexpr (B::on_host)
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, n), sum);
+  else
+    Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, n, team_size<B>(256)), sum);
+}
+
+namespace vectors {
+
+template <class B>
+void add(const typename B::Exec& exec, const char* label, std::size_t count, typename B::Real a,
+         const typename B::Real* x, typename B::Real* y) {
+  each(exec, label, count, Add<B>{a, x, y});
+}
+
+template <class B>
+void combine(const typename B::Exec& exec, const char* label, std::size_t count, typename B::Real a,
+             const typename B::Real* x, typename B::Real b, const typename B::Real* y, typename B::Real* out) {
+  each(exec, label, count, Combine<B>{a, b, x, y, out});
+}
+
+template <class Exec, class From, class To>
+void convert(const Exec& exec, const char* label, std::size_t count, const From* from, To* to) {
+  each(exec, label, count, Convert<From, To>{from, to});
+}
+
+}  // namespace vectors
+
+template <class B>
+void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass, typename B::Real a,
+                  const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out) {
+  update_vertices<B>(exec, label, rows<B>(out), CombineFree<B>{inverse_mass, a, b, x, y, out});
+}
+
+template <class B>
+void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model, typename B::Real a,
+           const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out) {
+  update_vertices<B>(exec, label, rows<B>(out), Weigh<B>{model.mass, model.inverse_mass, a, b, x, y, out});
+}
+
+template <class B>
+void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const Vectors<B>& y,
+         const BlockSums<B>& blocks, const Doubles<B>& result) {
+  reduce<B, 1>(exec, label, rows<B>(x), Dot<B>{x, y}, blocks, result);
+}
+
+template <class B>
+void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const BlockSums<B>& blocks,
+               const Doubles<B>& result) {
+  reduce<B, 1>(exec, label, rows<B>(x), First<B>{x}, blocks, result);
+}
+
+template <class B>
+void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
+                    const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result) {
+  reduce<B, 1>(exec, label, rows<B>(x), FillFromHash<B>{inverse_mass, x}, blocks, result);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                                 \
+  template void sum_blocks<Backend<Real, Exec>>(const Exec&, const char*, int, int, int,                              \
+                                                const BlockSums<Backend<Real, Exec>>::View&,                          \
+                                                const Doubles<Backend<Real, Exec>>&);                                 \
+  template void vectors::add<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real, const Real*, Real*);   \
+  template void vectors::combine<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real, const Real*, Real, \
+                                                      const Real*, Real*);                                            \
+  template void vectors::convert<Exec, Real, float>(const Exec&, const char*, std::size_t, const Real*, float*);      \
+  template void vectors::convert<Exec, Real, double>(const Exec&, const char*, std::size_t, const Real*, double*);    \
+  template void combine_free<Backend<Real, Exec>>(                                                                    \
+      const Exec&, const char*, const Scalars<Backend<Real, Exec>>&, Real, const Vectors<Backend<Real, Exec>>&, Real, \
+      const Vectors<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&);                                      \
+  template void weigh<Backend<Real, Exec>>(const Exec&, const char*, const Model<Backend<Real, Exec>>&, Real,         \
+                                           const Vectors<Backend<Real, Exec>>&, Real,                                 \
+                                           const Vectors<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&); \
+  template void dot<Backend<Real, Exec>>(const Exec&, const char*, const Vectors<Backend<Real, Exec>>&,               \
+                                         const Vectors<Backend<Real, Exec>>&, const BlockSums<Backend<Real, Exec>>&,  \
+                                         const Doubles<Backend<Real, Exec>>&);                                        \
+  template void sum_first<Backend<Real, Exec>>(const Exec&, const char*, const Vectors<Backend<Real, Exec>>&,         \
+                                               const BlockSums<Backend<Real, Exec>>&,                                 \
+                                               const Doubles<Backend<Real, Exec>>&);                                  \
+  template void fill_from_hash<Backend<Real, Exec>>(                                                                  \
+      const Exec&, const char*, const Scalars<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&,             \
+      const BlockSums<Backend<Real, Exec>>&, const Doubles<Backend<Real, Exec>>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/block_matrix.hpp>
+#include <plica/core/model.hpp>
+#include <plica/core/small.hpp>
+#include <plica/core/transfer.hpp>
+#include <plica/kernels/reduce.hpp>
+
+// The vocabulary of the vertex kernels: what one vertex, surface point or block is asked for, and the updates and sums of whole
+// fields. A kernel of its own is for what these do not say, or for what would read a field once more. Labels name a launch to
+// profilers; the caller passes them.
+namespace plica {
+
+// ---- launches -----------------------------------------------------------------------------------------------------------
+
+/// work(i) for i < n
+template <class B, class Work>
+void update_vertices(const typename B::Exec& exec, const char* label, int n, const Work& work) {
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, n), work);
+}
+
+/// Work that is left out where a count on the device is 0, without the host knowing; an empty count: always done.
+template <class B, class Work>
+struct WhereTouching {
+  Doubles<B> count;
+  Work work;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (count.extent(0) == 0 || count(0) > 0) work(i);
+  }
+};
+
+template <class B, class Work>
+void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label, int n, const Work& work) {
+  update_vertices<B>(exec, label, n, WhereTouching<B, Work>{count, work});
+}
+
+// ---- of one vertex, point or block --------------------------------------------------------------------------------------
+
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Vectors<B>& x, int a) {
+  return {x(a, 0), x(a, 1), x(a, 2)};
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION void set_vector(const Vectors<B>& x, int a, const Vec3<typename B::Real>& value) {
+  for (int k = 0; k < 3; ++k) x(a, k) = value[k];
+}
+
+template <class B>
+KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> block_at(const Blocks<B>& d, int a) {
+  return {{d(a, 0), d(a, 1), d(a, 2), d(a, 3), d(a, 4), d(a, 5)}};
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION void set_block(const Blocks<B>& d, int a, const SymMat3<typename B::Real>& value) {
+  for (int k = 0; k < 6; ++k) d(a, k) = value[k];
+}
+/// A symmetric one of a matrix's blocks.
+template <class B>
+KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> block_at(const BlockMatrix<B>& A, int s) {
+  const auto* const b = &A.value(s, 0);
+  return {{b[0], b[4], b[8], b[1], b[2], b[5]}};
+}
+/// block += weight C
+template <class B>
+KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B::Real weight,
+                                      const SymMat3<typename B::Real>& C) {
+  for (int k = 0; k < 9; ++k) A.value(s, k) += weight * C[SymMat3<typename B::Real>::place(k)];
+}
+
+/// start + the sum of the shares that the patches have in vertex a, in their order. An element kernel leaves a vertex's sum in
+/// every patch that the vertex is in; this adds them up:
+///
+///   patch 0 |. . x . .|  patch 1 |. x . .|  patch 2 |. . . x|      partial
+///                 \______________  |  ___________________/
+///                                  a                               start + x + x + x
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const Patches<B>& patches, const Vectors<B>& partial, int a,
+                                                            Vec3<typename B::Real> start = {}) {
+  for (int s = patches.first_copy(a); s < patches.first_copy(a + 1); ++s) {
+    const int i = patches.copy(s);
+    for (int k = 0; k < 3; ++k) start[k] += partial(i, k);
+  }
+  return start;
+}
+
+/// start + the value of a field at point p, which lies in a tetrahedron: the sum of weight * x over its four vertices.
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points, const Vectors<B>& x, int p,
+                                                       Vec3<typename B::Real> start = {}) {
+  for (int c = 0; c < 4; ++c) {
+    const int a = points.source(p, c);
+    const typename B::Real w = points.weight(p, c);
+    for (int k = 0; k < 3; ++k) start[k] += w * x(a, k);
+  }
+  return start;
+}
+
+// ---- of whole fields, compiled once in vectors.cpp ----------------------------------------------------------------------
+
+namespace vectors {
+
+template <class B>
+void add(const typename B::Exec& exec, const char* label, std::size_t count, typename B::Real a,
+         const typename B::Real* x, typename B::Real* y);
+template <class B>
+void combine(const typename B::Exec& exec, const char* label, std::size_t count, typename B::Real a,
+             const typename B::Real* x, typename B::Real b, const typename B::Real* y, typename B::Real* out);
+template <class Exec, class From, class To>
+void convert(const Exec& exec, const char* label, std::size_t count, const From* from, To* to);
+
+}  // namespace vectors
+
+/// y += a x, number by number, of fields of one kind.
+template <class B, class View>
+void add(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x, const View& y) {
+  vectors::add<B>(exec, label, y.span(), a, x.data(), y.data());
+}
+/// out = a x + b y, number by number; out may be one of them.
+template <class B, class View>
+void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x, typename B::Real b,
+             const View& y, const View& out) {
+  vectors::combine<B>(exec, label, out.span(), a, x.data(), b, y.data(), out.data());
+}
+/// The same for displacements and velocities.
+template <class B>
+void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const State<B>& x, typename B::Real b,
+             const State<B>& y, const State<B>& out) {
+  combine<B>(exec, label, a, x.u, b, y.u, out.u);
+  combine<B>(exec, label, a, x.v, b, y.v, out.v);
+}
+/// x = a x
+template <class B, class View>
+void scale(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x) {
+  combine<B>(exec, label, a, x, typename B::Real(0), x, x);
+}
+/// The same values in another precision.
+template <class Exec, class From, class To>
+void convert(const Exec& exec, const char* label, const From& from, const To& to) {
+  vectors::convert(exec, label, to.span(), static_cast<const typename From::value_type*>(from.data()), to.data());
+}
+
+/// out = a x + b y at vertices that forces move; the others keep theirs.
+template <class B>
+void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass, typename B::Real a,
+                  const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out);
+/// out = a m x + b y at vertices that forces move, 0 at the others; m their masses.
+template <class B>
+void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model, typename B::Real a,
+           const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out);
+
+/// result(0) = x . y, in double.
+template <class B>
+void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const Vectors<B>& y,
+         const BlockSums<B>& blocks, const Doubles<B>& result);
+/// result(0) = the sum of the x components.
+template <class B>
+void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const BlockSums<B>& blocks,
+               const Doubles<B>& result);
+/// A start vector with a part in every mode: a hash of the index, in [-1, 1); 0 where the inverse mass is. result(0) = x . x.
+template <class B>
+void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
+                    const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result);
+
+}  // namespace plica

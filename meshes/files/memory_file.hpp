@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <plica/core/error.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plica {
+
+/// A file in memory.
+struct MemoryFile {
+  std::string name;  ///< as errors show it; its extension tells the format
+  std::string bytes;
+};
+
+/// Reads all of it; InputError when there is none, or a folder.
+MemoryFile load_file(const std::filesystem::path& path);
+
+/// Where in a file something stands: on a line, or, where a file is binary, at a byte.
+struct Place {
+  std::int64_t line = 0;   ///< from 1; 0: none
+  std::int64_t byte = -1;  ///< from 0; -1: none
+};
+
+/// "on line 3", "at byte 120", or nothing for no place
+std::string to_text(const Place& place);
+
+/// InputError "FILE:LINE: MESSAGE", or "FILE: byte N: MESSAGE".
+[[noreturn]] void refuse(const std::string& file, const Place& place, const std::string& message);
+
+/// Input as an error shows it: in quotes, without control characters, cut when it is long.
+std::string shown(std::string_view input);
+
+/// The extension of a file without its dot, in lower case.
+std::string extension_of(const std::filesystem::path& path);
+
+/// The format of a list that the extension of a file names; InputError with the choices when none does. Formats have an
+/// `extension`.
+template <typename Formats>
+const auto& format_of(const std::filesystem::path& path, const Formats& formats, const std::string& kind) {
+  const std::string extension = extension_of(path);
+  std::vector<std::string> choices;
+  for (const auto& format : formats) {
+    if (extension == format.extension) return format;
+    if (choices.empty() || choices.back() != format.extension) choices.emplace_back(format.extension);
+  }
+  throw InputError(unknown_name(kind + " file extension", extension, choices), {path.string()});
+}
+
+}  // namespace plica

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <filesystem>
+#include <plica/core/mesh.hpp>
+#include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/writing.hpp>
+#include <plica/meshes/surface_report.hpp>
+#include <string>
+#include <variant>
+
+namespace plica {
+
+/// Reads a tetrahedral mesh in the format its extension names (see list.hpp), in any case of letters.
+/// @param path    of the file
+/// @param report  takes what was repaired and left out, when given
+/// @throw InputError for an unknown extension, whatever the parser of the format refuses, and what sound_mesh() does
+TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report = nullptr);
+
+/// The same of a file in memory.
+TetMesh read_mesh(const MemoryFile& file, MeshReport* report = nullptr);
+
+/// Reads the triangles of a surface in the format its extension names (see list.hpp), in any case of letters.
+/// @param path    of the file
+/// @param report  takes what was repaired and left out, and whether the surface is closed, when given
+/// @throw InputError for an unknown extension, whatever the parser of the format refuses, and what sound_surface() does
+TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report = nullptr);
+
+/// The same of a file in memory.
+TriangleSurface read_surface(const MemoryFile& file, SurfaceReport* report = nullptr);
+
+struct ReadMesh {
+  TetMesh mesh;
+  MeshReport report;
+};
+struct ReadSurface {
+  TriangleSurface surface;
+  SurfaceReport report;
+};
+
+/// Reads what a file holds: a mesh, or, where it has triangles and no tetrahedron, a surface.
+/// @throw InputError as read_mesh() and read_surface() do
+std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path);
+
+/// What a file of a mesh holds, in the format that its extension names; coordinates keep every bit where nothing else is
+/// said. TetGen's format is two files, whichever of them is named. Nothing is written to disk.
+/// @param path    names the format; the written files have its name
+/// @param mesh    what to write
+/// @param format  the name of a format of that extension (see list.hpp); empty: the first one
+/// @param binary  the binary form of it
+/// @throw InputError for an unknown extension or format, and what the format can in no way hold
+WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh, const std::string& format = "",
+                       bool binary = false);
+
+/// The same of a surface.
+WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
+                          const std::string& format = "", bool binary = false);
+
+}  // namespace plica

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/meshes/files/list.hpp>
+#include <plica/meshes/files/reading.hpp>
+#include <plica/meshes/files/vtk_grid.hpp>
+#include <set>
+#include <string>
+
+namespace plica {
+
+namespace {
+
+/// The type of numbers that a word of the line names, in any case of letters; else an InputError with the choices.
+NumberType legacy_vtk_type(std::size_t word, const TextLines& lines);
+
+/// Goes past a block of METADATA, which ends with a blank line.
+void skip_vtk_metadata(TextLines& lines);
+
+/// The arrays of points and cells in VTK's legacy format: those of cells go to the grid, the others are passed over.
+class LegacyArrays {
+ public:
+  explicit LegacyArrays(VtkGrid& grid) : grid_(grid) {}
+
+  NumberForm form = {false, std::endian::big, true};  ///< binary data are big-endian on every machine
+
+  /// The following arrays are of points or cells, with so many tuples.
+  void begin(std::int64_t tuples, bool of_cells) { tuples_ = tuples, of_cells_ = of_cells, begun_ = true; }
+  /// FIELD: arrays, each with a heading "name components tuples type".
+  void field(TextLines& lines);
+  /// SCALARS and its like: false if the line is the heading of none.
+  bool attribute(const std::string& keyword, TextLines& lines);
+
+ private:
+  void values(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type, TextLines& lines);
+
+  VtkGrid& grid_;
+  std::int64_t tuples_ = 0;
+  bool of_cells_ = false, begun_ = false;
+};
+
+struct TypeName {
+  const char* name;
+  NumberType type;
+};
+constexpr TypeName type_names[] = {
+    {"unsigned_char", NumberType::uint8},  {"char", NumberType::int8},           {"unsigned_short", NumberType::uint16},
+    {"short", NumberType::int16},          {"unsigned_int", NumberType::uint32}, {"int", NumberType::int32},
+    {"unsigned_long", NumberType::uint64}, {"long", NumberType::int64},          {"vtktypeuint64", NumberType::uint64},
+    {"vtktypeint64", NumberType::int64},   {"vtkidtype", NumberType::int32},     {"float", NumberType::float32},
+    {"double", NumberType::float64},       {"signed_char", NumberType::int8},
+};
+
+// Arrays with a heading "KEYWORD name type", but for those that tell their components
+struct Attribute {
+  const char* keyword;
+  std::int64_t components;  // 0: a word of the heading
+  std::size_t type_word, components_word;
+};
+constexpr Attribute attributes[] = {
+    {"scalars", 0, 2, 3},    {"vectors", 3, 2, 0},    {"normals", 3, 2, 0},
+    {"tensors", 9, 2, 0},    {"tensors6", 6, 2, 0},   {"texture_coordinates", 0, 3, 2},
+    {"global_ids", 1, 2, 0}, {"edge_flags", 1, 2, 0}, {"pedigree_ids", 1, 2, 0},
+};
+
+constexpr std::int64_t most_components = 1'000'000;
+
+std::int64_t read_components(std::size_t word, const TextLines& lines) {
+  const std::int64_t components = lines.integer(word, "the number of components");
+  if (components < 1 || components > most_components)
+    lines.fail("the number of components is " + std::to_string(components) + "; it must be 1 to " +
+               std::to_string(most_components));
+  return components;
+}
+
+NumberType legacy_vtk_type(std::size_t word, const TextLines& lines) {
+  if (word >= lines.words().size()) lines.expected("a type of numbers");
+  const std::string name = lower_case(lines.words()[word]);
+  std::vector<std::string> choices;
+  for (const TypeName& known : type_names) {
+    if (name == known.name) return known.type;
+    choices.emplace_back(known.name);
+  }
+  const std::string quoted = shown(name);
+  lines.fail(unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
+}
+
+void skip_vtk_metadata(TextLines& lines) {
+  while (lines.next_or_blank())
+    if (lines.words().empty()) return;
+}
+
+void LegacyArrays::values(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
+                          TextLines& lines) {
+  form.after(lines, [&](Numbers& numbers) {
+    numbers.checked_count(tuples, "the number of values of " + shown(name), type, components);
+    if (of_cells_)
+      grid_.read_cell_data(name, tuples, components, type, numbers);
+    else
+      numbers.skip(tuples * components, type, "a value");
+    return numbers.end("the values of " + shown(name)), 0;
+  });
+}
+
+void LegacyArrays::field(TextLines& lines) {
+  const std::int64_t arrays = lines.integer(2, "the number of arrays");
+  for (std::int64_t i = 1; i <= arrays; ++i) {
+    bool found = lines.next();
+    if (found && lower_case(lines.words()[0]) == "metadata") skip_vtk_metadata(lines), found = lines.next();
+    if (!found || lines.words().size() != 4)
+      lines.expected("array " + std::to_string(i) + " of " + std::to_string(arrays) + ", a line like region 1 8 int");
+    const std::string name(lines.words()[0]);
+    const std::int64_t components = read_components(1, lines);
+    values(name, lines.integer(2, "the number of tuples"), components, legacy_vtk_type(3, lines), lines);
+  }
+}
+
+bool LegacyArrays::attribute(const std::string& keyword, TextLines& lines) {
+  if (!begun_) return false;
+  const std::size_t words = lines.words().size();
+  const std::string name = words > 1 ? std::string(lines.words()[1]) : "";
+  // Colours are bytes in binary and fractions in text; a table of them stands apart from what it colours
+  const NumberType colour = form.binary ? NumberType::uint8 : NumberType::float32;
+  if (keyword == "color_scalars") return values(name, tuples_, read_components(2, lines), colour, lines), true;
+  if (keyword == "lookup_table") return values("", lines.integer(2, "the size of a table"), 4, colour, lines), true;
+  for (const Attribute& known : attributes) {
+    if (keyword != known.keyword) continue;
+    const bool told = known.components == 0 && known.components_word < words;
+    const std::int64_t components = told ? read_components(known.components_word, lines) : known.components;
+    const NumberType type = legacy_vtk_type(known.type_word, lines);
+    if (keyword == "scalars" && (!lines.next() || lower_case(lines.words()[0]) != "lookup_table"))
+      lines.expected("a line like LOOKUP_TABLE default");
+    values(name, tuples_, std::max<std::int64_t>(components, 1), type, lines);
+    return true;
+  }
+  return false;
+}
+
+class VtkParser {
+ public:
+  VtkParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) { grid_.file = file.name; }
+  RawMesh parse();
+
+ private:
+  using Section = void (VtkParser::*)();
+
+  void header();
+  void section();
+  void dataset();
+  void points();
+  void cells();
+  void cells_before_5(std::int64_t count, std::int64_t size);
+  void cells_of_5(std::int64_t ends, std::int64_t size);
+  std::vector<PlacedInteger> integers(const char* heading, std::int64_t count, const char* what);
+  void cell_types();
+  void cell_data() { data(grid_.ends.size(), true); }
+  void point_data() { data(grid_.points.size(), false); }
+  void data(std::size_t count, bool of_cells);
+  void field() { arrays_.field(lines_); }
+  void metadata() { skip_vtk_metadata(lines_); }
+
+  TextLines lines_;
+  MeshReport& report_;
+  VtkGrid grid_;
+  LegacyArrays arrays_{grid_};
+  bool version5_ = false;
+  std::set<std::string> seen_;
+};
+
+void VtkParser::header() {
+  constexpr std::string_view start = "# vtk DataFile Version ";
+  if (!lines_.next_or_blank() || !lines_.text().starts_with(start))
+    lines_.expected("# vtk DataFile Version, the start of a VTK file");
+  const std::string_view version = lines_.text().substr(start.size());
+  constexpr std::string_view known[] = {"1.0", "2.0", "3.0", "4.0", "4.1", "4.2", "5.0", "5.1"};
+  if (std::find(std::begin(known), std::end(known), version) == std::end(known))
+    lines_.fail("the version is " + shown(version) + "; supported are 1.0 to 5.1");
+  version5_ = version.front() == '5';
+  if (!lines_.next_or_blank()) lines_.expected("a title");
+  const bool is_binary = lines_.next() && lower_case(lines_.text()) == "binary";
+  if (!is_binary && lower_case(lines_.text()) != "ascii") lines_.expected("ASCII or BINARY");
+  arrays_.form.binary = is_binary;
+  report_.format = "VTK legacy " + std::string(version) + (is_binary ? " binary" : " ASCII");
+}
+
+void VtkParser::section() {
+  static const std::map<std::string, Section> known = {
+      {"dataset", &VtkParser::dataset},     {"points", &VtkParser::points},
+      {"cells", &VtkParser::cells},         {"cell_types", &VtkParser::cell_types},
+      {"cell_data", &VtkParser::cell_data}, {"point_data", &VtkParser::point_data},
+      {"field", &VtkParser::field},         {"metadata", &VtkParser::metadata}};
+  const std::string name = lower_case(lines_.words().front());
+  const auto found = known.find(name);
+  if (found == known.end()) {
+    if (!arrays_.attribute(name, lines_)) lines_.expected("a keyword of an unstructured grid, like POINTS");
+    return;
+  }
+  if (name != "field" && name != "metadata" && !seen_.insert(name).second)
+    lines_.fail("a second section " + shown(lines_.words().front()));
+  if (!seen_.contains("dataset") && name != "field" && name != "metadata") lines_.expected("DATASET UNSTRUCTURED_GRID");
+  (this->*found->second)();
+}
+
+void VtkParser::dataset() {
+  if (lines_.words().size() != 2 || lower_case(lines_.words()[1]) != "unstructured_grid")
+    lines_.expected("DATASET UNSTRUCTURED_GRID");
+}
+
+void VtkParser::points() {
+  if (lines_.words().size() != 3) lines_.expected("a line like POINTS 8 double");
+  const NumberType type = legacy_vtk_type(2, lines_);
+  const std::int64_t count = lines_.integer(1, "the number of points");
+  arrays_.form.after(lines_, [&](Numbers& numbers) {
+    grid_.read_points(numbers.checked_count(count, "the number of points", type, 3), type, numbers);
+    return numbers.end("the points"), 0;
+  });
+}
+
+void VtkParser::cells() {
+  if (lines_.words().size() != 3) lines_.expected("a line like CELLS 2 10");
+  const std::int64_t count = lines_.integer(1, "the number of cells"),
+                     size = lines_.integer(2, "the size of the cells");
+  version5_ ? cells_of_5(count, size) : cells_before_5(count, size);
+}
+
+// Cell after cell the number of its points and these
+void VtkParser::cells_before_5(std::int64_t count, std::int64_t size) {
+  constexpr NumberType type = NumberType::int32;
+  arrays_.form.after(lines_, [&](Numbers& numbers) {
+    numbers.checked_count(count, "the number of cells", type, 1);
+    numbers.checked_count(size, "the size of the cells", type, 1);
+    std::int64_t left = size;
+    for (std::int64_t c = 0; c < count; ++c) {
+      const std::int64_t points = numbers.integer(type, "the number of points of a cell");
+      if (points < 0 || points >= left)
+        numbers.fail("the number of points of cell " + std::to_string(c) + " is " + std::to_string(points) +
+                     ", but the cells have " + std::to_string(left) + " of " + std::to_string(size) + " numbers left");
+      left -= points + 1;
+      for (std::int64_t k = 0; k < points; ++k) {
+        const std::int64_t point = numbers.integer(type, "a point of a cell");
+        grid_.connectivity.push_back({point, numbers.place()});
+      }
+      grid_.ends.push_back({static_cast<std::int64_t>(grid_.connectivity.size()), numbers.place()});
+    }
+    if (left != 0)
+      numbers.fail("the cells take " + std::to_string(size - left) + " numbers and not " + std::to_string(size));
+    return numbers.end("the cells"), 0;
+  });
+}
+
+std::vector<PlacedInteger> VtkParser::integers(const char* heading, std::int64_t count, const char* what) {
+  if (!lines_.next() || lines_.words().size() != 2 || lower_case(lines_.words()[0]) != lower_case(heading))
+    lines_.expected(std::string("a line like ") + heading + " vtktypeint64");
+  const NumberType type = legacy_vtk_type(1, lines_);
+  if (!is_integer(type)) lines_.fail("the type of " + std::string(what) + " is no integer: " + shown(lines_.text()));
+  return arrays_.form.after(lines_, [&](Numbers& numbers) {
+    numbers.checked_count(count, "the number of values of " + std::string(heading), type, 1);
+    auto values = read_integers(count, type, what, numbers);
+    numbers.end(heading);
+    return values;
+  });
+}
+
+// Where each cell starts, with the end of the last one, and the points of all
+void VtkParser::cells_of_5(std::int64_t offsets, std::int64_t size) {
+  grid_.ends = integers("OFFSETS", offsets, "an offset");
+  if (!grid_.ends.empty()) {
+    if (grid_.ends.front().value != 0)
+      refuse(grid_.file, grid_.ends.front().place,
+             "the first offset is " + std::to_string(grid_.ends.front().value) + "; it must be 0");
+    grid_.ends.erase(grid_.ends.begin());
+  }
+  grid_.connectivity = integers("CONNECTIVITY", size, "a point of a cell");
+}
+
+void VtkParser::cell_types() {
+  if (lines_.words().size() != 2) lines_.expected("a line like CELL_TYPES 2");
+  const std::int64_t count = lines_.integer(1, "the number of types");
+  constexpr NumberType type = NumberType::int32;
+  arrays_.form.after(lines_, [&](Numbers& numbers) {
+    numbers.checked_count(count, "the number of types", type, 1);
+    grid_.types = read_integers(count, type, "the type of a cell", numbers);
+    return numbers.end("the types"), 0;
+  });
+}
+
+void VtkParser::data(std::size_t count, bool of_cells) {
+  for (const char* name : {"points", "cells"})
+    if (!seen_.contains(name)) lines_.fail(shown(lines_.text()) + " must come after the points and cells");
+  const std::int64_t tuples = lines_.integer(1, "the number of values");
+  if (tuples != static_cast<std::int64_t>(count))
+    lines_.fail("the number of values is " + std::to_string(tuples) + " for " + std::to_string(count) +
+                (of_cells ? " cells" : " points"));
+  arrays_.begin(tuples, of_cells);
+}
+
+RawMesh VtkParser::parse() {
+  header();
+  while (lines_.next()) section();
+  for (const char* name : {"DATASET", "POINTS", "CELLS", "CELL_TYPES"})
+    if (!seen_.contains(lower_case(name))) lines_.expected(name);
+  return grid_.mesh(report_);
+}
+
+}  // namespace
+
+RawMesh parse_vtk(const MemoryFile& file, MeshReport& report) { return VtkParser(file, report).parse(); }
+
+}  // namespace plica

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/meshes/files/vtk_grid.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr const char* region_name = "region";
+
+// Refuses per-cell numbers of another count than there are cells
+void check_count(const VtkGrid& grid, const std::vector<PlacedInteger>& values, const std::string& what) {
+  if (values.size() != grid.ends.size())
+    refuse(grid.file, values.empty() ? Place{} : values.back().place,
+           "there are " + std::to_string(values.size()) + " " + what + " for " + std::to_string(grid.ends.size()) +
+               " cells");
+}
+
+void check_ends(const VtkGrid& grid) {
+  std::int64_t start = 0;
+  for (std::size_t c = 0; c < grid.ends.size(); start = grid.ends[c++].value)
+    if (grid.ends[c].value < start || grid.ends[c].value > static_cast<std::int64_t>(grid.connectivity.size()))
+      refuse(grid.file, grid.ends[c].place,
+             "cell " + std::to_string(c) + " is from " + std::to_string(start) + " to " +
+                 std::to_string(grid.ends[c].value) + " of " + std::to_string(grid.connectivity.size()) +
+                 " points of cells");
+  if (start != static_cast<std::int64_t>(grid.connectivity.size()))
+    refuse(grid.file, grid.ends.empty() ? Place{} : grid.ends.back().place,
+           "the cells use " + std::to_string(start) + " of " + std::to_string(grid.connectivity.size()) +
+               " points of cells");
+}
+
+}  // namespace
+
+std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what, Numbers& numbers) {
+  std::vector<PlacedInteger> values;
+  values.reserve(static_cast<std::size_t>(count));
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t value = numbers.integer(type, what);
+    values.push_back({value, numbers.place()});
+  }
+  return values;
+}
+
+void VtkGrid::read_points(std::int64_t count, NumberType type, Numbers& numbers) {
+  constexpr const char* what[] = {"coordinate x", "coordinate y", "coordinate z"};
+  points.reserve(static_cast<std::size_t>(count));
+  for (std::int64_t i = 0; i < count; ++i) {
+    RawVertex vertex;
+    vertex.tag = i;
+    for (int a = 0; a < 3; ++a) {
+      vertex.position[a] = numbers.number(type, what[a]);
+      if (a == 0) vertex.place = numbers.place();
+    }
+    points.push_back(vertex);
+  }
+}
+
+void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
+                             Numbers& numbers) {
+  const bool usable = components == 1 && is_integer(type);
+  if (name == region_name && !usable)
+    numbers.fail("the array 'region' of the cells must be one integer per cell, to tell their regions");
+  if (!usable || region_array == region_name || (name != region_name && !region_array.empty()))
+    return numbers.skip(tuples * components, type, "a value of the cells");
+  region_array = name;
+  regions = read_integers(tuples, type, "a region", numbers);
+}
+
+RawMesh VtkGrid::mesh(MeshReport& report) const {
+  check_ends(*this);
+  check_count(*this, types, "types");
+  if (!region_array.empty()) check_count(*this, regions, "values of the array " + shown(region_array));
+  RawMesh raw;
+  raw.file = file;
+  raw.vertices = points;
+  std::vector<std::int64_t> numbers;
+  for (std::size_t c = 0; c < ends.size(); ++c) {
+    const std::size_t begin = c == 0 ? 0 : static_cast<std::size_t>(ends[c - 1].value);
+    const std::size_t size = static_cast<std::size_t>(ends[c].value) - begin;
+    const std::int64_t tag = static_cast<std::int64_t>(c);
+    const auto who = [&] { return "cell " + std::to_string(c); };
+    const Place place = size > 0 ? connectivity[begin].place : types[c].place;
+    const ElementKind& kind = taken_kind(vtk_cells, types[c].value, who, file, types[c].place);
+    if (kind.vertices > 0 && size != static_cast<std::size_t>(kind.vertices))
+      refuse(file, place,
+             who() + ", a " + kind.name + ", has " + std::to_string(size) + " points; expected " +
+                 std::to_string(kind.vertices));
+    if (kind.dimension == 3) {
+      RawTet tet{tag, {}, 0, place};
+      for (std::size_t k = 0; k < 4; ++k) tet.vertices[k] = connectivity[begin + k].value;
+      raw.tets.push_back(tet);
+      numbers.push_back(regions.empty() ? 0 : regions[c].value);
+      continue;
+    }
+    ++report.other_elements[kind.name];
+    for (std::size_t k = begin; k < begin + size; ++k) raw.others.push_back({connectivity[k].value, place});
+  }
+  name_regions(raw, numbers, [this](std::int64_t number) { return region_array + "_" + std::to_string(number); });
+  return raw;
+}
+
+}  // namespace plica
