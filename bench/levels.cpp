@@ -50,7 +50,7 @@ void transfer(benchmark::State& state, bool down) {
     problem.integration.cycle = "rsv";
     return built<B>(problem);
   });
-  const Level<B>&fine = (*b.hierarchy)[0].level, &coarse = (*b.hierarchy)[1].level;
+  const Level<B>&fine = (*b.hierarchy)[0], &coarse = (*b.hierarchy)[1];
   const Level<B>&from = down ? fine : coarse, &to = down ? coarse : fine;
   const Transfer<B>& rows = down ? coarse.from_finer : coarse.to_finer;
   const double s = sizeof(Real), bytes = rows.rows * (4 + 16 + 4 * s + 13 * s) + from.model.vertices * 12 * s;
@@ -68,12 +68,12 @@ void contact(benchmark::State& state, int subdivisions) {
   using B = Backend<Real, Exec>;
   auto& b = fixture<BuiltHierarchy<B>>(std::string("contact ") + precision_name<Real>() + std::to_string(subdivisions),
                                        [&] { return built<B>(ball_problem(1, subdivisions)); });
-  HierarchyLevel<B>& h = (*b.hierarchy)[0];
-  const auto& surface = h.level.surface;
+  SolverLevel<B>& h = (*b.hierarchy)[0];
+  const auto& surface = h.surface;
   const double s = sizeof(Real), points = surface.points;
   const double bytes = points * (3 * s + 2 * (16 + 4 * s)) + surface.touched * (8 + 12 * s);
   const double time = measure<Real>(state, b.hierarchy->exec(), {0, bytes, points * 120}, [&] {
-    h.forces->contact()->add_forces(b.hierarchy->exec(), h.level, h.level.state, 0, h.forces->points(), h.level.f);
+    h.contact()->add_forces(b.hierarchy->exec(), h, h.state, 0, h.points(), h.f);
   });
   state.counters["points_per_second"] = points / time;
 }

@@ -57,18 +57,18 @@ struct LinearSystem {
   Krylov<B> krylov;
 
   LinearSystem(const Case& c, bool assembled)
-      : built(build_hierarchy<B>(implicit_beam(c), {})), system(level().level, assembled), krylov(vertices()) {
+      : built(build_hierarchy<B>(implicit_beam(c), {})), system(level(), assembled), krylov(vertices()) {
     right_side = to_field<B>(bent(built.meshes.front(), 0.1 / c.cells[0]));
     r = Vectors<B>("bench::r", right_side.extent(0)), x = Vectors<B>("bench::x", right_side.extent(0));
-    HierarchyLevel<B>& h = level();
-    h.forces->linearise(h.level, h.level.state, 0, weights, implicit_step, h.level.f);
+    SolverLevel<B>& h = level();
+    h.linearise(h.state, 0, weights, implicit_step, h.f);
     prepare();
   }
-  HierarchyLevel<B>& level() { return (*built.hierarchy)[0]; }
-  int vertices() { return level().level.model.vertices; }
+  SolverLevel<B>& level() { return (*built.hierarchy)[0]; }
+  int vertices() { return level().model.vertices; }
   void prepare() {
-    HierarchyLevel<B>& h = level();
-    system.prepare(built.hierarchy->exec(), h.level, *h.forces, h.level.state, weights, false);
+    SolverLevel<B>& h = level();
+    system.prepare(h, h.state, weights, false);
   }
 };
 
@@ -84,7 +84,7 @@ void cg_iteration(benchmark::State& state, const Case& c, double flops) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, false);
   const auto& exec = system.built.hierarchy->exec();
-  const double tets = system.level().level.model.tets, vertices = system.vertices();
+  const double tets = system.level().model.tets, vertices = system.vertices();
   const double bytes = tets * (8 + 10 * s) + vertices * 28 * s, work = tets * flops + vertices * 50;
   ImplicitOptions options;
   options.iterations = iterations;
@@ -101,7 +101,7 @@ template <class B>
 void assembly(benchmark::State& state, const Case& c) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, true);
-  const double tets = system.level().level.model.tets, blocks = system.system.pattern().blocks();
+  const double tets = system.level().model.tets, blocks = system.system.pattern().blocks();
   measure<typename B::Real>(state, system.built.hierarchy->exec(),
                             {tets, tets * (8 + 10 * s) + system.vertices() * 3 * s + blocks * 9 * s, 0},
                             [&] { system.prepare(); });
@@ -112,7 +112,7 @@ template <class B>
 void block_product(benchmark::State& state, const Case& c) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, true);
-  const double tets = system.level().level.model.tets, blocks = system.system.pattern().blocks();
+  const double tets = system.level().model.tets, blocks = system.system.pattern().blocks();
   measure<typename B::Real>(state, system.built.hierarchy->exec(),
                             {tets, blocks * (9 * s + 4) + system.vertices() * (6 * s + 4), 18 * blocks}, [&] {
                               system.system.product(system.built.hierarchy->exec(), system.right_side, system.x);

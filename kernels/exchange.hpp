@@ -59,7 +59,7 @@ struct WriteVectors {
 
 /// out = the surface points' positions, or their velocities
 template <class B, class Out>
-struct ReadSurface {
+struct ReadSurfacePoints {
   EmbeddedSurface<B> surface;
   State<B> state;
   bool velocity;

@@ -56,6 +56,28 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
   }
 }
 
+// How nodal forces are summed without a conflict and in the same order on any number of threads. The mesh is cut into patches of
+// at most 256 neighbouring tetrahedra (core/patches.hpp). One team of threads works on one patch, in memory that is its own: the
+// first-level cache of a CPU, the shared memory of a GPU. It gathers the displacements of the patch's vertices once. It computes
+// the elements a pack at a time: one element in each lane of a vector register, so that each instruction serves 2 to 16 elements.
+// Each element writes the forces at its four corners to a place of its own, and nobody else writes there. Then each vertex of the
+// patch adds up the places that belong to it, in a stored order. A vertex on the border of patches has such a sum in each of
+// them; a second kernel, gather_forces, adds these up. No two threads ever write to one number, so no atomics are needed.
+//
+//   u [vertices][3]                                      one patch, in scratch
+//     | 1. gather by `vertex`          .--------------------------------------------------------------.
+//     '------------------------------> | local   [patch vertex] (x y z -)    a fourth number pads it  |
+//                                      |   | 2. by `corner`, transposed: lane l = element l of a pack |
+//   corner, shape [pack] ------------> |   v     element(): grad u -> integrand -> 4 corner vectors   |
+//     (streamed from memory)           | forces  [pack][corner][x y z][lane]                          |
+//                                      |   | 3. each patch vertex adds its slots, by `slot`           |
+//     .------------------------------- |   v     sums                                                 |
+//     v                                '--------------------------------------------------------------'
+//   partial [patch vertex][3]
+//     | 4. gather_forces: each vertex of the mesh adds its copies, by `copy`, and its weight
+//     v
+//   f [vertices][3]
+
 /// Runs an integrand over all elements and adds its corner vectors up per patch vertex, one team per patch:
 /// 1. the patch's vertex fields into scratch, 2. the corner vectors of its elements into scratch, 3. their sums per
 /// patch vertex into `partial`. An integrand has

@@ -27,8 +27,8 @@ enum class SameBody {
 
 /// The judgement, and a sentence with the numbers and the likely cause where it is not `yes`.
 struct LevelComparison {
-  SameBody same = SameBody::yes;
-  std::string sentence;  ///< "level 1 is not the size of level 0: it measures ..."
+  SameBody same = SameBody::yes;  ///< the judgement
+  std::string sentence;           ///< "level 1 is not the size of level 0: it measures ..."
 };
 
 /// Compares a coarse level with the finest: extent along each axis, volume, mass and centroid. A mesh that was read with the

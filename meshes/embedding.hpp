@@ -11,6 +11,7 @@ namespace plica {
 using Weights = std::array<double, 4>;
 
 /// The weights that make up `p`, negative on the far side of a face.
+/// @param p        [m]
 /// @param corners  of a tetrahedron with positive volume [m]
 Weights barycentric(const Point& p, const std::array<Point, 4>& corners);
 

@@ -21,6 +21,7 @@ Point rounded(const Point& p);
 ///
 /// @param cells     per axis, 1 or more; InputError otherwise, or when a count does not fit an int
 /// @param mirrored  per axis
+/// @param map       from the unit cube
 /// @return          (cells + 1) vertices along each axis, six tetrahedra per cell
 TetMesh grid_mesh(const std::array<int, 3>& cells, const std::array<bool, 3>& mirrored,
                   const std::function<Point(const Point&)>& map);

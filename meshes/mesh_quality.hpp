@@ -22,7 +22,7 @@ double mean_edge_length(const TetMesh& mesh, int tet);
 
 /// The number of parts of a mesh that share no vertex; vertices of no tetrahedron do not count.
 int count_parts(const TetMesh& mesh);
-int count_parts(const TriangleSurface& surface);
+int count_parts(const TriangleSurface& surface);  ///< the same of a surface
 
 /// Per point one with a lower number within `tolerance` [m], from zero; -1: there is none.
 std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance);

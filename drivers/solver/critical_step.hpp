@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/level.hpp>
-#include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
 
 namespace plica {
 

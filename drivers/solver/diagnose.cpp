@@ -101,7 +101,7 @@ std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field
 template <class B>
 std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
   for (int i = built.hierarchy->count() - 1; i >= 0; --i) {  // the order in which levels act
-    const Level<B>& level = (*built.hierarchy)[i].level;
+    const Level<B>& level = (*built.hierarchy)[i];
     if (level.flags.evaluation.extent(0) == 0) continue;
     const auto copy = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
     if (copy(level.flags.raised)() == 0) continue;
@@ -129,15 +129,15 @@ Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built
   Diagnosis d;
   d.kind = kind, d.level = std::max(level, 0), d.reason = reason;
   for (int i = built.hierarchy->count() - 1; i >= 0 && d.vertex < 0 && level < 0; --i) {
-    const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].level.state.u);
+    const auto u = to_host<B>(built.hierarchy->exec(), (*built.hierarchy)[i].state.u);
     const auto bad = std::find_if(u.begin(), u.end(), [](const Point& p) { return !is_finite(p); });
     if (bad != u.end()) d.level = i, d.vertex = static_cast<int>(bad - u.begin());
   }
   const auto i = static_cast<std::size_t>(d.level);
-  const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].level.state.u : kept[i].u;
+  const Vectors<B>& u = d.vertex < 0 ? (*built.hierarchy)[d.level].state.u : kept[i].u;
   const WorstElement worst = worst_element(built.meshes[i], to_host<B>(built.hierarchy->exec(), u));
   d.element = worst.element, d.J = worst.J;
-  const bool forbidden = (*built.hierarchy)[d.level].level.flags.evaluation.extent(0) > 0;
+  const bool forbidden = (*built.hierarchy)[d.level].flags.evaluation.extent(0) > 0;
   if (d.vertex >= 0 && forbidden && d.J <= 0) d.kind = "inverted";  // a cycle's repairs have lost the flag
   complete(d, built);
   return d;

@@ -15,10 +15,10 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, 
   std::vector<typename B::Real> per_edge;
   for (const double edge : local_edge_lengths(mesh)) per_edge.push_back(static_cast<typename B::Real>(1 / edge));
   inverse_edge_ = to_device<Scalars<B>>("inverse_edge", per_edge);
-  const auto mass = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].level.model.mass);
+  const auto mass = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), hierarchy[0].model.mass);
   for (std::size_t a = 0; a < mass.extent(0); ++a) mass_ += static_cast<double>(mass(a));
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
-  const Level<B>& level = hierarchy[0].level;
+  const Level<B>& level = hierarchy[0];
   blocks_ =
       BlockSums<B>(std::max({level.model.vertices, static_cast<int>(level.partial.extent(0)), level.surface.points}));
 }
@@ -34,7 +34,7 @@ std::array<double, 6> EnergyMeter<B>::read() const {
 template <class B>
 MotionReport EnergyMeter<B>::motion(const Point& drift) const {
   using Term = MotionEnergies<B>;
-  const Level<B>& level = hierarchy_[0].level;
+  const Level<B>& level = hierarchy_[0];
   reduce<B, 6, Term, MotionSums>(
       hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
       Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}}, blocks_, result_);
@@ -45,13 +45,13 @@ MotionReport EnergyMeter<B>::motion(const Point& drift) const {
 template <class B>
 Energies EnergyMeter<B>::all(double time) const {
   const auto& exec = hierarchy_.exec();
-  const HierarchyLevel<B>& part = hierarchy_[0];
+  const SolverLevel<B>& level = hierarchy_[0];
   Energies e = motion(Point::Zero()).energies;
-  part.forces->elasticity().energy(exec, part.level.model.patches, part.level.state.u, part.level.partial);
-  reduce<B, 1>(exec, "plica::elastic_energy", static_cast<int>(part.level.partial.extent(0)),
-               FirstComponent<B>{part.level.partial}, blocks_, result_);
+  level.elasticity().energy(exec, level.model.patches, level.state.u, level.partial);
+  reduce<B, 1>(exec, "plica::elastic_energy", static_cast<int>(level.partial.extent(0)),
+               FirstComponent<B>{level.partial}, blocks_, result_);
   e.elastic = read()[0];
-  if (part.forces->contact()) e.contact = part.forces->contact()->energy(exec, part.level, time, blocks_);
+  if (level.contact()) e.contact = level.contact()->energy(exec, level, time, blocks_);
   return e;
 }
 

@@ -40,7 +40,7 @@ void read_surface(const typename B::Exec& exec, const EmbeddedSurface<B>& surfac
                   bool velocities, const DeviceOutput<B>& to) {
   over_rows<B>(exec, "plica::read_surface", to, static_cast<std::size_t>(surface.points),
                [&]<class Out>(const Out& view) {
-                 return ReadSurface<B, Out>{surface, state, velocities, view};
+                 return ReadSurfacePoints<B, Out>{surface, state, velocities, view};
                });
 }
 

@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <memory>
 #include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/kernels/motion/prescribe.hpp>
 #include <vector>
 
 namespace plica {
-
-/// A level with what acts on it and moves it.
-template <class B>
-struct HierarchyLevel {
-  Level<B> level;
-  std::unique_ptr<LevelForces<B>> forces;
-  std::unique_ptr<Integrator<B>> integrator;
-  double share = 1;  ///< of the macro step
-  int substeps = 1;
-};
 
 /// All resolutions of one body, finest first.
 template <class B>
 struct Hierarchy {
   explicit Hierarchy(const typename B::Exec& exec) : clock(exec) {}
   StageClock<B> clock;
-  std::vector<HierarchyLevel<B>> levels;
+  std::vector<SolverLevel<B>> levels;  ///< linear solvers point at them: none is added after integrators were made
 
   const typename B::Exec& exec() const { return clock.exec(); }
   int count() const { return static_cast<int>(levels.size()); }
-  HierarchyLevel<B>& operator[](int i) { return levels[static_cast<std::size_t>(i)]; }
-  const HierarchyLevel<B>& operator[](int i) const { return levels[static_cast<std::size_t>(i)]; }
+  SolverLevel<B>& operator[](int i) { return levels[static_cast<std::size_t>(i)]; }
+  const SolverLevel<B>& operator[](int i) const { return levels[static_cast<std::size_t>(i)]; }
+
+  void begin_macro_step() {
+    for (SolverLevel<B>& level : levels) level.begin_macro_step();
+  }
+  /// States were replaced: nothing that was carried from the steps before belongs to them.
+  void forget() {
+    for (SolverLevel<B>& level : levels) level.integrator->forget();
+  }
+  void clear_flags() {
+    for (SolverLevel<B>& level : levels) level.flags.clear(exec());
+  }
 };
 
 }  // namespace plica

@@ -44,7 +44,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
     for (const auto& part : built.hierarchy->levels) total += of_level(part);
     return total;
   };
-  using L = HierarchyLevel<B>;
+  using L = SolverLevel<B>;
   std::vector<Part> parts;
   const auto add = [&](const std::string& name, bool in, const std::string& yes, const std::string& no,
                        std::size_t size) {
@@ -52,58 +52,53 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   };
   const auto levels = built.hierarchy->levels.size();
   const auto& body = problem.body;
-  bool implicit = false, friction = false;
+  bool friction = false;
   std::string solver;
-  for (const LevelReport& r : built.reports) {
-    implicit = implicit || (!r.explicit_integrator && !built.him);
+  for (const LevelReport& r : built.reports)
     if (solver.empty()) solver = r.linear_solver;
-  }
   for (const ObstacleOptions& o : problem.contact.obstacles) friction = friction || o.friction.has_value();
   const bool contact = !problem.contact.obstacles.empty();
-  const std::size_t variations = sum([](const L& l) { return bytes_of(l.level.start) + bytes_of(l.level.previous); });
-  const std::size_t limits = sum([](const L& l) { return bytes(l.level.drift_limit); });
-  const std::size_t flags =
-      sum([](const L& l) { return bytes(l.level.flags.evaluation, l.level.flags.element, l.level.flags.J); });
+  const std::size_t variations = sum([](const L& l) { return bytes_of(l.start) + bytes_of(l.previous); });
+  const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
+  const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.element, l.flags.J); });
 
   add("elastic elements", true, body.material.model, "",
-      sum([](const L& l) { return bytes_of(l.level.model.patches) + bytes(l.level.partial); }));
-  add("state, mass and force", true, counted(levels, "level"), "", sum([](const L& l) {
-        return bytes_of(l.level.state) + bytes(l.level.model.mass, l.level.model.inverse_mass, l.level.f);
-      }));
+      sum([](const L& l) { return bytes_of(l.model.patches) + bytes(l.partial); }));
+  add("state, mass and force", true, counted(levels, "level"), "",
+      sum([](const L& l) { return bytes_of(l.state) + bytes(l.model.mass, l.model.inverse_mass, l.f); }));
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
   add("mass damping", damps_by_mass(body), "body.damping.mass", "zero",
-      sum([](const L& l) { return bytes(l.level.model.damping.of_vertex); }));
+      sum([](const L& l) { return bytes(l.model.damping.of_vertex); }));
   add("stiffness damping", damps_by_stiffness(body), "body.damping.stiffness: a tangent product with every force",
-      "zero", sum([](const L& l) { return bytes(l.level.model.patches.damping); }));
+      "zero", sum([](const L& l) { return bytes(l.model.patches.damping); }));
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
   add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"), "none asked for",
       sum([](const L& l) {
-        const auto& p = l.level.prescribed;
+        const auto& p = l.prescribed;
         return bytes(p.vertex, p.path, p.paths, p.knots);
       }));
   add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for", sum([](const L& l) {
         std::size_t total = 0;
-        for (const auto& load : l.level.loads) total += bytes(load.vertex, load.force);
+        for (const auto& load : l.loads) total += bytes(load.vertex, load.force);
         return total;
       }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,
-      levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level", sum([](const L& l) {
-        return bytes_of(l.level.from_finer) + bytes_of(l.level.to_finer) + bytes_of(l.level.adjoint);
-      }));
+      levels < body.levels.size() ? "cycle single uses level 0 alone" : "one level",
+      sum([](const L& l) { return bytes_of(l.from_finer) + bytes_of(l.to_finer) + bytes_of(l.adjoint); }));
   add("variation mapping", variations > 0, "cycle " + problem.integration.cycle,
       "not in cycle " + problem.integration.cycle, variations);
   add("switched mapping", limits > 0, "switch_threshold", "not in cycle " + problem.integration.cycle, limits);
-  add("hierarchical inverse mass", built.him.has_value(), "cycle him", "not in cycle " + problem.integration.cycle,
-      built.him ? built.cycle->bytes() : 0);
+  add("hierarchical inverse mass", built.stepper->bytes() > 0, "cycle " + problem.integration.cycle,
+      "not in cycle " + problem.integration.cycle, built.stepper->bytes());
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
-      sum([](const L& l) { return bytes_of(l.level.surface); }));
+      sum([](const L& l) { return bytes_of(l.surface); }));
   add("contact", contact, counted(problem.contact.obstacles.size(), "obstacle"), "no obstacle",
-      sum([](const L& l) { return bytes(l.forces->points().force, l.forces->points().block); }));
-  const Contact<B>* touching = (*built.hierarchy)[0].forces->contact();
+      sum([](const L& l) { return bytes(l.points().force, l.points().block); }));
+  const Contact<B>* touching = (*built.hierarchy)[0].contact();
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
-  add("implicit solver", implicit, solver, "every level is explicit",
+  add("implicit solver", !solver.empty(), solver, "every level is explicit",
       sum([](const L& l) { return l.integrator->bytes(); }));
   add("inversion flags", flags > 0, body.material.model + " may not be inverted",
       body.material.model + " may be inverted", flags);

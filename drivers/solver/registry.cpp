@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/linear/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/distributions.hpp>
-#include <plica/drivers/solver/set_up/error_classes.hpp>
+#include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/solver/steppers.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 namespace plica {
@@ -21,7 +20,7 @@ std::vector<Choice> choices() {
 }  // namespace
 
 std::vector<Choice> integrators() { return choices<Integrators>(); }
-std::vector<Choice> cycles() { return choices<Cycles>(); }
+std::vector<Choice> cycles() { return choices<Steppers>(); }
 std::vector<Choice> error_classes() { return choices<ErrorClasses>(); }
 std::vector<Choice> obstacle_shapes() { return choices<ObstacleShapes>(); }
 
@@ -77,16 +76,11 @@ std::vector<Choice> newton_outcomes() {
           {"stop", "ends the run: kind solver"}};
 }
 
-bool uses_coarse_levels(std::string_view cycle) {
-  bool uses = false;
-  Cycles::visit(cycle, [&](auto member) { uses = decltype(member)::uses_coarse_levels; });
-  return uses;
-}
+bool uses_coarse_levels(std::string_view cycle) { return stepper_needs(cycle).coarse_meshes; }
+bool integrates_coarse_levels(std::string_view cycle) { return stepper_needs(cycle).coarse_states; }
 
-bool integrates_coarse_levels(std::string_view cycle) {
-  bool integrates = false;
-  Cycles::visit(cycle, [&](auto member) { integrates = decltype(member)::integrates_coarse_levels; });
-  return integrates;
+std::size_t integrated_levels(std::string_view cycle, std::size_t levels) {
+  return integrates_coarse_levels(cycle) ? levels : 1;
 }
 
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator) {

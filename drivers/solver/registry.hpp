@@ -14,10 +14,12 @@ std::vector<Choice> obstacle_shapes();  ///< for contact
 std::vector<Choice> linear_solvers();   ///< of implicit levels
 std::vector<Choice> preconditioners();  ///< of conjugate gradients
 
-/// Whether that cycle uses more than the finest level; false for a name it does not know.
+/// Whether that cycle uses more meshes than the finest; false for a name it does not know.
 bool uses_coarse_levels(std::string_view cycle);
 /// Whether coarser levels have states of their own there, and shares of the macro step.
 bool integrates_coarse_levels(std::string_view cycle);
+/// How many of a body's levels that cycle integrates: those that have a state, from the finest on.
+std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 
 /// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 1 or,
 /// where it conserves energy on the linear problem, 20. What one iteration leaves unsolved is energy lost or won in every step.

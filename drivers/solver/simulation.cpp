@@ -1,14 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <plica/core/error.hpp>
-#include <plica/drivers/solver/simulation_check.hpp>
+// How a run goes: a simulation is set up, steps, is checked, and recovers where it can. What it tells of itself is in
+// simulation_views.cpp, what it is made of in set_up/.
+//
+// Who owns what. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each SolverLevel owns its data
+// (rest shape, masses, state, work arrays), the forces on it and its integrator. A Stepper decides how the levels take a macro
+// step together; it owns what is of no single level. Nothing points upwards: a level knows of no stepper, a stepper of no
+// simulation.
+//
+// A macro step of the paper's cycle, downwards through the files:
+//
+//   Simulation::step                        this file
+//     VCycle::step                          shared_step/v_cycle.hpp
+//       restrict, finest to coarsest        kernels/transfer/map_state.hpp
+//       coarsest to finest:
+//         interpolate from the coarser one  kernels/transfer/map_state.hpp
+//         integrate its share               shared_step/shared_step.hpp
+//           Integrator::advance             integrators/explicit.cpp
+//             SolverLevel::evaluate         solver_level.cpp
+//               elastic forces              elasticity.cpp, and the kernels of the material
+//               loads, contact, the caller's
+//             update velocity and place     kernels/explicit/updates.hpp
+//
+// With an implicit level, advance is in integrators/implicit.cpp: it sets the base of a stage, StageSolver
+// (integrators/stage_solver.hpp) linearises the level and solves, by a LinearSolver of linear/. The hierarchical inverse mass
+// (him/him_stepper.hpp) evaluates the forces of the finest level once and lets all levels answer them.
+//
+// A step enqueues work and returns. check() waits, reads flags and sums, and looks at nothing else but the state there is.
+// What then is bad is a matter of recover(), which goes back to the last state that was kept: it lets the stepper repair itself, or
+// takes the macro steps since again in halves. drivers that want all of it call step_checked().
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/solver/set_up/make_path.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/solver/simulation_inside.hpp>
 
 namespace plica {
 
 namespace {
 
-constexpr int keep_every = 20;  // macro steps
+constexpr int keep_every = 20;       // macro steps
+constexpr int most_repairs = 8;      // of a stepper, until its steps stay stable to where the run was
+constexpr double least_edge = 1e-3;  // of an edge per macro step: motion that energy is not asked about
+
+const Problem& steppable(const Problem& p) {
+  validate(p);
+  if (p.integration.cycle == "auto")
+    throw InputError(
+        "integration.cycle is auto, which a simulation does not decide; expected a cycle by its name: "
+        "choose_cycle() of plica/drivers/study/choose_cycle.hpp finds one by short trials");
+  return p;
+}
 
 }  // namespace
+
+// --- Set-up -----------------------------------------------------------------------------------------------------------------
 
 template <class B>
 Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
@@ -17,21 +64,184 @@ template <class B>
 Simulation<B>::~Simulation() = default;
 
 template <class B>
-void Simulation<B>::step() {
-  inside_->step();
+Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
+    : problem(steppable(p)),
+      built(build_hierarchy<B>(problem, exec)),
+      meter(*built.hierarchy, built.meshes.front(), p.gravity) {
+  problem.body.levels.clear();
+  rest.resize(built.hierarchy->levels.size());
+  for (const auto& level : built.hierarchy->levels) kept.emplace_back("kept", level.model.vertices);
+  budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
+                 std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
+                              [](const ObstacleOptions& o) { return moves(o.motion); });
+  linear = !find_material(p.body.material.model)->rotation_invariant;
+  keep();
+  open_budget();
 }
+
+// --- Step -------------------------------------------------------------------------------------------------------------------
+
+template <class B>
+void Simulation<B>::step() {
+  Inside& s = *inside_;
+  s.residual = 0;
+  s.advance(s.time, s.built.macro_step);
+  s.time = static_cast<double>(++s.steps) * s.built.macro_step;
+}
+
+/// A macro step or a part of it; the time is the caller's.
+template <class B>
+void Simulation<B>::Inside::advance(double from, double span) {
+  hierarchy().begin_macro_step();
+  built.stepper->step(hierarchy(), from, span);
+  for (const auto& level : hierarchy().levels) residual = std::max(residual, level.integrator->residual());
+  worst_residual = std::max(worst_residual, residual);
+}
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::step_checked() {
+  step();
+  auto bad = check();
+  if (bad) bad = recover(*bad);
+  return bad;
+}
+
+// --- Check ------------------------------------------------------------------------------------------------------------------
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
   Inside& s = *inside_;
-  MacroStepCheck<B, Inside> checks(s);
-  const bool retries = s.problem.integration.retry.halvings > 0;
-  auto bad = checks.examine();
-  if (bad && retries) bad = checks.retry(*bad);
-  if (bad) return bad;
-  if (retries || s.steps - s.kept_steps >= keep_every) s.keep();
+  const auto bad = s.examine();
+  if (!bad) s.keep_at_times();
+  return bad;
+}
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
+  if (built.stepper->lost_stability(hierarchy())) return failure("stability");
+  if (budget_opens) open_budget();
+  const MotionReport now = meter.motion(drift);
+  const LevelReport& finest = built.reports.front();
+  const double substep = finest.share * built.macro_step / std::max(1, finest.substeps);
+  if (auto bad = find_failure(now, now.edges_per_second * substep * part)) return bad;
+  drift = now.drift;
   return {};
 }
+
+/// The first that does not hold. `motion`: the furthest that a vertex came in a sub-step, against the body, over its edge.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now, double motion) {
+  if (retries()) look_at_end();
+  if (auto inverted = find_inverted<B>(built)) return inverted->motion_over_edge = motion, inverted;
+  const Energies& e = now.energies;
+  if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential)) return failure("non_finite");
+  for (std::size_t i = 0; i < hierarchy().levels.size(); ++i)
+    if (const std::string why = hierarchy().levels[i].integrator->failure(); !why.empty())
+      return failure("solver", motion, static_cast<int>(i), why);
+  if (const Contact<B>* contact = hierarchy()[0].contact())
+    if (const int point = contact->take_lost(hierarchy().exec()); point >= 0)
+      return failure("contact", motion, 0, "surface point " + std::to_string(point));
+  put_in = std::max(put_in, start - e.potential);
+  // elastic and contact energy are not negative: kinetic energy beyond what was put in is made of nothing. Twice, since
+  // discrete energies waver; never less than that of a thousandth of an edge per step
+  const LevelReport& finest = built.reports.front();
+  const double edge_speed = least_edge * finest.mean_edge / built.macro_step;
+  const double allowed = 2 * put_in + 0.5 * finest.mass * edge_speed * edge_speed;
+  if (budget_known && e.kinetic + (retries() ? meter.all(time).elastic : 0) > allowed) return failure("energy", motion);
+  // An explicit sub-step is about the time that sound takes across half an element. What leaves the body as a whole by more
+  // than an edge in it is faster than sound: elements there are passed through within a step, whatever the forces say.
+  // But for the law that is linear in any state, and stable at any amplitude.
+  if (finest.explicit_integrator && !linear && motion > 1) return failure("speed", motion);
+  return {};
+}
+
+/// Flags level 0's inverted elements as they are now. Without it the next step's first force would, which is early enough to
+/// stop, but too late to take this step again; likewise an element may have taken up energy that nothing has put in.
+template <class B>
+void Simulation<B>::Inside::look_at_end() {
+  const SolverLevel<B>& level = hierarchy()[0];
+  if (level.flags.evaluation.extent(0) > 0)
+    level.elasticity().force(level.exec(), level.model.patches, level.state, level.flags,
+                             std::numeric_limits<int>::max(), level.partial);
+}
+
+template <class B>
+Diagnosis Simulation<B>::Inside::failure(const std::string& kind, double motion, int level, const std::string& reason) {
+  Diagnosis d = locate_failure<B>(kind, built, kept, level, reason);
+  d.motion_over_edge = motion;
+  return d;
+}
+
+// --- Recover ----------------------------------------------------------------------------------------------------------------
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
+  Inside& s = *inside_;
+  std::optional<Diagnosis> still = bad;
+  if (s.built.stepper->lost_stability(s.hierarchy())) still = repair() ? s.examine() : bad;
+  if (still && s.retries()) still = s.retry(*still);
+  if (!still) s.keep_at_times();
+  return still;
+}
+
+/// From the last kept state once more to where it is, by a stepper that has lost stability since; false where it cannot.
+template <class B>
+bool Simulation<B>::repair() {
+  Inside& s = *inside_;
+  const long there = s.steps;
+  for (int attempt = 0; s.built.stepper->lost_stability(s.hierarchy()); ++attempt) {
+    if (attempt == most_repairs) return false;
+    s.go_back();
+    if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step, attempt)) return false;
+    while (s.steps < there) step();
+  }
+  return true;
+}
+
+/// Once more from the last kept state: a macro step that is bad is halved, each half likewise, so often at most. Every macro
+/// step starts whole and ends at its own time. What is left of `bad` where that does not help.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
+  const long there = steps;
+  const bool known = there - kept_steps == 1;  // to be bad as a whole
+  go_back();
+  ++rejected;
+  std::optional<Diagnosis> still = bad;
+  while (steps < there) {
+    const int left = problem.integration.retry.halvings;
+    still = known ? halves(time, built.macro_step, left) : cover(time, built.macro_step, left);
+    if (still) return still;
+    time = static_cast<double>(++steps) * built.macro_step;
+  }
+  return {};
+}
+
+/// A span from `time`, whole, and in halves where that is bad.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, int left) {
+  std::vector<State<B>> before;
+  for (const auto& level : hierarchy().levels)
+    before.emplace_back("before", level.model.vertices).copy(hierarchy().exec(), level.state);
+  const double put_in_before = put_in;
+  const Point drift_before = drift;
+  advance(from, span);
+  const auto bad = examine(span / built.macro_step);
+  if (!bad) return {};
+  ++rejected;
+  if (left == 0) return bad;
+  put_back(before);
+  put_in = put_in_before, drift = drift_before;
+  return halves(from, span, left);
+}
+
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::halves(double from, double span, int left) {
+  ++halvings;
+  if (const auto bad = cover(from, span / 2, left - 1)) return bad;
+  return cover(from + span / 2, span / 2, left - 1);
+}
+
+// --- Kept states, and states from outside -----------------------------------------------------------------------------------
 
 template <class B>
 void Simulation<B>::return_to_last_good() {
@@ -39,9 +249,54 @@ void Simulation<B>::return_to_last_good() {
 }
 
 template <class B>
+void Simulation<B>::Inside::keep_at_times() {
+  if (retries() || steps - kept_steps >= keep_every) keep();
+}
+
+template <class B>
+void Simulation<B>::Inside::keep() {
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].state);
+  kept_time = time, kept_steps = steps, kept_put_in = put_in, kept_drift = drift;
+}
+
+template <class B>
+void Simulation<B>::Inside::go_back() {
+  put_back(kept);
+  time = kept_time, steps = kept_steps, put_in = kept_put_in, drift = kept_drift;
+}
+
+/// All levels' states; coarser ones start from level 0's anew.
+template <class B>
+void Simulation<B>::Inside::put_back(const std::vector<State<B>>& states) {
+  for (std::size_t i = 0; i < states.size(); ++i) hierarchy().levels[i].state.copy(hierarchy().exec(), states[i]);
+  hierarchy().clear_flags();
+  hierarchy().forget();
+  if (const Contact<B>* contact = hierarchy()[0].contact()) contact->take_lost(hierarchy().exec());
+  built.stepper->begin(hierarchy());
+}
+
+/// Level 0's state has been replaced: the other levels follow.
+template <class B>
+void Simulation<B>::Inside::restart() {
+  hierarchy().clear_flags();
+  hierarchy().forget();
+  built.stepper->begin(hierarchy());
+  keep();
+  budget_opens = true;
+}
+
+template <class B>
+void Simulation<B>::Inside::open_budget() {
+  const Energies e = meter.all(time);
+  start = put_in = kept_put_in = e.total();
+  drift = kept_drift = meter.motion(Point::Zero()).drift;
+  budget_opens = false;
+}
+
+template <class B>
 void Simulation<B>::set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity) {
   Inside& s = *inside_;
-  const State<B>& state = s.hierarchy()[0].level.state;
+  const State<B>& state = s.hierarchy()[0].state;
   const auto copy = [&](const std::vector<Point>& from, const Vectors<B>& to, const char* what) {
     if (from.size() != to.extent(0))
       throw InputError(std::string("set_state: ") + std::to_string(from.size()) + " " + what + " for " +
@@ -60,7 +315,7 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
 template <class B>
 void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
   Inside& s = *inside_;
-  for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].forces->set_external(forces, s.rest_positions(i));
+  for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].set_external(forces, s.rest_positions(i));
   if (forces) s.budget_known = false;
 }
 

@@ -6,7 +6,6 @@
 #include <plica/core/backend.hpp>
 #include <plica/core/device_array.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/cycle_choice.hpp>
 #include <plica/drivers/solver/external_forces.hpp>
 #include <string>
 #include <vector>
@@ -35,12 +34,14 @@ struct LevelReport {
   int tets = 0;                ///< of its mesh
   double mean_edge = 0;        ///< [m]
   double mass = 0;             ///< [kg]
-  double critical_step = 0;    ///< largest stable explicit step of its integrator (implicit: of symplectic_euler) [s]
+  double critical_step = 0;    ///< largest stable explicit step of its integrator, with contact (implicit: of
+                               ///< symplectic_euler); 0 where it is not integrated [s]
   double element_bound = 0;    ///< the same from the worst single element: on the sure side, without contact [s]
   double typical_element = 0;  ///< the median of that over all elements [s]
   std::vector<StiffElement> stiffest;  ///< the ten worst of its elements, the worst first
   double share = 0;                 ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
   double inertia = 1;               ///< cycle him: how many times too heavy motion is that only this level represents
+  double detail_step = 0;           ///< cycle him: largest stable step of that motion by itself, without contact [s]
   int substeps = 0;                 ///< in its share
   std::string integrator;           ///< its name
   std::string linear_solver;        ///< of an implicit integrator: solver, preconditioner, matrix
@@ -114,10 +115,18 @@ class Simulation {
 
   /// Why the run must stop, if it must: non-finite values, inverted elements where they are not allowed, more kinetic energy
   /// than was put in, a vertex that leaves the body by more than its edge in one explicit sub-step, a surface point deeper in
-  /// an obstacle than the body is large, a solver that gave up. Waits. Cheap enough to be called after every macro step; states
-  /// that pass are kept from time to time. With integration.retry it also looks at level 0's elements (one or two passes more),
-  /// and from the last state that passed comes back in halved steps before it gives up, asking external forces again.
+  /// an obstacle than the body is large, a solver that gave up, a stepper that has lost its stability. Waits. Examines the state
+  /// there is: with integration.retry also level 0's elements (one or two passes more). Cheap enough to be called after
+  /// every macro step; states that pass are kept from time to time.
   std::optional<Diagnosis> check();
+
+  /// What can be done about a state that did not pass check(): goes back to the last state that was kept and from there comes again
+  /// to the same time, with the inertia fitted anew (cycle him), or in halved steps (integration.retry), asking external
+  /// forces again. What is still bad then, as left as it is; none: the run goes on.
+  std::optional<Diagnosis> recover(const Diagnosis& bad);
+
+  /// step(), check() and, where that finds something, recover(): one macro step of a run. Waits.
+  std::optional<Diagnosis> step_checked();
 
   /// Takes all levels and the time back to the last state that was kept.
   void return_to_last_good();
@@ -127,7 +136,6 @@ class Simulation {
   long macro_steps() const;                        ///< done
   const std::vector<LevelReport>& levels() const;  ///< finest first; only those the cycle uses
   std::optional<HimReport> him() const;            ///< of that cycle
-  std::optional<CycleChoice> choice() const;       ///< of cycle auto: what it has come to, and why
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
   std::map<std::string, double> stages()
@@ -189,6 +197,8 @@ class Simulation {
  private:
   struct Inside;
   std::unique_ptr<Inside> inside_;
+
+  bool repair();
 };
 
 }  // namespace plica

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulation tells of itself.
-#include <plica/drivers/solver/diagnose.hpp>
+// What a simulation tells of itself; and what it carries from one macro step to the next, saved and restored.
 #include <plica/drivers/solver/exchange.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
 
 namespace plica {
+
+template <class B>
+const SolverLevel<B>& Simulation<B>::Inside::level(int i) {
+  if (i < 0 || i >= hierarchy().count())
+    throw InputError("level " + std::to_string(i) + " of a simulation that has " + std::to_string(hierarchy().count()));
+  return hierarchy()[i];
+}
+
+template <class B>
+const Vectors<B>& Simulation<B>::Inside::rest_positions(int i) {
+  level(i);  // throws where there is none
+  Vectors<B>& x = rest[static_cast<std::size_t>(i)];
+  if (x.extent(0) == 0)
+    x = to_device<Vectors<B>>("rest", rows<typename B::Real>(built.meshes[static_cast<std::size_t>(i)].vertices));
+  return x;
+}
 
 template <class B>
 double Simulation<B>::time() const {
@@ -27,10 +44,6 @@ std::optional<HimReport> Simulation<B>::him() const {
   return inside_->built.him;
 }
 template <class B>
-std::optional<CycleChoice> Simulation<B>::choice() const {
-  return inside_->choice;
-}
-template <class B>
 std::vector<Part> Simulation<B>::parts() const {
   return list_parts<B>(inside_->problem, inside_->built);
 }
@@ -46,18 +59,17 @@ std::map<std::string, double> Simulation<B>::stages() const {
 
 template <class B>
 std::map<std::string, long> Simulation<B>::counters() const {
-  std::map<std::string, long> all = inside_->built.cycle->counters();
-  for (const auto& part : inside_->hierarchy().levels) {
-    all["force_evaluations"] += part.forces->evaluations();
-    long passes = part.forces->evaluations();  // over the elements
-    for (const auto& [name, count] : part.integrator->counters()) {
+  std::map<std::string, long> all = inside_->built.stepper->counters();
+  for (const auto& level : inside_->hierarchy().levels) {
+    all["force_evaluations"] += level.evaluations();
+    long passes = level.evaluations();  // over the elements
+    for (const auto& [name, count] : level.integrator->counters()) {
       all[name] += count;
       if (name == "cg_iterations") passes += count;
     }
-    all["tet_evaluations"] += passes * part.level.model.tets;
+    all["tet_evaluations"] += passes * level.model.tets;
   }
-  if (inside_->problem.integration.retry.halvings > 0)
-    all["halvings"] = inside_->halvings, all["rejected_steps"] = inside_->rejected;
+  if (inside_->retries()) all["halvings"] = inside_->halvings, all["rejected_steps"] = inside_->rejected;
   return all;
 }
 
@@ -131,6 +143,65 @@ std::vector<Point> Simulation<B>::surface_velocities() const {
   const Vectors<B> v("plica::surface.v", inside_->level(0).surface.points);
   read_surface_velocities(v);
   return to_host<B>(inside_->hierarchy().exec(), v);
+}
+
+template <class B>
+ElementFields Simulation<B>::element_fields(int level) const {
+  const SolverLevel<B>& of = inside_->level(level);
+  const Scalars<B> von_mises("plica::von_mises", of.model.tets), J("plica::J", of.model.tets);
+  of.elasticity().stress(of.exec(), of.model.patches, of.state.u, von_mises, J);
+  of.exec().fence("plica::element_fields");
+  const auto values = [](const Scalars<B>& field) {
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
+    return std::vector<double>(host.data(), host.data() + host.extent(0));
+  };
+  return {values(von_mises), values(J)};
+}
+
+namespace {
+
+/// Names all that is carried, in a fixed order.
+template <class B, class Inside>
+void persist(Inside& s, StateArchive<B>& archive) {
+  archive.same("the precision", sizeof(typename B::Real));
+  archive.same("the macro step", s.built.macro_step);
+  archive.same("the number of levels", s.kept.size());
+  for (double* value : {&s.time, &s.kept_time, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.kept_put_in,
+                        &s.drift[0], &s.drift[1], &s.drift[2], &s.kept_drift[0], &s.kept_drift[1], &s.kept_drift[2]})
+    archive.number(*value);
+  for (long* value : {&s.steps, &s.kept_steps, &s.halvings, &s.rejected}) archive.number(*value);
+  archive.number(s.budget_opens);
+  for (std::size_t i = 0; i < s.kept.size(); ++i) {
+    const std::string name = "level " + std::to_string(i) + "'s ";
+    s.hierarchy().levels[i].persist(archive, name);
+    archive.state(name + "kept", s.kept[i]);
+  }
+  s.built.stepper->persist(archive);
+  archive.finish();
+}
+
+}  // namespace
+
+template <class B>
+SavedState Simulation<B>::save() const {
+  using Archive = StateArchive<B>;
+  inside_->hierarchy().exec().fence("plica::save");
+  SavedState saved;
+  Archive archive(Archive::Task::save, saved.bytes);
+  persist<B>(*inside_, archive);
+  return saved;
+}
+
+template <class B>
+void Simulation<B>::restore(const SavedState& saved) {
+  using Archive = StateArchive<B>;
+  inside_->hierarchy().exec().fence("plica::restore");
+  std::vector<unsigned char> bytes = saved.bytes;
+  for (const auto task : {Archive::Task::check, Archive::Task::restore}) {
+    Archive archive(task, bytes);
+    persist<B>(*inside_, archive);
+  }
+  inside_->hierarchy().clear_flags();
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

@@ -63,7 +63,7 @@ template <class B>
 CycleMap<B>::CycleMap(const Problem& problem, const Exec& exec)
     : built_(build_hierarchy<B>(about_rest<B>(problem, exec), exec)) {
   const auto inverse =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), (*built_.hierarchy)[0].level.model.inverse_mass);
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), (*built_.hierarchy)[0].model.inverse_mass);
   for (std::size_t a = 0; a < inverse.extent(0); ++a)
     if (inverse(a) > 0) free_.push_back(a);
   if (free_.empty()) throw InputError("every vertex of level 0 is held: nothing moves");
@@ -72,7 +72,7 @@ CycleMap<B>::CycleMap(const Problem& problem, const Exec& exec)
 template <class B>
 Eigen::VectorXd CycleMap<B>::apply(const Eigen::VectorXd& x, int macro_steps) const {
   Hierarchy<B>& hierarchy = *built_.hierarchy;
-  const State<B>& state = hierarchy[0].level.state;
+  const State<B>& state = hierarchy[0].state;
   const auto u = Kokkos::create_mirror_view(state.u), v = Kokkos::create_mirror_view(state.v);
   const auto each = [&](const auto& visit) {
     Eigen::Index i = 0;
@@ -86,10 +86,10 @@ Eigen::VectorXd CycleMap<B>::apply(const Eigen::VectorXd& x, int macro_steps) co
   });
   Kokkos::deep_copy(state.u, u);
   Kokkos::deep_copy(state.v, v);
-  built_.cycle->begin(hierarchy);
+  built_.stepper->begin(hierarchy);
   for (int n = 0; n < macro_steps; ++n) {
-    for (auto& part : hierarchy.levels) part.forces->begin_macro_step();
-    built_.cycle->step(hierarchy, 0, macro_step());
+    for (auto& part : hierarchy.levels) part.begin_macro_step();
+    built_.stepper->step(hierarchy, 0, macro_step());
   }
   hierarchy.exec().fence("plica::cycle_map");
   Kokkos::deep_copy(u, state.u);

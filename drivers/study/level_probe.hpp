@@ -26,13 +26,13 @@ class LevelProbe {
   explicit LevelProbe(const Problem& problem) : built(build_hierarchy<B>(problem, {})) {}
   BuiltHierarchy<B> built;
 
-  HierarchyLevel<B>& at(int i) { return (*built.hierarchy)[i]; }
-  std::size_t vertices(int i = 0) { return static_cast<std::size_t>(at(i).level.model.vertices); }
+  SolverLevel<B>& at(int i) { return (*built.hierarchy)[i]; }
+  std::size_t vertices(int i = 0) { return static_cast<std::size_t>(at(i).model.vertices); }
   std::vector<Point> zero(int i = 0) { return std::vector<Point>(vertices(i), Point::Zero()); }
 
   std::vector<Point> force(const std::vector<Point>& u, const std::vector<Point>& v, double time = 0, int i = 0) {
-    at(i).forces->evaluate(at(i).level, state(u, v), time, at(i).level.f);
-    return to_host<B>(built.hierarchy->exec(), at(i).level.f);
+    at(i).evaluate(state(u, v), time, at(i).f);
+    return to_host<B>(built.hierarchy->exec(), at(i).f);
   }
   std::vector<Point> force(const std::vector<Point>& u) {
     return force(u, std::vector<Point>(u.size(), Point::Zero()));
@@ -40,8 +40,8 @@ class LevelProbe {
 
   /// K(u) p, elastic
   std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p, int i = 0) {
-    const Level<B>& level = at(i).level;
-    at(i).forces->tangent(level, state(u, p), device_field<B>(p));
+    const Level<B>& level = at(i);
+    at(i).tangent(state(u, p), device_field<B>(p));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
     const auto first = host(level.model.patches.first_copy), copy = host(level.model.patches.copy);
@@ -53,15 +53,15 @@ class LevelProbe {
 
   /// [J], a sum of the vertices' shares
   double elastic_energy(const std::vector<Point>& u) {
-    const Level<B>& level = at(0).level;
-    at(0).forces->elasticity().energy(built.hierarchy->exec(), level.model.patches, device_field<B>(u), level.partial);
+    const Level<B>& level = at(0);
+    at(0).elasticity().energy(built.hierarchy->exec(), level.model.patches, device_field<B>(u), level.partial);
     double sum = 0;
     for (const Point& share : to_host<B>(built.hierarchy->exec(), level.partial)) sum += share[0];
     return sum;
   }
 
-  std::vector<double> mass(int i = 0) { return values(at(i).level.model.mass); }
-  std::vector<double> inverse_mass(int i = 0) { return values(at(i).level.model.inverse_mass); }
+  std::vector<double> mass(int i = 0) { return values(at(i).model.mass); }
+  std::vector<double> inverse_mass(int i = 0) { return values(at(i).model.inverse_mass); }
 
   /// The free vertices' degrees of freedom, 3 a + k.
   std::vector<int> free(int i = 0) {

@@ -7,6 +7,7 @@
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/materials/list.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
@@ -129,6 +130,7 @@ void set_levels(MatrixBody& body, double count) {
 
 void set_overlap(MatrixBody& body, double lengths) {
   for (Point& p : body.problem.body.levels[1].vertices) p.x() += lengths * 0.4;
+  body.apart = true;
   body.problem.body.fixed.clear();
 }
 
@@ -247,7 +249,11 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
   using Start = MatrixBody::Start;
   const bool damped = kind == Method::Kind::damped, pierces = body.impact > hypersonic_impact;
   if (linear) return pierces && !damped ? stops("contact") : completes();
-  if (kind == Method::Kind::conserving) return stops();
+  if (kind == Method::Kind::conserving)
+    return body.start == Start::stretched
+               ? either(
+                     "it conserves the energy of a linear problem: what a changing stiffness adds depends on the shape")
+               : stops();
   if (!damped && pierces) return stops();
   if (!damped && body.start == Start::stretched)
     return either("bdf2 damps slow motion little: the recoil may have more energy than was put in");
@@ -264,7 +270,6 @@ Expected of_him(const MatrixBody& body, bool linear) {
   if (body.start == Start::random)
     return either("how far its inertia is from one that fits such a shape is a matter of the shape");
   if (linear) return completes();
-  if (body.start == Start::stretched) return stops();
   return either("its inertia is fitted again where the body stiffens, and whether in time depends on the material");
 }
 
@@ -284,20 +289,25 @@ Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
 
 // What must become of it, and why:
 // * a step above the limit is refused; where it is allowed, the run has to be stopped, since small motions grow in every step;
+// * levels that lie apart are refused by every method that uses more than the finest one;
 // * an element that is inside out or flat from the start, where the material has no answer to that: stopped at once, as inverted;
 // * strains below 1 from rest, at which no material is stiffer by as much as the steps keep clear of their limit: every method
 //   comes to the end;
 // * a body mirrored whole is at rest in st_venant_kirchhoff, which has no strain there: it stays;
+// * corotational elements have one stiffness but for rotations: an integrator that conserves energy keeps it from random starts;
 // * beyond that it depends on the kind of method.
 Expected expected_of(const MatrixBody& body, const Method& method, const std::string& material) {
   using Start = MatrixBody::Start;
-  if (body.refused) return {.refuse = true};
+  const bool uses_coarse_levels = method.kind == Method::Kind::him || method.kind == Method::Kind::shared;
+  if (body.refused || (body.apart && uses_coarse_levels)) return {.refuse = true};
   if (body.unstable) return stops();
   const bool linear = material == Linear::name, forbids = forbids_inversion(material);
   if (body.inside_out() && forbids) return stops("inverted");
   if (body.start == Start::rest && body.strain() <= moderate_strain && body.impact <= moderate_impact)
     return completes();
   if (body.start == Start::mirrored && material == StVenantKirchhoff::name && method.kind != Method::Kind::shared)
+    return completes();
+  if (body.start == Start::random && material == Corotational::name && method.kind == Method::Kind::conserving)
     return completes();
   switch (method.kind) {
     case Method::Kind::stepped:

@@ -6,8 +6,8 @@
 #include <limits>
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
-#include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/small_motion.hpp>
 #include <random>
 
@@ -65,7 +65,7 @@ void take_rigid(const std::vector<Point>& x, const std::vector<double>& mass, st
 template <class B>
 void start(BuiltHierarchy<B>& built, double t) {
   Hierarchy<B>& hierarchy = *built.hierarchy;
-  const Level<B>& level = hierarchy[0].level;
+  const Level<B>& level = hierarchy[0];
   hierarchy.exec().fence("plica::small_motion");
   const auto inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), level.model.inverse_mass);
   const double speed = amplitude * built.reports.front().mean_edge / t;
@@ -84,7 +84,7 @@ void start(BuiltHierarchy<B>& built, double t) {
   Kokkos::deep_copy(level.state.v, v);
   Kokkos::deep_copy(level.state.u, typename B::Real(0));
   for (auto& part : hierarchy.levels) part.integrator->forget();
-  built.cycle->begin(hierarchy);
+  built.stepper->begin(hierarchy);
 }
 
 }  // namespace
@@ -103,8 +103,8 @@ SmallMotion small_motion(BuiltHierarchy<B>& built, double t, const SmallMotionOp
   const double at_start = first;
   SmallMotion found;
   for (long i = 1; i <= n; ++i) {
-    for (auto& part : hierarchy.levels) part.forces->begin_macro_step();
-    built.cycle->step(hierarchy, 0, t);
+    for (auto& part : hierarchy.levels) part.begin_macro_step();
+    built.stepper->step(hierarchy, 0, t);
     const double energy = meter.all(0).total();
     if (!(energy <= hopeless * at_start)) return {false, false, std::numeric_limits<double>::infinity()};
     if (4 * i <= n) first = std::max(first, energy);

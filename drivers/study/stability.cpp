@@ -23,8 +23,7 @@ std::optional<SceneLimit> failure_of(const Problem& problem, double duration, co
     const long steps = std::lround(std::ceil(duration / simulation.macro_step() - 1e-9));
     for (long n = 0; n < steps; ++n) {
       failed.failed_time = simulation.time();
-      simulation.step();
-      failed.failure = simulation.check();
+      failed.failure = simulation.step_checked();
       if (failed.failure) {
         failed.reason = failed.failure->text();
         return failed;

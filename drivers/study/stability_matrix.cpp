@@ -7,8 +7,8 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
@@ -59,8 +59,7 @@ void run(const MatrixCase& one, MatrixRow& row) {
     simulation.set_state(one.displacement, std::vector<Point>(one.displacement.size(), Point::Zero()));
   row.outcome = "completed";
   for (long n = 1; n <= one.macro_steps; ++n) {
-    simulation.step();
-    if (const auto diagnosis = simulation.check()) {
+    if (const auto diagnosis = simulation.step_checked()) {
       row.outcome = is_sound(*diagnosis, one.problem) ? "stopped: " + diagnosis->kind : "no diagnosis";
       row.detail = diagnosis->text();
       simulation.return_to_last_good();
@@ -163,7 +162,8 @@ Problem described(const Problem& problem, const Other& other) {
 
 std::vector<Point> displacement_of(const Problem& problem) {
   Sim simulation(problem);
-  for (long n = 0; n < macro_steps && !simulation.check(); ++n) simulation.step();
+  for (long n = 0; n < macro_steps && !simulation.step_checked(); ++n) {
+  }
   std::vector<Point> u = simulation.positions();
   for (std::size_t a = 0; a < u.size(); ++a) u[a] -= problem.body.levels.front().vertices[a];
   return u;

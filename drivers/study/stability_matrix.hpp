@@ -18,6 +18,7 @@ struct MatrixBody {
   double impact = 0;      ///< speed at which it strikes, over that of its waves
   bool refused = false;   ///< its step is above the limit
   bool unstable = false;  ///< and is taken all the same
+  bool apart = false;     ///< its levels lie at different places
 
   /// About: a cantilever four times as long as thick is strained by 12 times the load ratio at rest, 24 times when it is let go.
   double strain() const { return 24 * load_ratio; }
@@ -79,8 +80,8 @@ struct MatrixRow {
   std::string
       outcome;  ///< completed | stopped: KIND | refused | not finite | no diagnosis; of an invariance how much differs
   bool ok = false;
-  std::string detail;  ///< diagnosis or message
-  std::string why;     ///< see Expected
+  std::string detail;    ///< diagnosis or message
+  std::string why = {};  ///< see Expected
 };
 
 struct MatrixResult {

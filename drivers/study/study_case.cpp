@@ -5,9 +5,9 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/choose_cycle.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/study_case.hpp>
 
 namespace plica {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/solver/steppers.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <tuple>
 
@@ -12,11 +12,7 @@ namespace plica {
 
 namespace {
 
-bool has_switch(const std::string& cycle) {
-  bool has = false;
-  Cycles::visit(cycle, [&](auto member) { has = decltype(member)::switched; });
-  return has;
-}
+bool has_switch(const std::string& cycle) { return stepper_needs(cycle).drift_limits; }
 
 // One for all levels, or one each: do they say the same?
 template <class T>

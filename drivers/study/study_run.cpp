@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/study_run.hpp>
 
 namespace plica {
@@ -44,7 +45,7 @@ class Measured {
       : options_(options),
         exec_(exec),
         start_(Clock::now()),
-        simulation_(problem, exec),
+        simulation_(with_choice(problem, choose_cycle<B>(problem, exec)), exec),
         conserves_(keeps_energy(problem)),
         part_(0, 1 + options.timed_runs) {
     result_.setup_time = since(start_);
@@ -76,8 +77,7 @@ class Measured {
   // One macro step; false where the run ends here
   bool step(double& wall_time) {
     const auto start = Clock::now();
-    simulation_.step();
-    const auto diagnosis = simulation_.check();
+    const auto diagnosis = simulation_.step_checked();
     wall_time += since(start);
     if (diagnosis) result_.status = "diverged", result_.reason = diagnosis->text();
     if (!diagnosis) result_.reached = simulation_.time();

@@ -29,13 +29,15 @@ TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* r
 /// The same of a file in memory.
 TriangleSurface read_surface(const MemoryFile& file, SurfaceReport* report = nullptr);
 
+/// A mesh from a file.
 struct ReadMesh {
-  TetMesh mesh;
-  MeshReport report;
+  TetMesh mesh;       ///< sound
+  MeshReport report;  ///< what was done to it
 };
+/// A surface from a file.
 struct ReadSurface {
-  TriangleSurface surface;
-  SurfaceReport report;
+  TriangleSurface surface;  ///< sound
+  SurfaceReport report;     ///< what was done to it
 };
 
 /// Reads what a file holds: a mesh, or, where it has triangles and no tetrahedron, a surface.

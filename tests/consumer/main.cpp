@@ -18,10 +18,8 @@ int main(int argc, char** argv) {
   problem.body.fixed = {plica::Box{{0, 0, 0}, {0, 0.1, 0.1}}};
   try {
     plica::Simulation<plica::Backend<double, Kokkos::DefaultExecutionSpace>> simulation(problem);
-    while (simulation.time() < 0.1) {
-      simulation.step();
-      if (const auto failure = simulation.check()) throw std::runtime_error(failure->text());
-    }
+    while (simulation.time() < 0.1)
+      if (const auto failure = simulation.step_checked()) throw std::runtime_error(failure->text());
     double lowest = 0;
     for (const plica::Point& x : simulation.positions()) lowest = std::min(lowest, x[2]);
     std::cout << "plica " << plica::version() << ": after " << simulation.time() << " s the tip hangs " << -1e3 * lowest

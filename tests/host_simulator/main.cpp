@@ -63,9 +63,10 @@ class Piece {
     for (long n = 0; n < steps_; ++n) simulation_.step();
     simulation_.read_surface_positions(Kokkos::subview(vertex_buffer, Kokkos::ALL, Kokkos::pair<int, int>(0, 3)));
   }
-  /// Waits; false where the simulation says that it cannot go on.
+  /// Waits; false where the simulation cannot go on, and cannot come again from its last good state.
   bool sound() {
-    const auto failure = simulation_.check();
+    auto failure = simulation_.check();
+    if (failure) failure = simulation_.recover(*failure);
     if (failure) std::cerr << failure->text() << '\n';
     return !failure;
   }

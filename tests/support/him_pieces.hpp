@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/solver/cycles/him.hpp>
+#include <plica/drivers/solver/him/him_stepper.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/materials/material.hpp>
 
@@ -28,7 +28,7 @@ struct Pieces {
           alone.integration.cycle = "single", alone.integration.macro_step = 1e-9;
           return alone;
         }()) {
-    const Level<Host>& level = probe.at(0).level;
+    const Level<Host>& level = probe.at(0);
     std::vector<std::vector<char>> constrained;
     for (std::size_t i = 0; i < levels.size(); ++i) {
       constrained.emplace_back(levels[i].vertices.size(), 0);

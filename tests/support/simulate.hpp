@@ -9,13 +9,11 @@ namespace plica::test {
 /// Macro steps of a run that must stay sound: the test fails at the first that does not pass its check.
 template <class B>
 void advance(Simulation<B>& simulation, int macro_steps) {
-  for (int n = 0; n < macro_steps; ++n) {
-    simulation.step();
-    if (const auto bad = simulation.check()) {
+  for (int n = 0; n < macro_steps; ++n)
+    if (const auto bad = simulation.step_checked()) {
       ADD_FAILURE() << "macro step " << n + 1 << ": " << bad->text();
       return;
     }
-  }
 }
 
 template <class B>

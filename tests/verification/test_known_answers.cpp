@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/drivers/study/stability.hpp>
 #include <plica/drivers/study/verify.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"

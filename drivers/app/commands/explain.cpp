@@ -20,7 +20,7 @@ Plan plan_of(const Scene& scene, const Simulation<B>& simulation, const Machine&
           machine.precision,
           in_input_numbers(simulation.levels(), scene),
           simulation.him(),
-          simulation.choice(),
+          machine.choice,
           simulation.parts()};
 }
 

@@ -28,7 +28,7 @@ void announce(const Scene& scene, const Simulation<B>& simulation, const Machine
   std::string tets;
   for (const LevelReport& level : simulation.levels()) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
   message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {}", scene.name, tets,
-                      cycle_name(scene, simulation.choice()), in_units(simulation.macro_step(), "s"), machine.precision,
+                      cycle_name(scene, machine.choice), in_units(simulation.macro_step(), "s"), machine.precision,
                       machine.backend, counted(machine.threads, "thread")));
   if (start.macro_steps > 0)
     message(fmt::format("resumed after {} at {:.5g} s", counted(start.macro_steps, "macro step"), start.time));
@@ -47,7 +47,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.precision = machine.precision;
   summary.backend = machine.backend;
   summary.threads = machine.threads;
-  summary.choice = simulation.choice();
+  summary.choice = machine.choice;
   summary.cycle = cycle_name(scene, summary.choice);
   summary.levels = in_input_numbers(simulation.levels(), scene);
   summary.stages = output.stages();

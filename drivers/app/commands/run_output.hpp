@@ -143,8 +143,7 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutpu
   record();
   while (end.macro_steps < steps && !interrupted()) {
     const auto start = Clock::now();
-    simulation.step();
-    end.diagnosis = simulation.check();
+    end.diagnosis = simulation.step_checked();
     end.wall_time += std::chrono::duration<double>(Clock::now() - start).count();
     if (end.diagnosis) break;
     ++end.macro_steps;

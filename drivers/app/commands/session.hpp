@@ -6,6 +6,7 @@
 #include <plica/drivers/app/commands/set_up_progress.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 #include <type_traits>
 
 namespace plica::app {
@@ -32,6 +33,7 @@ struct Machine {
   std::string backend;  ///< "OpenMP"
   int threads = 0;      ///< on a GPU: how many it runs at a time
   std::string precision;
+  std::optional<CycleChoice> choice = {};  ///< of cycle auto: what it has come to
 };
 
 /// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `progress` began [s]).
@@ -41,9 +43,14 @@ auto with_simulation(const Scene& scene, const std::string& precision, const Kok
   const KokkosSession session(kokkos);
   progress.listen();
   const auto run = [&]<class B>(std::type_identity<B>) {
+    std::optional<CycleChoice> choice;
     std::optional<Simulation<B>> simulation;
     try {
-      simulation.emplace(scene.problem);
+      choice = choose_cycle<B>(scene.problem);
+      if (choice)
+        simulation.emplace(with_choice(scene.problem, choice));
+      else
+        simulation.emplace(scene.problem);
     } catch (const SubstepRefused& error) {
       throw located(in_input_numbers(error, scene), scene.source);
     } catch (const InputError& error) {
@@ -51,7 +58,7 @@ auto with_simulation(const Scene& scene, const std::string& precision, const Kok
     }
     using Exec = typename B::Exec;
     const Machine machine{Exec::name(), Exec().concurrency(),
-                          std::is_same_v<typename B::Real, float> ? "float" : "double"};
+                          std::is_same_v<typename B::Real, float> ? "float" : "double", choice};
     return action(scene, *simulation, machine, progress.finish());
   };
   using Exec = Kokkos::DefaultExecutionSpace;

@@ -75,14 +75,15 @@ std::string head_text(const Scene& scene, const Plan& plan) {
 
 // What cycle him does with the levels
 std::string inertia_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows = {{"level", "inertia of its own detail", "macro step / critical step"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"level", "inertia of its own detail", "limit of that detail", "macro step / limit"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
-    const bool limited = level.critical_step > 0;
-    rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia),
-                    limited ? fmt::format("{:.3g}", plan.macro_step / level.critical_step) : ""});
+    const double own = level.detail_step;
+    rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia), own > 0 ? in_units(own, "s") : "",
+                    own > 0 ? fmt::format("{:.3g}", plan.macro_step / own) : ""});
   }
-  return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>") +
+  return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>>") +
          fmt::format(
              "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the levels' own: {:.3f}\n",
              plan.him->product, plan.him->bound);

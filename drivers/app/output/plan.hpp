@@ -3,8 +3,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <plica/drivers/app/scene/scene.hpp>
-#include <plica/drivers/solver/cycle_choice.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
 #include <vector>
 

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/add_regions.hpp>
-#include <plica/drivers/solver/set_up/lumped_masses.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
 namespace plica::app {
@@ -82,7 +82,7 @@ std::string volume_name(int level) { return level == 0 ? "volume" : fmt::format(
 std::vector<int> written_levels(const Scene& scene) {
   const VolumeLevels& chosen = scene.output.volume;
   if (!chosen.all) return chosen.levels;
-  std::vector<int> levels(uses_coarse_levels(scene.problem.integration.cycle) ? scene.levels.size() : 1);
+  std::vector<int> levels(integrated_levels(scene.problem.integration.cycle, scene.levels.size()));
   std::iota(levels.begin(), levels.end(), 0);
   return levels;
 }

@@ -61,6 +61,7 @@ Json levels_json(const std::vector<LevelReport>& levels) {
                     {"substeps", level.substeps},
                     {"integrator", level.integrator},
                     {"inertia", level.inertia},
+                    {"detail_step", level.detail_step},
                     {"outside_down", level.outside_down},
                     {"outside_up", level.outside_up},
                     {"largest_miss", level.largest_miss},

@@ -5,6 +5,7 @@
 #include <optional>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
 #include <vector>
 

@@ -105,7 +105,7 @@ void check_output(const Scene& scene, const Tree& tree) {
     throw InputError("output.probe_every: there are no probes; give output.probes",
                      place_of(tree, "output.probe_every"));
   const std::string& cycle = scene.problem.integration.cycle;
-  const std::size_t in_use = integrates_coarse_levels(cycle) ? scene.levels.size() : 1;
+  const std::size_t in_use = integrated_levels(cycle, scene.levels.size());
   for (const int level : output.volume.levels)
     if (static_cast<std::size_t>(level) >= in_use)
       throw InputError(

@@ -175,7 +175,9 @@ std::string LevelChoice::shown(const VolumeLevels& value) const {
 void read(const Value& value, const NamedPoints& kind, std::map<std::string, Point>& target) {
   if (value.tree.kind != Tree::Kind::map || value.tree.items.empty()) value.mismatch(kind.expects());
   for (const Tree& item : value.tree.items) {
-    const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+    const auto plain = [](unsigned char c) {
+      return std::isalnum(c) != 0 || c == '_' || c == '-' || c >= 0x80;
+    };  // or UTF-8
     if (item.key.empty() || !std::ranges::all_of(item.key, plain))
       throw InputError(fmt::format("{}: expected a name of letters, digits, _ and -, got '{}'", value.path, item.key),
                        item.key_where);

@@ -21,11 +21,11 @@ class ImplicitStep : public Integrator<B> {
     for (int i = 0; i < most_halvings_; ++i) before_.emplace_back("implicit.before", level.model.vertices);
   }
 
-  void advance(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int steps) override {
+  void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     stages_.begin();
     failed_ = false;
     for (int s = 0; s < steps && !failed_; ++s)
-      failed_ = !attempt(exec, level, forces, time + s * h, h, 0, std::numeric_limits<double>::infinity());
+      failed_ = !attempt(level, time + s * h, h, 0, std::numeric_limits<double>::infinity());
   }
   std::string failure() const override { return failed_ ? "Newton's method has not solved a step" : std::string(); }
   double residual() const override { return stages_.residual(); }
@@ -47,7 +47,7 @@ class ImplicitStep : public Integrator<B> {
  protected:
   /// From `time` over h [s], the level's state at the start being consistent with given motions. False where a stage is not
   /// solved.
-  virtual bool step(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h) = 0;
+  virtual bool step(SolverLevel<B>& level, double time, double h) = 0;
   StageSolver<B>& stages() { return stages_; }
 
  private:
@@ -60,13 +60,13 @@ class ImplicitStep : public Integrator<B> {
 
   /// `before`: what was left unsolved of the step that this is a half of. A half that leaves no less is not halved again: it and
   /// one that is too short to halve are taken as they are, like any step with `accept`. False with `stop` alone.
-  bool attempt(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double h, int depth,
-               double before) {
+  bool attempt(SolverLevel<B>& level, double time, double h, int depth, double before) {
+    const Exec& exec = level.exec();
     const bool halves = depth < most_halvings_;
     if (halves) before_[static_cast<std::size_t>(depth)].copy(exec, level.state);
     const long misses = stages_.misses();
     prescribe(exec, level, level.state, time, h);
-    const bool solved = step(exec, level, forces, time, h);
+    const bool solved = step(level, time, h);
     prescribe(exec, level, level.state, time + h);
     if (solved || unfinished_ == "accept") return true;
     if (unfinished_ == "stop") return false;
@@ -76,8 +76,8 @@ class ImplicitStep : public Integrator<B> {
     stages_.set_misses(misses);
     level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);
     this->forget();
-    attempt(exec, level, forces, time, h / 2, depth + 1, left);
-    attempt(exec, level, forces, time + h / 2, h / 2, depth + 1, left);
+    attempt(level, time, h / 2, depth + 1, left);
+    attempt(level, time + h / 2, h / 2, depth + 1, left);
     this->forget();
     return true;
   }

@@ -1,20 +1,133 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <memory>
+#include <plica/core/problem.hpp>
 #include <plica/core/type_list.hpp>
-#include <plica/drivers/solver/integrators/bdf2.hpp>
-#include <plica/drivers/solver/integrators/central_difference.hpp>
-#include <plica/drivers/solver/integrators/forward_euler.hpp>
-#include <plica/drivers/solver/integrators/generalized_alpha.hpp>
-#include <plica/drivers/solver/integrators/implicit_euler.hpp>
-#include <plica/drivers/solver/integrators/newmark.hpp>
-#include <plica/drivers/solver/integrators/rk2.hpp>
-#include <plica/drivers/solver/integrators/rk4.hpp>
-#include <plica/drivers/solver/integrators/symplectic_euler.hpp>
-#include <plica/drivers/solver/integrators/v_cycle_euler.hpp>
 
+// The integrators by name: what a scene's integration.integrator chooses from. Light, without any kernel: each makes itself in a
+// source of its own, where its formulas are.
 namespace plica {
 
-/// Every integrator there is. One more: its file above, its name here.
+template <class B>
+struct Level;
+template <class B>
+class Integrator;
+template <class B>
+struct IntegratorParts;
+
+/// The stability limit of an integrator on u'' = -K u - D u' (K and D per mass): the largest h with
+/// lambda_max(h^2 K + h radius D) <= radius^2. For symplectic Euler, whose limit is h^2 w^2 + 2 h c <= 4, that is exact; for a
+/// Runge-Kutta method it keeps all h s within `radius`. One that grows at every step undamped, |R|^2 = 1 + growth (h w)^power -
+/// h c, is stable where damping outweighs that. Implicit: none of this.
+struct StabilityLimit {
+  double radius = 0;   ///< 0: none of this kind
+  double growth = 0;   ///< 0: it does not grow at every step
+  int power = 0;       ///< of h w, above 1
+  double damping = 0;  ///< the largest h c, where mass damping c is explicit; 0: it is implicit and never a limit
+};
+
+struct SymplecticEuler {
+  static constexpr const char* name = "symplectic_euler";
+  static constexpr const char* summary = "explicit, order 1, symplectic; h < 2/w";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{.radius = 2};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+struct CentralDifference {
+  static constexpr const char* name = "central_difference";
+  static constexpr const char* summary = "explicit, order 2, symplectic; h < 2/w";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{.radius = 2};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+/// |1 + h s|^2 = 1 - h c + h^2 w^2: undamped a mode grows at every step, one with mass damping c is stable for h < c / w^2 and
+/// h < 2 / c.
+struct ForwardEuler {
+  static constexpr const char* name = "euler";
+  static constexpr const char* summary = "explicit, order 1; undamped it grows at every step";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{.growth = 1, .power = 2, .damping = 2};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+/// |R|^2 = 1 + (h w)^4/4 - h c: an undamped mode grows at every step, one with mass damping c is stable for h^3 < 4 c/w^4 and
+/// h c < 2.
+struct Rk2 {
+  static constexpr const char* name = "rk2";
+  static constexpr const char* summary = "explicit, order 2, two forces a step; undamped it grows at every step";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{.growth = 0.25, .power = 4, .damping = 2};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+/// Stable for h < 2.83/w undamped; motion near that limit decays. The radius 2.78 is that of the largest half disc in its stability
+/// region, so that it holds with any damping (Hairer & Wanner II, IV.2).
+struct Rk4 {
+  static constexpr const char* name = "rk4";
+  static constexpr const char* summary = "explicit, order 4, four forces a step; h < 2.78/w";
+  static constexpr bool is_explicit = true;
+  static constexpr StabilityLimit limit{.radius = 2.78, .damping = 2.78};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+struct ImplicitEuler {
+  static constexpr const char* name = "implicit_euler";
+  static constexpr const char* summary = "implicit, order 1, dissipative; no limit";
+  static constexpr bool is_explicit = false;
+  static constexpr StabilityLimit limit{};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+struct Newmark {
+  static constexpr const char* name = "newmark";
+  static constexpr const char* summary = "implicit, order 2 (trapezoidal), keeps the energy of linear motion; no limit";
+  static constexpr bool is_explicit = false;
+  static constexpr StabilityLimit limit{};
+  static constexpr bool conserves(const ImplicitOptions&) { return true; }  ///< energy, on the linear problem
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+struct Bdf2 {
+  static constexpr const char* name = "bdf2";
+  static constexpr const char* summary = "implicit, order 2, little dissipation but of fast motion; no limit";
+  static constexpr bool is_explicit = false;
+  static constexpr StabilityLimit limit{};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+struct GeneralizedAlpha {
+  static constexpr const char* name = "generalized_alpha";
+  static constexpr const char* summary =
+      "implicit, order 2, damps fast motion by integration.implicit.rho_infinity; no limit";
+  static constexpr bool is_explicit = false;
+  static constexpr StabilityLimit limit{};
+  static constexpr bool conserves(const ImplicitOptions& options) { return options.rho_infinity == 1; }
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+struct VCycleEuler {
+  static constexpr const char* name = "v_cycle_euler";
+  static constexpr const char* summary =
+      "implicit, order 1: Euler by one V-cycle of multigrid per step; needs coarser levels";
+  static constexpr bool is_explicit = false;
+  static constexpr StabilityLimit limit{0.0};
+  static constexpr const char* linear_solver = "v_cycle";  ///< whatever integration.implicit.solver says
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
+/// Every integrator there is. One more: its entry above, its name here, and its source.
 using Integrators = TypeList<SymplecticEuler, CentralDifference, ForwardEuler, Rk2, Rk4, ImplicitEuler, Newmark, Bdf2,
                              GeneralizedAlpha, VCycleEuler>;
 

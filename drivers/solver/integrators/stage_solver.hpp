@@ -40,12 +40,11 @@ class StageSolver {
 
   /// Takes the level's state from the step's start at `time` [s] to the stage, `ahead` of it. False where Newton's method did not
   /// get there.
-  bool solve(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double time, double ahead,
-             const ImplicitWeights& weights) {
-    prescribe(exec, level, base_, time + ahead);
-    forces.linearise(level, level.state, time, weights, ahead, level.f);
-    if (iterates()) return newton(exec, level, forces, time + ahead, weights);
-    correct(exec, level, forces, weights, true, options_.tangent == "positive");
+  bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
+    prescribe(level.exec(), level, base_, time + ahead);
+    level.linearise(level.state, time, weights, ahead, level.f);
+    if (iterates()) return newton(level, time + ahead, weights);
+    correct(level, weights, true, options_.tangent == "positive");
     return true;
   }
 
@@ -106,35 +105,34 @@ class StageSolver {
   }
 
   /// One linear solve at the linearised state, and the state that follows from it.
-  SolveOutcome correct(const Exec& exec, Level<B>& level, LevelForces<B>& forces, const ImplicitWeights& w,
-                       bool from_start, bool positive) {
+  SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start, bool positive) {
     const int n = level.model.vertices;
     const StageAt<B> stage = at(level, w);
     if (from_start) {
-      update_vertices<B>(exec, "plica::stage_gap", n, StageGap<B>{stage, change_});
-      forces.tangent(level, level.state, change_);
+      update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, change_});
+      level.tangent(level.state, change_);
     }
-    update_vertices<B>(exec, "plica::stage_right_side", n,
+    update_vertices<B>(level.exec(), "plica::stage_right_side", n,
                        StageRightSide<B>{stage, level.f, level.partial, right_side_, from_start});
     SolveOutcome out;
-    forces.book("solve", [&] {
-      solver_->prepare(exec, level, forces, level.state, w, positive);
-      out = solver_->solve(exec, right_side_, change_);
+    level.book("solve", [&] {
+      solver_->prepare(level, level.state, w, positive);
+      out = solver_->solve(level.exec(), right_side_, change_);
     });
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     residual_ = std::max(residual_, out.relative_residual);
-    update_vertices<B>(exec, "plica::stage_update", n, StageUpdate<B>{stage, change_});
+    update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     return out;
   }
 
-  bool newton(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w) {
-    forces.dead(level, end, dead_);
-    Kokkos::deep_copy(exec, change_, Real(0));
-    const Potential now = potential(exec, level, forces, end, w);
+  bool newton(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
+    level.dead(end, dead_);
+    Kokkos::deep_copy(level.exec(), change_, Real(0));
+    const Potential now = potential(level, end, w);
     const double enough = std::max(options_.newton_residual, options_.newton_tolerance * now.residual);
     const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
-    const Potential last = iterate(exec, level, forces, end, w, now, enough);
+    const Potential last = iterate(level, end, w, now, enough);
     level.flags = flags;
     if (last.solved) return true;
     ++unfinished_;
@@ -143,11 +141,10 @@ class StageSolver {
   }
 
   /// The last state that it gets to: solved, or as near as it came.
-  Potential iterate(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end, const ImplicitWeights& w,
-                    Potential now, double enough) {
+  Potential iterate(SolverLevel<B>& level, double end, const ImplicitWeights& w, Potential now, double enough) {
     for (int i = 0; i < options_.newton_iterations && !now.solved; ++i) {
       ++newtons_;
-      const std::optional<Potential> next = search(exec, level, forces, end, w, now, i == 0);
+      const std::optional<Potential> next = search(level, end, w, now, i == 0);
       if (!next) return now;
       // where what a step can still win is lost in rounding, this is as near as it gets
       const double lost = 16 * Kokkos::Experimental::epsilon_v<Real> * next->scale;
@@ -161,28 +158,28 @@ class StageSolver {
   /// From a state that is linearised to the next, which then is: along Newton's direction as far as the potential, or the
   /// residual where forces have none, goes down. Where it does not, along that of the projected tangents; where it does not
   /// there either, none, and the state is where it was.
-  std::optional<Potential> search(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end,
-                                  const ImplicitWeights& w, const Potential& now, bool first) {
+  std::optional<Potential> search(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
+                                  bool first) {
     const bool moving = first && level.prescribed.count > 0;  // given motions have changed what is compared
     bool projected = options_.tangent == "positive";
-    double slope = descend(exec, level, forces, w, first, moving, projected);
+    double slope = descend(level, w, first, moving, projected);
     for (;;) {
-      if (auto next = shorten(exec, level, forces, end, w, now, slope, moving)) return next;
+      if (auto next = shorten(level, end, w, now, slope, moving)) return next;
       if (projected || options_.tangent != "auto") return {};
       projected = true;
-      forces.linearise(level, level.state, end, w, 0, level.f);
-      correct(exec, level, forces, w, false, true);
-      slope = vertex_terms(exec, level, w, 1)[2];
+      level.linearise(level.state, end, w, 0, level.f);
+      correct(level, w, false, true);
+      slope = vertex_terms(level, w, 1)[2];
     }
   }
 
   /// Shortens the change that the state has made until it leads down; none, and the change is undone, where it never does.
-  std::optional<Potential> shorten(const Exec& exec, Level<B>& level, LevelForces<B>& forces, double end,
-                                   const ImplicitWeights& w, const Potential& now, double slope, bool moving) {
+  std::optional<Potential> shorten(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
+                                   double slope, bool moving) {
     double part = 1;
     for (int i = 0;; ++i) {
-      forces.linearise(level, level.state, end, w, 0, level.f);
-      Potential next = potential(exec, level, forces, end, w);
+      level.linearise(level.state, end, w, 0, level.f);
+      Potential next = potential(level, end, w);
       next.slope *= part;
       const double rounding = 16 * Kokkos::Experimental::epsilon_v<Real> * std::max(now.scale, next.scale);
       const bool lower = next.value - now.value <= sufficient * part * slope + rounding;
@@ -190,27 +187,26 @@ class StageSolver {
       if (i == most_halvings) break;
       ++searches_;
       part /= 2;
-      retreat(exec, level, w, part);
+      retreat(level, w, part);
     }
-    retreat(exec, level, w, part);
+    retreat(level, w, part);
     return {};
   }
 
   /// Newton's step, and the potential's slope along it where it began. Where the tangent has no minimum in that direction,
   /// that of the elements' projected tangents.
-  double descend(const Exec& exec, Level<B>& level, LevelForces<B>& forces, const ImplicitWeights& w, bool first,
-                 bool moving, bool& projected) {
-    const SolveOutcome out = correct(exec, level, forces, w, first, projected);
-    const double slope = vertex_terms(exec, level, w, 1)[2];
+  double descend(SolverLevel<B>& level, const ImplicitWeights& w, bool first, bool moving, bool& projected) {
+    const SolveOutcome out = correct(level, w, first, projected);
+    const double slope = vertex_terms(level, w, 1)[2];
     if (options_.tangent != "auto" || moving || (!out.indefinite && !(slope >= 0))) return slope;
     projected = true;
-    retreat(exec, level, w, 1);
-    correct(exec, level, forces, w, false, true);
-    return vertex_terms(exec, level, w, 1)[2];
+    retreat(level, w, 1);
+    correct(level, w, false, true);
+    return vertex_terms(level, w, 1)[2];
   }
 
-  void retreat(const Exec& exec, const Level<B>& level, const ImplicitWeights& w, double part) const {
-    update_vertices<B>(exec, "plica::stage_retreat", level.model.vertices,
+  void retreat(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
+    update_vertices<B>(level.exec(), "plica::stage_retreat", level.model.vertices,
                        StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
   }
 
@@ -221,21 +217,19 @@ class StageSolver {
     return {host(0), host(1), host(2), host(3)};
   }
   /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
-  std::array<double, 4> vertex_terms(const Exec& exec, const Level<B>& level, const ImplicitWeights& w,
-                                     double back) const {
-    reduce<B, 4>(exec, "plica::stage_potential", level.model.vertices,
+  std::array<double, 4> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w, double back) const {
+    reduce<B, 4>(level.exec(), "plica::stage_potential", level.model.vertices,
                  StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)}, blocks_, result_);
-    return read(exec);
+    return read(level.exec());
   }
   /// Of the state whose forces are in level.f.
-  Potential potential(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, double end,
-                      const ImplicitWeights& w) const {
-    const auto terms = vertex_terms(exec, level, w, 0);
-    forces.elasticity().energy(exec, level.model.patches, level.state.u, level.partial);
-    reduce<B, 1>(exec, "plica::elastic_energy", static_cast<int>(level.partial.extent(0)),
+  Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
+    const auto terms = vertex_terms(level, w, 0);
+    level.elasticity().energy(level.exec(), level.model.patches, level.state.u, level.partial);
+    reduce<B, 1>(level.exec(), "plica::elastic_energy", static_cast<int>(level.partial.extent(0)),
                  FirstComponent<B>{level.partial}, blocks_, result_);
-    double stored = read(exec)[0];
-    if (forces.contact()) stored += forces.contact()->energy(exec, level, end, blocks_);
+    double stored = read(level.exec())[0];
+    if (level.contact()) stored += level.contact()->energy(level.exec(), level, end, blocks_);
     return {terms[0] + stored, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(stored)};
   }
 };

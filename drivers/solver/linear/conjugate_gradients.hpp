@@ -29,9 +29,10 @@ struct ConjugateGradients {
       if (options_.iterations == 0) last_.emplace(level.model.vertices);
     }
 
-    void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
-                 const ImplicitWeights& weights, bool positive) override {
-      system_.prepare(exec, level, forces, state, weights, positive);
+    void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                 bool positive) override {
+      const Exec& exec = level.exec();
+      system_.prepare(level, state, weights, positive);
       if (restored_ && fitted_) preconditioner_->refit(exec);
       restored_ = false;
       if (!preconditioner_ || (fitted_ && weights.a == a_ && weights.b == b_ && spent_ < patience)) return;

@@ -24,11 +24,11 @@ struct Direct {
     Of(const Level<B>& level, const LinearSolverParts& parts)
         : system_(level, true), projects_(parts.options.tangent == "auto") {}
 
-    void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
-                 const ImplicitWeights& weights, bool positive) override {
-      factorise(exec, level, forces, state, weights, positive);
+    void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                 bool positive) override {
+      factorise(level, state, weights, positive);
       if (positive || !projects_ || !indefinite()) return;
-      factorise(exec, level, forces, state, weights, true);  // its answer would climb
+      factorise(level, state, weights, true);  // its answer would climb
       ++projected_;
     }
 
@@ -66,9 +66,9 @@ struct Direct {
 
     bool indefinite() const { return factor_.info() == Eigen::Success && (factor_.vectorD().array() < 0).any(); }
 
-    void factorise(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
-                   const ImplicitWeights& weights, bool positive) {
-      system_.prepare(exec, level, forces, state, weights, positive);
+    void factorise(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive) {
+      const Exec& exec = level.exec();
+      system_.prepare(level, state, weights, positive);
       const BlockMatrix<B>& A = system_.matrix(exec);
       exec.fence("plica::direct");
       if (lower_.rows() == 0) analyse(A);

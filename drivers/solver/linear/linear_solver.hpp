@@ -4,7 +4,7 @@
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/level_forces.hpp>
+#include <plica/drivers/solver/solver_level.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
 
 namespace plica {
@@ -23,10 +23,9 @@ class LinearSolver {
  public:
   using Exec = typename B::Exec;
   virtual ~LinearSolver() = default;
-  /// Takes over the system A at `state`, where `forces` have just been linearised; all of them stay as they are until the
-  /// solve. `positive`: with the elements' tangents projected to positive semi-definite ones.
-  virtual void prepare(const Exec&, const Level<B>&, const LevelForces<B>&, const State<B>& state,
-                       const ImplicitWeights&, bool positive) = 0;
+  /// Takes over the system A of a level at `state`, where its forces have just been linearised; all of them stay as they are until
+  /// the solve. `positive`: with the elements' tangents projected to positive semi-definite ones.
+  virtual void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights&, bool positive) = 0;
   /// x = A^-1 r, zero where motion is given. Overwrites r.
   virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }

@@ -25,14 +25,15 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
 }
 
 template <class B>
-void StageSystem<B>::prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces,
-                             const State<B>& state, const ImplicitWeights& weights, bool positive) {
-  level_ = &level, forces_ = &forces, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
+void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                             bool positive) {
+  const Exec& exec = level.exec();
+  level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
   const int n = rows();
   if (assembled_ || positive)
     update_vertices<B>(exec, "plica::take_diagonal", n, TakeDiagonal<B>{matrix(exec), inverse_diagonal_});
   else
-    forces.diagonal(level, state, weights, inverse_diagonal_);
+    level.diagonal(state, weights, inverse_diagonal_);
   update_vertices<B>(exec, "plica::invert_blocks", n,
                      InvertBlocks<B>{level.model, inverse_diagonal_, static_cast<typename B::Real>(weights.b)});
 }
@@ -40,7 +41,7 @@ void StageSystem<B>::prepare(const Exec& exec, const Level<B>& level, const Leve
 template <class B>
 const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
   pattern();
-  if (!ready_) forces_->assemble(*level_, state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
+  if (!ready_) forces_->assemble(state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
   ready_ = true;
   return pattern_.matrix;
 }
@@ -50,7 +51,7 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
   if (assembled_ || positive_)
     update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
   else
-    forces_->product(*level_, state_, p, weights_, q);
+    forces_->product(state_, p, weights_, q);
 }
 
 template <class B>

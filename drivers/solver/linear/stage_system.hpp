@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/solver/level_forces.hpp>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
+#include <plica/drivers/solver/solver_level.hpp>
 #include <plica/kernels/linear/krylov.hpp>
 
 namespace plica {
@@ -14,10 +14,9 @@ class StageSystem {
 
   StageSystem(const Level<B>& level, bool assembled);
 
-  /// A at `state`, where `forces` have just been linearised; they stay as they are until the next. Projected elements are assembled,
+  /// A of a level at `state`, where its forces have just been linearised; they stay as they are until the next. Projected elements are assembled,
   /// also where the rest is not.
-  void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
-               const ImplicitWeights& weights, bool positive);
+  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
   /// q = A p
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
   /// q = A w of a whole space
@@ -37,7 +36,7 @@ class StageSystem {
   Blocks9<B> shares_;
   Blocks<B> inverse_diagonal_;
   const Level<B>* level_ = nullptr;
-  const LevelForces<B>* forces_ = nullptr;
+  const SolverLevel<B>* forces_ = nullptr;
   State<B> state_;
   ImplicitWeights weights_;
   bool positive_ = false;

@@ -28,12 +28,13 @@ struct VCycleSolver {
           squares_(zeros<Doubles<B>>("plica::v_cycle.squares", 2)),
           sums_(level.model.vertices) {}
 
-    void prepare(const Exec& exec, const Level<B>& level, const LevelForces<B>& forces, const State<B>& state,
-                 const ImplicitWeights& weights, bool positive) override {
-      system_.prepare(exec, level, forces, state, weights, positive);
+    void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
+                 bool positive) override {
+      const Exec& exec = level.exec();
+      system_.prepare(level, state, weights, positive);
       if (restored_ && fitted_) cycle_->refit(exec);
       restored_ = false;
-      const bool same = weights.a == a_ && weights.b == b_ && !forces.contact() && !forces.asks_caller();
+      const bool same = weights.a == a_ && weights.b == b_ && !level.contact() && !level.asks_caller();
       if (fitted_ && same && last_ <= worn * first_) return;
       cycle_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
       fitted_ = 1, a_ = weights.a, b_ = weights.b, first_ = last_ = 0, ++fits_;

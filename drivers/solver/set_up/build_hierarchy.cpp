@@ -7,20 +7,18 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
-#include <plica/drivers/solver/cycles/list.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
-#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
-#include <plica/drivers/solver/set_up/inherit_masses.hpp>
-#include <plica/drivers/solver/set_up/initial_shape.hpp>
-#include <plica/drivers/solver/set_up/make_him.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
@@ -31,7 +29,7 @@ namespace plica {
 namespace {
 
 Outside outside_rule(const IntegrationOptions& o) {
-  if (o.cycle == Him::name) return Outside::extrapolate;
+  if (stepper_needs(o.cycle).extrapolation) return Outside::extrapolate;
   const std::string& name = o.outside;
   return name == "clamp" ? Outside::clamp : name == "extrapolate" ? Outside::extrapolate : Outside::keep;
 }
@@ -49,14 +47,12 @@ class HierarchyBuilder {
   using Exec = typename B::Exec;
 
  public:
-  HierarchyBuilder(const Problem& problem, const Exec& exec) : problem_(problem), built_{} {
+  HierarchyBuilder(const Problem& problem, const Exec& exec)
+      : problem_(problem),
+        needs_(stepper_needs(problem.integration.cycle)),
+        meshes_(needs_.coarse_meshes ? problem.body.levels.size() : 1),
+        levels_(integrated_levels(problem.integration.cycle, problem.body.levels.size())) {
     built_.hierarchy = std::make_unique<Hierarchy<B>>(exec);
-    Cycles::visit(problem.integration.cycle, [&](auto cycle) {
-      meshes_ = decltype(cycle)::uses_coarse_levels ? problem.body.levels.size() : 1;
-      levels_ = decltype(cycle)::integrates_coarse_levels ? meshes_ : 1;
-      switched_ = decltype(cycle)::switched && levels_ > 1;
-      inherits_masses_ = decltype(cycle)::inherits_masses;
-    });
   }
 
   BuiltHierarchy<B> build() {
@@ -70,10 +66,11 @@ class HierarchyBuilder {
       for (std::size_t i = 1; i < levels_; ++i) connect(i);
     });
     phase("sampling the obstacles", [&] { add_contact(); });
-    plan();
-    phase("building the cycle", [&] { make_cycle(); });
+    for (std::size_t i = 0; i < levels_; ++i)
+      phase("finding the critical step of level " + std::to_string(i), [&] { add_dynamics(i); });
+    phase("planning the steps", [&] { plan(); });
     if (starts_deformed(problem_.body.initial)) deform();
-    built_.cycle->start(*built_.hierarchy);
+    built_.stepper->start(*built_.hierarchy);
     return std::move(built_);
   }
 
@@ -85,21 +82,11 @@ class HierarchyBuilder {
     work();
   }
 
-  void make_cycle() {
-    Cycles::visit(problem_.integration.cycle, [&](auto cycle) {
-      using Of = typename decltype(cycle)::template Of<B>;
-      if constexpr (std::is_same_v<decltype(cycle), Him>)
-        built_.cycle = make_him<B>(problem_, constants_, up_, elasticity_, contact_, built_);
-      else
-        built_.cycle = std::make_unique<Of>(*built_.hierarchy);
-    });
-  }
-
   const Problem& problem_;
   BuiltHierarchy<B> built_;
-  std::size_t levels_ = 1, meshes_ = 1;  // that are integrated; that are used
-  bool switched_ = false, inherits_masses_ = false;
-  TriangleSurface surface_;  // placed
+  StepperNeeds needs_;
+  std::size_t meshes_, levels_;  // that are used; that are integrated
+  TriangleSurface surface_;      // placed
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;  // per level
   std::vector<std::unique_ptr<TetLocator>> locators_;
@@ -136,7 +123,7 @@ class HierarchyBuilder {
   /// Level 0's start, after limits were found at rest; the other levels take it from there.
   void deform() {
     const TetMesh& mesh = built_.meshes.front();
-    const State<B>& state = built_.hierarchy->levels.front().level.state;
+    const State<B>& state = built_.hierarchy->levels.front().state;
     std::vector<Point> u = initial_displacement(problem_.body.initial, mesh, bounding_box(mesh.vertices));
     const auto given = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), state.u);
     for (std::size_t a = 0; a < u.size(); ++a)
@@ -165,24 +152,24 @@ class HierarchyBuilder {
     report.integrator = integrator_of(i);
     if (i == 0) return;
     report.outside_down = down_[i].misses, report.outside_up = up_[i].misses;
-    report.massless = inherits_masses_ ? massless_[i] : 0;
+    report.massless = needs_.inherited_masses ? massless_[i] : 0;
     report.largest_miss = std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
   }
 
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    auto& part = built_.hierarchy->levels.emplace_back();
-    part.level = build_level<B>(problem_.body, mesh, constants_[i]);
-    part.level.loads = device_loads<B>(problem_.body, loads_[i]);
-    if (switched_) {
+    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i]);
+    level.loads = device_loads<B>(problem_.body, loads_[i]);
+    if (needs_.drift_limits && levels_ > 1) {
       std::vector<typename B::Real> limit;
       for (double edge : local_edge_lengths(mesh))
         limit.push_back(static_cast<typename B::Real>(problem_.integration.switch_threshold * edge));
-      part.level.drift_limit = to_device<Scalars<B>>("drift_limit", limit);
+      level.drift_limit = to_device<Scalars<B>>("drift_limit", limit);
     }
     // the finest level carries the surface for whoever looks at it; the others only where something acts on it
     if (problem_.body.surface && (i == 0 || !problem_.contact.obstacles.empty() || problem_.surface_forces))
-      part.level.surface = build_surface<B>(surface_, embed_surface(i));
+      level.surface = build_surface<B>(surface_, embed_surface(i));
+    built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock, static_cast<int>(i));
   }
 
   Embedding embed_surface(std::size_t i) const {
@@ -205,7 +192,8 @@ class HierarchyBuilder {
       expect_overlap(i);
       expect_same_body(i);
       std::vector<double>& mass = constants_[i].mass;
-      if (inherits_masses_) mass = inherited_masses(up_[i], constants_[i - 1].mass, mass, massless_.emplace_back());
+      if (needs_.inherited_masses)
+        mass = inherited_masses(up_[i], constants_[i - 1].mass, mass, massless_.emplace_back());
     }
   }
 
@@ -227,14 +215,14 @@ class HierarchyBuilder {
 
   void connect(std::size_t i) {
     const Outside rule = outside_rule(problem_.integration);
-    Level<B>& level = built_.hierarchy->levels[i].level;
+    Level<B>& level = built_.hierarchy->levels[i];
     const Embedding &down = down_[i], &up = up_[i];
     if (rule == Outside::keep && down.misses + up.misses > 0)
       throw InputError(
           "integration.outside is keep, but " + std::to_string(down.misses) + " vertices of level " +
           std::to_string(i) + " lie outside level " + std::to_string(i - 1) + " and " + std::to_string(up.misses) +
           " the other way: they would move in their own level's share of the step only; use clamp or extrapolate");
-    if (inherits_masses_)
+    if (needs_.inherited_masses)
       level.adjoint = build_restriction<B>(up, constants_[i - 1].mass, down);
     else
       level.from_finer = build_transfer<B>("restriction", down, constants_[i].constrained);
@@ -255,45 +243,40 @@ class HierarchyBuilder {
     return (box.max - box.min).norm();
   }
 
-  /// Limits, shares and sub-steps, then the integrators that go with them.
-  void plan() {
-    Hierarchy<B>& h = *built_.hierarchy;
+  /// Level i's critical step, its integrator and the forces on it.
+  void add_dynamics(std::size_t i) {
+    LevelReport& report = built_.reports[i];
+    SolverLevel<B>& level = built_.hierarchy->levels[i];
     const PointContactLimit touching =
         contact_ ? PointContactLimit{contact_->stiffness(), contact_->damping()} : PointContactLimit{};
-    std::vector<LevelLimits> limits;
-    for (std::size_t i = 0; i < levels_; ++i) {
-      const Kokkos::Profiling::ScopedRegion region("plica: finding the critical step of level " + std::to_string(i));
-      LevelReport& report = built_.reports[i];
-      Level<B>& level = h.levels[i].level;
-      Integrators::visit(report.integrator, [&](auto integrator) {
-        using Kind = decltype(integrator);
-        report.explicit_integrator = Kind::is_explicit;
-        report.critical_step = critical_step<B>(h.exec(), level, *elasticity_, level.state.u,
-                                                Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
-                                                damping_limit(constants_[i]));
-        ImplicitOptions implicit = problem_.integration.implicit;
-        implicit.newton_iterations = newton_iterations(implicit, report.integrator);
-        h.levels[i].integrator = std::make_unique<typename Kind::template Step<B>>(
-            level, IntegratorParts<B>{implicit, [&] {
-                                        std::string solver = problem_.integration.implicit.solver;
-                                        if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
-                                        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);
-                                        report.linear_solver = describe(parts);
-                                        return make_linear_solver<B>(parts, level);
-                                      }});
-      });
-      limits.push_back({report.tets, report.integrator, report.explicit_integrator, report.critical_step,
-                        report.stiffest.front(), report.typical_element});
-      h.levels[i].forces = std::make_unique<LevelForces<B>>(elasticity_, problem_.gravity, contact_,
-                                                            !report.explicit_integrator, &h.clock, static_cast<int>(i));
-    }
-    if (problem_.integration.cycle == Him::name) return;  // plans for itself
-    const StepPlan steps = plan_steps(problem_.integration, limits);
-    built_.macro_step = steps.macro_step;
-    for (std::size_t i = 0; i < levels_; ++i) {
-      h.levels[i].share = built_.reports[i].share = steps.share[i];
-      h.levels[i].substeps = built_.reports[i].substeps = steps.substeps[i];
-    }
+    Integrators::visit(report.integrator, [&](auto integrator) {
+      using Kind = decltype(integrator);
+      report.explicit_integrator = Kind::is_explicit;
+      report.critical_step = critical_step<B>(level.exec(), level, *elasticity_, level.state.u,
+                                              Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
+                                              damping_limit(constants_[i]));
+      ImplicitOptions implicit = problem_.integration.implicit;
+      implicit.newton_iterations = newton_iterations(implicit, report.integrator);
+      const auto make_solver = [&] {
+        std::string solver = implicit.solver;
+        if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
+        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);
+        report.linear_solver = describe(parts);
+        return make_linear_solver<B>(parts, level);
+      };
+      level.integrator = Kind::template make<B>(level, {implicit, make_solver});
+    });
+    level.set_forces(elasticity_, problem_.gravity, contact_, !report.explicit_integrator);
+  }
+
+  /// The stepper and what it makes of the levels.
+  void plan() {
+    Steppers::visit(problem_.integration.cycle,
+                    [&](auto stepper) { built_.stepper = decltype(stepper)::template make<B>(); });
+    StepperSetup<B> setup{problem_, *built_.hierarchy, built_.meshes, constants_,
+                          up_,      elasticity_,       contact_,      built_.reports};
+    built_.stepper->plan(setup);
+    built_.macro_step = setup.macro_step, built_.him = setup.him;
   }
 };
 

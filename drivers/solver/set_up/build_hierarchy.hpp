@@ -2,8 +2,8 @@
 #pragma once
 #include <memory>
 #include <plica/core/problem.hpp>
-#include <plica/drivers/solver/cycles/cycle.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/stepper.hpp>
 #include <vector>
 
 namespace plica {
@@ -12,14 +12,14 @@ namespace plica {
 template <class B>
 struct BuiltHierarchy {
   std::unique_ptr<Hierarchy<B>> hierarchy;
-  std::unique_ptr<Cycle<B>> cycle;
+  std::unique_ptr<Stepper<B>> stepper;
   std::vector<TetMesh> meshes;  ///< placed, of the levels in use
   std::vector<LevelReport> reports;
-  double macro_step = 0;  ///< [s]
-  std::optional<HimReport> him;
+  double macro_step = 0;         ///< [s]
+  std::optional<HimReport> him;  ///< of that stepper
 };
 
-/// Builds a valid problem's levels, transfers, contact, step plan, integrators and cycle. Throws InputError.
+/// Builds a valid problem's levels, transfers, contact, integrators and stepper, and lets that plan its steps. Throws InputError.
 template <class B>
 BuiltHierarchy<B> build_hierarchy(const Problem& problem, const typename B::Exec& exec);
 

@@ -7,9 +7,9 @@
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
-#include <plica/drivers/solver/set_up/initial_velocity.hpp>
-#include <plica/drivers/solver/set_up/lumped_masses.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/make_path.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/motion/path.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/linear/list.hpp>
-#include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {

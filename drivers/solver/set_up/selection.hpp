@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <plica/core/problem.hpp>
 #include <plica/core/selection.hpp>
 #include <string>
 #include <vector>
@@ -22,5 +23,9 @@ std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection
 
 /// The boundary triangles all of whose vertices it chooses; likewise.
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection, const Selecting& who);
+
+/// Gives a mesh at rest the regions that are chosen by a selection. InputError where two choose one element, where one chooses
+/// none, or where the mesh has a region of that name of its own.
+void add_regions(TetMesh& mesh, const std::map<std::string, RegionOptions>& regions, int level);
 
 }  // namespace plica

@@ -5,9 +5,9 @@
 #include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
-#include <plica/drivers/solver/set_up/add_regions.hpp>
-#include <plica/drivers/solver/set_up/initial_shape.hpp>
-#include <plica/drivers/solver/set_up/lumped_masses.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>

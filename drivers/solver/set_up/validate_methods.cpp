@@ -104,7 +104,7 @@ void validate_shares(const IntegrationOptions& o, std::size_t levels) {
 void validate_methods(const IntegrationOptions& o, std::size_t levels) {
   check_length("integration.integrator", o.integrator.size(), levels, true);
   check_length("integration.substeps", o.substeps.size(), levels, true);
-  validate_shares(o, levels);
+  validate_shares(o, o.cycle == "auto" ? levels : integrated_levels(o.cycle, levels));
   if (o.cycle == "fas" && o.outside != "clamp" && levels > 1)
     throw InputError("integration.outside is " + o.outside +
                      ", but cycle fas hands masses down by its weights, which "

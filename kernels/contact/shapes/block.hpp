@@ -12,6 +12,7 @@ struct BlockOptions {
   Point rotation = Point::Zero();  ///< about the centre: its direction is the axis, its length the angle [rad]
 };
 
+/// Its parameters, named, with kind, unit, range and meaning.
 template <class V>
 void describe(V& v, BlockOptions& o) {
   using namespace keys;

@@ -13,6 +13,7 @@ struct BowlOptions {
   double rim = 0;  ///< height of the flat top above the bowl's lowest point, at most the radius; 0: radius [m]
 };
 
+/// Its parameters, named, with kind, unit, range and meaning.
 template <class V>
 void describe(V& v, BowlOptions& o) {
   using namespace keys;

@@ -12,6 +12,7 @@ struct CapsuleOptions {
   double radius = 1;           ///< [m]
 };
 
+/// Its parameters, named, with kind, unit, range and meaning.
 template <class V>
 void describe(V& v, CapsuleOptions& o) {
   using namespace keys;

@@ -11,6 +11,7 @@ struct PlaneOptions {
   Point normal = Point::UnitZ();  ///< out of the solid; its length does not matter
 };
 
+/// Its parameters, named, with kind, unit, range and meaning.
 template <class V>
 void describe(V& v, PlaneOptions& o) {
   using namespace keys;

@@ -12,6 +12,7 @@ struct SurfaceOptions {
   int cells = 0;            ///< of the grid along the surface's longest extent; 0: chosen from its shape
 };
 
+/// Its parameters, named, with kind, unit, range and meaning.
 template <class V>
 void describe(V& v, SurfaceOptions& o) {
   using namespace keys;

@@ -11,6 +11,7 @@ struct SphereOptions {
   double radius = 1;             ///< [m]
 };
 
+/// Its parameters, named, with kind, unit, range and meaning.
 template <class V>
 void describe(V& v, SphereOptions& o) {
   using namespace keys;

@@ -1,45 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
-#include <nlohmann/json.hpp>
-
-#include "unit/app/child.hpp"
+#include "unit/app/program_test.hpp"
 
 namespace plica::app::test {
 namespace {
-
-using Json = nlohmann::json;
-
-constexpr const char* falling_block = R"(duration: 20 ms
-gravity: [0, 0, -9.81]
-body:
-  levels: [{box: {size: [0.1, 0.1, 0.1], cells: [2, 2, 2]}}]
-integration: {macro_step: 1 ms}
-output: {every: 5 ms}
-)";
-
-class Program : public testing::Test {
- protected:
-  Program() { std::ofstream(scene) << falling_block; }
-
-  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
-    words.insert(words.begin(), PLICA_EXECUTABLE);
-    return run_child(words, folder, meanwhile);
-  }
-  Json summary() const { return Json::parse(content_of(folder / "out/summary.json")); }
-  std::size_t lines(const std::string& file) const {
-    const std::string text = content_of(folder / file);
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-  }
-  // A run without end, and what to wait for before it is stopped
-  std::vector<std::string> endless() const {
-    return {"run", scene, "-o", out, "--duration", "1000 s", "--set", "output.every=2 ms", "--threads", "1"};
-  }
-  bool has_frames() const { return std::filesystem::exists(folder / "out/frames/surface_0003.vtu"); }
-
-  TemporaryFolder folder;
-  std::string scene = folder / "block.yaml", out = folder / "out";
-};
 
 TEST_F(Program, RunsAndWrites) {
   const Child run = plica({"run", scene, "-o", out});
@@ -54,6 +17,31 @@ TEST_F(Program, RunsAndWrites) {
   EXPECT_TRUE(json["diagnosis"].is_null());
   EXPECT_EQ(json["frames"], 5);
   EXPECT_EQ(lines("out/history.csv"), 6);
+}
+
+// Every cycle writes the levels that it integrates.
+TEST_F(Program, WritesTheVolumesOfAllLevelsThatHaveAState) {
+  const std::string levels =
+      "body.levels=[{box: {size: [0.1, 0.1, 0.1], cells: [2, 2, 2]}}, {box: {size: [0.1, 0.1, "
+      "0.1], cells: [1, 1, 1]}}]";
+  for (const auto& [cycle, volumes] : {std::pair{"single", 1}, {"rsv", 2}, {"him", 1}, {"auto", 1}}) {
+    std::vector<std::string> words = {"run",
+                                      scene,
+                                      "-o",
+                                      out + cycle,
+                                      "--quiet",
+                                      "--set",
+                                      levels,
+                                      "--set",
+                                      "output.volume=all",
+                                      "--set",
+                                      std::string("integration.cycle=") + cycle};
+    if (cycle == std::string("auto")) words.insert(words.end(), {"--set", "integration.macro_step=auto"});
+    const Child run = plica(words);
+    EXPECT_EQ(run.status, 0) << cycle << ": " << run.errors;
+    EXPECT_TRUE(std::filesystem::exists(out + cycle + "/volume.pvd")) << cycle;
+    EXPECT_EQ(std::filesystem::exists(out + cycle + "/volume_level1.pvd"), volumes == 2) << cycle;
+  }
 }
 
 TEST_F(Program, QuietSaysNothing) {
@@ -94,8 +82,8 @@ TEST_F(Program, ErrorsNameTheNearest) {
 }
 
 TEST_F(Program, RefusedStepIs2) {
-  const Child run =
-      plica({"run", scene, "-o", out, "--set", "integration.macro_step=1 s", "--set", "integration.substeps=1"});
+  const Child run = plica({"run", scene, "-o", out, "--duration", "2 s", "--set", "integration.macro_step=1 s", "--set",
+                           "integration.substeps=1"});
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.errors.find("block.yaml"), std::string::npos) << run.errors;
   EXPECT_FALSE(std::filesystem::exists(out)) << "files of a run that was refused";
@@ -123,73 +111,6 @@ TEST_F(Program, DivergedIs3) {
   EXPECT_EQ(content_of(folder / "out/history.csv").find("nan"), std::string::npos);
 }
 
-TEST_F(Program, CtrlCEndsWithWholeFiles) {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::filesystem::remove_all(out);
-    const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, signal) == 0; });
-    EXPECT_EQ(run.status, 130) << run.errors;
-    EXPECT_EQ(summary()["status"], "interrupted");
-    EXPECT_EQ(summary()["frames"], lines("out/frames.pvd") - 5);
-    EXPECT_EQ(summary()["frames"], lines("out/history.csv") - 1);
-    EXPECT_EQ(summary()["last_good_time"], summary()["simulated_time"]);
-  }
-}
-
-// Set-up that takes minutes: trials on a large mesh
-TEST_F(Program, SetUpSaysWhatItDoesAndCanBeInterrupted) {
-  const std::vector<std::string> slow = {
-      "run",
-      scene,
-      "-o",
-      out,
-      "--set",
-      "body.levels=[{box: {size: [1, 1, 1], cells: [60, 60, 60]}}, {box: {size: [1, 1, 1], "
-      "cells: [30, 30, 30]}}]",
-      "--set",
-      "integration={cycle: auto}"};
-  const auto spoken = [&] { return content_of(folder / "stderr.txt").find("set-up, ") != std::string::npos; };
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const Child run = plica(slow, [&](pid_t id) { return spoken() && kill(id, signal) == 0; });
-    EXPECT_EQ(run.status, 130) << run.errors;
-    EXPECT_NE(run.errors.find(" s: "), std::string::npos) << run.errors;
-    EXPECT_NE(run.errors.find("interrupted during the set-up; nothing was written"), std::string::npos) << run.errors;
-    EXPECT_FALSE(std::filesystem::exists(out));
-  }
-}
-
-TEST_F(Program, CtrlCEndsWithinAMacroStep) {
-  const std::vector<std::string> one_step = {"run",        scene,
-                                             "-o",         out,
-                                             "--duration", "1e6 s",
-                                             "--set",      "integration.macro_step=1e6 s",
-                                             "--set",      "output.every=1 step"};
-  const auto begun = [&] {
-    return content_of(folder / "stderr.txt").find("macro step 1e+06 s") != std::string::npos &&
-           content_of(folder / "out/history.csv").find("\n0,") != std::string::npos;
-  };
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::filesystem::remove_all(out);
-    const Child run = plica(one_step, [&](pid_t id) { return begun() && kill(id, signal) == 0; });
-    EXPECT_EQ(run.status, 130) << run.errors;
-    EXPECT_NE(run.errors.find("interrupted within a macro step; the files go up to 0 s"), std::string::npos)
-        << run.errors;
-    EXPECT_NE(run.output.find("block: interrupted"), std::string::npos) << run.output;
-    EXPECT_EQ(summary()["status"], "interrupted");
-    EXPECT_EQ(summary()["macro_steps"], 0);
-    EXPECT_EQ(summary()["frames"], 1);
-    EXPECT_EQ(lines("out/history.csv"), 2);
-  }
-}
-
-TEST_F(Program, SecondCtrlCEndsAtOnce) {
-  const Child run =
-      plica({"run", scene, "-o", out, "--duration", "1e6 s", "--set", "integration.macro_step=1e6 s"}, [&](pid_t id) {
-        return std::filesystem::exists(folder / "out/frames.pvd") && kill(id, SIGINT) == 0 && kill(id, SIGTERM) == 0;
-      });
-  EXPECT_EQ(run.status, 130);
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
-}
-
 TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
   const std::vector<std::string> again = {"run", scene, "-o", out, "--set", "output.probes={tip: [0, 0, 0]}"};
   const auto with = [&](const std::vector<std::string>& more) {
@@ -213,34 +134,6 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
   EXPECT_EQ(with({"--force"}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "out/checkpoint.bin"));
   EXPECT_EQ(with({}).errors.find("--resume"), std::string::npos) << "there is no checkpoint to go on from";
-}
-
-// A file may not grow beyond some kB, as on a disk that is full
-TEST_F(Program, FullDiskIs1) {
-  const std::string words = std::string("trap '' XFSZ; ulimit -f 8; exec ") + PLICA_EXECUTABLE + " run " + scene +
-                            " -o " + out + " --duration 10s --set output.every='1 step' --checkpoint every=1";
-  const Child run = run_child({"bash", "-c", words}, folder);
-  if (run.status == 127 || run.status < 0) GTEST_SKIP() << "no bash";
-  EXPECT_EQ(run.status, 1) << run.errors;
-  EXPECT_NE(run.errors.find("error: cannot write " + out + "/"), std::string::npos) << run.errors;
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
-  EXPECT_TRUE(content_of(folder / "out/history.csv").ends_with("\n"));
-  EXPECT_TRUE(content_of(folder / "out/frames.pvd").ends_with("</VTKFile>\n"));
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
-    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
-}
-
-TEST_F(Program, KilledRunLeavesWholeFiles) {
-  const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, SIGKILL) == 0; });
-  EXPECT_EQ(run.status, 128 + SIGKILL);
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
-  const std::string collection = content_of(folder / "out/frames.pvd");
-  EXPECT_TRUE(collection.ends_with("</VTKFile>\n"));
-  EXPECT_TRUE(content_of(folder / "out/history.csv").ends_with("\n"));
-  for (const auto& frame : std::filesystem::directory_iterator(folder / "out/frames"))
-    if (frame.path().extension() == ".vtu") {
-      EXPECT_TRUE(content_of(frame.path()).ends_with("</VTKFile>\n")) << frame.path();
-    }
 }
 
 TEST_F(Program, HelpAndVersionAreResults) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 
 #include "support/backends.hpp"
 #include "unit/app/scene_text.hpp"

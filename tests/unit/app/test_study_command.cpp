@@ -242,7 +242,8 @@ TEST_F(StudyCommand, BadInputIs2) {
   refuses({"--set", "study.method=single"}, "did you mean 'methods'");
   refuses({"--set", "study.macro_steps=[1 kg]"}, "study.macro_steps.0");
   refuses({"--set", "study.precision=half"}, "precision 'half'");
-  refuses({"--set", "study.threads=4096"}, "4096 threads");
+  refuses({"--set", "study.threads=4096"}, "expected a whole number in [1, 512], got '4096'");
+  refuses({"--set", "study.threads=500"}, "500 threads");
   refuses({"--set", "study.samples=0"}, "study.samples");
   refuses({"--budget", "soon"}, "--budget");
   refuses({"--set", "gravity=[0, 0, 0]"}, "nothing moves");

@@ -76,12 +76,11 @@ TEST(ElasticMesh, StiffnessIsSymmetricAndItsBlocksAreTheDiagonals) {
     const Eigen::MatrixXd K = probe.stiffness_matrix(u);
     EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(), round_off<Host::Real>(1e3, K.cwiseAbs().maxCoeff()));
 
-    auto& level = probe.at(0).level;
     State<Host> state;
     state.u = device_field<Host>(u), state.v = device_field<Host>(probe.zero());
     const Blocks<Host> blocks("test.blocks", probe.vertices());
     const double h = 0.01;
-    probe.at(0).forces->diagonal(level, state, {h * h, h}, blocks);
+    probe.at(0).diagonal(state, {h * h, h}, blocks);
     const auto m = probe.mass();
     for (Eigen::Index a = 0; a < static_cast<Eigen::Index>(m.size()); ++a) {
       const Eigen::Matrix3d A =
@@ -161,7 +160,7 @@ TYPED_TEST(ElasticMeshOn, AgreesWithDouble) {
     const Problem problem = small_cube(material.name, 5);  // several patches
     LevelProbe<TypeParam> probe(problem);
     LevelProbe<Host> reference(problem);
-    EXPECT_GT(probe.at(0).level.model.patches.count, 1);
+    EXPECT_GT(probe.at(0).model.patches.count, 1);
     const auto u = random_field(probe.vertices(), 0.001, 1), p = random_field(probe.vertices(), 0.001, 2);
     const auto f = reference.force(u), q = reference.stiffness(u, p);
     EXPECT_LE(largest_difference(probe.force(u), f), round_off<Real>(100, largest(f)));

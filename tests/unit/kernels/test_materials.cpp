@@ -293,7 +293,7 @@ TEST(MaterialParameters, AreRefusedOutOfTheirRangeAndByAWrongName) {
   EXPECT_EQ(refusal(three_constants(), body), "body.material.c1 is 0 Pa; expected a pressure (Pa) > 0");
   body.material.parameters = {{"c2", 2e6}};
   EXPECT_EQ(refusal(three_constants(), body),
-            "body.material.c2 is 2e+06 Pa; expected a pressure (Pa) in [0, 1e+06] Pa");
+            "body.material.c2 is 2000000 Pa; expected a pressure (Pa) in [0, 1e+06] Pa");
   body.material.parameters = {{"blk", 1}};
   EXPECT_EQ(
       refusal(three_constants(), body),

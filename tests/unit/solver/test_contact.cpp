@@ -51,16 +51,16 @@ TYPED_TEST(ContactOn, StiffnessIsYoungsModulusTimesAreaOverEdge) {
   p.contact.stiffness_scale = 3, p.contact.damping_scale = 0.5;
   LevelProbe<TypeParam> probe(p);
   const double area = 0.02 / 64, edge = mean_edge_length(p.body.levels[0]), k = 3 * 20e3 * area / edge;
-  EXPECT_NEAR(probe.at(0).forces->contact()->stiffness(), k, round_off<double>(50, k));
+  EXPECT_NEAR(probe.at(0).contact()->stiffness(), k, round_off<double>(50, k));
   const double d = 0.5 * std::sqrt(k * 1000 * area * edge);
-  EXPECT_NEAR(probe.at(0).forces->contact()->damping(), d, round_off<double>(50, d));
+  EXPECT_NEAR(probe.at(0).contact()->damping(), d, round_off<double>(50, d));
 }
 
 TYPED_TEST(ContactOn, ForceOnASunkenBodyIsThePenalty) {
   using Real = typename TypeParam::Real;
   Problem p = cube_over(0, 0.4);
   LevelProbe<TypeParam> probe(p);
-  const auto& contact = *probe.at(0).forces->contact();
+  const auto& contact = *probe.at(0).contact();
   const double k = contact.stiffness(), depth = 0.002;
   std::vector<Point> down(probe.vertices(), Point(0, 0, -depth));
   EXPECT_LE((sum(probe.force(down)) - Point(0, 0, 16 * k * depth)).norm(), round_off<Real>(2000, k * depth));
@@ -81,7 +81,7 @@ TYPED_TEST(ContactOn, MovingObstacleIsWhereItsVelocityTakesIt) {
   p.contact.obstacles[0].motion = Point(0, 0, 0.5);
   p.contact.damping_scale = 0;
   LevelProbe<TypeParam> probe(p);
-  const double k = probe.at(0).forces->contact()->stiffness();
+  const double k = probe.at(0).contact()->stiffness();
   const auto z = probe.zero();
   EXPECT_LE(largest(probe.force(z, z, 0.019)), round_off<Real>(500, 1));
   EXPECT_NEAR(sum(probe.force(z, z, 0.024))[2], 16 * k * 0.002, round_off<Real>(2000, k * 0.01));
@@ -92,7 +92,7 @@ TYPED_TEST(ContactOn, EnergyIsHalfStiffnessTimesDepthSquared) {
   Problem p = cube_over(-0.001);  // the plane's surface is 1 mm inside the body
   p.integration.macro_step = 1e-4;
   Simulation<TypeParam> simulation(p);
-  const double k = LevelProbe<TypeParam>(p).at(0).forces->contact()->stiffness();
+  const double k = LevelProbe<TypeParam>(p).at(0).contact()->stiffness();
   EXPECT_NEAR(simulation.energies().contact, 16 * 0.5 * k * 1e-6, round_off<Real>(2000, k * 1e-6));
 }
 
@@ -123,8 +123,8 @@ TEST(Contact, IsLinearisedAsItActs) {
     state.u = device_field<Host>(u), state.v = device_field<Host>(v);
     const Vectors<Host> q("test.q", probe.vertices());
     auto& part = probe.at(0);
-    part.forces->linearise(part.level, state, 0, {h * h, h}, 0, part.level.f);
-    part.forces->product(part.level, state, device_field<Host>(direction), {h * h, h}, q);
+    part.linearise(state, 0, {h * h, h}, 0, part.f);
+    part.product(state, device_field<Host>(direction), {h * h, h}, q);
     const auto product = to_host<Host>({}, q);
     EXPECT_LE(largest_difference(product, want), 1e-6 * largest(want)) << sliding.transpose();
   }

@@ -25,7 +25,7 @@ double largest_eigenvalue_of(const Eigen::MatrixXd& S) {
 
 /// W^T W over all degrees of freedom
 Eigen::MatrixXd point_matrix(LevelProbe<Host>& probe) {
-  const auto& s = probe.at(0).level.surface;
+  const auto& s = probe.at(0).surface;
   const auto n = static_cast<Eigen::Index>(3 * probe.vertices());
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(3 * s.points, n);
   for (int p = 0; p < s.points; ++p)
@@ -39,7 +39,7 @@ double dense_limit(LevelProbe<Host>& probe, double radius) {
   const Eigen::MatrixXd K = probe.scaled_by_mass(probe.stiffness_matrix(probe.zero()));
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(K.rows(), K.cols());
   double k = 0, d = 0;
-  if (const auto* contact = probe.at(0).forces->contact()) {
+  if (const auto* contact = probe.at(0).contact()) {
     C = probe.scaled_by_mass(point_matrix(probe));
     k = contact->stiffness(), d = contact->damping();
   }

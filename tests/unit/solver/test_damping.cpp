@@ -46,7 +46,7 @@ TEST(RegionDamping, IsOfItsElements) {
   p.body.damping = {4, 0};
   p.body.regions["right"].damping = {10, 1e-3};
   LevelProbe<Host> probe(p);
-  const auto& model = probe.at(0).level.model;
+  const auto& model = probe.at(0).model;
   const auto& x = p.body.levels[0].vertices;
   for (std::size_t a = 0; a < x.size(); ++a) {
     const double c = model.damping(static_cast<int>(a));

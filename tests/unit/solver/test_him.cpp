@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/cycles/him.hpp>
+#include <plica/drivers/solver/him/him_stepper.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 
@@ -77,11 +77,11 @@ TEST(Him, IsOfSecondOrderAtAFixedInverseMass) {
     const auto v = random_field(pieces.levels[0].vertices.size(), 0, 1);
     for (std::size_t a = 0; a < pieces.levels[0].vertices.size(); ++a)
       for (int k = 0; k < 3; ++k)
-        h[0].level.state.u(a, k) = k == 2 ? 1e-4 * std::pow(pieces.levels[0].vertices[a][0] / 0.4, 2) : 0;
-    HimCycle<Host> cycle(h, std::move(parts));
+        h[0].state.u(a, k) = k == 2 ? 1e-4 * std::pow(pieces.levels[0].vertices[a][0] / 0.4, 2) : 0;
+    HimStepper<Host> cycle(h, std::move(parts));
     cycle.begin(h);
     for (int n = 0; n < steps; ++n) cycle.step(h, n * duration / steps, duration / steps);
-    return to_host<Host>(h.exec(), h[0].level.state.u);
+    return to_host<Host>(h.exec(), h[0].state.u);
   };
   const auto exact = end_after(640), coarse = end_after(10), fine = end_after(20);
   const double ratio = largest_difference(coarse, exact) / largest_difference(fine, exact);
@@ -182,6 +182,24 @@ TEST(Him, SlidesAndHoldsAsTheFinestLevelDoes) {
   EXPECT_NEAR(way("him", 0.3), slides, 2e-3 * slides);
   EXPECT_NEAR(way("him", 0.8), holds, 0.03 * slides);
   EXPECT_LT(holds, 0.4 * slides);
+}
+
+// The critical step of level 0 is its own, with contact, as every other cycle has it; what the cycle goes by is told apart.
+TEST(Him, ReportsTheCriticalStepOfTheLevel) {
+  Problem p = him_beam(true, "neo_hookean");
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.contact.obstacles.push_back({PlaneOptions{}, {}, {}});
+  p.contact.stiffness_scale = 50;
+  const Simulation<Host> him(p);
+  p.integration.cycle = "single";
+  const Simulation<Host> single(p);
+  const auto& levels = him.levels();
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels[0].critical_step, single.levels()[0].critical_step);
+  EXPECT_GT(levels[0].detail_step, 1.5 * levels[0].critical_step);  // without contact
+  EXPECT_GT(levels[1].detail_step, levels[0].detail_step);
+  for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_EQ(levels[i].critical_step, 0) << "it is not integrated";
+  EXPECT_EQ(single.levels()[0].detail_step, 0);
 }
 
 // Where the body stiffens beyond what its inertia was fitted to, that is fitted anew, and the run goes on soundly.

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <plica/drivers/solver/energy_meter.hpp>
-#include <plica/drivers/solver/set_up/lumped_masses.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
 
 #include "support/backends.hpp"
 #include "support/him_pieces.hpp"
@@ -27,14 +27,14 @@ struct HimRun {
   std::vector<double> mass;
   double time = 0;
 
-  const Level<B>& level() { return (*built.hierarchy)[0].level; }
+  const Level<B>& level() { return (*built.hierarchy)[0]; }
   void advance(int steps) {
     for (int n = 0; n < steps; ++n, time += built.macro_step)
-      built.cycle->step(*built.hierarchy, time, built.macro_step);
-    ASSERT_FALSE(built.cycle->alarmed(*built.hierarchy));
+      built.stepper->step(*built.hierarchy, time, built.macro_step);
+    ASSERT_FALSE(built.stepper->lost_stability(*built.hierarchy));
   }
   std::vector<Point> field(const Vectors<B>& x) { return to_host<B>(built.hierarchy->exec(), x); }
-  std::vector<Point> momenta() { return field(dynamic_cast<const HimCycle<B>&>(*built.cycle).momenta()); }
+  std::vector<Point> momenta() { return field(dynamic_cast<const HimStepper<B>&>(*built.stepper).momenta()); }
 
   struct Sums {
     Point momentum = Point::Zero(), moment = Point::Zero(), moment_of_mass = Point::Zero();
@@ -119,7 +119,7 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
     Pieces pieces(problem);
     ASSERT_TRUE(pieces.fit(6));
     InverseMass<Host>& A = *pieces.inverse_mass;
-    const Level<Host>& level = pieces.probe.at(0).level;
+    const Level<Host>& level = pieces.probe.at(0);
     const auto n = pieces.levels[0].vertices.size();
     const auto inverse_mass = pieces.probe.inverse_mass();
     std::vector<Point> u(n), along = random_field(n, 0.01, 2), momentum = random_field(n, 1e-3, 3);

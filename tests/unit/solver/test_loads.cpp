@@ -5,8 +5,11 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/load_factor.hpp>
 #include <plica/drivers/study/level_probe.hpp>
+#include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
+#include <set>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -142,6 +145,189 @@ TEST(Loads, WithoutEffectAreRefused) {
       << held;
   const std::string point = refusal([](Body& b) { b.loads = {{NearestSelection{}, Traction{{1, 0, 0}}, {}}}; });
   EXPECT_NE(point.find("no boundary triangle"), std::string::npos) << point;
+}
+
+// A caller's forces, on every level at the state about to be integrated.
+
+template <class B>
+class CallersForces : public testing::Test {};
+TYPED_TEST_SUITE(CallersForces, EachBackend);
+
+template <class B>
+struct Weight {
+  Vectors<B> force;
+  Scalars<B> mass;
+  Vec3<typename B::Real> acceleration;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) force(a, k) += mass(a) * acceleration[k];
+  }
+};
+
+template <class B, class Kernel>
+void enqueue(const typename B::Exec& exec, std::size_t n, const Kernel& kernel) {
+  Kokkos::parallel_for("test::forces", Kokkos::RangePolicy<typename B::Exec>(exec, 0, n), kernel);
+}
+
+template <class B>
+Scalars<B> masses(const Problem& p, int level) {
+  const TetMesh& mesh = p.body.levels[static_cast<std::size_t>(level)];
+  const Scalars<B> mass("mass", mesh.vertices.size());
+  const auto host = Kokkos::create_mirror_view(mass);
+  for (const auto& t : mesh.tets) {
+    const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    for (int v : t)
+      host(v) += static_cast<typename B::Real>(p.body.material.density * tet_volume(x(0), x(1), x(2), x(3)) / 4);
+  }
+  Kokkos::deep_copy(mass, host);
+  return mass;
+}
+
+Problem hanging(const std::string& cycle, const std::string& integrator) {
+  Problem p = cube_levels(3, 5, cycle);
+  p.body.fixed = {left_face()};
+  p.integration.integrator = {integrator};
+  p.integration.distribution = "equal";
+  p.integration.macro_step = 2e-3;
+  return p;
+}
+
+TYPED_TEST(CallersForces, LikeGravityDoAsGravityDoes) {
+  for (const char* cycle : {"single", "rs", "rsv"})
+    for (const char* integrator : {"symplectic_euler", "rk4", "implicit_euler"}) {
+      Problem p = hanging(cycle, integrator);
+      Simulation<TypeParam> alone(p);
+      std::vector<Scalars<TypeParam>> mass;
+      for (int level : {0, 1, 2}) mass.push_back(masses<TypeParam>(p, level));
+      alone.set_external_forces([&](const ForceRequest<TypeParam>& r) {
+        enqueue<TypeParam>(r.exec, r.force.extent(0),
+                           Weight<TypeParam>{r.force, mass[static_cast<std::size_t>(r.level)], {0, 0, -10}});
+      });
+      p.gravity = {0, 0, -10};
+      Simulation<TypeParam> heavy(p);
+      advance(alone, 10);
+      advance(heavy, 10);
+      const double sag = largest(displacements(heavy, p.body.levels[0]));
+      EXPECT_GT(sag, 1e-4);
+      // a conjugate-gradient solve ends at its tolerance, on whichever side of it
+      EXPECT_LE(largest_difference(alone.positions(), heavy.positions()),
+                round_off<typename TypeParam::Real>(400, 0.1) + 1e-5 * sag)
+          << cycle << " " << integrator;
+    }
+}
+
+TYPED_TEST(CallersForces, AreAskedForAtTheTimesThatLevelsGoThrough) {
+  Problem p = hanging("rs", "symplectic_euler");
+  p.integration.substeps = {2, 1, 3};
+  p.integration.allow_unstable = true;
+  Simulation<TypeParam> simulation(p);
+  std::vector<std::pair<int, double>> asked;
+  simulation.set_external_forces([&](const ForceRequest<TypeParam>& r) {
+    asked.emplace_back(r.level, r.time);
+    EXPECT_EQ(r.displacement.data(), simulation.displacement(r.level).data());
+    EXPECT_EQ(r.rest.extent(0), p.body.levels[static_cast<std::size_t>(r.level)].vertices.size());
+    EXPECT_EQ(r.stiffness.extent(0), 0);
+  });
+  simulation.step();
+  const double t = 2e-3 / 3;
+  const std::vector<std::pair<int, double>> expected = {{2, 0}, {2, t / 3}, {2, 2 * t / 3},
+                                                        {1, t}, {0, 2 * t}, {0, 2 * t + t / 2}};
+  ASSERT_EQ(asked.size(), expected.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(asked[i].first, expected[i].first);
+    EXPECT_NEAR(asked[i].second, expected[i].second, 1e-15);
+  }
+  simulation.set_external_forces({});
+  simulation.step();
+  EXPECT_EQ(asked.size(), expected.size());
+}
+
+/// The contact of an obstacle, made anew by a caller on the surface's points.
+template <class B>
+struct Floor {
+  Vectors<B> x, v, force;
+  PenaltyLaw<typename B::Real> law;
+  typename B::Real height;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    using Real = typename B::Real;
+    const Gap<Real> gap{x(p, 2) - height, {Real(0), Real(0), Real(1)}};
+    const auto c = penalty_contact(law, gap, {v(p, 0), v(p, 1), v(p, 2)}, Real(0));
+    for (int k = 0; k < 3; ++k) force(p, k) = c.force[k];
+  }
+};
+
+TYPED_TEST(CallersForces, OnTheSurfaceDoAsAnObstacleDoes) {
+  using Real = typename TypeParam::Real;
+  Problem p = cube_levels(2, 4, "rsv");
+  p.gravity = {0, 0, -10};
+  p.body.initial.velocity = {0, 0, -0.5};
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.integration.distribution = "equal";
+  p.integration.macro_step = 1e-3;
+  const double height = -1e-3;
+  Problem with_plane = p;
+  with_plane.contact.obstacles = {{PlaneOptions{{0, 0, height}, {0, 0, 1}}, std::nullopt, {}}};
+  Simulation<TypeParam> obstacle(with_plane);
+  p.surface_forces = true;
+  Simulation<TypeParam> own(p);
+  const auto points = p.body.surface->vertices.size();
+  const double area = surface_area(*p.body.surface) / static_cast<double>(points);
+  const double edge = obstacle.levels()[0].mean_edge, k = 20e3 * area / edge;
+  const double c = std::sqrt(k * 1000 * area * edge);
+  const Vectors<TypeParam> x("x", points), v("v", points), f("f", points);
+  std::set<int> levels;
+  own.set_external_forces([&](const ForceRequest<TypeParam>& r) {
+    r.read_surface_positions(x);
+    r.read_surface_velocities(v);
+    enqueue<TypeParam>(r.exec, points, Floor<TypeParam>{x, v, f, {Real(k), Real(c), 0, 0}, Real(height)});
+    r.add_surface_forces(f);
+    levels.insert(r.level);
+  });
+  advance(obstacle, 60);
+  advance(own, 60);
+  EXPECT_EQ(levels, (std::set<int>{0, 1}));
+  EXPECT_GT(obstacle.energies().contact, 1e-2);
+  EXPECT_LE(largest_difference(own.positions(), obstacle.positions()), round_off<Real>(4000, 0.1));
+}
+
+/// Every vertex is tied to where it was at rest.
+template <class B>
+struct Tie {
+  ForceRequest<B> r;
+  typename B::Real k;
+  bool into_the_solve;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int i = 0; i < 3; ++i) {
+      r.force(a, i) -= k * (r.displacement(a, i) + static_cast<typename B::Real>(r.ahead) * r.velocity(a, i));
+      if (into_the_solve) r.stiffness(a, i) += k;
+    }
+  }
+};
+
+// a spring far stiffer than the step can follow: linearly implicit Euler damps it only if it knows it
+TYPED_TEST(CallersForces, ThatAreStiffEnterTheImplicitSolve) {
+  for (const bool into_the_solve : {true, false}) {
+    Problem p = small_cube();
+    p.integration.integrator = {"implicit_euler"};
+    p.integration.macro_step = 10e-3;
+    p.body.initial.velocity = {0.01, 0, 0};
+    Simulation<TypeParam> simulation(p);
+    simulation.set_external_forces([&](const ForceRequest<TypeParam>& r) {
+      enqueue<TypeParam>(r.exec, r.force.extent(0), Tie<TypeParam>{r, 1e4, into_the_solve});
+    });
+    for (int n = 0; n < 20; ++n) simulation.step();
+    const double moved = largest(displacements(simulation, p.body.levels[0]));
+    if (into_the_solve)
+      EXPECT_LT(moved, 1e-12);
+    else
+      EXPECT_FALSE(moved <= 1);  // or it is not a number any more
+  }
+}
+
+TYPED_TEST(CallersForces, OnASurfaceThatIsNotThereAreRefused) {
+  Simulation<TypeParam> simulation(small_cube());
+  const Vectors<TypeParam> f("f", 12);
+  simulation.set_external_forces([&](const ForceRequest<TypeParam>& r) { r.add_surface_forces(f); });
+  EXPECT_THROW(simulation.step(), InputError);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/implicit/stage_kernels.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -33,8 +34,7 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
   Problem p = small_cube("neo_hookean", 2);
   p.gravity = {1, 2, -9.81}, p.body.damping.mass = 30, p.body.fixed = {left_face()};
   LevelProbe<Host> probe(p);
-  HierarchyLevel<Host>& part = probe.at(0);
-  Level<Host>& level = part.level;
+  SolverLevel<Host>& level = probe.at(0);
   const std::size_t n = probe.vertices();
   const plica::State<Host> base(device_field<Host>(random_field(n, 1e-3, 1)),
                                 device_field<Host>(random_field(n, 1, 2)));
@@ -44,7 +44,7 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
     if (p.body.levels[0].vertices[i][0] < 1e-9) change[i].setZero();
   const double a = 3e-4, b = 2e-2;  // not each other's square: as generalized_alpha has them
   const Vectors<Host> dead("test.dead", n);
-  part.forces->dead(level, 0, dead);
+  level.dead(0, dead);
   const BlockSums<Host> blocks(static_cast<int>(level.partial.extent(0)));
   const Kokkos::View<double*, Host::Memory> result("test.result", 4);
   const auto at = [&](double t) {
@@ -52,7 +52,7 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
     const auto base_u = to_host<Host>({}, base.u), base_v = to_host<Host>({}, base.v);
     for (std::size_t i = 0; i < n; ++i) x[i] += t * change[i], v[i] = base_v[i] + b / a * (x[i] - base_u[i]);
     level.state = {device_field<Host>(x), device_field<Host>(v)};
-    part.forces->linearise(level, level.state, 0, {a, b}, 0, level.f);
+    level.linearise(level.state, 0, {a, b}, 0, level.f);
     reduce<Host, 4>(
         {}, "test", static_cast<int>(n),
         StagePotential<Host>{{level.model, base, level.state, a, b}, level.f, dead, device_field<Host>(change), 0},

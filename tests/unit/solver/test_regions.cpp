@@ -46,7 +46,7 @@ TYPED_TEST(Regions, HaveTheirOwnStress) {
 TYPED_TEST(Regions, PatchesDoNotSpanThem) {
   const Problem p = two_halves();
   LevelProbe<TypeParam> probe(p);
-  const auto& patches = probe.at(0).level.model.patches;
+  const auto& patches = probe.at(0).model.patches;
   const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
   const auto first = host(patches.first_pack), element = host(patches.element);
   std::vector<int> seen(p.body.levels[0].tets.size(), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
@@ -92,5 +93,137 @@ TEST(Threads, SerialAndOpenMPGiveTheSameBits) {
 }
 #endif
 #endif
+
+// A simulation that was saved and restored goes on as if nothing had happened.
+
+Problem thrown(const std::string& cycle, const std::string& integrator) {
+  Problem p = cube_levels(3, 4, cycle);
+  p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
+  p.body.initial.velocity = {0.3, 0, -0.5};
+  p.body.initial.angular_velocity = {0, 3, 1};
+  p.body.prescribed = {{left_face(), SteadyMotion(Point(0, 0.1, 0))}};
+  p.gravity = {0, 0, -9.81};
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, SteadyMotion(Point(0, 0, 0.01))});
+  p.integration.integrator = {integrator};
+  p.integration.macro_step = integrator == "implicit_euler" ? 2e-3 : 5e-4;
+  if (cycle != "him") p.integration.distribution = "equal";
+  p.integration.allow_unstable = true;  // for a few steps even the one that always grows will do
+  return p;
+}
+
+template <class B>
+void expect_same(Simulation<B>& a, Simulation<B>& b) {
+  EXPECT_EQ(a.time(), b.time());
+  EXPECT_EQ(a.macro_steps(), b.macro_steps());
+  EXPECT_EQ(a.counters(), b.counters());
+  EXPECT_EQ(a.residual(), b.residual());
+  EXPECT_EQ(a.worst_residual(), b.worst_residual());
+  EXPECT_EQ(a.energies().total(), b.energies().total());
+  for (int level = 0; level < static_cast<int>(a.levels().size()); ++level) {
+    if (a.levels()[static_cast<std::size_t>(level)].share == 0) continue;  // no state of its own
+    EXPECT_TRUE(same_bits(a.positions(level), b.positions(level))) << level;
+    EXPECT_TRUE(same_bits(a.velocities(level), b.velocities(level))) << level;
+  }
+}
+
+template <class B>
+class SavedStates : public testing::Test {};
+TYPED_TEST_SUITE(SavedStates, EachBackend);
+
+TYPED_TEST(SavedStates, ContinueBitForBit) {
+  for (const Choice& cycle : cycles())
+    for (const Choice& integrator : integrators()) {
+      if (cycle.name == "him" && integrator.name != "symplectic_euler") continue;
+      SCOPED_TRACE(cycle.name + " " + integrator.name);
+      const Problem problem = thrown(cycle.name, integrator.name);
+      Simulation<TypeParam> whole(problem), second(problem);
+      SavedState saved;
+      {
+        Simulation<TypeParam> first(problem);
+        advance(first, 3);
+        saved = first.save();
+      }
+      advance(whole, 7);
+      second.restore(saved);
+      EXPECT_EQ(second.macro_steps(), 3);
+      EXPECT_FALSE(same_bits(whole.positions(), second.positions()));
+      advance(second, 4);
+      expect_same(whole, second);
+      EXPECT_EQ(whole.save().bytes, second.save().bytes);
+    }
+}
+
+TYPED_TEST(SavedStates, KeepPreconditioners) {
+  for (const char* preconditioner : {"chebyshev", "multigrid"})
+    for (const char* integrator : {"implicit_euler", "v_cycle_euler"}) {
+      SCOPED_TRACE(std::string(preconditioner) + " " + integrator);
+      Problem problem = thrown("rsv", integrator);
+      problem.integration.macro_step = 5e-3;
+      problem.integration.implicit.solver = "conjugate_gradients";
+      problem.integration.implicit.preconditioner = preconditioner;
+      Simulation<TypeParam> whole(problem), second(problem);
+      advance(whole, 3);
+      second.restore(whole.save());
+      advance(whole, 12);
+      advance(second, 12);
+      expect_same(whole, second);
+    }
+}
+
+TYPED_TEST(SavedStates, KeepTheLastGoodState) {
+  const Problem problem = thrown("rsv", "symplectic_euler");
+  Simulation<TypeParam> whole(problem), second(problem);
+  advance(whole, 25);
+  second.restore(whole.save());
+  whole.return_to_last_good();
+  second.return_to_last_good();
+  EXPECT_EQ(second.macro_steps(), 20);
+  advance(whole, 3);
+  advance(second, 3);
+  expect_same(whole, second);
+}
+
+template <class B>
+std::string refusal(Simulation<B>& simulation, const SavedState& saved) {
+  const auto before = simulation.save().bytes;
+  try {
+    simulation.restore(saved);
+  } catch (const InputError& error) {
+    EXPECT_EQ(simulation.save().bytes, before) << "changed although it refused";
+    return error.what();
+  }
+  return "restored";
+}
+
+TEST(SavedState, OfAnotherSimulationIsRefused) {
+  const Problem problem = thrown("rsv", "symplectic_euler");
+  Simulation<Host> simulation(problem);
+  const auto from = [&](Problem other) { return Simulation<Host>(std::move(other)).save(); };
+  const std::string start = "the saved state is that of another simulation: ";
+  Problem other = problem;
+  other.integration.macro_step = 4e-4;
+  EXPECT_EQ(refusal(simulation, from(other)), start + "the macro step differs");
+  other = problem;
+  other.body.levels.pop_back();
+  EXPECT_EQ(refusal(simulation, from(other)), start + "the number of levels differs");
+  other = problem;
+  other.body.levels[1] = jittered_box(decimetre, {2, 2, 2});
+  EXPECT_EQ(refusal(simulation, from(other)), start + "the size of level 1's state.u differs");
+  EXPECT_EQ(refusal(simulation, from(thrown("rs", "symplectic_euler"))),
+            start + "the size of level 0's start.u differs");
+  EXPECT_EQ(refusal(simulation, Simulation<HostFloat>(problem).save()), start + "the precision differs");
+}
+
+TEST(SavedState, CutShortOrTooLongIsRefused) {
+  Simulation<Host> simulation(thrown("rsv", "implicit_euler"));
+  advance(simulation, 2);
+  const SavedState saved = simulation.save();
+  for (std::size_t size = 0; size < saved.bytes.size(); size += 1 + saved.bytes.size() / 50)
+    EXPECT_EQ(refusal(simulation, {{saved.bytes.begin(), saved.bytes.begin() + static_cast<std::ptrdiff_t>(size)}}),
+              "the saved state is damaged: it ends early");
+  SavedState longer = saved;
+  longer.bytes.resize(longer.bytes.size() + 3);
+  EXPECT_EQ(refusal(simulation, longer), "the saved state is damaged: 3 bytes too many");
+}
 
 }  // namespace

@@ -34,8 +34,7 @@ TYPED_TEST(Retry, GoesOnWhereTheRunWouldEnd) {
   Simulation<TypeParam> without(squashed(0)), with(squashed(6));
   bool ended = false;
   for (int n = 0; n < 100 && !ended; ++n) {
-    without.step();
-    ended = without.check().has_value();
+    ended = without.step_checked().has_value();
   }
   ASSERT_TRUE(ended);
   advance(with, 100);
@@ -66,8 +65,7 @@ TYPED_TEST(Retry, GivesUpAtItsLimit) {
   v[17] = {0, std::numeric_limits<double>::quiet_NaN(), 0};
   advance(simulation, 3);
   simulation.set_state(u, v);
-  simulation.step();
-  const auto bad = simulation.check();
+  const auto bad = simulation.step_checked();
   ASSERT_TRUE(bad);
   EXPECT_EQ(bad->kind, "non_finite");
   EXPECT_EQ(simulation.counters().at("halvings"), simulation.counters().at("rejected_steps") - 1);
@@ -79,12 +77,33 @@ TYPED_TEST(Retry, OfCyclesAndOfSeveralStepsAtOnce) {
     Simulation<TypeParam> simulation(squashed(8, cycle));
     for (int n = 0; n < 20; ++n) {
       simulation.step(), simulation.step();
-      const auto bad = simulation.check();
+      auto bad = simulation.check();
+      if (bad) bad = simulation.recover(*bad);
       ASSERT_FALSE(bad) << bad->text();
     }
     EXPECT_EQ(simulation.macro_steps(), 40);
     EXPECT_DOUBLE_EQ(simulation.time(), 40 * simulation.macro_step());
   }
+}
+
+// A look at the state is no step.
+TYPED_TEST(Retry, LeavesTheStateToTheCheckAsItIs) {
+  Simulation<TypeParam> simulation(squashed(6));
+  std::optional<Diagnosis> bad;
+  for (int n = 0; n < 100 && !bad; ++n) {
+    simulation.step();
+    const auto x = simulation.positions();
+    const long halvings = simulation.counters().at("halvings");
+    bad = simulation.check();
+    EXPECT_TRUE(same_bits(simulation.positions(), x));
+    EXPECT_EQ(simulation.counters().at("halvings"), halvings);
+  }
+  ASSERT_TRUE(bad);
+  const long steps = simulation.macro_steps();
+  EXPECT_FALSE(simulation.recover(*bad));
+  EXPECT_EQ(simulation.macro_steps(), steps);
+  EXPECT_GT(simulation.counters().at("halvings"), 0);
+  EXPECT_FALSE(simulation.check());
 }
 
 TYPED_TEST(Retry, ContinuesBitForBitFromASavedState) {

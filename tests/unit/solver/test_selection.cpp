@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/set_up/add_regions.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 

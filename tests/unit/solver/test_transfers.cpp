@@ -45,7 +45,7 @@ TYPED_TEST(Transfers, AreExactOnLinearFields) {
     const auto &fine = p.body.levels[static_cast<std::size_t>(i - 1)].vertices,
                &coarse = p.body.levels[static_cast<std::size_t>(i)].vertices;
     const auto on_fine = linear_field(fine), on_coarse = linear_field(coarse);
-    const auto& level = probe.at(i).level;
+    const auto& level = probe.at(i);
     EXPECT_EQ(level.from_finer.rows, static_cast<int>(coarse.size()));
     EXPECT_LE(largest_difference(mapped(probe, level.from_finer, on_fine, coarse.size()), on_coarse),
               round_off<Real>(20));
@@ -57,7 +57,7 @@ TYPED_TEST(Transfers, LeaveConstrainedVerticesAlone) {
   Problem p = cube_levels(2, 4, "rs");
   p.body.fixed = {left_face()};
   LevelProbe<TypeParam> probe(p);
-  const auto& level = probe.at(1).level;
+  const auto& level = probe.at(1);
   EXPECT_EQ(level.from_finer.rows, 64 - 16);
   EXPECT_EQ(level.to_finer.rows, 125 - 25);
 }
@@ -67,7 +67,7 @@ TYPED_TEST(Transfers, EmbeddingsTransposeIsItsAdjoint) {
   Problem p = small_cube();
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.052, 2);  // partly outside
   LevelProbe<TypeParam> probe(p);
-  const auto& s = probe.at(0).level.surface;
+  const auto& s = probe.at(0).surface;
   const auto points = static_cast<std::size_t>(s.points);
   const auto u = random_field(probe.vertices(), 1, 1), force = random_field(points, 1, 2);
   const Vectors<TypeParam> f("test.f", probe.vertices());
@@ -94,7 +94,7 @@ TYPED_TEST(Transfers, WeightsSumToOneAndMissesAreCounted) {
     }
     LevelProbe<TypeParam> probe(p);
     const LevelReport& r = probe.built.reports[1];
-    const auto& t = probe.at(1).level.to_finer;
+    const auto& t = probe.at(1).to_finer;
     EXPECT_EQ(r.outside_down, 0);
     EXPECT_GT(r.outside_up, 50);  // most of the box's boundary
     EXPECT_GT(r.largest_miss, 0.5);

@@ -36,8 +36,7 @@ Motion run(const std::string& scene, double over_critical = 0) {
       m.time.push_back(simulation.time());
       m.surface.push_back(simulation.surface_positions());
     }
-    simulation.step();
-    if (const auto bad = simulation.check()) {
+    if (const auto bad = simulation.step_checked()) {
       ADD_FAILURE() << scene << ": " << bad->text();
       return m;
     }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
+#include <plica/drivers/solver/him/him_stepper.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double automatic_step = 8;  // times the finest level's critical step
+
+Eigen::MatrixXd on_vectors(const RowMatrix& A) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * A.rows(), 3 * A.cols());
+  for (Eigen::Index a = 0; a < A.rows(); ++a)
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry)
+      for (int k = 0; k < 3; ++k) all(3 * a + k, 3 * entry.col() + k) = entry.value();
+  return all;
+}
+
+void expect_small(const TetMesh& coarsest, std::size_t level) {
+  const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
+  if (coarsest.vertices.size() > most)
+    throw InputError("cycle him answers its coarsest level by a dense matrix; level " + std::to_string(level) +
+                     " has " + std::to_string(coarsest.vertices.size()) + " vertices, expected at most " +
+                     std::to_string(most) + ": add a coarser level, of 200 to 350 vertices");
+}
+
+template <class B>
+HimParts<B> him_parts(StepperSetup<B>& setup) {
+  const auto& exec = setup.hierarchy.exec();
+  const Level<B>& finest = setup.hierarchy[0];
+  const std::vector<TetMesh>& meshes = setup.meshes;
+  const std::vector<LevelConstants>& constants = setup.constants;
+  std::vector<MassMesh> spaces_of;
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    spaces_of.push_back({meshes[i], constants[i].constrained, setup.up[i]});
+  const auto spaces = mass_spaces(spaces_of, constants[0].mass, setup.problem.integration.him.smoothing);
+  HimParts<B> parts;
+  parts.options = setup.problem.integration.him;
+  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, meshes.front(), meshes.back(), spaces);
+  std::optional<CoarseModes> modes;
+  if (!spaces.empty()) {
+    std::vector<std::array<double, 2>> lame;
+    for (const auto& one : constants[0].lame) lame.push_back({one.lambda, one.mu});
+    modes.emplace(coarse_stiffness(meshes.front(), lame, to_finest(spaces)), on_vectors(spaces.back().mass));
+  }
+  parts.fitter =
+      std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, *parts.inverse_mass, std::move(modes));
+  if (setup.contact) parts.contact = std::make_unique<ContactResponse<B>>(setup.contact, finest.model.vertices);
+  bool free = true;
+  for (const char constrained : constants[0].constrained) free = free && !constrained;
+  if (free && !spaces.empty()) {
+    const Box box = bounding_box(meshes.front().vertices);
+    std::vector<Point> rest = meshes.front().vertices;
+    for (Point& p : rest) p -= (box.min + box.max) / 2;
+    parts.free.emplace(to_device<Vectors<B>>("him.rest", rows<typename B::Real>(rest)));
+  }
+  return parts;
+}
+
+[[noreturn]] void refuse_step(double t, double fits, double critical) {
+  throw InputError(text("integration.macro_step ", number(t, 4), " s is ", number(t / critical, 3),
+                        " times the finest level's critical step ", number(critical, 4),
+                        " s, and no inertia makes it stable in cycle him; expected at most about ", number(fits, 3),
+                        " s, or a finer coarsest level"));
+}
+
+/// The fit to the scene's macro step, or to the longest that it takes by itself.
+template <class B>
+InertiaFit fit_step(const StepperSetup<B>& setup, HimParts<B>& parts) {
+  const std::optional<double>& given = setup.problem.integration.macro_step;
+  const Vectors<B>& u = setup.hierarchy[0].state.u;
+  const double critical = parts.fitter->critical_steps().front(), sigma = parts.options.sigma;
+  const bool coarse = parts.inverse_mass->levels() > 1;
+  const double asked = given.value_or((coarse ? automatic_step : sigma) * critical);
+  for (double t = asked; t > 0.01 * critical; t /= 2)
+    if (const auto fit = parts.fitter->fit(t, sigma, u)) {
+      if (given && t < asked) refuse_step(asked, t, setup.reports.front().critical_step);
+      return *fit;
+    }
+  refuse_step(asked, 0, setup.reports.front().critical_step);
+}
+
+}  // namespace
+
+template <class B>
+void HimStepper<B>::plan(StepperSetup<B>& setup) {
+  if (setup.meshes.size() > 1) expect_small(setup.meshes.back(), setup.meshes.size() - 1);
+  HimParts<B> parts = him_parts<B>(setup);
+  parts.fit = fit_step<B>(setup, parts);
+  take(setup.hierarchy, std::move(parts));
+  setup.macro_step = parts_.fit.step;
+  const std::vector<double>& own = parts_.fitter->critical_steps();
+  for (std::size_t i = 0; i < setup.reports.size(); ++i) {
+    LevelReport& report = setup.reports[i];
+    report.inertia = parts_.fit.inertia[i];
+    report.explicit_integrator = false;  // no critical step limits it
+    report.share = i == 0 ? 1 : 0, report.substeps = i == 0 ? 1 : 0;
+    if (i > 0) report.integrator = "none";
+    if (i < own.size()) report.detail_step = own[i];
+  }
+  const int coarsest = setup.reports.size() > 1 ? setup.reports.back().vertices : 0;
+  setup.him = HimReport{parts_.fit.product, parts_.fit.bound, coarsest, 3 * coarsest <= CoarseModes::most_modes};
+}
+
+template <class B>
+void HimStepper<B>::take(const Hierarchy<B>& h, HimParts<B>&& parts) {
+  parts_ = std::move(parts);
+  n_ = h[0].model.vertices;
+  p_ = Vectors<B>("plica::him.p", n_), g_ = Vectors<B>("plica::him.g", n_), a_ = Vectors<B>("plica::him.a", n_);
+  f_before_ = Vectors<B>("plica::him.f_before", n_), a_before_ = Vectors<B>("plica::him.a_before", n_);
+  blocks_ = BlockSums<B>(n_);
+  moved_ = Count("plica::him.moved", 2), loss_ = Count("plica::him.loss", 1);
+  sums_ = Count("plica::him.sums", 2), watch_ = Count("plica::him.watch", 3);
+}
+
+template <class B>
+std::unique_ptr<Stepper<B>> Him::make() {
+  return std::make_unique<HimStepper<B>>();
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)             \
+  template class HimStepper<Backend<Real, Exec>>; \
+  template std::unique_ptr<Stepper<Backend<Real, Exec>>> Him::make<Backend<Real, Exec>>();
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/him/contact_response.hpp>
+#include <plica/drivers/solver/him/free_motion.hpp>
+#include <plica/drivers/solver/him/inertia.hpp>
+#include <plica/drivers/solver/him/momentum_of.hpp>
+#include <plica/drivers/solver/stepper.hpp>
+#include <plica/kernels/him/leapfrog.hpp>
+
+namespace plica {
+
+/// What the stepper `him` is made of.
+template <class B>
+struct HimParts {
+  HimOptions options;
+  std::unique_ptr<InverseMass<B>> inverse_mass;
+  std::unique_ptr<InertiaFitter<B>> fitter;
+  std::optional<FreeMotion<B>> free;            ///< of a body that nothing holds
+  std::unique_ptr<ContactResponse<B>> contact;  ///< of a body with obstacles
+  InertiaFit fit;
+};
+
+/// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per macro step. Forces go down to
+/// the coarser levels, each answers them with the inertia of what it can move, and their accelerations come back up: motion
+/// that coarse levels represent keeps its own inertia, finer detail gets more of it, and so is slowed and allows the step.
+/// Static equilibrium is the finest mesh's. Second order. See cmake/docs/him.md.
+///
+/// Momenta p are what is stepped, v = A p follows: symplectic Euler of the energy p.A(x) p/2 + V(x), seen half a step off the
+/// forces, so that the state at t_n and t_n+1 is that of position Verlet. The energy stays bounded and, of a free body, sum p =
+/// sum m v and sum x x p stay; sum x x m v wavers. A start from given velocities takes p = m v and v = A m v; a state that is put
+/// in later keeps its v, with p = A^-1 v, where the axes were when it was written. Where the body has stiffened so far that
+/// stability is lost, lost_stability() tells; repair() fits the inertia to the state as it is.
+template <class B>
+class HimStepper final : public Stepper<B> {
+  using Real = typename B::Real;
+
+ public:
+  HimStepper() = default;
+  /// Of parts that were put together by hand, for the finest level of this hierarchy.
+  HimStepper(const Hierarchy<B>& h, HimParts<B>&& parts) { take(h, std::move(parts)); }
+
+  void plan(StepperSetup<B>& setup) override;
+
+  void start(Hierarchy<B>& h) override {
+    const Level<B>& level = h[0];
+    const auto& exec = h.exec();
+    parts_.inverse_mass->turn(exec, level.state.u, moved_);
+    update_vertices<B>(exec, "plica::him_momenta", n_, PlainMomentum<B>{level.model, level.state.v, p_});
+    answer(exec, level.model, p_, a_);
+    update_vertices<B>(exec, "plica::him_start", n_, StartVelocity<B>{level.model.inverse_mass, a_, level.state.v});
+    forget(exec);
+  }
+
+  void begin(Hierarchy<B>& h) override {
+    const Level<B>& level = h[0];
+    lost_ = watched(h.exec()) > 1;
+    const auto& exec = h.exec();
+    Kokkos::deep_copy(exec, a_, level.state.u);
+    const auto half = static_cast<Real>(0.5 * parts_.fit.step);
+    update_vertices<B>(exec, "plica::him_back", n_, Drift<B>{level.model.inverse_mass, {a_, level.state.v}, -half});
+    parts_.inverse_mass->turn(exec, a_, moved_);
+    momentum_of<B>(
+        exec, level.model, [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); },
+        level.state.v, p_);
+    forget(exec);
+  }
+
+  void step(Hierarchy<B>& h, double time, double t) override {
+    for (int s = 0; s < substeps_; ++s) one(h, time + s * t / substeps_, t / substeps_);
+  }
+
+  bool lost_stability(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
+
+  bool repair(Hierarchy<B>& h, double t, int attempt) override {
+    constexpr int most_substeps = 64, attempts_at_a_step = 2;
+    if (attempt >= attempts_at_a_step) substeps_ *= 2;
+    const Vectors<B>& u = h[0].state.u;
+    double scale = 0.5 * parts_.fit.scale;
+    if (lost_) scale = 1, substeps_ *= 2;  // only a shorter step helps there
+    for (++repairs_; substeps_ <= most_substeps; substeps_ *= 2, scale = 1)
+      if (const auto fit = parts_.fitter->fit(t / substeps_, parts_.options.sigma, u, scale)) {
+        parts_.fit = *fit;
+        begin(h);
+        return true;
+      }
+    return false;
+  }
+
+  /// p [kg m/s], 0 where the motion is given.
+  const Vectors<B>& momenta() const { return p_; }
+
+  std::map<std::string, long> counters() const override {
+    return {{"inertia_refits", repairs_}, {"him_substeps", substeps_}};
+  }
+
+  std::size_t bytes() const override {
+    return parts_.inverse_mass->bytes() + 5 * g_.span() * sizeof(Real) + (parts_.free ? g_.span() * sizeof(Real) : 0) +
+           (parts_.contact ? parts_.contact->bytes() : 0);
+  }
+
+  void persist(StateArchive<B>& archive) override {
+    const double macro_step = parts_.fit.step * substeps_;
+    double scale = parts_.fit.scale;
+    archive.number(scale), archive.number(substeps_), archive.number(repairs_);
+    if (scale != parts_.fit.scale || macro_step != parts_.fit.step * substeps_)
+      parts_.fit = parts_.fitter->use(macro_step / substeps_, parts_.options.sigma, scale);
+    archive.number(first_);
+    archive.field("the momenta", p_);
+    archive.field("the axes' share of them", parts_.inverse_mass->axes().share());
+    archive.field("the last force", f_before_);
+    archive.field("the last answer", a_before_);
+    archive.field("the coarsest axes", parts_.inverse_mass->filter().rotation);
+  }
+
+ private:
+  HimParts<B> parts_;
+  int n_ = 0;
+  Vectors<B> p_, g_, a_, f_before_, a_before_;
+  BlockSums<B> blocks_;
+  Kokkos::View<double*, typename B::Memory> moved_, loss_, sums_, watch_;
+  bool first_ = true;
+  bool lost_ = false;  // before the last begin(): the axes' force was not found
+  int substeps_ = 1;
+  long repairs_ = 0;
+
+  using Count = typename InverseMass<B>::Count;
+
+  /// The parts, and work arrays that go with them.
+  void take(const Hierarchy<B>& h, HimParts<B>&& parts);
+
+  /// 0, or what is wrong: 1 the spectrum, 2 the axes' force. Waits.
+  double watched(const typename B::Exec& exec) const {
+    exec.fence("plica::him_watch");
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), watch_)(1);
+  }
+
+  /// What the next step takes from the last, but for momenta.
+  void forget(const typename B::Exec& exec) {
+    first_ = true;
+    Kokkos::deep_copy(exec, watch_, 0.0);
+    Kokkos::deep_copy(exec, parts_.inverse_mass->axes().share(), Real(0));
+  }
+
+  /// v = A p; with a count only where that is above 0.
+  void answer(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& p, const Vectors<B>& v,
+              const Count& count = {}) const {
+    parts_.inverse_mass->apply(exec, without_translation(exec, model, p), v, count);
+    if (parts_.free) parts_.free->put_translation(exec, model, v);
+  }
+
+  /// Momenta as the levels get to see them, in g_ where that differs.
+  const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model,
+                                        const Vectors<B>& p) const {
+    if (!parts_.free) return p;
+    parts_.free->take_translation(exec, model, p, g_);
+    return g_;
+  }
+
+  void kick(const typename B::Exec& exec, const Level<B>& level, double t) {
+    parts_.inverse_mass->turn(exec, level.state.u, moved_);
+    update_vertices<B>(exec, "plica::him_loss", 1,
+                       ChooseLoss<B>{moved_, loss_, parts_.options.dissipation.value_or(-1)});
+    if (parts_.free) {
+      update_vertices<B>(exec, "plica::him_slowed", n_, SlowedMomentum<B>{level.model, level.state.v, p_, g_});
+      parts_.free->take_rigid(exec, level.model, level.state.u, g_);
+    }
+    update_vertices<B>(exec, "plica::him_momenta", n_,
+                       KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
+                                       static_cast<Real>(t)});
+    parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
+  }
+
+  void one(Hierarchy<B>& h, double time, double t) {
+    const Level<B>& level = h[0];
+    const auto& exec = h.exec();
+    const Scalars<B>& inverse_mass = level.model.inverse_mass;
+    update_vertices<B>(exec, "plica::him_drift", n_, Drift<B>{inverse_mass, level.state, static_cast<Real>(t / 2)});
+    prescribe(exec, level, level.state, time + t / 2);
+    h[0].evaluate_without_contact(level.state, time + t / 2, level.f);
+    h.clock.time("turn", 0, [&] { kick(exec, level, t); });
+    h.clock.time("answer", 0, [&] { answer(exec, level.model, p_, a_); });
+    update_vertices<B>(exec, "plica::him_acceleration", n_,
+                       MeanAcceleration<B>{level.state.v, a_, static_cast<Real>(1 / t)});
+    if (parts_.contact)
+      h.clock.time("contact", 0, [&] {
+        parts_.contact->resolve(exec, level, time + t / 2, t, a_, [&](const auto& f, const auto& a, const auto& count) {
+          answer(exec, level.model, f, a, count);
+        });
+      });
+    const KickAndDrift<B> finish{.inverse_mass = inverse_mass,
+                                 .state = level.state,
+                                 .p = p_,
+                                 .f = level.f,
+                                 .a = a_,
+                                 .f_before = f_before_,
+                                 .a_before = a_before_,
+                                 .contact = parts_.contact ? parts_.contact->answer() : Vectors<B>{},
+                                 .contact_force = parts_.contact ? parts_.contact->force() : Vectors<B>{},
+                                 .touching = parts_.contact ? parts_.contact->count() : Count{},
+                                 .t = static_cast<Real>(t)};
+    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_);
+    update_vertices<B>(exec, "plica::him_watch", 1,
+                       WatchSpectrum<B>{sums_, parts_.inverse_mass->axes().open(), watch_, first_});
+    prescribe(exec, level, level.state, time + t);
+    first_ = false;
+  }
+};
+
+}  // namespace plica

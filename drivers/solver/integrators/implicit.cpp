@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The implicit integrators. Each sets the base (u~, v~) of a stage, which the stage solver then solves (stage_solver.hpp); what
+// becomes of a step that is not solved, ImplicitStep says.
+#include <plica/drivers/solver/integrators/implicit_step.hpp>
+#include <plica/kernels/implicit/bases.hpp>
+
+namespace plica {
+
+namespace {
+
+/// Backward Euler: order 1, dissipative at every step, no stability limit on the linear problem (L-stable).
+///
+/// With the linear solver v_cycle, the system A = M + h^2 K is answered by exactly one V-cycle C of multigrid over the body's
+/// meshes. On the linear problem, with C A in (0, 1], motion against k = h^2 C K < 1 has |eigenvalue|^2 = 1 - k: no limit on the
+/// step. What the cycle does not resolve moves as if it were heavier. Of a body that stiffens, C stays behind until it is fitted
+/// again.
+template <class B>
+class ImplicitEulerStep final : public ImplicitStep<B> {
+ public:
+  using ImplicitStep<B>::ImplicitStep;
+
+ protected:
+  bool step(SolverLevel<B>& level, double time, double h) override {
+    const State<B>& base = this->stages().base();
+    base.copy(level.exec(), level.state);
+    update_vertices<B>(level.exec(), "plica::implicit_euler_base", level.model.vertices,
+                       DriftBase<B>{base, static_cast<typename B::Real>(h)});
+    return this->stages().solve(level, time, h, {h * h, h});
+  }
+};
+
+/// Base of the trapezoidal rule over h [s] from the level's state at `time`: half a step of forward Euler, and the drift of the
+/// implicit half. Uses level.f.
+template <class B>
+void trapezoidal_base(SolverLevel<B>& level, double time, double h, const State<B>& base) {
+  using Real = typename B::Real;
+  level.evaluate(level.state, time, level.f);
+  update_vertices<B>(level.exec(), "plica::accelerations", level.model.vertices,
+                     Accelerations<B>{level.model, level.f, level.state.v, level.f});
+  update_vertices<B>(level.exec(), "plica::trapezoidal_base", level.model.vertices,
+                     ExtrapolateState<B>{level.state, level.f, base, static_cast<Real>(h), static_cast<Real>(h * h / 4),
+                                         static_cast<Real>(h / 2)});
+}
+
+/// Newmark's method with beta = 1/4, gamma = 1/2: the trapezoidal rule, half a step of forward Euler, then half a step of
+/// backward Euler. Order 2; on the linear problem stable at every step (A-stable) and without loss of energy, so that motion
+/// too fast for the step rings on; with large strains energy wavers and may grow (Hughes, The Finite Element Method, 9.1), and
+/// with one Newton iteration per step it is lost.
+template <class B>
+class NewmarkStep final : public ImplicitStep<B> {
+ public:
+  using ImplicitStep<B>::ImplicitStep;
+
+ protected:
+  bool step(SolverLevel<B>& level, double time, double h) override {
+    trapezoidal_base(level, time, h, this->stages().base());
+    return this->stages().solve(level, time, h, {h * h / 4, h / 2});
+  }
+};
+
+/// The backward differentiation formula v = (4 v_n - v_{n-1})/3 + 2h/3 a, likewise u: order 2, stable at every step on the
+/// linear problem, and fast motion decays (L-stable); slow motion loses energy in proportion to h^4 (Hairer & Wanner, Solving
+/// ODEs II, V.1). Where there is no step before it, and so on every level of a cycle, which hands over another state: half a
+/// step of the trapezoidal rule, then the formula over the two halves (Bank et al. 1985), as stable and as accurate.
+template <class B>
+class Bdf2Step final : public ImplicitStep<B> {
+  using Real = typename B::Real;
+
+ public:
+  Bdf2Step(const Level<B>& level, const IntegratorParts<B>& parts)
+      : ImplicitStep<B>(level, parts),
+        start_("bdf2.start", level.model.vertices),
+        increment_("bdf2.increment", level.model.vertices) {}
+
+  void forget() override { last_step_ = 0; }
+  std::size_t bytes() const override { return ImplicitStep<B>::bytes() + 4 * start_.u.span() * sizeof(Real); }
+  void persist(StateArchive<B>& archive) override {
+    ImplicitStep<B>::persist(archive);
+    archive.number(last_step_);
+    archive.state("bdf2's increment", increment_);
+  }
+
+ protected:
+  bool step(SolverLevel<B>& level, double time, double h) override {
+    start_.copy(level.exec(), level.state);
+    const bool solved = last_step_ == h ? formula(level, time, h) : first(level, time, h / 2);
+    remember(level);
+    last_step_ = h;
+    return solved;
+  }
+
+ private:
+  State<B> start_, increment_;
+  double last_step_ = 0;  // [s]; 0: none
+
+  bool formula(SolverLevel<B>& level, double time, double h) {
+    const double b = 2 * h / 3;
+    const State<B>& base = this->stages().base();
+    update_vertices<B>(level.exec(), "plica::bdf2_base", level.model.vertices,
+                       AddIncrements<B>{level.state, increment_, base, Real(1) / 3});
+    update_vertices<B>(level.exec(), "plica::bdf2_drift", level.model.vertices,
+                       DriftBase<B>{base, static_cast<Real>(b)});
+    return this->stages().solve(level, time, h, {b * b, b});
+  }
+  bool first(SolverLevel<B>& level, double time, double h) {
+    trapezoidal_base(level, time, h, this->stages().base());
+    const bool solved = this->stages().solve(level, time, h, {h * h / 4, h / 2});
+    remember(level);
+    prescribe(level.exec(), level, level.state, time + h, h);
+    return formula(level, time + h, h) && solved;
+  }
+  void remember(const SolverLevel<B>& level) const {
+    update_vertices<B>(level.exec(), "plica::bdf2_increment", level.model.vertices,
+                       AddIncrements<B>{level.state, start_, increment_, Real(-1)});
+  }
+};
+
+/// The generalised alpha method of Chung & Hulbert (1993): order 2, stable at every step on the linear problem, and the fastest
+/// motion keeps rho_infinity of its amplitude per step: 1 conserves (the implicit midpoint rule), 0 annihilates. Balance is met at
+/// t + (1 - alpha_f) h with the acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. It carries an acceleration from step to step; where
+/// a cycle hands over another state, that is the acceleration there.
+template <class B>
+class GeneralizedAlphaStep final : public ImplicitStep<B> {
+  using Real = typename B::Real;
+
+ public:
+  GeneralizedAlphaStep(const Level<B>& level, const IntegratorParts<B>& parts)
+      : ImplicitStep<B>(level, parts),
+        start_("generalized_alpha.start", level.model.vertices),
+        acceleration_("plica::generalized_alpha.acceleration", level.model.vertices) {
+    const double rho = parts.implicit.rho_infinity;
+    mass_ = (2 * rho - 1) / (rho + 1), force_ = rho / (rho + 1);
+    gamma_ = 0.5 - mass_ + force_, beta_ = 0.25 * (1 - mass_ + force_) * (1 - mass_ + force_);
+  }
+
+  void forget() override { carried_ = false; }
+  std::size_t bytes() const override { return ImplicitStep<B>::bytes() + 3 * start_.u.span() * sizeof(Real); }
+  void persist(StateArchive<B>& archive) override {
+    ImplicitStep<B>::persist(archive);
+    archive.number(carried_);
+    archive.field("the acceleration", acceleration_);
+  }
+
+ protected:
+  bool step(SolverLevel<B>& level, double time, double h) override {
+    const auto& exec = level.exec();
+    const int n = level.model.vertices;
+    const State<B>& base = this->stages().base();
+    if (!carried_) {
+      level.evaluate(level.state, time, level.f);
+      update_vertices<B>(exec, "plica::accelerations", n,
+                         Accelerations<B>{level.model, level.f, level.state.v, acceleration_});
+    }
+    carried_ = true;
+    start_.copy(exec, level.state);
+    // u = u~ + cu A and v = v~ + cv A at the stage, A = alpha_m a_n + (1 - alpha_m) a_{n+1}
+    const double span = (1 - force_) * h, cu = span * h * beta_ / (1 - mass_), cv = span * gamma_ / (1 - mass_);
+    update_vertices<B>(exec, "plica::generalized_alpha_base", n,
+                       ExtrapolateState<B>{start_, acceleration_, base, static_cast<Real>(span),
+                                           static_cast<Real>(span * h * (0.5 - beta_) - cu * mass_),
+                                           static_cast<Real>(span * (1 - gamma_) - cv * mass_)});
+    const bool solved = this->stages().solve(level, time, span, {cu, cv});
+    update_vertices<B>(
+        exec, "plica::generalized_alpha_end", n,
+        GeneralizedAlphaEnd<B>{start_, base, level.state, acceleration_, static_cast<Real>(h), static_cast<Real>(cv),
+                               static_cast<Real>(mass_), static_cast<Real>(beta_), static_cast<Real>(gamma_)});
+    return solved;
+  }
+
+ private:
+  State<B> start_;
+  Vectors<B> acceleration_;
+  bool carried_ = false;
+  double mass_, force_, beta_, gamma_;  // alpha_m, alpha_f, Newmark's
+};
+
+}  // namespace
+
+template <class B>
+std::unique_ptr<Integrator<B>> ImplicitEuler::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+  return std::make_unique<ImplicitEulerStep<B>>(level, parts);
+}
+template <class B>
+std::unique_ptr<Integrator<B>> Newmark::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+  return std::make_unique<NewmarkStep<B>>(level, parts);
+}
+template <class B>
+std::unique_ptr<Integrator<B>> Bdf2::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+  return std::make_unique<Bdf2Step<B>>(level, parts);
+}
+template <class B>
+std::unique_ptr<Integrator<B>> GeneralizedAlpha::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+  return std::make_unique<GeneralizedAlphaStep<B>>(level, parts);
+}
+template <class B>
+std::unique_ptr<Integrator<B>> VCycleEuler::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+  return std::make_unique<ImplicitEulerStep<B>>(level, parts);
+}
+
+#define PLICA_MAKE(Kind, ...)                                                             \
+  template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make(const Level<__VA_ARGS__>&, \
+                                                               const IntegratorParts<__VA_ARGS__>&);
+#define PLICA_INSTANTIATE(Real, Exec)               \
+  PLICA_MAKE(ImplicitEuler, Backend<Real, Exec>)    \
+  PLICA_MAKE(Newmark, Backend<Real, Exec>)          \
+  PLICA_MAKE(Bdf2, Backend<Real, Exec>)             \
+  PLICA_MAKE(GeneralizedAlpha, Backend<Real, Exec>) \
+  PLICA_MAKE(VCycleEuler, Backend<Real, Exec>)
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/problem.hpp>
+#include <plica/core/transfer.hpp>
+#include <plica/meshes/embedding.hpp>
+#include <string>
+#include <vector>
+
+namespace plica {
+
+/// Per region of a mesh its density [kg/m^3]; one entry where it names none.
+std::vector<double> region_densities(const Body& body, const TetMesh& mesh);
+
+/// Per vertex a quarter of the mass of each of its tetrahedra [kg].
+std::vector<double> lumped_masses(const TetMesh& mesh, const std::vector<double>& density);
+
+/// Masses of a coarse level's vertices as the finer ones hand them on, m = P^T m_fine. A vertex that gets none keeps that of
+/// its own elements (`own`), and all are scaled to the total; the number of such goes to `without`.
+/// `up`: the finer vertices in the coarse mesh, without negative weights.
+std::vector<double> inherited_masses(const Embedding& up, const std::vector<double>& fine,
+                                     const std::vector<double>& own, int& without);
+
+/// The adjoint of `up`. A coarse vertex without a finer one in its elements averages the finer element it lies in (`down`).
+template <class B>
+Restriction<B> build_restriction(const Embedding& up, const std::vector<double>& fine, const Embedding& down);
+
+}  // namespace plica

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/drivers/solver/load_factor.hpp>
+#include <plica/kernels/elastic/gather_forces.hpp>
+#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/loads/add_load.hpp>
+
+namespace plica {
+
+template <class B>
+SolverLevel<B>::SolverLevel(Level<B>&& data, StageClock<B>& clock, int number)
+    : Level<B>(std::move(data)), clock_(&clock), number_(number) {}
+template <class B>
+SolverLevel<B>::SolverLevel(SolverLevel&&) noexcept = default;
+template <class B>
+SolverLevel<B>::~SolverLevel() = default;
+
+template <class B>
+void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
+                                std::shared_ptr<const Contact<B>> contact, bool implicit) {
+  elasticity_ = std::move(elasticity), contact_ = std::move(contact), implicit_ = implicit;
+  for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
+  if (contact_) points_ = contact_->make_points(implicit);
+}
+
+template <class B>
+void SolverLevel<B>::elastic_and_gravity(const State<B>& at, const Vectors<B>& force) {
+  ++evaluations_;
+  book("force", [&] {
+    elasticity_->force(exec(), this->model.patches, at, this->flags, ++evaluation_, this->partial);
+    gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
+  });
+}
+
+template <class B>
+void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
+  for (const Load<B>& load : this->loads) add_load<B>(exec(), load, load_factor(load.course, time), force);
+}
+
+template <class B>
+void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force) {
+  evaluate_without_contact(at, time, force);
+  if (contact_) book("contact", [&] { contact_->add_forces(exec(), *this, at, time, points_, force); });
+}
+
+template <class B>
+void SolverLevel<B>::evaluate_without_contact(const State<B>& at, double time, const Vectors<B>& force) {
+  elastic_and_gravity(at, force);
+  add_loads(time, force);
+  if (external_) book("external", [&] { ask_caller(at, time, 0, 0, force); });
+  add_correction(force);
+}
+
+template <class B>
+void SolverLevel<B>::dead(double time, const Vectors<B>& force) const {
+  update_vertices<B>(exec(), "plica::weigh_vertices", this->model.vertices,
+                     WeighVertices<B>{this->model.mass, gravity_, force});
+  add_loads(time, force);
+  add_correction(force);
+}
+
+template <class B>
+void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWeights& weights, double ahead,
+                               const Vectors<B>& force) {
+  elastic_and_gravity(at, force);
+  add_loads(time + ahead, force);
+  if (contact_) book("contact", [&] { contact_->linearise(exec(), *this, at, time, weights, ahead, points_, force); });
+  if (external_) book("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
+  add_correction(force);
+}
+
+template <class B>
+void SolverLevel<B>::set_external(const ExternalForces<B>& forces, const Vectors<B>& rest) {
+  external_ = forces;
+  rest_ = rest;
+  external_stiffness_ = implicit_ && forces ? Blocks<B>("plica::external.stiffness", rest.extent(0)) : Blocks<B>();
+}
+
+template <class B>
+void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, double ahead, const Vectors<B>& force) {
+  if (implicit_) Kokkos::deep_copy(exec(), external_stiffness_, typename B::Real(0));
+  external_({exec(), number_, time, rest_, at.u, at.v, force, this->surface, step, ahead, external_stiffness_});
+}
+
+template <class B>
+void SolverLevel<B>::add_correction(const Vectors<B>& force) const {
+  if (correction_.extent(0) > 0)
+    update_vertices<B>(exec(), "plica::add_correction", static_cast<int>(force.extent(0)),
+                       AddVectors<B>{correction_, force});
+}
+
+template <class B>
+void SolverLevel<B>::tangent(const State<B>& at, const Vectors<B>& p, double over) const {
+  elasticity_->tangent(exec(), this->model.patches, at.u, p, over, this->partial);
+}
+
+template <class B>
+void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const ImplicitWeights& weights,
+                             const Vectors<B>& q) const {
+  using Real = typename B::Real;
+  const Exec& exec = clock_->exec();
+  const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
+  tangent(at, p, weights.b / weights.a);
+  update_vertices<B>(exec, "plica::system_product", this->model.vertices,
+                     SystemProduct<B>{this->model, p, this->partial, q, a, b});
+  if (contact_) contact_->add_product(exec, *this, p, points_, q);
+  if (external_)
+    update_vertices<B>(exec, "plica::external_product", this->model.vertices,
+                       AddBlockProduct<B>{external_stiffness_, p, q, a});
+}
+
+template <class B>
+void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights, const Blocks<B>& blocks) const {
+  using Real = typename B::Real;
+  const Exec& exec = clock_->exec();
+  const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
+  for (int direction = 0; direction < 3; ++direction) {
+    elasticity_->diagonal(exec, this->model.patches, at.u, direction, weights.b / weights.a, this->partial);
+    update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
+                       DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
+  }
+  if (contact_) contact_->add_diagonal(exec, *this, points_, blocks);
+  if (external_)
+    update_vertices<B>(exec, "plica::external_diagonal", this->model.vertices,
+                       AddBlocks<B>{external_stiffness_, blocks, a});
+}
+
+template <class B>
+void SolverLevel<B>::assemble(const State<B>& at, const ImplicitWeights& weights, bool positive,
+                              const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const {
+  const Exec& exec = clock_->exec();
+  elasticity_->blocks(exec, this->model, pairs, at.u, weights, positive, shares, A);
+  if (contact_) contact_->add_matrix(exec, *this, points_, A);
+  if (external_)
+    update_vertices<B>(exec, "plica::external_matrix", this->model.vertices,
+                       AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});
+}
+
+template <class B>
+void SolverLevel<B>::persist(StateArchive<B>& archive, const std::string& name) {
+  archive.state(name + "state", this->state);
+  archive.state(name + "start", this->start);
+  archive.state(name + "previous", this->previous);
+  archive.number(evaluations_);
+  integrator->persist(archive);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class SolverLevel<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

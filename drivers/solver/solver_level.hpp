@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <plica/core/level.hpp>
+#include <plica/core/small.hpp>
+#include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/external_forces.hpp>
+#include <plica/drivers/solver/stage_clock.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
+
+namespace plica {
+
+template <class B>
+class Integrator;
+
+/// One resolution of the body at work: its data, all forces on it (internal, gravity, loads, contact, the caller's), what
+/// integrates it and its part of the macro step. Forces that the scene does not have are not there. Kernels go to the
+/// hierarchy's instance, whose clock books their time under this level's number.
+template <class B>
+class SolverLevel : public Level<B> {
+ public:
+  using Exec = typename B::Exec;
+
+  /// A level without forces or integrator yet. The clock must outlive it.
+  SolverLevel(Level<B>&& data, StageClock<B>& clock, int number);
+  SolverLevel(SolverLevel&&) noexcept;
+  ~SolverLevel();
+
+  /// What acts on it from now on. `implicit`: it will be linearised.
+  void set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
+                  std::shared_ptr<const Contact<B>> contact, bool implicit);
+
+  std::unique_ptr<Integrator<B>> integrator;
+  double share = 1;  ///< of the macro step
+  int substeps = 1;  ///< in its share
+
+  const Exec& exec() const { return clock_->exec(); }
+
+  /// f = the forces of a state of this level at a time [s].
+  void evaluate(const State<B>& state, double time, const Vectors<B>& f);
+  /// The same but for contact.
+  void evaluate_without_contact(const State<B>& state, double time, const Vectors<B>& f);
+
+  /// f = those that do not depend on the state: gravity, loads, a correction.
+  void dead(double time, const Vectors<B>& f) const;
+
+  /// Linearises about a state for an implicit stage: f as above with loads and contact `ahead` of it [s].
+  void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead, const Vectors<B>& f);
+  /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights.
+  void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, const Vectors<B>& q) const;
+  /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz.
+  void diagonal(const State<B>& state, const ImplicitWeights& weights, const Blocks<B>& blocks) const;
+  /// A itself, in blocks; `positive`: of elements whose tangents are projected to positive semi-definite ones.
+  void assemble(const State<B>& state, const ImplicitWeights& weights, bool positive, const PatchPairs<B>& pairs,
+                const Blocks9<B>& shares, const BlockMatrix<B>& A) const;
+  /// partial = the copies of -K p at a state; `over`: with the stiffness that damps times this [1/s].
+  void tangent(const State<B>& state, const Vectors<B>& p, double over = 0) const;
+
+  /// Books work() under a stage of this level.
+  template <class Work>
+  void book(const char* stage, const Work& work) const {
+    clock_->time(stage, number_, work);
+  }
+  const Elasticity<B>& elasticity() const { return *elasticity_; }
+  const Contact<B>* contact() const { return contact_.get(); }
+  const ContactPoints<B>& points() const { return points_; }
+  bool asks_caller() const { return static_cast<bool>(external_); }
+  long evaluations() const { return evaluations_; }
+  /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at rest [m].
+  void set_external(const ExternalForces<B>& forces, const Vectors<B>& rest);
+  /// A constant force [N] that is part of every evaluation from now on; an empty one ends that.
+  void set_correction(const Vectors<B>& force) { correction_ = force; }
+  void add_correction(const Vectors<B>& f) const;
+  /// Names what it carries from one macro step to the next, its integrator's included; `name`: "level 0's ".
+  void persist(StateArchive<B>& archive, const std::string& name);
+  /// Evaluations are numbered from 1 in each macro step, for the element flags.
+  void begin_macro_step() { evaluation_ = 0; }
+
+ private:
+  StageClock<B>* clock_;
+  int number_;
+  std::shared_ptr<const Elasticity<B>> elasticity_;
+  Vec3<typename B::Real> gravity_;
+  std::shared_ptr<const Contact<B>> contact_;
+  ContactPoints<B> points_;
+  bool implicit_ = false;
+  ExternalForces<B> external_;
+  Vectors<B> rest_;
+  Vectors<B> correction_;
+  Blocks<B> external_stiffness_;  ///< implicit levels only
+  long evaluations_ = 0;
+  int evaluation_ = 0;
+
+  void elastic_and_gravity(const State<B>& state, const Vectors<B>& f);
+  void ask_caller(const State<B>& state, double time, double step, double ahead, const Vectors<B>& f);
+  void add_loads(double time, const Vectors<B>& f) const;
+};
+
+}  // namespace plica

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <plica/drivers/solver/hierarchy.hpp>
+#include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/steppers.hpp>
+#include <plica/meshes/embedding.hpp>
+
+namespace plica {
+
+/// What set-up hands to a stepper's plan, level by level, finest first; and what the plan decides.
+template <class B>
+struct StepperSetup {
+  const Problem& problem;
+  Hierarchy<B>& hierarchy;                          ///< its levels that are integrated, with forces and integrators
+  const std::vector<TetMesh>& meshes;               ///< placed, of all levels in use
+  const std::vector<LevelConstants>& constants;     ///< of these meshes
+  const std::vector<Embedding>& up;                 ///< [i]: level i-1's vertices in level i
+  std::shared_ptr<const Elasticity<B>> elasticity;  ///< of the material
+  std::shared_ptr<const Contact<B>> contact;        ///< none without obstacles
+  std::vector<LevelReport>& reports;                ///< of all levels in use; completed by the plan
+  double macro_step = 0;                            ///< [s], by the plan
+  std::optional<HimReport> him = {};                ///< by the plan of that stepper
+};
+
+/// How the levels take a macro step together. The paper's cycles share it out among the levels (shared_step/), the
+/// hierarchical inverse mass (him/) steps the finest level with an inertia that all levels answer for. Whoever holds a stepper does
+/// not ask which one it is. In the order of a run:
+///
+///   plan     at set-up: the macro step, what each level does in it, work arrays
+///   start    once, from the state that set-up has made
+///   step     macro steps
+///   check    lost_stability(), where the state may still look sound; repair() makes it stable from there on
+///   report   counters(), bytes(); persist() for checkpoints
+template <class B>
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  /// Decides the macro step and each level's part of it, allocates what that needs and completes the reports. InputError with the
+  /// numbers where no such step is stable.
+  virtual void plan(StepperSetup<B>& setup) = 0;
+
+  /// Makes the coarser levels' states follow level 0's, which was just set.
+  virtual void begin(Hierarchy<B>& hierarchy) = 0;
+  /// The same at the very start, where it may also change level 0's velocities into what it can carry.
+  virtual void start(Hierarchy<B>& hierarchy) { begin(hierarchy); }
+  /// From `time` over `t` [s].
+  virtual void step(Hierarchy<B>& hierarchy, double time, double t) = 0;
+
+  /// Whether steps so far have lost stability. Waits.
+  virtual bool lost_stability(const Hierarchy<B>&) const { return false; }
+  /// Makes steps of `t` [s] stable again at the state as it is; false where it cannot. `attempt`: how many before have not
+  /// been enough.
+  virtual bool repair(Hierarchy<B>&, double, int) { return false; }
+
+  virtual std::map<std::string, long> counters() const { return {}; }
+  /// Device memory of its own.
+  virtual std::size_t bytes() const { return 0; }
+  /// Names what it carries from one macro step to the next, besides the levels' states.
+  virtual void persist(StateArchive<B>&) {}
+};
+
+}  // namespace plica
