@@ -47,7 +47,7 @@ void force(benchmark::State& state, const Case& c, double flops) {
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
   measure<typename B::Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 1), tets * flops}, [&] {
-    beam.elasticity->force(beam.exec, model.patches, beam.level.state, beam.level.flags, 1, beam.level.partial);
+    beam.elasticity->force(beam.exec, beam.level, beam.level.state, 1);
     gather_forces<B>(beam.exec, model, beam.level.partial, {}, beam.level.f);
   });
 }
@@ -60,7 +60,7 @@ void tangent(benchmark::State& state, const Case& c, double flops) {
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
   measure<Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 3 + 1), tets * flops}, [&] {
-    beam.elasticity->tangent(beam.exec, model.patches, beam.level.state.u, beam.direction, 0, beam.level.partial);
+    beam.elasticity->tangent(beam.exec, beam.level, beam.level.state.u, beam.direction, 0);
     update_vertices<B>(beam.exec, "bench::product", model.vertices,
                        SystemProduct<B>{model, beam.direction, beam.level.partial, beam.level.f, Real(1), Real(1)});
   });

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The kernels of each material of kernels/materials/list.hpp, in a source of its own: sets material_sources. A material NeoHookean
+# The kernels of each material of kernels/materials/list.hpp, in sources of its own, one for each kind of elements: sets material_sources. A material NeoHookean
 # is in neo_hookean.hpp.
 set(list ${PROJECT_SOURCE_DIR}/kernels/materials/list.hpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
@@ -15,8 +15,10 @@ foreach(Material IN LISTS materials)
   if(NOT EXISTS ${PROJECT_SOURCE_DIR}/kernels/materials/${file}.hpp)
     message(FATAL_ERROR "${list} names ${Material}; its file kernels/materials/${file}.hpp is not there")
   endif()
-  set(source ${PROJECT_BINARY_DIR}/materials/elasticity_of_${file}.cpp)
-  configure_file(${PROJECT_SOURCE_DIR}/drivers/solver/elasticity_of.cpp.in ${source} @ONLY)
-  list(APPEND material_sources ${source})
+  foreach(element linear nodal)
+    set(source ${PROJECT_BINARY_DIR}/materials/${element}_elasticity_of_${file}.cpp)
+    configure_file(${PROJECT_SOURCE_DIR}/drivers/solver/elasticity_of.cpp.in ${source} @ONLY)
+    list(APPEND material_sources ${source})
+  endforeach()
 endforeach()
 set_source_files_properties(${material_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -172,6 +172,10 @@ void describe(V& v, InitialOptions& o) {
 /// But for its meshes and its surface.
 template <class V>
 void describe(V& v, Body& o) {
+  v("element", o.element, NamePerLevel{{"element", elements}}, "how strains follow from the vertices, of each level");
+  v("stabilisation", o.stabilisation, Quantity{plain, {.min = 0.2, .max = 1}},
+    "beta of nodal elements: smaller for thin bending (0.3), larger for clean high modes (0.6)");
+  v("pressure", o.pressure, Name{"pressure", pressures}, "of nodal elements");
   v("material", o.material, Group{}, "what the body is made of");
   v("regions", o.regions, Map{}, "what parts of it have of their own: volumes of the mesh file, or selections");
   v("fixed", o.fixed, List{}, "vertices that stay where they are");
@@ -236,7 +240,7 @@ void describe(V& v, IntegrationOptions& o) {
   v("cycle", o.cycle, Name{"cycle", cycle_choices}, "how the levels share a macro step; auto: chosen by short trials");
   v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
-  v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
+  v("distribution", keys::Shares::Target{o.distribution, o.shares}, keys::Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
   describe_stepping(v, o);
   v("implicit", o.implicit, Group{}, "how implicit levels are solved");

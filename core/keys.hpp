@@ -21,6 +21,8 @@ std::vector<std::string> names(const std::vector<Choice>& choices);
 
 /// The families that names come from. Each walks its own list (drivers/solver/registry.cpp).
 std::vector<Choice> materials();               ///< constitutive laws
+std::vector<Choice> elements();                ///< how strains follow from the vertices, and auto
+std::vector<Choice> pressures();               ///< of nodal elements, and auto
 std::vector<Choice> integrators();             ///< one-level ODE solvers
 std::vector<Choice> cycle_choices();           ///< ways to share a macro step, and auto
 std::vector<Choice> error_classes();           ///< of cycle auto

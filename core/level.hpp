@@ -39,7 +39,8 @@ struct Level {
   EmbeddedSurface<B> surface;  ///< only with contact; on level 0 also for looking at
 
   Vectors<B> f;           ///< [vertices][3] force at the state about to be integrated [N]
-  Vectors<B> partial;     ///< [patch vertices][3] workspace of the element kernels
+  Vectors<B> partial;     ///< [shares][3] what the element kernels leave, a row per share
+  NodalWork<B> nodal;     ///< with nodal elements only
   ElementFlags<B> flags;  ///< only where no element may be inverted
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest

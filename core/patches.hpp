@@ -5,6 +5,15 @@
 
 namespace plica {
 
+/// Where an element kernel leaves what it adds to a vertex: in rows of its own per patch or region, which are added up in this
+/// order. Vertex a: rows [first(a), first(a+1)) of `row`.
+template <class B>
+struct Shares {
+  int rows = 0;      ///< that the kernel writes; those of no vertex are 0
+  Indices<B> first;  ///< [vertices + 1]
+  Indices<B> row;
+};
+
 /// The tetrahedra of one mesh, cut into patches of neighbours small enough that their vertices and element forces stay
 /// in the nearest memory (first-level cache, a GPU's shared memory). Only sums per patch vertex leave it, and they are
 /// added up in a fixed order: the same bits for any number of threads.
@@ -14,7 +23,7 @@ namespace plica {
 /// * pack q: corner(q, c, l) is which of its patch's vertices corner c of element l is; shape(q, 0..8, l) the inverse of the
 ///   edge matrix with columns X1-X0, X2-X0, X3-X0, row by row [1/m]; shape(q, 9, l) the volume [m^3]
 /// * patch vertex i: slots [first_slot(i), first_slot(i+1)) of `slot`: where its share stands among the element forces
-/// * mesh vertex a: copies [first_copy(a), first_copy(a+1)) of `copy`: its patch vertices
+/// * the shares of a mesh vertex: its patch vertices
 template <class B>
 struct Patches {
   using Real = typename B::Real;
@@ -37,8 +46,7 @@ struct Patches {
   Scalars<B> damping;          ///< [count] part of its stiffness that damps [s]; empty: none anywhere
   Indices<B> first_slot;       ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
-  Indices<B> first_copy;       ///< [vertices + 1]
-  Indices<B> copy;             ///< [patch vertices]
+  Shares<B> shares;
   Indices<B> element;          ///< [packs * lanes] the mesh's tetrahedron, -1: padding
 };
 

@@ -55,9 +55,9 @@ struct Transposed {
 };
 #endif
 
-/// Lane l of v is the vector at row(l), four numbers of which the last is not used.
+/// Lane l of v is the four numbers at row(l).
 template <class T, class Row>
-KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
+KOKKOS_INLINE_FUNCTION void load_fours(const Row& row, T (&v)[4]) {
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
   using Rows = Transposed<typename LaneOf<T>::type, LaneOf<T>::count>;
   if constexpr (Rows::possible) {
@@ -67,6 +67,22 @@ KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
     v[0] = Rows::template mix<0, 2, 0, 2>(xz, xz2);
     v[2] = Rows::template mix<1, 3, 1, 3>(xz, xz2);
     v[1] = Rows::template mix<0, 2, 0, 2>(yw, yw2);
+    v[3] = Rows::template mix<1, 3, 1, 3>(yw, yw2);
+    return;
+  }
+#endif
+  for (int l = 0; l < LaneOf<T>::count; ++l)
+    for (int k = 0; k < 4; ++k) set_lane(v[k], l, row(l)[k]);
+}
+
+/// Lane l of v is the vector at row(l), where a pack is read four numbers at a time, the last of them not used.
+template <class T, class Row>
+KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+  if constexpr (Transposed<typename LaneOf<T>::type, LaneOf<T>::count>::possible) {
+    T four[4];
+    load_fours(row, four);
+    v = {four[0], four[1], four[2]};
     return;
   }
 #endif

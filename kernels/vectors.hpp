@@ -66,17 +66,17 @@ KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B
   for (int k = 0; k < 9; ++k) A.value(s, k) += weight * C[SymMat3<typename B::Real>::place(k)];
 }
 
-/// start + the sum of the shares that the patches have in vertex a, in their order. An element kernel leaves a vertex's sum in
-/// every patch that the vertex is in; this adds them up:
+/// start + the sum of the shares that patches or regions have in vertex a, in their order. A kernel of linear elements leaves a
+/// vertex's sum in every patch that the vertex is in, one of nodal elements in every region; this adds them up:
 ///
 ///   patch 0 |. . x . .|  patch 1 |. x . .|  patch 2 |. . . x|      partial
 ///                 \______________  |  ___________________/
 ///                                  a                               start + x + x + x
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const Patches<B>& patches, const Vectors<B>& partial, int a,
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const Shares<B>& shares, const Vectors<B>& partial, int a,
                                                             Vec3<typename B::Real> start = {}) {
-  for (int s = patches.first_copy(a); s < patches.first_copy(a + 1); ++s) {
-    const int i = patches.copy(s);
+  for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
+    const int i = shares.row(s);
     for (int k = 0; k < 3; ++k) start[k] += partial(i, k);
   }
   return start;

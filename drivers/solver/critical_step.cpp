@@ -87,7 +87,7 @@ class Lanczos {
   /// w = M^-1/2 (K + over D + contact) M^-1/2 v - beta before; v.w
   double product(double beta) {
     each("plica::lanczos_scale", ScaleByMass<B>{level_.model.inverse_mass, v_, p_, Real(1)});
-    elasticity_.tangent(exec_, level_.model.patches, u_, p_, over_, level_.partial);
+    elasticity_.tangent(exec_, level_, u_, p_, over_);
     if (stiffness_ > 0) {
       fill(exec_, contact_, 0);
       update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.points,

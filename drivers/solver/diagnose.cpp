@@ -57,7 +57,7 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
 }  // namespace
 
 std::string Diagnosis::text() const {
-  const char* what = kind == "inverted"    ? "an element turned inside out"
+  const char* what = kind == "inverted"    ? (element < 0 ? "the elements around a vertex turned inside out" : "an element turned inside out")
                      : kind == "energy"    ? "the body has more kinetic energy than was put in"
                      : kind == "speed"     ? "a vertex leaves the body faster than its elements can follow"
                      : kind == "contact"   ? "a point is deeper in an obstacle than the body is large"
@@ -67,8 +67,8 @@ std::string Diagnosis::text() const {
   std::string all = plica::text(what, ": level ", level);
   if (element >= 0) all += plica::text(", element ", element);
   if (!region.empty()) all += plica::text(" (region ", region, ")");
-  if (element >= 0) all += " with J = " + number(J, 3);
   if (vertex >= 0) all += plica::text(", vertex ", vertex);
+  if (element >= 0 || kind == "inverted") all += " with J = " + number(J, 3);
   if (!reason.empty()) all += "; " + reason;
   if (motion_over_edge > 0.1) all += plica::text("; ", number(motion_over_edge, 3), " edges moved in a sub-step");
   if (substep_over_critical > 0)
@@ -105,18 +105,20 @@ std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
     if (level.flags.evaluation.extent(0) == 0) continue;
     const auto copy = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
     if (copy(level.flags.raised)() == 0) continue;
+    const bool nodal = level.model.rows.slices > 0;
     const auto evaluation = copy(level.flags.evaluation), element = copy(level.flags.element),
-               map = copy(level.model.patches.element);
+               map = copy(nodal ? level.model.rows.vertex : level.model.patches.element);
     const auto J = copy(level.flags.J);
     int worst = -1;
-    for (int p = 0; p < level.model.patches.count; ++p)
+    for (int p = 0; p < static_cast<int>(evaluation.extent(0)); ++p)
       if (evaluation(p) > 0 &&
           (worst < 0 || evaluation(p) < evaluation(worst) || (evaluation(p) == evaluation(worst) && J(p) < J(worst))))
         worst = p;
     if (worst < 0) continue;
     Diagnosis d;
     d.kind = std::isfinite(J(worst)) ? "inverted" : "non_finite";
-    d.level = i, d.element = map(element(worst)), d.J = std::isfinite(J(worst)) ? static_cast<double>(J(worst)) : 0.0;
+    (nodal ? d.vertex : d.element) = map(element(worst));
+    d.level = i, d.J = std::isfinite(J(worst)) ? static_cast<double>(J(worst)) : 0.0;
     complete(d, built);
     return d;
   }

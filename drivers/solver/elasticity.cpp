@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
+#include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/materials/list.hpp>
 
 namespace plica {
 
-/// In a source of its own for each material.
+// Each in a source of its own for each material.
 template <class B, class Material>
-std::unique_ptr<Elasticity<B>> make_elasticity_of();
+std::unique_ptr<Elasticity<B>> make_linear_elasticity();
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> make_nodal_elasticity();
 
 template <class B>
-std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material) {
+std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Element element) {
   std::unique_ptr<Elasticity<B>> made;
-  Materials::visit(material, [&](auto m) { made = make_elasticity_of<B, decltype(m)>(); });
+  Materials::visit(material, [&](auto m) {
+    using Material = decltype(m);
+    made = element == Element::nodal ? make_nodal_elasticity<B, Material>() : make_linear_elasticity<B, Material>();
+  });
   if (!made) throw InputError(unknown_name("material", material, names(materials())));
   return made;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) \
-  template std::unique_ptr<Elasticity<Backend<Real, Exec>>> make_elasticity<Backend<Real, Exec>>(std::string_view);
+  template std::unique_ptr<Elasticity<Backend<Real, Exec>>> make_elasticity<Backend<Real, Exec>>(std::string_view, Element);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

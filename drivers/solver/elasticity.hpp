@@ -1,39 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
-#include <plica/core/element_flags.hpp>
 #include <plica/core/implicit_weights.hpp>
-#include <plica/core/model.hpp>
+#include <plica/core/level.hpp>
 #include <plica/core/patch_pairs.hpp>
+#include <plica/drivers/solver/elements.hpp>
 #include <string_view>
 
 namespace plica {
 
-/// The element kernels of one material, chosen by name at set-up. Each writes its sums per patch vertex into `partial`.
+/// The element kernels of one material and one kind of elements, chosen by name at set-up. Each leaves its sums in the level's
+/// `partial`, a row for each of the model's shares.
 template <class B>
 class Elasticity {
  public:
   using Exec = typename B::Exec;
   virtual ~Elasticity() = default;
   /// Of a displacement, and of a velocity where stiffness damps.
-  virtual void force(const Exec&, const Patches<B>&, const State<B>&, const ElementFlags<B>&, int evaluation,
-                     const Vectors<B>& partial) const = 0;
-  /// `over`: with the stiffness that damps times this [1/s].
-  virtual void tangent(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
-                       const Vectors<B>& partial) const = 0;
-  virtual void diagonal(const Exec&, const Patches<B>&, const Vectors<B>& u, int direction, double over,
-                        const Vectors<B>& partial) const = 0;
-  /// A = (1 + b c) M + a K(u) as blocks; `positive`: of elements whose tangent is projected to positive semi-definite.
+  virtual void force(const Exec&, const Level<B>&, const State<B>&, int evaluation) const = 0;
+  /// -K(u) p. `over`: with the stiffness that damps times this [1/s]; `positive`: of elements whose tangent is projected to positive
+  /// semi-definite, which only nodal ones have without a matrix.
+  virtual void tangent(const Exec&, const Level<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
+                       bool positive = false) const = 0;
+  /// Column `direction` of the vertices' own blocks of K(u), of linear elements: for shares of the patches.
+  virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction, double over) const = 0;
+  /// A = (1 + b c) M + a K(u) as blocks, of linear elements; `positive`: of such whose tangent is projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u, const ImplicitWeights&,
                       bool positive, const Blocks9<B>& shares, const BlockMatrix<B>& A) const = 0;
-  virtual void energy(const Exec&, const Patches<B>&, const Vectors<B>& u, const Vectors<B>& partial) const = 0;
-  /// Per tetrahedron of the mesh: von Mises' stress [Pa] and J.
-  virtual void stress(const Exec&, const Patches<B>&, const Vectors<B>& u, const Scalars<B>& von_mises,
+  /// The elements' energy, in the x components.
+  virtual void energy(const Exec&, const Level<B>&, const Vectors<B>& u) const = 0;
+  /// von Mises' stress [Pa] and J: of linear elements per tetrahedron of the mesh, of nodal ones per vertex.
+  virtual void stress(const Exec&, const Level<B>&, const Vectors<B>& u, const Scalars<B>& von_mises,
                       const Scalars<B>& J) const = 0;
 };
 
 /// Throws InputError for a name that is not in kernels/materials/list.hpp.
 template <class B>
-std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material);
+std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Element element = Element::linear);
 
 }  // namespace plica

@@ -47,8 +47,8 @@ Energies EnergyMeter<B>::all(double time) const {
   const auto& exec = hierarchy_.exec();
   const SolverLevel<B>& level = hierarchy_[0];
   Energies e = motion(Point::Zero()).energies;
-  level.elasticity().energy(exec, level.model.patches, level.state.u, level.partial);
-  reduce<B, 1>(exec, "plica::elastic_energy", static_cast<int>(level.partial.extent(0)),
+  level.elasticity().energy(exec, level, level.state.u);
+  reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows,
                FirstComponent<B>{level.partial}, blocks_, result_);
   e.elastic = read()[0];
   if (level.contact()) e.contact = level.contact()->energy(exec, level, time, blocks_);

@@ -20,11 +20,16 @@ MaterialInfo describe_material() {
                     M::allows_inversion,
                     {M::parameters.begin(), M::parameters.end()},
                     nullptr,
+                    nullptr,
                     nullptr};
   info.kernel_constants = [](const std::vector<double>& values) { return as_list(M::kernel_constants(values.data())); };
   info.small_strains = [](const std::vector<double>& values) {
     return M::small_strains(M::kernel_constants(values.data()));
   };
+  if constexpr (requires(typename M::template Constants<double> c) { M::with_lambda(c, 0.0); })
+    info.with_lambda = [](const std::vector<double>& values, double lambda) {
+      return as_list(M::with_lambda(M::kernel_constants(values.data()), lambda));
+    };
   return info;
 }
 

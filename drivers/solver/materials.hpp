@@ -20,6 +20,8 @@ struct MaterialInfo {
   std::vector<double> (*kernel_constants)(const std::vector<double>& values);
   /// Lame's constants of its tangent at rest [Pa].
   Lame<double> (*small_strains)(const std::vector<double>& values);
+  /// What its kernels get with another lambda at rest; a null pointer where the material has no stiffness for the volume alone.
+  std::vector<double> (*with_lambda)(const std::vector<double>& values, double lambda);
 };
 
 /// Those of kernels/materials/list.hpp, in its order.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/parts.hpp>
 
 namespace plica {
@@ -24,7 +25,17 @@ std::size_t bytes_of(const State<B>& s) {
 template <class B>
 std::size_t bytes_of(const Patches<B>& p) {
   return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.first_slot, p.slot,
-               p.first_copy, p.copy, p.element);
+               p.shares.first, p.shares.row, p.element);
+}
+template <class B>
+std::size_t bytes_of(const NodalRows<B>& r) {
+  return bytes(r.first, r.region, r.vertex, r.volume, r.inverse_volume, r.neighbour, r.gradient, r.coupling,
+               r.smoothing, r.first_surface, r.surface_neighbour, r.surface_gradient, r.constants, r.shares.first,
+               r.shares.row);
+}
+template <class B>
+std::size_t bytes_of(const NodalWork<B>& w) {
+  return bytes(w.near, w.records, w.ratio, w.pressure);
 }
 template <class B>
 std::size_t bytes_of(const EmbeddedSurface<B>& s) {
@@ -62,8 +73,11 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
   const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.element, l.flags.J); });
 
-  add("elastic elements", true, body.material.model, "",
-      sum([](const L& l) { return bytes_of(l.model.patches) + bytes(l.partial); }));
+  std::string kinds;
+  for (std::size_t i = 0; i < levels; ++i) kinds += std::string(i ? ", " : "") + name_of(element_of(body, i));
+  add("elastic elements", true, body.material.model + "; " + kinds, "", sum([](const L& l) {
+        return bytes_of(l.model.patches) + bytes_of(l.model.rows) + bytes_of(l.nodal) + bytes(l.partial);
+      }));
   add("state, mass and force", true, counted(levels, "level"), "",
       sum([](const L& l) { return bytes_of(l.state) + bytes(l.model.mass, l.model.inverse_mass, l.f); }));
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);

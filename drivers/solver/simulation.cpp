@@ -161,8 +161,7 @@ template <class B>
 void Simulation<B>::Inside::look_at_end() {
   const SolverLevel<B>& level = hierarchy()[0];
   if (level.flags.evaluation.extent(0) > 0)
-    level.elasticity().force(level.exec(), level.model.patches, level.state, level.flags,
-                             std::numeric_limits<int>::max(), level.partial);
+    level.elasticity().force(level.exec(), level, level.state, std::numeric_limits<int>::max());
 }
 
 template <class B>

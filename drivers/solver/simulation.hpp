@@ -43,6 +43,7 @@ struct LevelReport {
   double inertia = 1;               ///< cycle him: how many times too heavy motion is that only this level represents
   double detail_step = 0;           ///< cycle him: largest stable step of that motion by itself, without contact [s]
   int substeps = 0;                 ///< in its share
+  std::string element;              ///< linear or nodal
   std::string integrator;           ///< its name
   std::string linear_solver;        ///< of an implicit integrator: solver, preconditioner, matrix
   bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
@@ -91,8 +92,10 @@ struct SavedState {
   std::vector<unsigned char> bytes;  ///< to be kept as they are
 };
 
-/// Per tetrahedron of a level, in input order.
+/// Of a level with linear elements per tetrahedron, with nodal ones per vertex; in input order.
 struct ElementFields {
+  bool per_vertex = false;
+
   std::vector<double> von_mises;  ///< equivalent stress of the Cauchy stress [Pa]
   std::vector<double> J;          ///< volume ratio
 };

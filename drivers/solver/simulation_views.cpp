@@ -148,14 +148,16 @@ std::vector<Point> Simulation<B>::surface_velocities() const {
 template <class B>
 ElementFields Simulation<B>::element_fields(int level) const {
   const SolverLevel<B>& of = inside_->level(level);
-  const Scalars<B> von_mises("plica::von_mises", of.model.tets), J("plica::J", of.model.tets);
-  of.elasticity().stress(of.exec(), of.model.patches, of.state.u, von_mises, J);
+  const bool nodal = of.model.rows.slices > 0;
+  const int rows = nodal ? of.model.vertices : of.model.tets;
+  const Scalars<B> von_mises("plica::von_mises", rows), J("plica::J", rows);
+  of.elasticity().stress(of.exec(), of, of.state.u, von_mises, J);
   of.exec().fence("plica::element_fields");
   const auto values = [](const Scalars<B>& field) {
     const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), field);
     return std::vector<double>(host.data(), host.data() + host.extent(0));
   };
-  return {values(von_mises), values(J)};
+  return {nodal, values(von_mises), values(J)};
 }
 
 namespace {

@@ -28,7 +28,7 @@ template <class B>
 void SolverLevel<B>::elastic_and_gravity(const State<B>& at, const Vectors<B>& force) {
   ++evaluations_;
   book("force", [&] {
-    elasticity_->force(exec(), this->model.patches, at, this->flags, ++evaluation_, this->partial);
+    elasticity_->force(exec(), *this, at, ++evaluation_);
     gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
   });
 }
@@ -91,17 +91,17 @@ void SolverLevel<B>::add_correction(const Vectors<B>& force) const {
 }
 
 template <class B>
-void SolverLevel<B>::tangent(const State<B>& at, const Vectors<B>& p, double over) const {
-  elasticity_->tangent(exec(), this->model.patches, at.u, p, over, this->partial);
+void SolverLevel<B>::tangent(const State<B>& at, const Vectors<B>& p, double over, bool positive) const {
+  elasticity_->tangent(exec(), *this, at.u, p, over, positive);
 }
 
 template <class B>
-void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const ImplicitWeights& weights,
+void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
                              const Vectors<B>& q) const {
   using Real = typename B::Real;
   const Exec& exec = clock_->exec();
   const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
-  tangent(at, p, weights.b / weights.a);
+  tangent(at, p, weights.b / weights.a, positive);
   update_vertices<B>(exec, "plica::system_product", this->model.vertices,
                      SystemProduct<B>{this->model, p, this->partial, q, a, b});
   if (contact_) contact_->add_product(exec, *this, p, points_, q);
@@ -116,7 +116,7 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
   const Exec& exec = clock_->exec();
   const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
   for (int direction = 0; direction < 3; ++direction) {
-    elasticity_->diagonal(exec, this->model.patches, at.u, direction, weights.b / weights.a, this->partial);
+    elasticity_->diagonal(exec, *this, at.u, direction, weights.b / weights.a);
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }

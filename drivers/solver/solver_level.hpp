@@ -47,15 +47,17 @@ class SolverLevel : public Level<B> {
 
   /// Linearises about a state for an implicit stage: f as above with loads and contact `ahead` of it [s].
   void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead, const Vectors<B>& f);
-  /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights.
-  void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, const Vectors<B>& q) const;
-  /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz.
+  /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights. `positive`: see Elasticity::tangent.
+  void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
+               const Vectors<B>& q) const;
+  /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz; with nodal elements those of linear ones.
   void diagonal(const State<B>& state, const ImplicitWeights& weights, const Blocks<B>& blocks) const;
-  /// A itself, in blocks; `positive`: of elements whose tangents are projected to positive semi-definite ones.
+  /// A itself, in blocks, with nodal elements that of linear ones; `positive`: of elements whose tangents are projected to positive
+  /// semi-definite ones.
   void assemble(const State<B>& state, const ImplicitWeights& weights, bool positive, const PatchPairs<B>& pairs,
                 const Blocks9<B>& shares, const BlockMatrix<B>& A) const;
-  /// partial = the copies of -K p at a state; `over`: with the stiffness that damps times this [1/s].
-  void tangent(const State<B>& state, const Vectors<B>& p, double over = 0) const;
+  /// partial = the shares of -K p at a state; see Elasticity::tangent.
+  void tangent(const State<B>& state, const Vectors<B>& p, double over = 0, bool positive = false) const;
 
   /// Books work() under a stage of this level.
   template <class Work>

@@ -17,7 +17,7 @@ struct StepperSetup {
   const std::vector<TetMesh>& meshes;               ///< placed, of all levels in use
   const std::vector<LevelConstants>& constants;     ///< of these meshes
   const std::vector<Embedding>& up;                 ///< [i]: level i-1's vertices in level i
-  std::shared_ptr<const Elasticity<B>> elasticity;  ///< of the material
+  std::shared_ptr<const Elasticity<B>> elasticity;  ///< of the finest level
   std::shared_ptr<const Contact<B>> contact;        ///< none without obstacles
   std::vector<LevelReport>& reports;                ///< of all levels in use; completed by the plan
   double macro_step = 0;                            ///< [s], by the plan

@@ -43,10 +43,30 @@ std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighb
   return colours;
 }
 
+/// With nodal elements, the same body of linear ones that do not lock.
+std::unique_ptr<LevelProbe<HostBackend>> linear_beside(const Problem& nodal) {
+  if (element_of(nodal.body, 0) == Element::linear) return nullptr;
+  Problem p = nodal;
+  p.body.element = {"linear"};
+  const auto cap = [](double& young, double& poisson) {  // mu stays
+    const double mu = young / (2 * (1 + poisson));
+    poisson = std::min(poisson, 1.0 / 3), young = 2 * mu * (1 + poisson);
+  };
+  const double young = p.body.material.young_modulus, poisson = p.body.material.poisson_ratio;
+  cap(p.body.material.young_modulus, p.body.material.poisson_ratio);
+  for (auto& [name, region] : p.body.regions) {
+    double E = region.young_modulus.value_or(young), nu = region.poisson_ratio.value_or(poisson);
+    cap(E, nu);
+    region.young_modulus = E, region.poisson_ratio = nu;
+  }
+  return std::make_unique<LevelProbe<HostBackend>>(p);
+}
+
 }  // namespace
 
 SparseStiffness::SparseStiffness(LevelProbe<HostBackend>& probe, const Held& held)
     : probe_(probe),
+      linear_(linear_beside(probe.problem)),
       mass_(probe.mass()),
       neighbours_(neighbours_in(probe.built.meshes[0])),
       colours_(colour(neighbours_)) {
@@ -57,6 +77,8 @@ SparseStiffness::SparseStiffness(LevelProbe<HostBackend>& probe, const Held& hel
 }
 
 void SparseStiffness::linearise(const std::vector<Point>& u) {
+  LevelProbe<HostBackend>& probe = linear_ ? *linear_ : probe_;
+  at_ = u;
   std::vector<Eigen::Index> row_of(3 * mass_.size(), -1);
   const auto n = static_cast<Eigen::Index>(free_.size());
   for (Eigen::Index r = 0; r < n; ++r) row_of[static_cast<std::size_t>(free_[static_cast<std::size_t>(r)])] = r;
@@ -65,7 +87,7 @@ void SparseStiffness::linearise(const std::vector<Point>& u) {
   for (const auto& together : colours_)
     for (std::size_t k = 0; k < 3; ++k) {
       for (const int b : together) p[static_cast<std::size_t>(b)][static_cast<Eigen::Index>(k)] = 1;
-      const auto columns = probe_.stiffness(u, p);
+      const auto columns = probe.stiffness(u, p);
       for (const int b : together) {
         p[static_cast<std::size_t>(b)].setZero();
         const Eigen::Index column = row_of[3 * static_cast<std::size_t>(b) + k];
@@ -93,15 +115,37 @@ std::vector<Point> SparseStiffness::field(const Eigen::VectorXd& x) const {
 }
 
 std::vector<Point> SparseStiffness::equilibrium(const std::vector<Point>& force) const {
-  return field(solver_.solve(part(force)));
+  return field(solve(solver_, part(force)));
+}
+
+Eigen::VectorXd SparseStiffness::masses() const {
+  Eigen::VectorXd m(matrix_.rows());
+  for (Eigen::Index r = 0; r < m.size(); ++r) m[r] = mass_[vertex(r)];
+  return m;
+}
+
+Eigen::VectorXd SparseStiffness::solve(const Factor& factor, const Eigen::VectorXd& b, double shift) const {
+  if (!linear_) return factor.solve(b);
+  const Eigen::VectorXd shifted = shift * masses();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), r = b, z = factor.solve(r), p = z;
+  double rz = r.dot(z);
+  for (int i = 0; i < 5000 && r.norm() > 1e-12 * b.norm(); ++i) {
+    const Eigen::VectorXd q = part(probe_.stiffness(at_, field(p))) + shifted.cwiseProduct(p);
+    const double alpha = rz / p.dot(q);
+    x += alpha * p, r -= alpha * q;
+    z = factor.solve(r);
+    const double next = r.dot(z);
+    p = z + next / rz * p, rz = next;
+  }
+  return x;
 }
 
 double SparseStiffness::lowest_frequency(std::vector<Point>& shape) const {
-  Eigen::VectorXd m(matrix_.rows()), x = part(shape);
-  for (Eigen::Index r = 0; r < m.size(); ++r) m[r] = mass_[vertex(r)];
+  const Eigen::VectorXd m = masses();
+  Eigen::VectorXd x = part(shape);
   double w2 = 0;
   for (int i = 0; i < 200; ++i) {
-    const Eigen::VectorXd y = solver_.solve(Eigen::VectorXd(m.cwiseProduct(x)));
+    const Eigen::VectorXd y = solve(solver_, m.cwiseProduct(x));
     const double next = x.dot(m.cwiseProduct(x)) / x.dot(m.cwiseProduct(y));
     x = y / y.norm();
     if (std::abs(next - w2) < 1e-12 * next) break;
@@ -112,17 +156,16 @@ double SparseStiffness::lowest_frequency(std::vector<Point>& shape) const {
 }
 
 std::vector<double> SparseStiffness::frequencies(int count, double shift) const {
-  Eigen::VectorXd root(matrix_.rows());
-  for (Eigen::Index r = 0; r < root.size(); ++r) root[r] = std::sqrt(mass_[vertex(r)]);
-  Eigen::SimplicialLDLT<Matrix> of_shifted;
+  const Eigen::VectorXd root = masses().cwiseSqrt();
+  Factor of_shifted;
   if (shift != 0) {
     Matrix shifted = matrix_;
     shifted.diagonal() += shift * root.cwiseAbs2();
     of_shifted.compute(shifted);
   }
-  const auto& solver = shift != 0 ? of_shifted : solver_;
+  const Factor& factor = shift != 0 ? of_shifted : solver_;
   const auto inverse = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return root.cwiseProduct(solver.solve(Eigen::VectorXd(root.cwiseProduct(x))));
+    return root.cwiseProduct(solve(factor, root.cwiseProduct(x), shift));
   };
   std::vector<double> list;
   for (const double w2 : lowest_eigenvalues(inverse, root.size(), count))
@@ -168,15 +211,18 @@ class Newton {
   }
   Eigen::VectorXd residual(const std::vector<Point>& u, double time) { return stiffness_.part(forces(u, time)); }
 
-  // The first of u + change, u + change/2 ... with a smaller residual
+  // The first of u + change, u + change/2 ... with a smaller residual; near incompressibility a step that converges first raises
+  // that of nodal elements, in which smoothed volumes are stiff, a thousandfold
   std::optional<std::vector<Point>> search(const std::vector<Point>& u, const std::vector<Point>& change, double time,
                                            double& size) {
     double step = 1;
+    const bool nodal = probe_.at(0).model.rows.slices > 0;
+    const double allowed = (nodal ? 1e4 : 1) * size;
     for (int i = 0; i < most_halvings; ++i, step /= 2) {
       auto moved = u;
       for (std::size_t a = 0; a < u.size(); ++a) moved[a] += step * change[a];
       const double next = residual(moved, time).norm();
-      if (!(next < size)) continue;
+      if (!(next < allowed)) continue;
       size = next;
       return moved;
     }

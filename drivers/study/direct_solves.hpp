@@ -16,7 +16,8 @@ using HostBackend = Backend<double, Kokkos::DefaultHostExecutionSpace>;
 /// Whether the vertex at this rest position must not move along this axis: planes of symmetry, plane strain.
 using Held = std::function<bool(const Point& rest, int axis)>;
 
-/// Direct solvers on a level's own tangent kernel, for what the integrators should come to. Its degrees of freedom are those of
+/// Solvers on a level's own tangent kernel, for what the integrators should come to: direct ones, with nodal elements conjugate gradients to
+/// round-off, preconditioned by a direct solve of linear elements with lambda = 2 mu at most. Its degrees of freedom are those of
 /// the free vertices that nothing holds.
 class SparseStiffness {
  public:
@@ -28,6 +29,7 @@ class SparseStiffness {
   /// K at these displacements [m] from now on.
   void linearise(const std::vector<Point>& u);
 
+  /// K, with nodal elements that of the linear ones.
   const Matrix& matrix() const { return matrix_; }
   /// The displacement [m] in balance with these forces [N] by this K.
   std::vector<Point> equilibrium(const std::vector<Point>& force) const;
@@ -41,13 +43,20 @@ class SparseStiffness {
   std::vector<Point> field(const Eigen::VectorXd& x) const;
 
  private:
+  using Factor = Eigen::SimplicialLDLT<Matrix>;
+
   LevelProbe<HostBackend>& probe_;
+  std::unique_ptr<LevelProbe<HostBackend>> linear_;  // with nodal elements
+  std::vector<Point> at_;                            // the displacements of K
   std::vector<int> free_;  // 3 a + k
   std::vector<double> mass_;
   std::vector<std::vector<int>> neighbours_, colours_;
   Matrix matrix_;
-  Eigen::SimplicialLDLT<Matrix> solver_;
+  Factor solver_;
 
+  /// (K + shift M) x = b by the factor of that matrix.
+  Eigen::VectorXd solve(const Factor& factor, const Eigen::VectorXd& b, double shift = 0) const;
+  Eigen::VectorXd masses() const;
   std::size_t vertex(Eigen::Index r) const { return static_cast<std::size_t>(free_[static_cast<std::size_t>(r)] / 3); }
   int axis(Eigen::Index r) const { return free_[static_cast<std::size_t>(r)] % 3; }
 };

@@ -23,7 +23,8 @@ Vectors<B> device_field(const std::vector<Point>& field) {
 template <class B>
 class LevelProbe {
  public:
-  explicit LevelProbe(const Problem& problem) : built(build_hierarchy<B>(problem, {})) {}
+  explicit LevelProbe(const Problem& of) : problem(of), built(build_hierarchy<B>(problem, {})) {}
+  Problem problem;
   BuiltHierarchy<B> built;
 
   SolverLevel<B>& at(int i) { return (*built.hierarchy)[i]; }
@@ -44,7 +45,7 @@ class LevelProbe {
     at(i).tangent(state(u, p), device_field<B>(p));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
-    const auto first = host(level.model.patches.first_copy), copy = host(level.model.patches.copy);
+    const auto first = host(level.model.shares.first), copy = host(level.model.shares.row);
     std::vector<Point> q(p.size(), Point::Zero());
     for (std::size_t a = 0; a < q.size(); ++a)
       for (int s = first(a); s < first(a + 1); ++s) q[a] -= shares[static_cast<std::size_t>(copy(s))];
@@ -54,9 +55,10 @@ class LevelProbe {
   /// [J], a sum of the vertices' shares
   double elastic_energy(const std::vector<Point>& u) {
     const Level<B>& level = at(0);
-    at(0).elasticity().energy(built.hierarchy->exec(), level.model.patches, device_field<B>(u), level.partial);
+    at(0).elasticity().energy(built.hierarchy->exec(), level, device_field<B>(u));
+    const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
     double sum = 0;
-    for (const Point& share : to_host<B>(built.hierarchy->exec(), level.partial)) sum += share[0];
+    for (int i = 0; i < level.model.shares.rows; ++i) sum += shares[static_cast<std::size_t>(i)][0];
     return sum;
   }
 

@@ -28,6 +28,8 @@ enum class Judged {
 /// One quantity of a problem with a known answer, on several meshes.
 struct VerifyRow {
   std::string problem = {}, quantity = {}, unit = {};
+  std::string element = "linear";  ///< of its meshes
+  std::string mesh = "regular";    ///< these: regular or jittered
   std::optional<double> accepted = {};
   std::string source = {};  ///< of the accepted value
   std::vector<VerifyValue> ours = {};
@@ -40,7 +42,7 @@ struct VerifyRow {
   std::optional<double> order = {};  ///< observed
   std::string outcome = {};          ///< ok | not ok | shown
 
-  void add(const std::string& mesh, double size, double value) { ours.push_back({mesh, size, value}); }
+  void add(const std::string& of, double size, double value) { ours.push_back({of, size, value}); }
 };
 
 struct VerifyOptions {

@@ -4,19 +4,19 @@
 
 namespace plica {
 
-/// f_a = m_a g + sum of the vertex's copies in the patches, in their order [N]. 24 s bytes per vertex written and, with
+/// f_a = m_a g + sum of the shares in the vertex, in their order [N]. 24 s bytes per vertex written and, with
 /// about 2.4 copies, 10 + 7 s read (s = sizeof(Real)).
 template <class B>
 struct GatherForces {
   using Real = typename B::Real;
-  Patches<B> patches;
+  Shares<B> shares;
   Vectors<B> partial;
   Scalars<B> mass;
   Vec3<Real> gravity;  ///< [m/s^2]
   Vectors<B> f;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    set_vector<B>(f, a, sum_of_shares<B>(patches, partial, a, mass(a) * gravity));
+    set_vector<B>(f, a, sum_of_shares<B>(shares, partial, a, mass(a) * gravity));
   }
 };
 
@@ -35,7 +35,7 @@ template <class B>
 void gather_forces(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& partial,
                    const Vec3<typename B::Real>& gravity, const Vectors<B>& f) {
   Kokkos::parallel_for("plica::gather_forces", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
-                       GatherForces<B>{model.patches, partial, model.mass, gravity, f});
+                       GatherForces<B>{model.shares, partial, model.mass, gravity, f});
 }
 
 }  // namespace plica

@@ -13,7 +13,7 @@ struct GatherStiffness {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     using Real = typename B::Real;
     const bool moves = model.inverse_mass(a) > 0;
-    set_vector<B>(y, a, moves ? Real(-1) * sum_of_shares<B>(model.patches, partial, a) : Vec3<Real>{});
+    set_vector<B>(y, a, moves ? Real(-1) * sum_of_shares<B>(model.shares, partial, a) : Vec3<Real>{});
   }
 };
 

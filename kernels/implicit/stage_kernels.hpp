@@ -48,7 +48,7 @@ struct StageRightSide {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const Real m = stage.model.mass(i), c = stage.model.damping(i);
     Vec3<Real> sum = vector_at<B>(f, i);
-    if (gap) sum = sum_of_shares<B>(stage.model.patches, partial, i, sum);
+    if (gap) sum = sum_of_shares<B>(stage.model.shares, partial, i, sum);
     for (int k = 0; k < 3; ++k) {
       const Real v = stage.state.v(i, k);
       r(i, k) = stage.is_free(i) ? m * (stage.base.v(i, k) - v) + stage.b * (sum[k] - c * m * v) : Real(0);

@@ -16,7 +16,7 @@ struct SystemProduct {
   Real a, b;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const Vec3<Real> sum = sum_of_shares<B>(model.patches, partial, i);
+    const Vec3<Real> sum = sum_of_shares<B>(model.shares, partial, i);
     const Real inertia = (1 + b * model.damping(i)) * model.mass(i);
     for (int k = 0; k < 3; ++k) q(i, k) = inertia * p(i, k) - a * sum[k];
   }
@@ -33,7 +33,7 @@ struct DiagonalColumn {
   int direction;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const Vec3<Real> sum = sum_of_shares<B>(model.patches, partial, i);
+    const Vec3<Real> sum = sum_of_shares<B>(model.patches.shares, partial, i);
     diagonal(i, direction) = (1 + b * model.damping(i)) * model.mass(i) + a * sum[direction];
     if (direction > 0) diagonal(i, 3) = direction == 1 ? a * sum[0] : diagonal(i, 3);
     if (direction == 2) diagonal(i, 4) = a * sum[0], diagonal(i, 5) = a * sum[1];

@@ -20,6 +20,7 @@
 //   parameters                std::array of the MaterialParameters that a scene gives
 //   kernel_constants(p)       Constants<double> of their values, in that order; worked out once per region
 //   small_strains(c)          Lame's constants of its tangent at rest, by which steps are bounded
+//   with_lambda(c, lambda)    where its volume has a stiffness of its own: the constants with another one, and lambda at rest
 // and says of itself:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy
@@ -35,6 +36,7 @@ struct TwoConstants {
   static constexpr std::array parameters{parameter::young_modulus, parameter::poisson_ratio};
   static Lame<double> kernel_constants(const double* p) { return lame_constants(p[0], p[1]); }
   static Lame<double> small_strains(const Lame<double>& c) { return c; }
+  static Lame<double> with_lambda(const Lame<double>& c, double lambda) { return {lambda, c.mu}; }
 };
 
 /// How many constants a material's kernels get.

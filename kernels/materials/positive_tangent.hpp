@@ -105,6 +105,15 @@ struct PositiveTangent {
       using Real = typename LaneOf<T>::type;
       if (!positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>) * size)) clamp_eigenvalues(C);
     }
+    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
+      Mat3<T> dP;
+      for (int i = 0; i < 9; ++i) {
+        T sum = T(0);
+        for (int j = 0; j < 9; ++j) sum += C.a[i][j] * dF[j / 3][j % 3];
+        dP[i / 3][i % 3] = sum;
+      }
+      return dP;
+    }
     struct Corner {
       Vec3<T> g;
       Mat3<T> dP[3];  // for e_k g^T

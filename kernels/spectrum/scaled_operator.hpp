@@ -42,7 +42,7 @@ struct LanczosProduct {
   bool with_contact;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     const Real s = Kokkos::sqrt(model.inverse_mass(a));
-    const Vec3<Real> sum = sum_of_shares<B>(model.patches, partial, a);
+    const Vec3<Real> sum = sum_of_shares<B>(model.shares, partial, a);
     double dot = 0;
     for (int k = 0; k < 3; ++k) {
       w(a, k) = s * ((with_contact ? contact(a, k) : Real(0)) - sum[k]) - beta * before(a, k);

@@ -45,6 +45,7 @@ std::vector<Choice> shapes_with_keys() {
 }
 
 constexpr Family families[] = {{"materials", "constitutive laws", materials},
+                               {"elements", "how strains follow from the vertices", elements},
                                {"integrators", "how a level is stepped in time", integrators},
                                {"cycles", "how the levels take a macro step together", cycle_choices},
                                {"error_classes", "how far cycle auto may be from the finest level", error_classes},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/app/output/plan.hpp>
 #include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -54,6 +56,23 @@ Json choice_json(const std::optional<CycleChoice>& choice) {
 
 namespace {
 
+// "nodal (stabilisation 0.4), linear; about 8 across the thickness of level 0"
+std::string elements_text(const Body& body, const Plan& plan) {
+  std::vector<Lame<double>> lame;
+  const MaterialInfo& material = *find_material(body.material.model);
+  lame.push_back(material.small_strains(parameter_values(material, body.material, {})));
+  for (const auto& [name, region] : body.regions)
+    lame.push_back(material.small_strains(parameter_values(material, body.material, region)));
+  std::string text;
+  for (const LevelReport& level : plan.levels) {
+    text += (text.empty() ? "" : ", ") + level.element;
+    if (level.element == name_of(Element::nodal))
+      text += fmt::format(" (stabilisation {:g}{})", body.stabilisation,
+                          smooths_pressure(body, lame) ? ", pressures smoothed" : "");
+  }
+  return text + fmt::format("; about {:.2g} across the thickness of level 0", elements_across(body.levels.front()));
+}
+
 std::string head_text(const Scene& scene, const Plan& plan) {
   const MaterialOptions& m = scene.problem.body.material;
   const IntegrationOptions& i = scene.problem.integration;
@@ -69,6 +88,7 @@ std::string head_text(const Scene& scene, const Plan& plan) {
                            plan.him || plan.choice ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
               {"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", m.model, in_units(m.young_modulus, "Pa"),
                                        m.poisson_ratio, m.density)},
+              {"elements", elements_text(scene.problem.body, plan)},
               {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
              "<<");
 }

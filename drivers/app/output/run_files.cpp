@@ -174,8 +174,11 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& consta
   grid.point_fields = {{"displacement", displacements(grid.points, mesh.vertices, placement_)},
                        {"velocity", in_input_order(volume.velocities, vertices)}};
   grid.point_scalars = {{"mass", constant.mass}};
-  grid.cell_scalars = {{"von_mises", in_input_order(volume.elements.von_mises, tets)},
-                       {"J", in_input_order(volume.elements.J, tets)}};
+  const ElementFields& elements = volume.elements;
+  auto& fields = elements.per_vertex ? grid.point_scalars : grid.cell_scalars;
+  const std::vector<int>& order = elements.per_vertex ? vertices : tets;
+  fields.emplace_back("von_mises", in_input_order(elements.von_mises, order));
+  fields.emplace_back("J", in_input_order(elements.J, order));
   const bool has_numbers = !numbering.tet_ids.empty();  // a reader must not take them for regions
   if (!mesh.region.empty() || has_numbers)
     grid.cell_fields.push_back({"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});

@@ -59,6 +59,7 @@ Json levels_json(const std::vector<LevelReport>& levels) {
                     {"element_bound", level.element_bound},
                     {"share", level.share},
                     {"substeps", level.substeps},
+                    {"element", level.element},
                     {"integrator", level.integrator},
                     {"inertia", level.inertia},
                     {"detail_step", level.detail_step},

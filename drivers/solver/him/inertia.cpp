@@ -117,7 +117,7 @@ template <class B>
 double InertiaFitter<B>::largest(const Vectors<B>& u, double tolerance) const {
   const VectorMap<B> A = [this](const Vectors<B>& x, const Vectors<B>& y) { inverse_mass_.apply(exec_, x, y); };
   const VectorMap<B> K = [&](const Vectors<B>& x, const Vectors<B>& y) {
-    elasticity_->tangent(exec_, level_.model.patches, u, x, 0, level_.partial);
+    elasticity_->tangent(exec_, level_, u, x, 0);
     update_vertices<B>(exec_, "plica::him_stiffness", level_.model.vertices,
                        GatherStiffness<B>{level_.model, level_.partial, y});
   };

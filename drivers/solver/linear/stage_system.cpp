@@ -9,10 +9,11 @@ namespace plica {
 
 template <class B>
 StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
-    : assembled_(assembled),
+    : nodal_(level.model.rows.slices > 0),
+      assembled_(assembled),
       inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
       level_(&level) {
-  if (assembled) pattern();
+  if (by_matrix()) pattern();
 }
 
 template <class B>
@@ -30,7 +31,7 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
   const Exec& exec = level.exec();
   level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
   const int n = rows();
-  if (assembled_ || positive)
+  if (by_matrix() || positive)
     update_vertices<B>(exec, "plica::take_diagonal", n, TakeDiagonal<B>{matrix(exec), inverse_diagonal_});
   else
     level.diagonal(state, weights, inverse_diagonal_);
@@ -48,15 +49,15 @@ const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
-  if (assembled_ || positive_)
+  if (by_matrix())
     update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
   else
-    forces_->product(state_, p, weights_, q);
+    forces_->product(state_, p, weights_, positive_, q);
 }
 
 template <class B>
 void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
-  if (assembled_ || positive_)
+  if (by_matrix())
     update_vertices<B>(exec, "plica::space_products", rows(), SpaceProducts<B>{pattern_.matrix, space});
   else
     for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);

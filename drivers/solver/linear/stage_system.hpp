@@ -6,7 +6,8 @@
 
 namespace plica {
 
-/// The system A of an implicit stage on one level: its product without a matrix or by an assembled one, and its vertex blocks.
+/// The system A of an implicit stage on one level: its product without a matrix or by an assembled one, and its vertex blocks. With
+/// nodal elements the product is without a matrix, and the matrix and the blocks, to precondition with, are those of linear ones.
 template <class B>
 class StageSystem {
  public:
@@ -25,13 +26,13 @@ class StageSystem {
   const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
   /// A itself, assembled if it is not.
   const BlockMatrix<B>& matrix(const Exec& exec);
-  /// Its pattern alone.
+  /// Its pattern alone; with nodal elements that of linear ones.
   const BlockMatrix<B>& pattern();
   int rows() const { return level_->model.vertices; }
   std::size_t bytes() const;
 
  private:
-  bool assembled_, ready_ = false;  ///< the matrix is that of this stage
+  bool nodal_, assembled_, ready_ = false;  ///< the matrix is that of this stage
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
   Blocks<B> inverse_diagonal_;
@@ -40,6 +41,8 @@ class StageSystem {
   State<B> state_;
   ImplicitWeights weights_;
   bool positive_ = false;
+
+  bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
 };
 
 }  // namespace plica

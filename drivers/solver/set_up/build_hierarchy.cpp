@@ -92,7 +92,7 @@ class HierarchyBuilder {
   std::vector<std::unique_ptr<TetLocator>> locators_;
   std::vector<Embedding> down_, up_;  // [i]: level i's vertices in level i-1, and the other way; [0] empty
   std::vector<int> massless_ = {0};   // [i]: level i's vertices that inherit no mass
-  std::shared_ptr<const Elasticity<B>> elasticity_;
+  std::vector<std::shared_ptr<const Elasticity<B>>> elasticity_;  // per level
   std::shared_ptr<const Contact<B>> contact_;
 
   const std::string& integrator_of(std::size_t i) const {
@@ -149,6 +149,7 @@ class HierarchyBuilder {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
     report.typical_element = *middle;
+    report.element = name_of(constants_[i].element);
     report.integrator = integrator_of(i);
     if (i == 0) return;
     report.outside_down = down_[i].misses, report.outside_up = up_[i].misses;
@@ -156,9 +157,21 @@ class HierarchyBuilder {
     report.largest_miss = std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
   }
 
+  /// The constants of the linear elements that an implicit level of nodal ones is preconditioned by: lambda is capped, or the
+  /// preconditioner locks. A V-cycle that is the whole answer must not be softer than the elements.
+  const std::vector<std::vector<double>>* beside_nodal(std::size_t i) const {
+    const std::vector<std::vector<double>>* constants = nullptr;
+    Integrators::visit(integrator_of(i), [&](auto integrator) {
+      using Kind = decltype(integrator);
+      if (!Kind::is_explicit) constants = &constants_[i].capped;
+      if constexpr (requires { Kind::linear_solver; }) constants = &constants_[i].material;
+    });
+    return constants;
+  }
+
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i]);
+    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
     level.loads = device_loads<B>(problem_.body, loads_[i]);
     if (needs_.drift_limits && levels_ > 1) {
       std::vector<typename B::Real> limit;
@@ -231,7 +244,8 @@ class HierarchyBuilder {
 
   void add_contact() {
     const Problem& p = problem_;
-    elasticity_ = make_elasticity<B>(p.body.material.model);
+    for (std::size_t i = 0; i < levels_; ++i)
+      elasticity_.push_back(make_elasticity<B>(p.body.material.model, constants_[i].element));
     if (!p.contact.obstacles.empty())
       contact_ =
           std::make_shared<const Contact<B>>(p.contact, p.body.material, static_cast<int>(surface_.vertices.size()),
@@ -252,7 +266,7 @@ class HierarchyBuilder {
     Integrators::visit(report.integrator, [&](auto integrator) {
       using Kind = decltype(integrator);
       report.explicit_integrator = Kind::is_explicit;
-      report.critical_step = critical_step<B>(level.exec(), level, *elasticity_, level.state.u,
+      report.critical_step = critical_step<B>(level.exec(), level, *elasticity_[i], level.state.u,
                                               Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
                                               damping_limit(constants_[i]));
       ImplicitOptions implicit = problem_.integration.implicit;
@@ -266,7 +280,7 @@ class HierarchyBuilder {
       };
       level.integrator = Kind::template make<B>(level, {implicit, make_solver});
     });
-    level.set_forces(elasticity_, problem_.gravity, contact_, !report.explicit_integrator);
+    level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
   }
 
   /// The stepper and what it makes of the levels.
@@ -274,7 +288,7 @@ class HierarchyBuilder {
     Steppers::visit(problem_.integration.cycle,
                     [&](auto stepper) { built_.stepper = decltype(stepper)::template make<B>(); });
     StepperSetup<B> setup{problem_, *built_.hierarchy, built_.meshes, constants_,
-                          up_,      elasticity_,       contact_,      built_.reports};
+                          up_,      elasticity_[0],    contact_,      built_.reports};
     built_.stepper->plan(setup);
     built_.macro_step = setup.macro_step, built_.him = setup.him;
   }

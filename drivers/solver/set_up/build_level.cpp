@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/make_path.hpp>
@@ -70,6 +72,7 @@ std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> dens
 
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level) {
   LevelConstants c;
+  c.element = element_of(body, static_cast<std::size_t>(level));
   const MaterialInfo& material = *find_material(body.material.model);
   std::vector<double> mass_damping;  // per region
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
@@ -79,6 +82,8 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     const std::vector<double> values = parameter_values(material, body.material, o);
     c.material.push_back(material.kernel_constants(values));
     c.lame.push_back(material.small_strains(values));
+    c.capped.push_back(material.with_lambda ? material.with_lambda(values, capped_lambda(c.lame.back()))
+                                            : c.material.back());
     mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
     c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
   }
@@ -92,15 +97,44 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
   return c;
 }
 
+namespace {
+
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c) {
+void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, const LevelConstants& c,
+                  const std::vector<std::vector<double>>* beside) {
+  Model<B>& model = level.model;
+  if (c.element == Element::linear) {
+    model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
+    model.shares = model.patches.shares;
+  } else {
+    const bool smoothed = smooths_pressure(body, c.lame);
+    NodalConstants constants{smoothed ? c.capped : c.material, {}, {}, c.stiffness_damping};
+    for (const Lame<double>& lame : c.lame) {
+      constants.stabiliser.push_back(body.stabilisation * lame.mu);
+      if (smoothed) constants.excess.push_back(lame.lambda - capped_lambda(lame));
+    }
+    model.rows = build_nodal_rows<B>(placed, constants);
+    model.shares = model.rows.shares;
+    level.nodal = make_nodal_work<B>(model.rows);
+    if (beside) model.patches = build_patches<B>(placed, *beside, c.stiffness_damping);
+  }
+  level.partial = zeros<Vectors<B>>("plica::work.partial", std::max(model.shares.rows, model.patches.shares.rows));
+  if (!allows_inversion(body.material))
+    level.flags = make_element_flags<B>(c.element == Element::linear ? model.patches.count : model.rows.slices);
+}
+
+}  // namespace
+
+template <class B>
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c,
+                     const std::vector<std::vector<double>>* beside) {
   using Real = typename B::Real;
   const std::size_t n = placed.vertices.size();
   Level<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
   level.model.material = body.material.model;
-  level.model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
+  add_elements(level, body, placed, c, beside);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
@@ -126,14 +160,12 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   level.state.u = to_device<Vectors<B>>("state.u", rows<Real>(displacement));
   level.state.v = to_device<Vectors<B>>("state.v", rows<Real>(velocity));
   level.f = zeros<Vectors<B>>("plica::work.f", n);
-  level.partial = zeros<Vectors<B>>("plica::work.partial", level.model.patches.vertex.extent(0));
-  if (!allows_inversion(body.material)) level.flags = make_element_flags<B>(level.model.patches.count);
   return level;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                               \
-  template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>(const Body&, const TetMesh&, \
-                                                                       const LevelConstants&);
+  template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
+      const Body&, const TetMesh&, const LevelConstants&, const std::vector<std::vector<double>>*);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
-#include <plica/kernels/materials/parameters.hpp>
+#include <plica/drivers/solver/elements.hpp>
 #include <vector>
 
 namespace plica {
@@ -10,7 +10,9 @@ namespace plica {
 /// What a level's set-up works out on the host and other parts of the set-up need too.
 struct LevelConstants {
   std::vector<std::vector<double>> material;  ///< per region, its constants; one entry where the mesh names none
+  std::vector<std::vector<double>> capped;    ///< likewise with lambda at most 2 mu, where the material has it
   std::vector<Lame<double>> lame;             ///< per region, of small strains [Pa]
+  Element element = Element::linear;          ///< of this level
   std::vector<double> density;                ///< per region [kg/m^3]
   std::vector<double> mass_damping;           ///< per vertex [1/s]; one entry where it is the same everywhere
   std::vector<double> stiffness_damping;      ///< per region [s]; empty where there is none
@@ -25,8 +27,10 @@ struct LevelConstants {
 /// selection chooses nothing on this level.
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level);
 
-/// Model, state and work arrays of a level. No transfers, no surface.
+/// Model, state and work arrays of a level. No transfers, no surface. `beside`: with nodal elements, constants of the linear ones that they are
+/// preconditioned by, as LevelConstants has them; null where nothing is.
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants);
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants,
+                     const std::vector<std::vector<double>>* beside = nullptr);
 
 }  // namespace plica

@@ -143,8 +143,9 @@ class PatchBuilder {
       copy.insert(copy.end(), of_vertex.begin(), of_vertex.end());
       first_copy.push_back(static_cast<int>(copy.size()));
     }
-    p.first_copy = to_device<Indices<B>>("patches.first_copy", first_copy);
-    p.copy = to_device<Indices<B>>("patches.copy", copy);
+    p.shares.rows = static_cast<int>(vertex_.size());
+    p.shares.first = to_device<Indices<B>>("shares.first", first_copy);
+    p.shares.row = to_device<Indices<B>>("shares.row", copy);
     return p;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/linear/list.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
@@ -64,11 +65,16 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   ImplicitOptions& o = parts.options;
   const Body& body = problem.body;
   const bool fixed = o.iterations > 0, multigrid = has_multigrid(body, level);
+  const bool nodal = element_of(body, level) == Element::nodal;
   if (solver == "auto") {
-    const bool small = on_host && !fixed && body.levels[level].vertices.size() <= most_direct;
+    const bool small = on_host && !fixed && !nodal && body.levels[level].vertices.size() <= most_direct;
     solver = small && o.preconditioner == "auto" && o.matrix != "free" ? Direct::name : ConjugateGradients::name;
   }
   o.solver = std::move(solver);
+  if (nodal && (o.solver == Direct::name || o.matrix == "assembled"))
+    throw InputError("integration.implicit: level " + std::to_string(level) +
+                     " has nodal elements, whose matrix is not assembled; expected solver conjugate_gradients or auto, and "
+                     "matrix free or auto");
   if (o.solver == VCycleSolver::name && !multigrid) {  // the cycle of one level is the coarsest one's answer
     if (!on_host || unknowns(body.levels[level]) > static_cast<std::size_t>(most_dense_unknowns))
       throw InputError("level " + std::to_string(level) +
@@ -86,7 +92,7 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
     o.preconditioner = BlockJacobi::name;  // also of a level that has no coarser one, where others have
     if (multigrid && (asked || !fixed)) add_multigrid(parts, body, level, asked);
   }
-  if (o.matrix == "auto") o.matrix = cycle || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";
+  if (o.matrix == "auto") o.matrix = cycle || nodal || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";
   return parts;
 }
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <plica/core/describe.hpp>
 #include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
+#include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
@@ -215,10 +217,25 @@ void validate_mesh(const TetMesh& mesh, int level) {
              std::to_string(regions));
 }
 
+namespace {
+
+void check_elements(const Body& body, std::size_t levels) {
+  if (body.element.size() != 1 && body.element.size() != levels)
+    throw InputError("body.element: expected one name, or one for each of " + std::to_string(levels) +
+                     " levels, got a list of " + std::to_string(body.element.size()));
+  const MaterialInfo& material = *find_material(body.material.model);
+  if (body.pressure == "smoothed" && !(material.with_lambda && material.rotation_invariant))
+    throw InputError("body.pressure is smoothed, but material " + std::string(material.name) +
+                     " has no stiffness for the volume alone at finite strains; expected plain or auto, or another material");
+}
+
+}  // namespace
+
 void validate_options(const Problem& problem, std::size_t levels) {
   check_values("body", problem.body);
   check_parameters(*find_material(problem.body.material.model), problem.body);
   Vector{acceleration}.check("gravity", problem.gravity);
+  check_elements(problem.body, levels);
   check_values("integration", problem.integration);
   check_values("contact", problem.contact);
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i)
@@ -258,6 +275,29 @@ void doubt_levels(const Problem& problem, std::vector<std::string>& sentences) {
   }
 }
 
+// Of linear elements where they are known to be too stiff, and of nodal ones that are too few
+void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
+  const MaterialInfo* material = find_material(body.material.model);
+  if (!material) return;
+  double poisson = 0;
+  const auto look = [&](const RegionOptions& region) {
+    const std::vector<double> values = parameter_values(*material, body.material, region);
+    poisson = std::max(poisson, poisson_ratio(material->small_strains(values)));
+  };
+  look({});
+  for (const auto& [name, region] : body.regions) look(region);
+  const Element element = element_of(body, 0);
+  const double across = elements_across(body.levels.front());
+  const bool linear = element == Element::linear;
+  if (linear ? poisson <= 0.4 && across >= 8 : across >= 1.5) return;
+  const auto bends = [&](Element one) { return number(bending_ratio(one, poisson, across), 2); };
+  sentences.push_back(text("body.element: level 0 has ", name_of(element), " elements, about ", number(across, 2),
+                           " across its thickness, at nu ", number(poisson, 4), "; a slender beam of these bends ",
+                           bends(element), " of what it should",
+                           linear ? text(", of nodal elements ", bends(Element::nodal), ": expected body.element: nodal")
+                                  : ": expected a finer mesh"));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Problem& problem) {
@@ -269,6 +309,7 @@ std::vector<std::string> doubts(const Problem& problem) {
                           std::to_string(i - 1) + ": " + std::to_string(levels[i].tets.size()) + " tetrahedra after " +
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
   if (levels.size() > 1) doubt_levels(problem, sentences);
+  doubt_elements(problem.body, sentences);
   if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
     const TetMesh& mesh = levels.front();
     const std::string inverted =

@@ -38,6 +38,9 @@ VerifyRows critical_steps(const VerifyContext&);
 VerifyRows hanging_bar(const VerifyContext&);
 VerifyRows uniaxial_tension(const VerifyContext&);
 VerifyRows axial_bar(const VerifyContext&);
+VerifyRows bending(const VerifyContext&);
+VerifyRows cook_incompressible(const VerifyContext&);
+VerifyRows punch(const VerifyContext&);
 VerifyRows cantilever(const VerifyContext&);
 VerifyRows stopped_bar(const VerifyContext&);
 VerifyRows cook_membrane(const VerifyContext&);
@@ -67,6 +70,9 @@ inline constexpr VerifyProblem verify_list[] = {
     {"cantilever", "deflection and first frequency of a slender beam", cantilever},
     {"stopped_bar", "velocity pulses in a bar that is stopped at one end", stopped_bar},
     {"cook_membrane", "Cook's membrane at finite strain", cook_membrane},
+    {"bending", "slender and stubby clamped beams, nu from 0.3 to 0.4999, of linear and of nodal elements", bending},
+    {"cook_incompressible", "Cook's membrane at nu 0.4999, flat and thick, of both elements", cook_incompressible},
+    {"punch", "a punched block, nearly incompressible, squeezed to a third, of nodal elements", punch},
     {"free_cube", "first frequency of a nearly incompressible free cube: locks", free_cube},
     {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)", tapered_membrane},
     {"twisting_column", "a twisting column against its own finest mesh, and its energy", twisting_column},

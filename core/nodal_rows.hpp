@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/patches.hpp>
+
+namespace plica {
+
+/// The elements `nodal` of one mesh: constants of the mesh at rest, by rows of domains. A domain is what one region has around one
+/// vertex, a quarter of each of its tetrahedra there; a vertex between regions has several. Neighbours are domains of one region
+/// that share a tetrahedron. With V_t a tetrahedron's volume and N_b its shape functions, sums over the tetrahedra t of the pair:
+///
+///   C_ab = sum V_t/4 grad N_b     w_ab = sum V_t grad N_a . grad N_b     s_ab = sum V_t/16     V_a = sum V_t/4
+///
+/// Those of a domain with itself follow from the rest: over b, C_ab and w_ab add up to 0, s_ab to V_a. C_ba = -C_ab, unless both lie
+/// on the surface of the region: C_ab + C_ba = S_ab is kept for these pairs.
+///
+/// Rows are stored in slices of `height` beside each other (sliced ELLPACK, Monakov, Lokhmotov & Avetisyan 2010), a lane of a
+/// register or a thread each. A slice has the rows of one region only; what fills it up has volume 0 and points to itself.
+///
+/// * slice q: entries [first(q), first(q+1)) of neighbour, gradient (C_ab, row a), coupling (w_ab), smoothing (s_ab);
+///   surface entries [first_surface(q), first_surface(q+1)) of surface_neighbour, surface_gradient (S_ab)
+/// * slot = slice * height + row of the slice: vertex, volume, inverse_volume
+template <class B>
+struct NodalRows {
+  using Real = typename B::Real;
+  using Memory = typename B::Memory;
+  static constexpr int lanes = B::lanes;
+  static constexpr int height = B::on_host ? lanes : 32;  ///< a warp of a GPU reads whole lines
+  template <class T>
+  using Array = Kokkos::View<T, Kokkos::LayoutRight, Memory>;
+
+  int slices = 0;
+  int domains = 0;
+  Indices<B> first;    ///< [slices + 1]
+  Indices<B> region;   ///< [slices]
+  Indices<B> vertex;   ///< [slots] -1: none
+  Scalars<B> volume;   ///< [slots] V_a [m^3]
+  Scalars<B> inverse_volume;
+  Array<int* [height]> neighbour;  ///< slots
+  Array<Real* [3][height]> gradient;
+  Array<Real* [height]> coupling;
+  Array<Real* [height]> smoothing;  ///< only where pressures are smoothed
+  Indices<B> first_surface;
+  Array<int* [height]> surface_neighbour;
+  Array<Real* [3][height]> surface_gradient;
+  Scalars<B> constants;   ///< [regions * n] of the material
+  Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
+  Scalars<B> excess;      ///< [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
+  Scalars<B> damping;     ///< [regions] part of the stiffness that damps [s]; empty: none anywhere
+  Shares<B> shares;
+
+  int slots() const { return slices * height; }
+};
+
+/// What the kernels of nodal elements pass on to each other; rows of slots.
+template <class B>
+struct NodalWork {
+  Scalars<B> near;      ///< [slots * 8] up to two fields in the order of the slots, x y z 0 each
+  Scalars<B> records;   ///< [slots * 12] of each column j of the stress Q_0j Q_1j Q_2j, and component j of the field
+  Scalars<B> ratio;     ///< [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
+  Scalars<B> pressure;  ///< likewise, what follows from them
+};
+
+}  // namespace plica

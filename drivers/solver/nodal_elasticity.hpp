@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/drivers/solver/elasticity.hpp>
+#include <plica/kernels/elastic/nodal_elements.hpp>
+#include <plica/kernels/materials/positive_tangent.hpp>
+
+namespace plica {
+
+/// In another source: that of the linear elements.
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> make_linear_elasticity();
+
+/// The kernels of nodal elements of one material. A matrix would have four times the blocks of that of linear elements, which
+/// are assembled instead, to precondition with.
+template <class B, class Material>
+class NodalElasticity final : public Elasticity<B> {
+  using Exec = typename B::Exec;
+
+ public:
+  void force(const Exec& exec, const Level<B>& level, const State<B>& state, int evaluation) const override {
+    nodal_force<B, Material>(exec, level, state, evaluation);
+  }
+  void tangent(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p, double over,
+               bool positive) const override {
+    if (positive)
+      nodal_tangent<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, p, over);
+    else
+      nodal_tangent<B, Material, Material::template Tangent>(exec, level, u, p, over);
+  }
+  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction,
+                double over) const override {
+    linear_->diagonal(exec, level, u, direction, over);
+  }
+  void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,
+              const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,
+              const BlockMatrix<B>& A) const override {
+    linear_->blocks(exec, model, pairs, u, weights, positive, shares, A);
+  }
+  void energy(const Exec& exec, const Level<B>& level, const Vectors<B>& u) const override {
+    nodal_energy<B, Material>(exec, level, u);
+  }
+  void stress(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& von_mises,
+              const Scalars<B>& J) const override {
+    nodal_stress<B, Material>(exec, level, u, von_mises, J);
+  }
+
+ private:
+  std::unique_ptr<Elasticity<B>> linear_ = make_linear_elasticity<B, Material>();
+};
+
+template <class B, class Material>
+std::unique_ptr<Elasticity<B>> make_nodal_elasticity() {
+  return std::make_unique<NodalElasticity<B, Material>>();
+}
+
+}  // namespace plica

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/elastic/nodal_rows.hpp>
+#include <plica/kernels/materials/cauchy_stress.hpp>
+#include <type_traits>
+
+// Elements with one strain per vertex and region ("nodal"), stabilised:
+//
+//   F_a = (1/V_a) sum_t V_t/4 F_t
+//   E   = sum_a V_a Psi(F_a) + beta mu/2 [sum_t V_t |F_t|^2 - sum_a V_a |F_a|^2]
+//
+// In the family of node-based uniform strain and stabilised nodally integrated tetrahedra: Dohrmann, Heinstein, Jung, Key & Witkowski 2000;
+// Bonet, Marriott & Hassan 2001; Puso & Solberg 2006; Gee, Dohrmann, Key & Wall 2009. The bracket is sum_t sum_{a in t} V_t/4 |F_t - F_a|^2:
+// zero for affine motion, unchanged by rotations, of a constant matrix. beta was tuned, not derived: below 0.2 modes appear that
+// are no motion of a body, high ones stiffen bending. mu is that of small strains. With G = F - I,
+//
+//   Q_a = P(F_a) - beta mu G_a,   f_b = -sum_a Q_a C_ab - beta mu sum_a w_ab u_a.
+//
+// Smoothed volumes, for lambda beyond 2 mu: Psi has lambda_c = min(lambda, 2 mu), and the rest (`excess`) acts on J~ = S J, a mean over
+// neighbours: + sum_a V_a excess/2 (J~_a - 1)^2, whose stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
+namespace plica {
+
+/// Of the regions; see NodalRows.
+template <class B>
+struct RowScales {
+  using Real = typename B::Real;
+  Scalars<B> constants, stabiliser, damping;
+  explicit RowScales(const NodalRows<B>& rows)
+      : constants(rows.constants), stabiliser(rows.stabiliser), damping(rows.damping) {}
+  /// 1, and the part of the stiffness that damps over a time.
+  KOKKOS_INLINE_FUNCTION Real tangent(int region, Real over) const {
+    return damping.extent(0) > 0 ? 1 + over * damping(region) : Real(1);
+  }
+};
+
+/// Pressures from smoothed volumes, and their changes, in the order of the slots: `stride` numbers each.
+template <class B, bool Smoothed>
+struct RowPressure {
+  Scalars<B> pressure;
+  int stride = 1;
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T at(int slot, int k) const {
+    T p;
+    for (int l = 0; l < B::lanes; ++l) set_lane(p, l, pressure((slot + l) * stride + k));
+    return p;
+  }
+};
+
+/// Stress of the force: f = -dE/du. Damped: with that of -damping K(u) v.
+template <class B, class Material, bool Watched, bool Damped, bool Smoothed>
+struct NodalForce {
+  static constexpr int fields = Damped ? 2 : 1;
+  using T = RowPack<B>;
+  RowScales<B> scales;
+  ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0, a record per slice
+  int evaluation;
+  RowPressure<B, Smoothed> pressure;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&field)[fields],
+                                         const RowsAt<B>& at, int region, Mat3<T>& Q, Vec3<T>& v) const {
+    const auto c = load_constants<Material, T>(scales.constants, region);
+    const T b = T(scales.stabiliser(region));
+    const Mat3<T> F = Mat3<T>::identity() + G[0];
+    Q = Material::stress(F, c) - b * G[0];
+    v = field[0];
+    if constexpr (Smoothed) Q = Q + pressure.template at<T>(at.slot, 0) * cofactor(F);
+    if constexpr (Damped) {
+      const T d = T(scales.damping(region));
+      Mat3<T> dP = Material::stress_change(F, G[1], c) - b * G[1];
+      if constexpr (Smoothed)
+        dP = dP + pressure.template at<T>(at.slot, 1) * cofactor(F) +
+             pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
+      Q = Q + d * dP;
+      v += d * field[1];
+    }
+    if constexpr (Watched) {
+      const T J = determinant(F);
+      bool upright = true;
+      for (int l = 0; l < B::lanes; ++l) upright = upright && lane(J, l) > 0;
+      if (!upright) raise(J, at);
+    }
+  }
+
+  PLICA_SELDOM KOKKOS_FUNCTION void raise(const T& J, const RowsAt<B>& at) const {
+    for (int l = 0; l < B::lanes; ++l)
+      if (!(lane(J, l) > 0)) flags.raise(at.slice, evaluation, at.slot + l, lane(J, l));
+  }
+};
+
+/// Stress of -K(u) p.
+template <class B, class Material, template <class> class Tangent, bool Smoothed>
+struct NodalTangent {
+  static constexpr int fields = 2;  // u, p
+  using T = RowPack<B>;
+  RowScales<B> scales;
+  typename B::Real over;  ///< [1/s]
+  RowPressure<B, Smoothed> pressure;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2], const RowsAt<B>& at,
+                                         int region, Mat3<T>& Q, Vec3<T>& v) const {
+    const T scale = T(scales.tangent(region, over)), b = T(scales.stabiliser(region));
+    const Mat3<T> F = Mat3<T>::identity() + G[0];
+    Mat3<T> dP = Tangent<T>(F, load_constants<Material, T>(scales.constants, region))(G[1]) - b * G[1];
+    if constexpr (Smoothed)
+      dP = dP + pressure.template at<T>(at.slot, 1) * cofactor(F) +
+           pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
+    Q = scale * dP;
+    v = scale * field[1];
+  }
+};
+
+/// J_a, and with two fields its change cof F : dF.
+template <class B, int fields>
+struct RowVolumes {
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  NodalWork<B> work;
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    Vec3<T> own[fields];
+    Mat3<T> G[fields];
+    row_gradients<B, fields>(rows, work.near, at, own, G);
+    const Mat3<T> F = Mat3<T>::identity() + G[0];
+    const T J = determinant(F);
+    T change = T(0);
+    if constexpr (fields > 1) change = inner(cofactor(F), G[1]);
+    for (int l = 0; l < B::lanes; ++l) {
+      work.ratio((at.slot + l) * fields) = lane(J, l);
+      if constexpr (fields > 1) work.ratio((at.slot + l) * fields + 1) = lane(change, l);
+    }
+  }
+};
+
+/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1) and excess S dJ.
+template <class B, int fields, bool first>
+struct SmoothRows {
+  NodalRows<B> rows;
+  Scalars<B> from, to;
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    using T = RowPack<B>;
+    const RowsAt<B> at(item);
+    const T excess = T(rows.excess(rows.region(at.slice)));
+    for (int k = 0; k < fields; ++k) {
+      T x = smoothed<B>(rows, from.data() + k, fields, at);
+      if constexpr (first) x = excess * (k == 0 ? x - T(1) : x);
+      for (int l = 0; l < B::lanes; ++l) to((at.slot + l) * fields + k) = lane(x, l);
+    }
+  }
+};
+
+/// work.pressure of the fields that have been laid out.
+template <class B, int fields>
+void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, const NodalWork<B>& work) {
+  for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, fields>{rows, work});
+  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records});
+  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, false>{rows, work.records, work.pressure});
+}
+
+/// launch(a true or false type) by a condition that is known at run time only.
+template <class Launch>
+void by_case(bool condition, const Launch& launch) {
+  if (condition)
+    launch(std::true_type());
+  else
+    launch(std::false_type());
+}
+
+/// Damped where the rows are; with empty flags nobody watches for inverted domains.
+template <class B, class Material>
+void nodal_force(const typename B::Exec& exec, const Level<B>& level, const State<B>& state, int evaluation) {
+  const NodalRows<B>& rows = level.model.rows;
+  by_case(rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
+    if constexpr (damped)
+      lay_out<B>(exec, rows, level.nodal, {state.u, state.v});
+    else
+      lay_out<B>(exec, rows, level.nodal, {state.u});
+    by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+      constexpr int fields = damped ? 2 : 1;
+      if constexpr (smoothed) smooth_pressures<B, fields>(exec, rows, level.nodal);
+      by_case(level.flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
+        launch_rows<B>(exec, "plica::nodal_stresses", level,
+                       NodalForce<B, Material, watched, damped, smoothed>{
+                           RowScales<B>(rows), level.flags, evaluation, {level.nodal.pressure, fields}});
+      });
+    });
+  });
+}
+
+template <class B, class Material, template <class> class Tangent>
+void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p,
+                   double over) {
+  const NodalRows<B>& rows = level.model.rows;
+  lay_out<B>(exec, rows, level.nodal, {u, p});
+  by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+    if constexpr (smoothed) smooth_pressures<B, 2>(exec, rows, level.nodal);
+    launch_rows<B>(exec, "plica::nodal_tangent", level,
+                   NodalTangent<B, Material, Tangent, smoothed>{
+                       RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}});
+  });
+}
+
+/// V Psi(F) of each domain, its part of the bracket and of the smoothed volume's energy, in the x component of partial [J].
+template <class B, class Material, bool Smoothed>
+struct NodalEnergy {
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  NodalWork<B> work;
+  Vectors<B> partial;
+
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    const int region = rows.region(at.slice);
+    Vec3<T> own[1];
+    Mat3<T> G[1];
+    row_gradients<B, 1>(rows, work.near, at, own, G);
+    T spread = T(0);  // -sum_b w_ab |u_b - u_a|^2 / 2: over all domains sum_t V_t |G_t|^2
+    const typename B::Real* const base = work.near.data();
+    for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
+      const int* const neighbour = &rows.neighbour(e, at.offset);
+      Vec3<T> u;
+      load_vectors([=](int l) { return base + neighbour[l] * 4; }, u);
+      const Vec3<T> d = u - own[0];
+      spread -= load_rows<B>(&rows.coupling(e, at.offset)) * dot(d, d);
+    }
+    const T volume = load_rows<B>(&rows.volume(at.slot)), half = T(0.5f);
+    const auto c = load_constants<Material, T>(rows.constants, region);
+    T energy = volume * Material::energy(Mat3<T>::identity() + G[0], c) +
+               half * T(rows.stabiliser(region)) * (half * spread - volume * inner(G[0], G[0]));
+    if constexpr (Smoothed) {
+      const T x = smoothed<B>(rows, work.ratio.data(), 1, at) - T(1);
+      energy += half * T(rows.excess(region)) * volume * x * x;
+    }
+    for (int l = 0; l < B::lanes; ++l) {
+      partial(at.slot + l, 0) = lane(energy, l);
+      partial(at.slot + l, 1) = partial(at.slot + l, 2) = 0;
+    }
+  }
+};
+
+template <class B, class Material>
+void nodal_energy(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
+  const NodalRows<B>& rows = level.model.rows;
+  lay_out<B>(exec, rows, level.nodal, {u});
+  by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+    if constexpr (smoothed) for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, 1>{rows, level.nodal});
+    for_rows<B>(exec, "plica::nodal_energy", rows,
+                NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial});
+  });
+}
+
+/// von Mises' stress [Pa] and volume ratio of every slot; for output.
+template <class B, class Material, bool Smoothed>
+struct NodalStress {
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  NodalWork<B> work;
+  RowPressure<B, Smoothed> pressure;
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    Vec3<T> own[1];
+    Mat3<T> G[1];
+    row_gradients<B, 1>(rows, work.near, at, own, G);
+    const Mat3<T> F = Mat3<T>::identity() + G[0];
+    const T J = determinant(F);
+    Mat3<T> sigma = cauchy_stress<Material>(F, load_constants<Material, T>(rows.constants, rows.region(at.slice)));
+    if constexpr (Smoothed) sigma = sigma + Mat3<T>::diagonal(pressure.template at<T>(at.slot, 0));
+    const T equivalent = von_mises(sigma);
+    for (int l = 0; l < B::lanes; ++l) {
+      work.records(2 * (at.slot + l)) = lane(equivalent, l);
+      work.records(2 * (at.slot + l) + 1) = lane(J, l);
+    }
+  }
+};
+
+/// Of a vertex between regions the mean over its domains, by volume.
+template <class B>
+struct MeanOfDomains {
+  using Real = typename B::Real;
+  Shares<B> shares;
+  Scalars<B> volume, records, equivalent, ratio;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    Real total = 0, stress = 0, J = 0;
+    for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
+      const int slot = shares.row(s);
+      total += volume(slot), stress += volume(slot) * records(2 * slot), J += volume(slot) * records(2 * slot + 1);
+    }
+    equivalent(a) = stress / total, ratio(a) = J / total;
+  }
+};
+
+template <class B, class Material>
+void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                  const Scalars<B>& von_mises, const Scalars<B>& J) {
+  const NodalRows<B>& rows = level.model.rows;
+  lay_out<B>(exec, rows, level.nodal, {u});
+  by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
+    if constexpr (smoothed) smooth_pressures<B, 1>(exec, rows, level.nodal);
+    for_rows<B>(exec, "plica::nodal_stress", rows,
+                NodalStress<B, Material, smoothed>{rows, level.nodal, {level.nodal.pressure, 1}});
+  });
+  Kokkos::parallel_for("plica::nodal_means", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.model.vertices),
+                       MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
+}
+
+}  // namespace plica

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/inlining.hpp>
+#include <plica/core/level.hpp>
+#include <plica/core/small.hpp>
+#include <plica/core/transposed.hpp>
+
+// How nodal elements are computed: by rows of vertices, without tetrahedra. Each domain a (core/nodal_rows.hpp) has one deformation
+// gradient F_a = I + sum_b (u_b - u_a) (x) C_ab / V_a and one stress; a force is a sum over neighbours of their stresses. Both sums
+// read the same constants C_ab, since C_ab = S_ab - C_ba with S_ab kept for pairs on the surface only:
+//
+//   1. lay out   near[slot]     = fields of the slot's vertex           u [vertices][3] -> four numbers a slot
+//   2. stresses  records[slot]  = stress Q_a, field v_a                 gathers near of the neighbours
+//   3. forces    partial[slot]  = sum_a (Q_a + Q_b) C_ba - Q_a S_ab - stabiliser w_ab (v_a - v_b),   b = slot: gathers records
+//   4. gather_forces: vertices between regions add up their slots       as for linear elements
+//
+// One slice of rows is computed at a time, a row per lane; each lane's neighbour is read whole and transposed in registers:
+//
+//   neighbours of entry e   17   4  23   9          near[17]: x y z 0  -.         x x x x
+//   (one per row)                                   near[ 4]: x y z 0   |  load   y y y y    one pack per component
+//                                                   near[23]: x y z 0   |------>  z z z z
+//                                                   near[ 9]: x y z 0  -'         0 0 0 0
+//
+// Nothing is written but rows of one's own, and every sum is in a stored order: the same bits for any number of threads. Bytes per domain, n
+// neighbours (about 14), s = sizeof(Real): 2. n (4 + 3 s) + 13 s + 12 s, 3. n (4 + 4 s) + 12 s + 3 s, 1. 7 s; gathers hit a cache.
+namespace plica {
+
+/// What one thread computes: `lanes` rows of a slice.
+template <class B>
+struct RowsAt {
+  int slice, offset, slot;  ///< offset: of the first of them in the slice; slot: of the first
+  explicit KOKKOS_INLINE_FUNCTION RowsAt(int item)
+      : slice(item * B::lanes / NodalRows<B>::height),
+        offset(item * B::lanes % NodalRows<B>::height),
+        slot(item * B::lanes) {}
+};
+
+template <class B>
+using RowPack = typename PackOf<typename B::Real, B::lanes>::type;
+
+template <class B>
+KOKKOS_INLINE_FUNCTION RowPack<B> load_rows(const typename B::Real* from) {
+  RowPack<B> r;
+  for (int l = 0; l < B::lanes; ++l) set_lane(r, l, from[l]);
+  return r;
+}
+
+/// C or S of one entry.
+template <class B, class Array>
+KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int entry, int offset) {
+  const typename B::Real* const from = &gradient(entry, 0, offset);
+  constexpr int height = NodalRows<B>::height;
+  return {load_rows<B>(from), load_rows<B>(from + height), load_rows<B>(from + 2 * height)};
+}
+
+/// Runs work(item) for every item of RowsAt.
+template <class B, class Work>
+void for_rows(const typename B::Exec& exec, const char* label, const NodalRows<B>& rows, const Work& work) {
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, rows.slots() / B::lanes), work);
+}
+
+/// 1. near[slot]
+template <class B, int fields>
+struct LayOut {
+  using Real = typename B::Real;
+  Indices<B> vertex;
+  Vectors<B> field[fields];
+  Scalars<B> near;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const int a = vertex(slot);
+    Real* const to = &near(slot * 4 * fields);
+    for (int f = 0; f < fields; ++f)
+      for (int k = 0; k < 4; ++k) to[4 * f + k] = a >= 0 && k < 3 ? field[f](a, k) : Real(0);
+  }
+};
+
+template <class B, int fields>
+void lay_out(const typename B::Exec& exec, const NodalRows<B>& rows, const NodalWork<B>& work,
+             const Vectors<B> (&field)[fields]) {
+  LayOut<B, fields> copy{rows.vertex, {}, work.near};
+  for (int f = 0; f < fields; ++f) copy.field[f] = field[f];
+  Kokkos::parallel_for("plica::nodal_layout", Kokkos::RangePolicy<typename B::Exec>(exec, 0, rows.slots()), copy);
+}
+
+/// The gradients of the fields in `near`.
+template <class B, int fields>
+KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalars<B>& near, const RowsAt<B>& at,
+                                          Vec3<RowPack<B>> (&own)[fields], Mat3<RowPack<B>> (&G)[fields]) {
+  using Real = typename B::Real;
+  constexpr int stride = 4 * fields;
+  const Real* const base = near.data();
+  for (int f = 0; f < fields; ++f)
+    load_vectors([=](int l) { return base + (at.slot + l) * stride + 4 * f; }, own[f]);
+  for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
+    const int* const neighbour = &rows.neighbour(e, at.offset);
+    const Vec3<RowPack<B>> C = load_gradient<B>(rows.gradient, e, at.offset);
+    for (int f = 0; f < fields; ++f) {
+      Vec3<RowPack<B>> u;
+      load_vectors([=](int l) { return base + neighbour[l] * stride + 4 * f; }, u);
+      const Vec3<RowPack<B>> d = u - own[f];
+      for (int r = 0; r < 3; ++r) G[f][r] += d[r] * C;
+    }
+  }
+  const RowPack<B> inverse = load_rows<B>(&rows.inverse_volume(at.slot));
+  for (int f = 0; f < fields; ++f) G[f] = inverse * G[f];
+}
+
+/// (S x)_a = (x_a V_a / 4 + sum_b s_ab x_b) / V_a of a number per slot, x(slot, k) = values[slot * stride + k]; V S is symmetric.
+template <class B>
+KOKKOS_INLINE_FUNCTION RowPack<B> smoothed(const NodalRows<B>& rows, const typename B::Real* values, int stride,
+                                           const RowsAt<B>& at) {
+  using T = RowPack<B>;
+  const auto value = [&](int slot) { return values[slot * stride]; };
+  T sum = T(0);
+  for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
+    const int* const neighbour = &rows.neighbour(e, at.offset);
+    T x;
+    for (int l = 0; l < B::lanes; ++l) set_lane(x, l, value(neighbour[l]));
+    sum += load_rows<B>(&rows.smoothing(e, at.offset)) * x;
+  }
+  T own;
+  for (int l = 0; l < B::lanes; ++l) set_lane(own, l, value(at.slot + l));
+  return load_rows<B>(&rows.inverse_volume(at.slot)) * sum + T(0.25f) * own;
+}
+
+/// Four numbers of each of three columns to records.
+template <class B>
+KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt<B>& at, const Mat3<RowPack<B>>& Q,
+                                         const Vec3<RowPack<B>>& v) {
+  typename B::Real* const base = records.data() + at.slot * 12;
+  for (int j = 0; j < 3; ++j) {
+    const RowPack<B> four[4] = {Q[0][j], Q[1][j], Q[2][j], v[j]};
+    store_fours(four, [=](int l) { return base + 12 * l + 4 * j; });
+  }
+}
+
+/// 2. The records of an integrand, which has
+///   static constexpr int fields;   what it reads, in `near`
+///   void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&v)[fields], const RowsAt<B>&, int region, Mat3<T>& Q, Vec3<T>& v)
+/// with the gradients G of the fields, and leaves the stress that acts on the neighbours and the field that the stabiliser does.
+template <class B, class Integrand>
+struct RowStresses {
+  static constexpr int fields = Integrand::fields;
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  NodalWork<B> work;
+  Integrand integrand;
+
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    Vec3<T> own[fields], v;
+    Mat3<T> G[fields], Q;
+    row_gradients<B, fields>(rows, work.near, at, own, G);
+    integrand(G, own, at, rows.region(at.slice), Q, v);
+    store_record<B>(work.records, at, Q, v);
+  }
+};
+
+/// 3. partial[slot] from records.
+template <class B>
+struct RowForces {
+  using Real = typename B::Real;
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  Scalars<B> records;
+  Vectors<B> partial;
+
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    const Real* const base = records.data();
+    T own[3][4];
+    for (int j = 0; j < 3; ++j) load_fours([=](int l) { return base + (at.slot + l) * 12 + 4 * j; }, own[j]);
+    Vec3<T> f, drag, sum;
+    for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
+      const int* const neighbour = &rows.neighbour(e, at.offset);
+      const Vec3<T> C = load_gradient<B>(rows.gradient, e, at.offset);
+      const T w = load_rows<B>(&rows.coupling(e, at.offset));
+      for (int j = 0; j < 3; ++j) {
+        T four[4];
+        load_fours([=](int l) { return base + neighbour[l] * 12 + 4 * j; }, four);
+        for (int i = 0; i < 3; ++i) f[i] += C[j] * four[i];
+        drag[j] += w * (four[3] - own[j][3]);
+      }
+      sum += C;
+    }
+    for (int e = rows.first_surface(at.slice); e < rows.first_surface(at.slice + 1); ++e) {
+      const int* const neighbour = &rows.surface_neighbour(e, at.offset);
+      const Vec3<T> S = load_gradient<B>(rows.surface_gradient, e, at.offset);
+      for (int j = 0; j < 3; ++j) {
+        T four[4];
+        load_fours([=](int l) { return base + neighbour[l] * 12 + 4 * j; }, four);
+        for (int i = 0; i < 3; ++i) f[i] -= S[j] * four[i];
+      }
+    }
+    const T stabiliser = T(rows.stabiliser(rows.region(at.slice)));
+    for (int i = 0; i < 3; ++i) {
+      f[i] += own[0][i] * sum[0] + own[1][i] * sum[1] + own[2][i] * sum[2] - stabiliser * drag[i];
+      for (int l = 0; l < B::lanes; ++l) partial(at.slot + l, i) = lane(f[i], l);
+    }
+  }
+};
+
+template <class B, class Integrand>
+void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>& level, const Integrand& integrand) {
+  const NodalRows<B>& rows = level.model.rows;
+  for_rows<B>(exec, label, rows, RowStresses<B, Integrand>{rows, level.nodal, integrand});
+  for_rows<B>(exec, "plica::nodal_forces", rows, RowForces<B>{rows, level.nodal.records, level.partial});
+}
+
+}  // namespace plica
