@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
+#include <plica/drivers/solver/materials.hpp>
 
 namespace plica {
 
@@ -19,6 +20,14 @@ Eigen::Matrix3d edges(const TetMesh& mesh, const std::array<int, 4>& t, const st
   Eigen::Matrix3d m;
   for (int c = 0; c < 3; ++c) m.col(c) = at(static_cast<std::size_t>(c + 1)) - at(0);
   return m;
+}
+
+/// "neo_hookean, corotational"
+std::string recovering_materials() {
+  std::string names;
+  for (const MaterialInfo& material : material_list())
+    if (material.recovers) names += (names.empty() ? "" : ", ") + std::string(material.name);
+  return names;
 }
 
 /// Fills in what follows from level and element.
@@ -45,9 +54,8 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
   else
     d.remedy = "a smaller macro_step, or integration.implicit.newton_iterations above 1";
   if (d.kind == "inverted")
-    d.remedy +=
-        "; or let elements be inverted (body.material.allow_inversion) in a material that pushes them back "
-        "(neo_hookean, corotational)";
+    d.remedy += "; or let elements be inverted (body.material.allow_inversion) in a material that pushes them back (" +
+                recovering_materials() + ")";
   if (d.kind == "contact")
     d.remedy =
         "a smaller macro_step, contact.stiffness_scale above 1, or an obstacle that is not thinner than what a "

@@ -40,6 +40,7 @@ namespace plica {
 
 namespace {
 
+constexpr double rounding = 1e-9;    // of times, relative
 constexpr int keep_every = 20;       // macro steps
 constexpr int most_repairs = 8;      // of a stepper, until its steps stay stable to where the run was
 constexpr double least_edge = 1e-3;  // of an edge per macro step: motion that energy is not asked about
@@ -85,8 +86,32 @@ template <class B>
 void Simulation<B>::step() {
   Inside& s = *inside_;
   s.residual = 0;
-  s.advance(s.time, s.built.macro_step);
-  s.time = static_cast<double>(++s.steps) * s.built.macro_step;
+  s.advance(s.time, s.next_span());
+  s.arrive();
+}
+
+template <class B>
+void Simulation<B>::end_at(double time) {
+  inside_->end = time;
+}
+
+/// Whether the next macro step would go beyond the end that a caller has set.
+template <class B>
+bool Simulation<B>::Inside::reaches_end() const {
+  return time<end&& static_cast<double>(steps + 1) * built.macro_step>(1 + rounding) * end;
+}
+
+template <class B>
+double Simulation<B>::Inside::next_span() const {
+  if (reaches_end()) return end - time;
+  const double start = static_cast<double>(steps) * built.macro_step;
+  return built.macro_step - (time - start);  // which is 0 but after a step that was shorter
+}
+
+/// The time after the next macro step; a shorter one does not count.
+template <class B>
+void Simulation<B>::Inside::arrive() {
+  time = reaches_end() ? end : static_cast<double>(++steps) * built.macro_step;
 }
 
 /// A macro step or a part of it; the time is the caller's.
@@ -187,12 +212,12 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
 template <class B>
 bool Simulation<B>::repair() {
   Inside& s = *inside_;
-  const long there = s.steps;
+  const double there = s.time;
   for (int attempt = 0; s.built.stepper->lost_stability(s.hierarchy()); ++attempt) {
     if (attempt == most_repairs) return false;
     s.go_back();
     if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step, attempt)) return false;
-    while (s.steps < there) step();
+    while (s.time < there) step();
   }
   return true;
 }
@@ -201,16 +226,16 @@ bool Simulation<B>::repair() {
 /// step starts whole and ends at its own time. What is left of `bad` where that does not help.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
-  const long there = steps;
-  const bool known = there - kept_steps == 1;  // to be bad as a whole
+  const double there = time;
   go_back();
+  const bool known = there <= time + (1 + rounding) * next_span();  // to be bad as a whole: it was the only step since
   ++rejected;
   std::optional<Diagnosis> still = bad;
-  while (steps < there) {
+  while (time < there) {
     const int left = problem.integration.retry.halvings;
-    still = known ? halves(time, built.macro_step, left) : cover(time, built.macro_step, left);
+    still = known ? halves(time, next_span(), left) : cover(time, next_span(), left);
     if (still) return still;
-    time = static_cast<double>(++steps) * built.macro_step;
+    arrive();
   }
   return {};
 }

@@ -131,6 +131,10 @@ class Simulation {
   /// step(), check() and, where that finds something, recover(): one macro step of a run. Waits.
   std::optional<Diagnosis> step_checked();
 
+  /// From now on a macro step that would go beyond this time [s] ends there. It is shorter than the others and not counted
+  /// among macro_steps(); the step after it makes up the rest.
+  void end_at(double time);
+
   /// Takes all levels and the time back to the last state that was kept.
   void return_to_last_good();
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
@@ -22,6 +23,7 @@ struct Simulation<B>::Inside {
   // Now
   double time = 0;
   long steps = 0;
+  double end = std::numeric_limits<double>::infinity();  // no step goes beyond it
   double residual = 0, worst_residual = 0;
 
   // What checks compare with
@@ -45,7 +47,10 @@ struct Simulation<B>::Inside {
   bool retries() const { return problem.integration.retry.halvings > 0; }
 
   // Steps
+  bool reaches_end() const;
+  double next_span() const;
   void advance(double from, double span);
+  void arrive();
 
   // Checks; `part`: of a macro step, that the last step covered
   std::optional<Diagnosis> examine(double part = 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 namespace plica::test {
@@ -44,5 +45,11 @@ struct ThreeConstants {
            ((c.bulk + c.rest / (J * J)) * inner(H, dF)) * H + (c.bulk * (J - T(1)) - c.rest / J) * dH;
   }
 };
+
+/// What it says of itself, as those in the list do.
+inline MaterialInfo three_constants() {
+  using M = ThreeConstants;
+  return {M::name, "", true, false, false, false, {M::parameters.begin(), M::parameters.end()}, nullptr, nullptr};
+}
 
 }  // namespace plica::test

@@ -8,7 +8,7 @@
 
 namespace plica::test {
 
-/// Counts kernels, allocations and fences by label, through Kokkos' profiling callbacks, while it lives. One at a time.
+/// Counts kernels, allocations, fences and regions by label, through Kokkos' profiling callbacks, while it lives. One at a time.
 class Watch {
  public:
   Watch() {
@@ -20,6 +20,9 @@ class Watch {
     tools::set_begin_parallel_scan_callback([](const char* label, std::uint32_t, std::uint64_t*) { launched(label); });
     tools::set_allocate_data_callback([](Kokkos_Profiling_SpaceHandle, const char* label, const void*, std::uint64_t) {
       if (current()) ++current()->allocations[label];
+    });
+    tools::set_push_region_callback([](const char* label) {
+      if (current()) ++current()->regions[label];
     });
     tools::set_begin_fence_callback([](const char* label, std::uint32_t, std::uint64_t*) {
       // watching makes Kokkos itself wait, before and after each kernel
@@ -33,12 +36,13 @@ class Watch {
     tools::set_begin_parallel_reduce_callback(nullptr);
     tools::set_begin_parallel_scan_callback(nullptr);
     tools::set_allocate_data_callback(nullptr);
+    tools::set_push_region_callback(nullptr);
     tools::set_begin_fence_callback(nullptr);
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  std::map<std::string, int> launches, allocations, fences;
+  std::map<std::string, int> launches, allocations, fences, regions;
 
   /// Labels of kernels and allocations that contain one of the words.
   std::vector<std::string> about(const std::vector<std::string>& words) const {

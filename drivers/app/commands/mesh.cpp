@@ -11,6 +11,7 @@
 #include <plica/drivers/app/scene/mesh_warnings.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/memory_file.hpp>
@@ -26,7 +27,8 @@ double bound_of(const TetMesh& mesh, int tet, const MaterialOptions& material) {
   for (const int v : mesh.tets[static_cast<std::size_t>(tet)])
     alone.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
   alone.tets = {{0, 1, 2, 3}};
-  return element_bound(alone, {lame_constants(material.young_modulus, material.poisson_ratio)}, {material.density});
+  const MaterialInfo& info = *find_material(material.model);
+  return element_bound(alone, {info.small_strains(parameter_values(info, material, {}))}, {material.density});
 }
 
 // As a run of this mesh alone would find it

@@ -164,7 +164,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
   RunEnd end = [&] {
     Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);
-    return run_loop(simulation, scene.duration, start, output, progress, watch,
+    return run_loop(simulation, scene, start, output, progress, watch,
                     [&](const RunEnd& now) { latest = summary_at(now); });
   }();
   if (end.diagnosis) end.diagnosis = in_input_numbers(*end.diagnosis, scene);

@@ -80,6 +80,12 @@ class RunOutput {
     if (saving_ && saving_->due(now.macro_steps)) save(now);
   }
 
+  /// Before a step that is shorter because the run ends with it: a longer run goes on from here, so nothing is saved later.
+  void before_shorter_step(const RunEnd& now) {
+    if (saving_ && saved_ != now.macro_steps) save(now);
+    saving_.reset();
+  }
+
   /// After the last step. The last frame comes after the last checkpoint: a longer run has it at its own time, if at all.
   void finish(const RunEnd& end, double last_time) {
     if (saving_ && !end.diagnosis && saved_ != end.macro_steps) save(end);
@@ -121,15 +127,17 @@ class RunOutput {
   long saved_ = -1;
 };
 
-/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. Whole macro steps: the
-/// last one may reach beyond the duration. Calls reached(end) after the start and after macro steps, at most ten times a second and
+/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. The last step is
+/// shorter where the macro step is automatic; macro steps of a given size are whole, and the last may reach beyond the
+/// duration. Calls reached(end) after the start and after macro steps, at most ten times a second and
 /// after every frame: what it keeps is what `watch` may write where a macro step takes too long after Ctrl-C.
 template <class B, class Reached>
-RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutput<B>& output, Progress& progress,
+RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOutput<B>& output, Progress& progress,
                 InterruptWatch& watch, const Reached& reached) {
   using Clock = std::chrono::steady_clock;
-  const double step = simulation.macro_step();
-  const long steps = steps_to_cover(duration, step);
+  const long steps = steps_to_cover(scene.duration, simulation.macro_step());
+  const bool automatic = !scene.problem.integration.macro_step;
+  if (automatic) simulation.end_at(scene.duration);
   Clock::time_point told{};
   const auto record = [&] {
     const auto lock = watch.hold();
@@ -142,12 +150,13 @@ RunEnd run_loop(Simulation<B>& simulation, double duration, RunEnd end, RunOutpu
   };
   record();
   while (end.macro_steps < steps && !interrupted()) {
+    if (automatic && end.macro_steps + 1 == steps) output.before_shorter_step(end);
     const auto start = Clock::now();
     end.diagnosis = simulation.step_checked();
     end.wall_time += std::chrono::duration<double>(Clock::now() - start).count();
     if (end.diagnosis) break;
     ++end.macro_steps;
-    end.time = static_cast<double>(end.macro_steps) * step;
+    end.time = simulation.time();
     record();
     progress.update(end.time, end.macro_steps, [&] { return halvings_of(simulation); });
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <plica/drivers/app/output/mesh_description.hpp>
+#include <plica/drivers/app/output/problem_json.hpp>
 #include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -68,11 +69,7 @@ std::string mesh_json(const MeshDescription& m) {
                      {"warnings", m.warnings},
                      {"regions", regions},
                      {"vertex_sets", sets},
-                     {"material",
-                      {{"model", m.material.model},
-                       {"young_modulus", m.material.young_modulus},
-                       {"poisson_ratio", m.material.poisson_ratio},
-                       {"density", m.material.density}}},
+                     {"material", material_json(*find_material(m.material.model), m.material)},
                      {"critical_step", m.critical_step},
                      {"element_bound", m.element_bound},
                      {"edges", range_json(q.edges)},
@@ -160,10 +157,8 @@ std::string groups_text(const MeshDescription& m) {
 }
 
 std::string steps_text(const MeshDescription& m) {
-  const MaterialOptions& o = m.material;
-  return fmt::format("\nLargest stable explicit step (symplectic_euler, without contact)\n") +
-         text_table({{"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", o.model,
-                                              in_units(o.young_modulus, "Pa"), o.poisson_ratio, o.density)},
+  return "\nLargest stable explicit step (symplectic_euler, without contact)\n" +
+         text_table({{"material", material_text(*find_material(m.material.model), m.material)},
                      {"critical step", in_units(m.critical_step, "s")},
                      {"worst element alone", in_units(m.element_bound, "s") + ", on the sure side"}},
                     "<<");

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <plica/drivers/solver/elements.hpp>
-#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/problem_json.hpp>
 #include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 
 namespace plica::app {
@@ -86,8 +87,7 @@ std::string head_text(const Scene& scene, const Plan& plan) {
               {"cycle",
                fmt::format("{}{}", cycle_name(scene, plan.choice),
                            plan.him || plan.choice ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
-              {"material", fmt::format("{}, E {}, nu {:g}, {:g} kg/m^3", m.model, in_units(m.young_modulus, "Pa"),
-                                       m.poisson_ratio, m.density)},
+              {"material", material_text(*find_material(m.model), m)},
               {"elements", elements_text(scene.problem.body, plan)},
               {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
              "<<");

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/drivers/app/output/obstacles_json.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/problem_json.hpp>
 #include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -108,9 +108,12 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
   if (s.macro_steps > 0)
     speed = fmt::format(" ({:.2f} x real time, {:.3g} steps/s)", s.simulated_time / wall,
                         static_cast<double>(s.macro_steps) / wall);
-  const std::string beyond = s.status == "completed" && s.simulated_time > scene.duration * (1 + 1e-9)
-                                 ? fmt::format(", the first whole number of steps that covers {:g} s", scene.duration)
-                                 : "";
+  const std::string beyond =
+      s.status == "completed" && s.simulated_time > scene.duration * (1 + 1e-9)
+          ? fmt::format(", the first whole number of steps that covers {:g} s", scene.duration)
+      : s.status == "completed" && static_cast<double>(s.macro_steps) * s.macro_step > scene.duration * (1 + 1e-9)
+          ? ", the last one shorter"
+          : "";
   const std::string last_good =
       s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time) : std::string{};
   const std::vector<std::vector<std::string>> rows = {

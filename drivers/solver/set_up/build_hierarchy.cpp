@@ -65,7 +65,9 @@ class HierarchyBuilder {
       for (std::size_t i = 0; i < levels_; ++i) add_level(i);
       for (std::size_t i = 1; i < levels_; ++i) connect(i);
     });
-    phase("sampling the obstacles", [&] { add_contact(); });
+    for (std::size_t i = 0; i < levels_; ++i)
+      elasticity_.push_back(make_elasticity<B>(problem_.body.material.model, constants_[i].element));
+    if (!problem_.contact.obstacles.empty()) phase("preparing the obstacles", [&] { add_contact(); });
     for (std::size_t i = 0; i < levels_; ++i)
       phase("finding the critical step of level " + std::to_string(i), [&] { add_dynamics(i); });
     phase("planning the steps", [&] { plan(); });
@@ -244,12 +246,9 @@ class HierarchyBuilder {
 
   void add_contact() {
     const Problem& p = problem_;
-    for (std::size_t i = 0; i < levels_; ++i)
-      elasticity_.push_back(make_elasticity<B>(p.body.material.model, constants_[i].element));
-    if (!p.contact.obstacles.empty())
-      contact_ =
-          std::make_shared<const Contact<B>>(p.contact, p.body.material, static_cast<int>(surface_.vertices.size()),
-                                             surface_area(surface_), built_.reports.front().mean_edge, body_size());
+    contact_ =
+        std::make_shared<const Contact<B>>(p.contact, p.body.material, static_cast<int>(surface_.vertices.size()),
+                                           surface_area(surface_), built_.reports.front().mean_edge, body_size());
   }
 
   double body_size() const {

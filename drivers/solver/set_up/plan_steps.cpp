@@ -85,8 +85,8 @@ int automatic_substeps(const IntegrationOptions& o, const LevelLimits& level, do
   if (!level.is_explicit || !(level.critical_step > 0)) return 1;
   const double needed = std::ceil(span / (o.safety * level.critical_step) * (1 - 1e-9));
   if (needed > 1e6)
-    throw InputError("integration.macro_step asks for " + std::to_string(needed) +
-                     " sub-steps on one level; expected at most 1000000");
+    throw InputError(text("integration.macro_step asks for ", number(needed, 12),
+                          " sub-steps on one level; expected at most 1000000"));
   return std::max(1, static_cast<int>(needed));
 }
 

@@ -71,7 +71,8 @@ TEST_F(MeshCommands, InfoForPeople) {
   ASSERT_EQ(child.status, 0) << child.errors;
   for (const char* piece :
        {"Gmsh MSH 4.1 ASCII", "1.6e-05 m^3 in 1 connected part", "large tumour", "critical step", "best: 70.5", "####",
-        "20 mm x 20 mm x 40 mm", "E 20 kPa, nu 0.4, 1000 kg/m^3", "by their numbers in the file"})
+        "20 mm x 20 mm x 40 mm", "young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3",
+        "by their numbers in the file"})
     EXPECT_NE(child.output.find(piece), std::string::npos) << piece << "\n" << child.output;
 }
 

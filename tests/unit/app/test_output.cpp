@@ -6,12 +6,14 @@
 #include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/output/plan.hpp>
+#include <plica/drivers/app/output/problem_json.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <sstream>
 
+#include "support/three_constants.hpp"
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
@@ -80,6 +82,17 @@ TEST(StepCount, CoversTheDuration) {
   EXPECT_EQ(steps_to_cover(3.0001, 0.03), 101);
   EXPECT_EQ(steps_to_cover(1e-300, 0.03), 1);
   EXPECT_THROW(steps_to_cover(1, 1e-300), InputError);
+}
+
+TEST(MaterialText, HasTheParametersThatTheMaterialDeclares) {
+  MaterialOptions material;
+  material.parameters = {{"c1", 5e3}};
+  const MaterialInfo info = plica::test::three_constants();
+  EXPECT_EQ(material_text(info, material), "three_constants, c1 5 kPa, c2 700 Pa, bulk 30 kPa, density 1000 kg/m^3");
+  EXPECT_EQ(material_json(info, material).dump(),
+            R"({"model":"three_constants","c1":5000.0,"c2":700.0,"bulk":30000.0,"density":1000.0})");
+  EXPECT_EQ(material_text(*find_material("neo_hookean"), {}),
+            "neo_hookean, young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3");
 }
 
 TEST(RunFiles, KeepOnlyThisRun) {

@@ -57,6 +57,19 @@ TEST_F(Program, DurationIsCoveredByWholeSteps) {
   EXPECT_NEAR(summary()["simulated_time"], 0.021, 1e-12);
 }
 
+TEST_F(Program, AutomaticStepsEndAtTheDuration) {
+  for (const char* duration : {"0.1 ms", "20 ms"}) {  // the first is less than one step
+    const Child run = plica({"run", scene, "-o", out, "--force", "--set", "integration.macro_step=auto", "--duration",
+                             duration, "--set", "output.every=1 s"});
+    ASSERT_EQ(run.status, 0) << run.errors;
+    const double end = std::stod(duration) / 1e3;
+    EXPECT_EQ(summary()["simulated_time"], end);
+    EXPECT_EQ(summary()["last_good_time"], end);
+    EXPECT_GT(summary()["macro_steps"].get<double>() * summary()["macro_step"].get<double>(), end);
+    EXPECT_NE(run.output.find(", the last one shorter"), std::string::npos) << run.output;
+  }
+}
+
 TEST_F(Program, BadInputIs2) {
   EXPECT_EQ(plica({"run", folder / "none.yaml"}).status, 2);
   EXPECT_EQ(plica({"check", scene, "--set", "durtion=1"}).status, 2);

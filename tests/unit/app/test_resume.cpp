@@ -128,6 +128,22 @@ TEST_F(Resume, LongerThanItWas) {
   expect_same_results("whole", "longer");
 }
 
+// The shorter step that ended the first run is no part of the longer one
+TEST_F(Resume, LongerThanItWasInAutomaticSteps) {
+  const std::vector<std::string> automatic = {"--set", "integration.macro_step=auto", "--set",
+                                              "integration.integrator=symplectic_euler", "--duration"};
+  const auto lasting = [&](const std::string& duration, std::vector<std::string> more) {
+    more.insert(more.begin(), automatic.begin(), automatic.end());
+    more.insert(more.begin() + 5, duration);
+    return more;
+  };
+  ASSERT_EQ(begin("whole", lasting("50 ms", {})).status, 0);
+  ASSERT_EQ(begin("longer", lasting("21 ms", {"--checkpoint", "every=1 s"})).status, 0);
+  ASSERT_EQ(go_on("longer").status, 0) << "to the same end again";
+  ASSERT_EQ(go_on("longer", {"--duration", "50 ms"}).status, 0);
+  expect_same_results("whole", "longer");
+}
+
 TEST_F(Resume, RefusesWhatIsNotTheRun) {
   ASSERT_EQ(begin("run", {"--duration", "20 ms", "--checkpoint", "every=10"}).status, 0);
   const auto refusal = [&](const std::vector<std::string>& more) {

@@ -262,11 +262,6 @@ TEST(PolarRotation, IsTheNearestRotation) {
   }
 }
 
-MaterialInfo three_constants() {
-  using M = ThreeConstants;
-  return {M::name, "", true, false, false, false, {M::parameters.begin(), M::parameters.end()}, nullptr, nullptr};
-}
-
 std::string refusal(const MaterialInfo& info, const Body& body) {
   try {
     check_parameters(info, body);

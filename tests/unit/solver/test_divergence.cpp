@@ -96,6 +96,8 @@ TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
   EXPECT_EQ(bad->region, "right");
   EXPECT_LT(bad->J, 0);
   EXPECT_NE(bad->remedy.find("allow_inversion"), std::string::npos);
+  for (const Choice& material : materials())
+    EXPECT_EQ(bad->remedy.find(material.name) != std::string::npos, recovers(material.name)) << material.name;
   // it is one of the inverted elements
   const auto& t = mesh.tets[static_cast<std::size_t>(bad->element)];
   const auto at = [&](std::size_t k) {

@@ -52,6 +52,8 @@ TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
   // set-up's eigenvalue iteration says lanczos_start; nothing else may match
   for (const std::string& label : watch.about(optional_parts))
     EXPECT_EQ(label, "plica::lanczos_start") << "allocated or launched without need";
+  EXPECT_EQ(watch.regions.count("plica: building the levels"), 1);
+  EXPECT_EQ(watch.regions.count("plica: preparing the obstacles"), 0);
 }
 
 TYPED_TEST(LeftOut, FullSceneHasItAll) {  // that the words above are those of the labels
@@ -62,6 +64,7 @@ TYPED_TEST(LeftOut, FullSceneHasItAll) {  // that the words above are those of t
     if (part != "rk4") {
       EXPECT_FALSE(watch.about({part}).empty()) << part;
     }
+  EXPECT_EQ(watch.regions.count("plica: preparing the obstacles"), 1);
 }
 
 TYPED_TEST(LeftOut, StepOfTheMinimalSceneIsThreeKernels) {

@@ -45,6 +45,20 @@ TYPED_TEST(Retry, GoesOnWhereTheRunWouldEnd) {
   EXPECT_FALSE(without.counters().contains("halvings"));
 }
 
+TYPED_TEST(Retry, OfAStepThatEndsTheRun) {
+  Simulation<TypeParam> simulation(squashed(6));
+  const double end = 60.5 * simulation.macro_step();
+  simulation.end_at(end);
+  advance(simulation, 61);
+  EXPECT_EQ(simulation.time(), end);
+  EXPECT_GT(simulation.counters().at("halvings"), 0);
+  std::vector<Point> u(simulation.positions().size(), Point::Zero()), v = u;
+  simulation.set_state(u, v);
+  simulation.end_at(end + 0.25 * simulation.macro_step());
+  advance(simulation, 1);
+  EXPECT_EQ(simulation.time(), end + 0.25 * simulation.macro_step());
+}
+
 TYPED_TEST(Retry, IsNotNoticedWhereNothingIsBad) {
   for (const char* cycle : {"single", "rsv"}) {
     Problem p = squashed(0, cycle);

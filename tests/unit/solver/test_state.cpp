@@ -47,6 +47,30 @@ TYPED_TEST(BodyState, StartsWhereAndAsFastAsItIsTold) {
   }
 }
 
+// Two macro steps that are cut in two, then whole ones again: the times are those of the others
+TYPED_TEST(BodyState, EndsAtTheTimeThatIsAsked) {
+  for (const char* cycle : {"single", "rsv", "him"}) {
+    SCOPED_TRACE(cycle);
+    Problem p = cube_levels(cycle == std::string("single") ? 1 : 2, 3, cycle);
+    p.body.initial.velocity = {0.5, 0, 0};
+    Simulation<TypeParam> simulation(p);
+    const double t = simulation.macro_step();
+    simulation.end_at(2.25 * t);
+    advance(simulation, 3);
+    EXPECT_EQ(simulation.time(), 2.25 * t);
+    EXPECT_EQ(simulation.macro_steps(), 2);
+    const Point moved = simulation.positions()[0] - p.body.levels[0].vertices[0];
+    EXPECT_LE((moved - Point(0.5 * 2.25 * t, 0, 0)).norm(), 1e-2 * t);
+    advance(simulation, 2);
+    EXPECT_EQ(simulation.time(), 4 * t);
+    EXPECT_EQ(simulation.macro_steps(), 4);
+    simulation.end_at(5 * t);
+    advance(simulation, 1);
+    EXPECT_EQ(simulation.time(), 5 * t);
+    EXPECT_EQ(simulation.macro_steps(), 5) << "a whole one that ends there";
+  }
+}
+
 TYPED_TEST(BodyState, HasASurfaceOfItsOwn) {
   Problem p = small_cube();
   p.body.surface = sphere_surface({50, 50, 50}, 40, 1);  // as if in millimetres

@@ -109,6 +109,8 @@ TEST(Substeps, AutomaticOnesKeepTheLimit) {
   EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{5, 5, 4, 1}));
   o.substeps = {7, 8, 9, 2};
   EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{7, 8, 9, 2}));
+  EXPECT_EQ(refusal(options("equal", 0, 1e6)),
+            "integration.macro_step asks for 277777778 sub-steps on one level; expected at most 1000000");
 }
 
 TEST(MacroStep, AutomaticIsNineTenthsOfTheTightestLevel) {

@@ -1,11 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
-#include <plica/drivers/app/output/obstacles_json.hpp>
+#include <plica/drivers/app/output/problem_json.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 namespace plica::app {
 
 using Json = nlohmann::ordered_json;
+
+std::string material_text(const MaterialInfo& info, const MaterialOptions& material) {
+  std::string text(info.name);
+  const std::vector<double> values = parameter_values(info, material, {});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const MaterialParameter& p = info.parameters[i];
+    const std::string unit = unit_of(p.kind.dimension);
+    const bool takes_prefix = !unit.empty() && unit.find_first_of("/^ ") == std::string::npos;
+    text += fmt::format(", {} {}", p.name, takes_prefix ? in_units(values[i], unit) : p.kind.shown(values[i]));
+  }
+  return text + fmt::format(", density {:g} kg/m^3", material.density);
+}
+
+Json material_json(const MaterialInfo& info, const MaterialOptions& material) {
+  Json json = {{"model", info.name}};
+  const std::vector<double> values = parameter_values(info, material, {});
+  for (std::size_t i = 0; i < values.size(); ++i) json[info.parameters[i].name] = values[i];
+  json["density"] = material.density;
+  return json;
+}
 
 namespace {
 
