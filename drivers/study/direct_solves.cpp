@@ -3,11 +3,14 @@
 #include <cmath>
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <stdexcept>
 
 namespace plica {
+
+void require_sound(Simulation<HostBackend>& simulation) {
+  if (const auto bad = simulation.check()) throw std::runtime_error(bad->text());
+}
 
 namespace {
 
@@ -263,7 +266,7 @@ double frequency_of_motion(const Problem& problem, const std::vector<Point>& sha
     }
     before = now;
   }
-  if (const auto bad = simulation.check()) throw std::runtime_error(bad->text());
+  require_sound(simulation);
   return (crossings - 1) / (last - first);
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <functional>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/eigenvalues.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <vector>
@@ -12,6 +13,9 @@ namespace plica {
 
 /// Where direct solves run.
 using HostBackend = Backend<double, Kokkos::DefaultHostExecutionSpace>;
+
+/// Throws std::runtime_error with the diagnosis where a run does not pass its check.
+void require_sound(Simulation<HostBackend>& simulation);
 
 /// Whether the vertex at this rest position must not move along this axis: planes of symmetry, plane strain.
 using Held = std::function<bool(const Point& rest, int axis)>;

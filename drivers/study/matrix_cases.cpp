@@ -298,8 +298,8 @@ Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
 // * beyond that it depends on the kind of method.
 Expected expected_of(const MatrixBody& body, const Method& method, const std::string& material) {
   using Start = MatrixBody::Start;
-  const bool uses_coarse_levels = method.kind == Method::Kind::him || method.kind == Method::Kind::shared;
-  if (body.refused || (body.apart && uses_coarse_levels)) return {.refuse = true};
+  const bool needs_levels = method.kind == Method::Kind::him || method.kind == Method::Kind::shared;
+  if (body.refused || (body.apart && needs_levels)) return {.refuse = true};
   if (body.unstable) return stops();
   const bool linear = material == Linear::name, forbids = forbids_inversion(material);
   if (body.inside_out() && forbids) return stops("inverted");

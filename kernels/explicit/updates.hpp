@@ -11,6 +11,7 @@ namespace plica {
 /// symplectic for c = 0 (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2).
 template <class B>
 struct SymplecticEulerUpdate {
+  static constexpr const char* label = "plica::symplectic_euler";
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, u, v;
@@ -62,6 +63,7 @@ struct HalfKick {
 /// Forward Euler: u += h v with the old v; v += h (a - c v).
 template <class B>
 struct ForwardEulerUpdate {
+  static constexpr const char* label = "plica::euler";
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, u, v;

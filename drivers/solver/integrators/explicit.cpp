@@ -9,16 +9,16 @@ namespace plica {
 
 namespace {
 
-/// Semi-implicit Euler: first order, symplectic, one force per step.
-template <class B>
-class SymplecticEulerStep final : public Integrator<B> {
+/// One force per step, of which Update makes the next state: semi-implicit Euler, which is symplectic, or forward Euler. Both are
+/// of first order.
+template <class B, class Update>
+class EulerStep final : public Integrator<B> {
  public:
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
-    using Real = typename B::Real;
-    const SymplecticEulerUpdate<B> update{level.model, level.f, level.state.u, level.state.v, static_cast<Real>(h)};
+    const Update update{level.model, level.f, level.state.u, level.state.v, static_cast<typename B::Real>(h)};
     for (int s = 0; s < steps; ++s) {
       level.evaluate(level.state, time + s * h, level.f);
-      update_vertices<B>(level.exec(), "plica::symplectic_euler", level.model.vertices, update);
+      update_vertices<B>(level.exec(), Update::label, level.model.vertices, update);
       prescribe(level.exec(), level, level.state, time + (s + 1) * h);
     }
   }
@@ -59,21 +59,6 @@ class CentralDifferenceStep final : public Integrator<B> {
  private:
   Vectors<B> f_;          // at the state
   bool current_ = false;  // whether it is
-};
-
-/// Forward Euler: first order.
-template <class B>
-class ForwardEulerStep final : public Integrator<B> {
- public:
-  void advance(SolverLevel<B>& level, double time, double h, int steps) override {
-    using Real = typename B::Real;
-    const ForwardEulerUpdate<B> update{level.model, level.f, level.state.u, level.state.v, static_cast<Real>(h)};
-    for (int s = 0; s < steps; ++s) {
-      level.evaluate(level.state, time + s * h, level.f);
-      update_vertices<B>(level.exec(), "plica::euler", level.model.vertices, update);
-      prescribe(level.exec(), level, level.state, time + (s + 1) * h);
-    }
-  }
 };
 
 /// Explicit Runge-Kutta methods whose stages each start from the one before. A tableau has
@@ -133,7 +118,7 @@ struct ClassicalTableau {
 
 template <class B>
 std::unique_ptr<Integrator<B>> SymplecticEuler::make(const Level<B>&, const IntegratorParts<B>&) {
-  return std::make_unique<SymplecticEulerStep<B>>();
+  return std::make_unique<EulerStep<B, SymplecticEulerUpdate<B>>>();
 }
 template <class B>
 std::unique_ptr<Integrator<B>> CentralDifference::make(const Level<B>& level, const IntegratorParts<B>&) {
@@ -141,7 +126,7 @@ std::unique_ptr<Integrator<B>> CentralDifference::make(const Level<B>& level, co
 }
 template <class B>
 std::unique_ptr<Integrator<B>> ForwardEuler::make(const Level<B>&, const IntegratorParts<B>&) {
-  return std::make_unique<ForwardEulerStep<B>>();
+  return std::make_unique<EulerStep<B, ForwardEulerUpdate<B>>>();
 }
 template <class B>
 std::unique_ptr<Integrator<B>> Rk2::make(const Level<B>& level, const IntegratorParts<B>&) {
@@ -152,15 +137,12 @@ std::unique_ptr<Integrator<B>> Rk4::make(const Level<B>& level, const Integrator
   return std::make_unique<RungeKuttaStep<B, ClassicalTableau>>(level);
 }
 
-#define PLICA_MAKE(Kind, ...)                                                             \
-  template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make(const Level<__VA_ARGS__>&, \
-                                                               const IntegratorParts<__VA_ARGS__>&);
-#define PLICA_INSTANTIATE(Real, Exec)                \
-  PLICA_MAKE(SymplecticEuler, Backend<Real, Exec>)   \
-  PLICA_MAKE(CentralDifference, Backend<Real, Exec>) \
-  PLICA_MAKE(ForwardEuler, Backend<Real, Exec>)      \
-  PLICA_MAKE(Rk2, Backend<Real, Exec>)               \
-  PLICA_MAKE(Rk4, Backend<Real, Exec>)
+#define PLICA_INSTANTIATE(Real, Exec)                           \
+  PLICA_MAKE_INTEGRATOR(SymplecticEuler, Backend<Real, Exec>)   \
+  PLICA_MAKE_INTEGRATOR(CentralDifference, Backend<Real, Exec>) \
+  PLICA_MAKE_INTEGRATOR(ForwardEuler, Backend<Real, Exec>)      \
+  PLICA_MAKE_INTEGRATOR(Rk2, Backend<Real, Exec>)               \
+  PLICA_MAKE_INTEGRATOR(Rk4, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

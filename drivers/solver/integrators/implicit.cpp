@@ -197,15 +197,12 @@ std::unique_ptr<Integrator<B>> VCycleEuler::make(const Level<B>& level, const In
   return std::make_unique<ImplicitEulerStep<B>>(level, parts);
 }
 
-#define PLICA_MAKE(Kind, ...)                                                             \
-  template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make(const Level<__VA_ARGS__>&, \
-                                                               const IntegratorParts<__VA_ARGS__>&);
-#define PLICA_INSTANTIATE(Real, Exec)               \
-  PLICA_MAKE(ImplicitEuler, Backend<Real, Exec>)    \
-  PLICA_MAKE(Newmark, Backend<Real, Exec>)          \
-  PLICA_MAKE(Bdf2, Backend<Real, Exec>)             \
-  PLICA_MAKE(GeneralizedAlpha, Backend<Real, Exec>) \
-  PLICA_MAKE(VCycleEuler, Backend<Real, Exec>)
+#define PLICA_INSTANTIATE(Real, Exec)                          \
+  PLICA_MAKE_INTEGRATOR(ImplicitEuler, Backend<Real, Exec>)    \
+  PLICA_MAKE_INTEGRATOR(Newmark, Backend<Real, Exec>)          \
+  PLICA_MAKE_INTEGRATOR(Bdf2, Backend<Real, Exec>)             \
+  PLICA_MAKE_INTEGRATOR(GeneralizedAlpha, Backend<Real, Exec>) \
+  PLICA_MAKE_INTEGRATOR(VCycleEuler, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -36,4 +36,9 @@ class Integrator {
   virtual void persist(StateArchive<B>&) {}
 };
 
+/// In the source that defines Kind::make(): compiles it for a backend, which is the last argument.
+#define PLICA_MAKE_INTEGRATOR(Kind, ...)                                                  \
+  template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make(const Level<__VA_ARGS__>&, \
+                                                               const IntegratorParts<__VA_ARGS__>&);
+
 }  // namespace plica

@@ -4,8 +4,8 @@
 #include <plica/core/problem.hpp>
 #include <plica/core/type_list.hpp>
 
-// The integrators by name: what a scene's integration.integrator chooses from. Light, without any kernel: each makes itself in a
-// source of its own, where its formulas are.
+// The integrators by name: what a scene's integration.integrator chooses from, each with its order in time and its limit. Light,
+// without any kernel: each makes itself in a source of its own, where its formulas are.
 namespace plica {
 
 template <class B>
@@ -29,6 +29,7 @@ struct StabilityLimit {
 struct SymplecticEuler {
   static constexpr const char* name = "symplectic_euler";
   static constexpr const char* summary = "explicit, order 1, symplectic; h < 2/w";
+  static constexpr int order = 1;
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.radius = 2};
   template <class B>
@@ -38,6 +39,7 @@ struct SymplecticEuler {
 struct CentralDifference {
   static constexpr const char* name = "central_difference";
   static constexpr const char* summary = "explicit, order 2, symplectic; h < 2/w";
+  static constexpr int order = 2;
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.radius = 2};
   template <class B>
@@ -49,6 +51,7 @@ struct CentralDifference {
 struct ForwardEuler {
   static constexpr const char* name = "euler";
   static constexpr const char* summary = "explicit, order 1; undamped it grows at every step";
+  static constexpr int order = 1;
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.growth = 1, .power = 2, .damping = 2};
   template <class B>
@@ -60,6 +63,7 @@ struct ForwardEuler {
 struct Rk2 {
   static constexpr const char* name = "rk2";
   static constexpr const char* summary = "explicit, order 2, two forces a step; undamped it grows at every step";
+  static constexpr int order = 2;
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.growth = 0.25, .power = 4, .damping = 2};
   template <class B>
@@ -71,6 +75,7 @@ struct Rk2 {
 struct Rk4 {
   static constexpr const char* name = "rk4";
   static constexpr const char* summary = "explicit, order 4, four forces a step; h < 2.78/w";
+  static constexpr int order = 4;
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.radius = 2.78, .damping = 2.78};
   template <class B>
@@ -80,6 +85,7 @@ struct Rk4 {
 struct ImplicitEuler {
   static constexpr const char* name = "implicit_euler";
   static constexpr const char* summary = "implicit, order 1, dissipative; no limit";
+  static constexpr int order = 1;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   template <class B>
@@ -89,6 +95,7 @@ struct ImplicitEuler {
 struct Newmark {
   static constexpr const char* name = "newmark";
   static constexpr const char* summary = "implicit, order 2 (trapezoidal), keeps the energy of linear motion; no limit";
+  static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   static constexpr bool conserves(const ImplicitOptions&) { return true; }  ///< energy, on the linear problem
@@ -99,6 +106,7 @@ struct Newmark {
 struct Bdf2 {
   static constexpr const char* name = "bdf2";
   static constexpr const char* summary = "implicit, order 2, little dissipation but of fast motion; no limit";
+  static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   template <class B>
@@ -109,6 +117,7 @@ struct GeneralizedAlpha {
   static constexpr const char* name = "generalized_alpha";
   static constexpr const char* summary =
       "implicit, order 2, damps fast motion by integration.implicit.rho_infinity; no limit";
+  static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
   static constexpr bool conserves(const ImplicitOptions& options) { return options.rho_infinity == 1; }
@@ -120,6 +129,7 @@ struct VCycleEuler {
   static constexpr const char* name = "v_cycle_euler";
   static constexpr const char* summary =
       "implicit, order 1: Euler by one V-cycle of multigrid per step; needs coarser levels";
+  static constexpr int order = 1;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{0.0};
   static constexpr const char* linear_solver = "v_cycle";  ///< whatever integration.implicit.solver says

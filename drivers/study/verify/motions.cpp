@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <numbers>
-#include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/sample_gradients.hpp>
@@ -50,7 +49,7 @@ Pulses pulses(int n) {
     sum += (now - want) * (now - want), ++samples;
     before = now;
   }
-  if (const auto bad = simulation.check()) throw std::runtime_error(bad->text());
+  require_sound(simulation);
   if (crossings.size() != 6) throw std::runtime_error(std::to_string(crossings.size()) + " fronts seen, there are 6");
   found.arrival = crossings[0], found.period = (crossings[4] - crossings[0]) / 2;
   found.error = std::sqrt(sum / static_cast<double>(samples)) / speed;
@@ -124,7 +123,7 @@ Twist twist(int n) {
     const double turned = std::atan2(corner[2], corner[0]) - std::atan2(z, x);  // about y, from z to x
     angle += std::remainder(turned - angle, 2 * std::numbers::pi);
     if (angle > found.largest) found.largest = angle, found.when = simulation.time();
-    if (const auto bad = i % 50 == 0 ? simulation.check() : std::nullopt) throw std::runtime_error(bad->text());
+    if (i % 50 == 0) require_sound(simulation);
   }
   found.energy = simulation.energies().total() / start - 1;
   return found;
@@ -219,7 +218,7 @@ std::array<double, 2> errors(int n) {
     }
   });
   while (simulation.time() < duration) simulation.step();
-  if (const auto bad = simulation.check()) throw std::runtime_error(bad->text());
+  require_sound(simulation);
   auto u = simulation.positions();
   const auto v = simulation.velocities();
   std::vector<Point> want_u, want_v;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/small_motion.hpp>
 #include <plica/drivers/study/stability.hpp>
 #include <plica/drivers/study/verify/list.hpp>
-#include <stdexcept>
 
 namespace plica {
 
@@ -28,16 +27,8 @@ std::vector<Point> positions_at_end(const std::string& integrator, double step) 
   Simulation<HostBackend> simulation(p);
   simulation.set_state(std::vector<Point>(v.size(), Point::Zero()), v);
   for (long i = std::lround(duration / step); i > 0; --i) simulation.step();
-  if (const auto bad = simulation.check()) throw std::runtime_error(bad->text());
+  require_sound(simulation);
   return simulation.positions();
-}
-
-// The order that the family's list states
-double stated_order(const Choice& integrator) {
-  const std::string words = "order ";
-  const std::size_t at = integrator.summary.find(words);
-  if (at == std::string::npos) throw std::runtime_error(integrator.name + " does not state its order");
-  return std::stod(integrator.summary.substr(at + words.size()));
 }
 
 }  // namespace
@@ -46,17 +37,19 @@ VerifyRows time_order(const VerifyContext& context) {
   VerifyRows rows;
   const auto reference = positions_at_end("rk4", duration / 640);
   const std::vector<double> alike(reference.size(), 1 / static_cast<double>(reference.size()));
-  for (const Choice& integrator : integrators()) {
+  Integrators::for_each([&](auto integrator) {
+    using Kind = decltype(integrator);
+    const std::string name = Kind::name;
     context.proceed();
-    VerifyRow row{.quantity = integrator.name + ": positions off rk4's at 1/640 of the time, rms", .unit = "m"};
-    row.accepted = stated_order(integrator), row.judged = Judged::order, row.tolerance = 0.1 * *row.accepted;
+    VerifyRow row{.quantity = name + ": positions off rk4's at 1/640 of the time, rms", .unit = "m"};
+    row.accepted = Kind::order, row.judged = Judged::order, row.tolerance = 0.1 * *row.accepted;
     row.source = "as `plica list integrators` states (Hairer & Wanner, Solving ODEs I and II)";
     const int most = *row.accepted > 2 ? 80 : 320;  // between coarse steps and round-off
     for (int steps = most / 4; steps <= most; steps *= 2)
       row.add(std::to_string(steps) + " steps", duration / steps,
-              distance(positions_at_end(integrator.name, duration / steps), reference, alike));
+              distance(positions_at_end(name, duration / steps), reference, alike));
     rows.push_back(row);
-  }
+  });
   return rows;
 }
 
@@ -159,7 +152,7 @@ std::array<double, 3> changes(const Problem& p) {
   };
   const Budget before = take();
   for (int i = 0; i < macro_steps; ++i) simulation.step();
-  if (const auto bad = simulation.check()) throw std::runtime_error(bad->text());
+  require_sound(simulation);
   const Budget after = take();
   return {(after.linear - before.linear).norm() / impulse, (after.angular - before.angular).norm() / (0.1 * impulse),
           after.energy / before.energy - 1};
