@@ -2,7 +2,7 @@
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/load_factor.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
-#include <plica/kernels/explicit/updates.hpp>
+#include <plica/kernels/vectors.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/loads/add_load.hpp>
 
@@ -85,9 +85,7 @@ void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, do
 
 template <class B>
 void SolverLevel<B>::add_correction(const Vectors<B>& force) const {
-  if (correction_.extent(0) > 0)
-    update_vertices<B>(exec(), "plica::add_correction", static_cast<int>(force.extent(0)),
-                       AddVectors<B>{correction_, force});
+  if (correction_.extent(0) > 0) add<B>(exec(), "plica::add_correction", 1, correction_, force);
 }
 
 template <class B>
@@ -121,9 +119,7 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }
   if (contact_) contact_->add_diagonal(exec, *this, points_, blocks);
-  if (external_)
-    update_vertices<B>(exec, "plica::external_diagonal", this->model.vertices,
-                       AddBlocks<B>{external_stiffness_, blocks, a});
+  if (external_) add<B>(exec, "plica::external_diagonal", a, external_stiffness_, blocks);
 }
 
 template <class B>

@@ -101,13 +101,4 @@ struct RungeKuttaStage {
   }
 };
 
-/// sum += x
-template <class B>
-struct AddVectors {
-  Vectors<B> x, sum;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) sum(a, k) += x(a, k);
-  }
-};
-
 }  // namespace plica

@@ -93,47 +93,4 @@ struct WatchSpectrum {
   }
 };
 
-/// u += h v, of vertices that forces move.
-template <class B>
-struct Drift {
-  Scalars<B> inverse_mass;
-  State<B> state;
-  typename B::Real h;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    if (inverse_mass(a) > 0)
-      for (int k = 0; k < 3; ++k) state.u(a, k) += h * state.v(a, k);
-  }
-};
-
-/// p = m v, of vertices that forces move.
-template <class B>
-struct PlainMomentum {
-  Model<B> model;
-  Vectors<B> v, p;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) p(a, k) = model.inverse_mass(a) > 0 ? model.mass(a) * v(a, k) : 0;
-  }
-};
-
-/// v of vertices that forces move.
-template <class B>
-struct StartVelocity {
-  Scalars<B> inverse_mass;
-  Vectors<B> answer, v;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    if (inverse_mass(i) > 0)
-      for (int k = 0; k < 3; ++k) v(i, k) = answer(i, k);
-  }
-};
-
-/// g = p - m v: the momentum of what is slowed.
-template <class B>
-struct SlowedMomentum {
-  Model<B> model;
-  Vectors<B> v, p, g;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) g(a, k) = model.inverse_mass(a) > 0 ? p(a, k) - model.mass(a) * v(a, k) : 0;
-  }
-};
-
 }  // namespace plica

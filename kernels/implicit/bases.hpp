@@ -50,27 +50,4 @@ struct GeneralizedAlphaEnd {
   }
 };
 
-/// u~ += h v~
-template <class B>
-struct DriftBase {
-  State<B> base;
-  typename B::Real h;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) base.u(i, k) += h * base.v(i, k);
-  }
-};
-
-/// base = start + part of increments, in displacement and velocity
-template <class B>
-struct AddIncrements {
-  State<B> start, increment, base;
-  typename B::Real part;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) {
-      base.u(i, k) = start.u(i, k) + part * increment.u(i, k);
-      base.v(i, k) = start.v(i, k) + part * increment.v(i, k);
-    }
-  }
-};
-
 }  // namespace plica

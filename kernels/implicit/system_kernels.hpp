@@ -71,15 +71,4 @@ struct InvertBlocks {
   }
 };
 
-template <class B>
-struct AddBlocks {
-  using Real = typename B::Real;
-  Blocks<B> block, diagonal;
-  Real scale;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 6; ++k) diagonal(a, k) += scale * block(a, k);
-  }
-};
-
 }  // namespace plica

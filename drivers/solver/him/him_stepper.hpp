@@ -45,9 +45,9 @@ class HimStepper final : public Stepper<B> {
     const Level<B>& level = h[0];
     const auto& exec = h.exec();
     parts_.inverse_mass->turn(exec, level.state.u, moved_);
-    update_vertices<B>(exec, "plica::him_momenta", n_, PlainMomentum<B>{level.model, level.state.v, p_});
+    weigh<B>(exec, "plica::him_momenta", level.model, 1, level.state.v, 0, level.state.v, p_);
     answer(exec, level.model, p_, a_);
-    update_vertices<B>(exec, "plica::him_start", n_, StartVelocity<B>{level.model.inverse_mass, a_, level.state.v});
+    combine_free<B>(exec, "plica::him_start", level.model.inverse_mass, 1, a_, 0, a_, level.state.v);
     forget(exec);
   }
 
@@ -57,7 +57,7 @@ class HimStepper final : public Stepper<B> {
     const auto& exec = h.exec();
     Kokkos::deep_copy(exec, a_, level.state.u);
     const auto half = static_cast<Real>(0.5 * parts_.fit.step);
-    update_vertices<B>(exec, "plica::him_back", n_, Drift<B>{level.model.inverse_mass, {a_, level.state.v}, -half});
+    combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1, a_, a_);
     parts_.inverse_mass->turn(exec, a_, moved_);
     momentum_of<B>(
         exec, level.model, [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); },
@@ -161,7 +161,7 @@ class HimStepper final : public Stepper<B> {
     update_vertices<B>(exec, "plica::him_loss", 1,
                        ChooseLoss<B>{moved_, loss_, parts_.options.dissipation.value_or(-1)});
     if (parts_.free) {
-      update_vertices<B>(exec, "plica::him_slowed", n_, SlowedMomentum<B>{level.model, level.state.v, p_, g_});
+      weigh<B>(exec, "plica::him_slowed", level.model, -1, level.state.v, 1, p_, g_);
       parts_.free->take_rigid(exec, level.model, level.state.u, g_);
     }
     update_vertices<B>(exec, "plica::him_momenta", n_,
@@ -174,7 +174,8 @@ class HimStepper final : public Stepper<B> {
     const Level<B>& level = h[0];
     const auto& exec = h.exec();
     const Scalars<B>& inverse_mass = level.model.inverse_mass;
-    update_vertices<B>(exec, "plica::him_drift", n_, Drift<B>{inverse_mass, level.state, static_cast<Real>(t / 2)});
+    const State<B>& x = level.state;
+    combine_free<B>(exec, "plica::him_drift", inverse_mass, static_cast<Real>(t / 2), x.v, 1, x.u, x.u);
     prescribe(exec, level, level.state, time + t / 2);
     h[0].evaluate_without_contact(level.state, time + t / 2, level.f);
     h.clock.time("turn", 0, [&] { kick(exec, level, t); });

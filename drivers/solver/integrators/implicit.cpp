@@ -23,8 +23,7 @@ class ImplicitEulerStep final : public ImplicitStep<B> {
   bool step(SolverLevel<B>& level, double time, double h) override {
     const State<B>& base = this->stages().base();
     base.copy(level.exec(), level.state);
-    update_vertices<B>(level.exec(), "plica::implicit_euler_base", level.model.vertices,
-                       DriftBase<B>{base, static_cast<typename B::Real>(h)});
+    add<B>(level.exec(), "plica::implicit_euler_base", static_cast<typename B::Real>(h), base.v, base.u);
     return this->stages().solve(level, time, h, {h * h, h});
   }
 };
@@ -96,10 +95,8 @@ class Bdf2Step final : public ImplicitStep<B> {
   bool formula(SolverLevel<B>& level, double time, double h) {
     const double b = 2 * h / 3;
     const State<B>& base = this->stages().base();
-    update_vertices<B>(level.exec(), "plica::bdf2_base", level.model.vertices,
-                       AddIncrements<B>{level.state, increment_, base, Real(1) / 3});
-    update_vertices<B>(level.exec(), "plica::bdf2_drift", level.model.vertices,
-                       DriftBase<B>{base, static_cast<Real>(b)});
+    combine<B>(level.exec(), "plica::bdf2_base", Real(1) / 3, increment_, 1, level.state, base);
+    add<B>(level.exec(), "plica::bdf2_drift", static_cast<Real>(b), base.v, base.u);
     return this->stages().solve(level, time, h, {b * b, b});
   }
   bool first(SolverLevel<B>& level, double time, double h) {
@@ -110,8 +107,7 @@ class Bdf2Step final : public ImplicitStep<B> {
     return formula(level, time + h, h) && solved;
   }
   void remember(const SolverLevel<B>& level) const {
-    update_vertices<B>(level.exec(), "plica::bdf2_increment", level.model.vertices,
-                       AddIncrements<B>{level.state, start_, increment_, Real(-1)});
+    combine<B>(level.exec(), "plica::bdf2_increment", -1, start_, 1, level.state, increment_);
   }
 };
 
