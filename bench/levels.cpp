@@ -3,7 +3,7 @@
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/kernels/transfer/map_state.hpp>
+#include <plica/kernels/transfer.hpp>
 #include <plica/meshes/generators.hpp>
 
 #include "beam.hpp"

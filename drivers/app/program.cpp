@@ -5,10 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/commands.hpp>
-#include <plica/drivers/app/commands/completion.hpp>
-#include <plica/drivers/app/commands/list.hpp>
-#include <plica/drivers/app/commands/manual.hpp>
-#include <plica/drivers/app/output/machine.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>

@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
-#include <plica/kernels/contact/contact_matrix.hpp>
 
 namespace plica {
 

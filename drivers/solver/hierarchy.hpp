@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/integrators/integrator.hpp>
-#include <plica/kernels/motion/prescribe.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 #include <vector>
 
 namespace plica {

@@ -2,7 +2,7 @@
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/material_points.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
-#include <plica/kernels/transfer/map_state.hpp>
+#include <plica/kernels/transfer.hpp>
 #include <plica/meshes/embedding.hpp>
 
 namespace plica {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/contact.hpp>
-#include <plica/drivers/solver/set_up/make_path.hpp>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/kernels/motion/path.hpp>
 #include <type_traits>
 
 // For obstacles_float.cpp and obstacles_double.cpp alone: the kernels of all shapes are the longest thing to compile here.

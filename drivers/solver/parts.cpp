@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/elements.hpp>
-#include <plica/drivers/solver/parts.hpp>
+#include <plica/drivers/solver/simulation_inside.hpp>
 
 namespace plica {
 

@@ -31,8 +31,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 

@@ -4,11 +4,14 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
-#include <plica/drivers/solver/parts.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 
 namespace plica {
+
+/// Which parts a scene's simulation consists of, each with the device memory it takes.
+template <class B>
+std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built);
 
 /// What a simulation owns, for the sources that implement it.
 template <class B>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/integrators/integrator.hpp>
-#include <plica/drivers/solver/load_factor.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
-#include <plica/kernels/vectors.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
-#include <plica/kernels/loads/add_load.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 

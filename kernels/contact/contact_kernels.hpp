@@ -5,6 +5,7 @@
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -119,6 +120,31 @@ struct ContactEnergy {
     surface_point(surface, u, v, p, x, speed);
     const Real penetration = max(-shape(x - offset).distance, Real(0));
     return {{0.5 * static_cast<double>(stiffness * penetration * penetration)}};
+  }
+};
+
+/// A += W^T C W with the symmetric blocks C [points][6] of surface points and their weights W: a row of A per work item, its
+/// points in order. Vertices of one tetrahedron are coupled in A already, unless their motion is given.
+template <class B>
+struct AddContact {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Blocks<B> block;
+  BlockMatrix<B> A;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const int a = surface.vertex(item), first = A.first(a), last = A.first(a + 1);
+    for (int s = surface.first(item); s < surface.first(item + 1); ++s) {
+      const int p = surface.point(s);
+      const SymMat3<Real> C = block_at<B>(block, p);
+      for (int c = 0; c < 4; ++c) {
+        int at = first;
+        while (at < last && A.column(at) != surface.embedding.source(p, c)) ++at;
+        if (at == last) continue;
+        const Real w = surface.weight(s) * surface.embedding.weight(p, c);
+        add_block<B>(A, at, w, C);
+      }
+    }
   }
 };
 

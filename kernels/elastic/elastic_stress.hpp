@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/patches.hpp>
-#include <plica/kernels/materials/cauchy_stress.hpp>
+#include <plica/kernels/materials/material.hpp>
 
 namespace plica {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/small.hpp>
-#include <plica/kernels/transfer/multiply_rows.hpp>
+#include <plica/kernels/transfer.hpp>
 
 // The coarsest level of the hierarchical inverse mass: acceleration = weight R S R^T force.
 namespace plica {

@@ -93,4 +93,117 @@ struct WatchSpectrum {
   }
 };
 
+// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the rigid part of momenta that are to
+// change neither sum p nor sum x x p.
+
+/// About the body's centre as it is now, in double.
+struct RigidFrame {
+  double centre[3];
+  double linear[3], angular[3];  ///< of momenta [m/s], [rad/s]
+};
+
+template <class B>
+using RigidFrameOf = Kokkos::View<RigidFrame, typename B::Memory>;
+
+KOKKOS_INLINE_FUNCTION Vec3<double> vector_of(const double* x) { return {x[0], x[1], x[2]}; }
+
+/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of momenta p: 16 sums.
+template <class B>
+struct BodyMoments {
+  Scalars<B> mass;
+  Vectors<B> rest, u, p;
+  KOKKOS_INLINE_FUNCTION Sums<16> operator()(int a) const {
+    Vec3<double> x, part;
+    for (int k = 0; k < 3; ++k) {
+      x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k));
+      part[k] = static_cast<double>(p(a, k));
+    }
+    const double m = static_cast<double>(mass(a));
+    const Vec3<double> moment = cross(x, part);
+    return {{m, m * x[0], m * x[1], m * x[2], m * x[0] * x[0], m * x[1] * x[1], m * x[2] * x[2], m * x[0] * x[1],
+             m * x[0] * x[2], m * x[1] * x[2], part[0], part[1], part[2], moment[0], moment[1], moment[2]}};
+  }
+};
+
+/// Centre and rigid motion from those sums; a body on one line does not turn.
+template <class B>
+struct SetRigidFrame {
+  Doubles<B> sums;
+  RigidFrameOf<B> frame;
+  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+    RigidFrame& r = frame();
+    const double m = sums(0);
+    Vec3<double> c{sums(1) / m, sums(2) / m, sums(3) / m}, P{sums(10), sums(11), sums(12)};
+    const double xx = sums(4) - m * c[0] * c[0], yy = sums(5) - m * c[1] * c[1], zz = sums(6) - m * c[2] * c[2],
+                 xy = sums(7) - m * c[0] * c[1], xz = sums(8) - m * c[0] * c[2], yz = sums(9) - m * c[1] * c[2];
+    const Mat3<double> inertia{Vec3<double>{yy + zz, -xy, -xz}, Vec3<double>{-xy, xx + zz, -yz},
+                               Vec3<double>{-xz, -yz, xx + yy}};
+    const double det = determinant(inertia), size = trace(inertia);
+    const Mat3<double> inverse = (det > 1e-12 * size * size * size ? 1 / det : 0.0) * transpose(cofactor(inertia));
+    const Vec3<double> moment = Vec3<double>{sums(13), sums(14), sums(15)} - cross(c, P), angular = inverse * moment;
+    for (int k = 0; k < 3; ++k) r.centre[k] = c[k], r.linear[k] = P[k] / m, r.angular[k] = angular[k];
+  }
+};
+
+/// p -= m (its rigid motion)
+template <class B>
+struct TakeRigidMotion {
+  using Real = typename B::Real;
+  Scalars<B> mass;
+  Vectors<B> rest, u, p;
+  RigidFrameOf<B> frame;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    Vec3<double> x;
+    for (int k = 0; k < 3; ++k)
+      x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k)) - frame().centre[k];
+    const Vec3<double> rigid = vector_of(frame().linear) + cross(vector_of(frame().angular), x);
+    for (int k = 0; k < 3; ++k) p(a, k) -= mass(a) * static_cast<Real>(rigid[k]);
+  }
+};
+
+/// m and p, each summed
+template <class B>
+struct SumOfMomenta {
+  Scalars<B> mass;
+  Vectors<B> p;
+  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
+    return {{static_cast<double>(mass(a)), static_cast<double>(p(a, 0)), static_cast<double>(p(a, 1)),
+             static_cast<double>(p(a, 2))}};
+  }
+};
+
+/// m and m v, each summed
+template <class B>
+struct SumOfMotion {
+  Scalars<B> mass;
+  Vectors<B> v;
+  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
+    const double m = static_cast<double>(mass(a));
+    return {{m, m * static_cast<double>(v(a, 0)), m * static_cast<double>(v(a, 1)), m * static_cast<double>(v(a, 2))}};
+  }
+};
+
+/// rest = p - m (its mean velocity)
+template <class B>
+struct TakeTranslation {
+  using Real = typename B::Real;
+  Scalars<B> mass;
+  Vectors<B> p, rest;
+  Doubles<B> sums;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) rest(a, k) = p(a, k) - mass(a) * static_cast<Real>(sums(k + 1) / sums(0));
+  }
+};
+
+/// v += what its mean lacks to the momenta's
+template <class B>
+struct PutTranslation {
+  using Real = typename B::Real;
+  Vectors<B> v;
+  Doubles<B> wanted, sums;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) v(a, k) += static_cast<Real>((wanted(k + 1) - sums(k + 1)) / sums(0));
+  }
+};
+
 }  // namespace plica

@@ -2,10 +2,10 @@
 #pragma once
 #include <filesystem>
 #include <plica/core/mesh.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/raw_mesh.hpp>
 #include <plica/meshes/files/writing.hpp>
-#include <plica/meshes/surface_report.hpp>
 #include <string>
 #include <variant>
 

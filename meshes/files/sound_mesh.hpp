@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/mesh.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/raw_mesh.hpp>
-#include <plica/meshes/surface_report.hpp>
 #include <vector>
 
 namespace plica {

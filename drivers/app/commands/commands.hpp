@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
 /// The commands of the program, with the arguments each takes from the command line.
 namespace plica {
 struct MatrixResult;
@@ -116,5 +119,22 @@ ExitStatus mesh_convert(const ConvertArguments& arguments);
 
 /// The formats that are written, a line each.
 std::string written_formats_text();
+
+/// plica list: the members of a family, or all keys of a scene. InputError for an unknown family.
+ExitStatus list(const std::string& family, bool json);
+
+/// plica list without a family: what can be listed.
+ExitStatus list_families(bool json);
+
+/// The same, one line each, and the names alone.
+std::string families_text();
+std::vector<std::string> list_names();
+
+/// plica completion: a script for `bash` or `zsh` that completes commands, options, and the names that arguments choose from.
+/// InputError for another shell.
+std::string completion_script(const CLI::App& app, const std::string& shell);
+
+/// What `plica COMMAND --help` says beneath the options: what the command does with its input, files, examples, exit statuses.
+std::string manual_of(const std::string& command);
 
 }  // namespace plica::app

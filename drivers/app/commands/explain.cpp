@@ -2,8 +2,7 @@
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/app/output/plan.hpp>
-#include <plica/drivers/app/output/row_json.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 

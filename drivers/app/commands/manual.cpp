@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <plica/drivers/app/commands/commands.hpp>
-#include <plica/drivers/app/commands/list.hpp>
-#include <plica/drivers/app/commands/manual.hpp>
 
 namespace plica::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/describe.hpp>
-#include <plica/drivers/app/scene/mesh_warnings.hpp>
+#include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/solver/element_bound.hpp>
 #include <plica/drivers/solver/materials.hpp>

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/app/output/plan.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>

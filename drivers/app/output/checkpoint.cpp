@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <plica/core/valid_utf8.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
-#include <plica/drivers/app/output/digest.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <sstream>

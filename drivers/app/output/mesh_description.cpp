@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/mesh_description.hpp>
-#include <plica/drivers/app/output/problem_json.hpp>
-#include <plica/drivers/app/output/row_json.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/mesh_quality.hpp>

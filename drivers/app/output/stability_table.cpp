@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <plica/drivers/app/output/row_json.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/stability_table.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 

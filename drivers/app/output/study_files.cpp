@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
-#include <plica/drivers/app/output/digest.hpp>
 #include <plica/drivers/app/output/study_files.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/version.hpp>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/drivers/app/output/machine.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/study/study.hpp>
 

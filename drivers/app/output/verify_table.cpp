@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <plica/drivers/app/output/row_json.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/verify_table.hpp>
 #include <plica/version.hpp>

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <filesystem>
+#include <plica/core/mesh.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/raw_mesh.hpp>
+#include <string>
+#include <vector>
 
 namespace plica::app {
 
@@ -34,5 +39,9 @@ TetMesh finer_mesh(const Scene& scene);
 void build_meshes(Scene& scene, const Tree& tree);
 /// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is taken to the surface.
 void check_probes(Scene& scene, const Tree& tree);
+
+/// What a user should know about a mesh that was read, a sentence each: what was repaired, left out, or looks wrong.
+std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report);
+std::vector<std::string> surface_warnings(const SurfaceReport& report);
 
 }  // namespace plica::app

@@ -1,13 +1,89 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
+#include <plica/core/level.hpp>
 #include <plica/drivers/solver/him/contact_response.hpp>
-#include <plica/drivers/solver/him/free_motion.hpp>
 #include <plica/drivers/solver/him/inertia.hpp>
-#include <plica/drivers/solver/him/momentum_of.hpp>
 #include <plica/drivers/solver/stepper.hpp>
 #include <plica/kernels/him/leapfrog.hpp>
+#include <plica/kernels/him/momentum_of.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
+
+/// For bodies that nothing holds: A' = (1 - T) A (1 - T)^T + 1 1^T / mass, T the mean by mass; and momenta without rigid motion.
+template <class B>
+class FreeMotion {
+ public:
+  using Exec = typename B::Exec;
+  explicit FreeMotion(const Vectors<B>& rest)
+      : rest_(rest),
+        blocks_(static_cast<int>(rest.extent(0))),
+        sums_(zeros<Doubles<B>>("plica::free.moments", 16)),
+        total_(zeros<Doubles<B>>("plica::free.total", 4)),
+        frame_("plica::free.frame") {}
+
+  /// Notes the sum of the momenta p; `rest`: what is not translation.
+  void take_translation(const Exec& exec, const Model<B>& model, const Vectors<B>& p, const Vectors<B>& rest) const {
+    reduce<B, 4>(exec, "plica::free_total", model.vertices, SumOfMomenta<B>{model.mass, p}, blocks_, total_);
+    update_vertices<B>(exec, "plica::free_take", model.vertices, TakeTranslation<B>{model.mass, p, rest, total_});
+  }
+
+  /// Makes it the sum of m v.
+  void put_translation(const Exec& exec, const Model<B>& model, const Vectors<B>& v) const {
+    reduce<B, 4>(exec, "plica::free_total", model.vertices, SumOfMotion<B>{model.mass, v}, blocks_, sums_);
+    update_vertices<B>(exec, "plica::free_put", model.vertices, PutTranslation<B>{v, total_, sums_});
+  }
+
+  /// Takes the rigid part of momenta at a state out of them.
+  void take_rigid(const Exec& exec, const Model<B>& model, const Vectors<B>& u, const Vectors<B>& p) const {
+    reduce<B, 16>(exec, "plica::free_moments", model.vertices, BodyMoments<B>{model.mass, rest_, u, p}, blocks_, sums_);
+    update_vertices<B>(exec, "plica::free_frame", 1, SetRigidFrame<B>{sums_, frame_});
+    update_vertices<B>(exec, "plica::free_take", model.vertices, TakeRigidMotion<B>{model.mass, rest_, u, p, frame_});
+  }
+
+ private:
+  Vectors<B> rest_;
+  BlockSums<B> blocks_;
+  Doubles<B> sums_, total_;
+  RigidFrameOf<B> frame_;
+};
+
+/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-12 of v (1e-6 in float): at most sqrt(inertia added)
+/// iterations or so. Waits.
+template <class B>
+void momentum_of(const typename B::Exec& exec, const Model<B>& model,
+                 const std::function<void(const Vectors<B>& p, const Vectors<B>& v)>& A, const Vectors<B>& v,
+                 const Vectors<B>& p) {
+  using Real = typename B::Real;
+  constexpr int most_iterations = 300;
+  constexpr double tolerance = sizeof(Real) == 8 ? 1e-12 : 1e-6;
+  const int n = model.vertices;
+  const auto size = static_cast<std::size_t>(n);
+  const auto r = zeros<Vectors<B>>("plica::momentum.r", size), s = zeros<Vectors<B>>("plica::momentum.s", size),
+             As = zeros<Vectors<B>>("plica::momentum.As", size);
+  const BlockSums<B> blocks(n);
+  const auto sum = zeros<Doubles<B>>("plica::momentum.sum", 1);
+  const auto read = [&](const auto& term) {
+    reduce<B, 1>(exec, "plica::momentum", n, term, blocks, sum);
+    return host_values(exec, sum)[0];
+  };
+  weigh<B>(exec, "plica::momentum", model, 1, v, 0, v, p);
+  const double whole = read(StartResidual<B>{model, v, As, r});  // As is still 0
+  A(p, As);
+  double square = read(StartResidual<B>{model, v, As, r});
+  fill(exec, s, 0);
+  double beta = 0;
+  const double enough = tolerance * tolerance * whole;
+  for (int i = 0; i < most_iterations && square > enough; ++i) {
+    weigh<B>(exec, "plica::momentum", model, 1, r, static_cast<Real>(beta), s, s);
+    A(s, As);
+    dot<B>(exec, "plica::momentum", s, As, blocks, sum);
+    const double alpha = square / host_values(exec, sum)[0];
+    const double next = read(MoveAlong<B>{model, s, As, p, r, static_cast<Real>(alpha)});
+    beta = next / square, square = next;
+  }
+}
 
 /// What the stepper `him` is made of.
 template <class B>

@@ -2,8 +2,8 @@
 // The explicit integrators. Each asks the level for the forces of a state, updates that state, and lets vertices whose motion
 // is given follow it.
 #include <plica/drivers/solver/integrators/integrator.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/explicit/updates.hpp>
-#include <plica/kernels/motion/prescribe.hpp>
 
 namespace plica {
 

@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/implicit/stage_kernels.hpp>
-#include <plica/kernels/motion/prescribe.hpp>
 #include <utility>
 
 namespace plica {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
-#include <plica/kernels/linear/chebyshev.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>
-#include <plica/kernels/transfer/multiply_rows.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {

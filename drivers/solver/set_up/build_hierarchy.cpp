@@ -13,12 +13,12 @@
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
-#include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
+#include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>

@@ -4,17 +4,17 @@
 #include <functional>
 #include <map>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
-#include <plica/drivers/solver/set_up/make_path.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/kernels/motion/path.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 
 namespace plica {
 

@@ -14,7 +14,6 @@
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
-#include <plica/meshes/surface_report.hpp>
 #include <type_traits>
 
 namespace plica {

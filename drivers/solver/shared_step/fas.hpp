@@ -2,8 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/shared_step/shared_step.hpp>
 #include <plica/kernels/explicit/updates.hpp>
-#include <plica/kernels/transfer/map_state.hpp>
-#include <plica/kernels/transfer/restrict_state.hpp>
+#include <plica/kernels/transfer.hpp>
 
 namespace plica {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/shared_step/shared_step.hpp>
-#include <plica/kernels/transfer/map_state.hpp>
+#include <plica/kernels/transfer.hpp>
 #include <utility>
 
 namespace plica {

@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <plica/core/error.hpp>
-#include <plica/drivers/app/output/plan.hpp>
-#include <plica/drivers/app/output/problem_json.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>

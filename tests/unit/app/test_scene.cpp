@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
+#include "fuzz/replay.hpp"
+#include "fuzz/scene_target.hpp"
 #include "support/backends.hpp"
+#include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
 namespace plica::app::test {
@@ -122,6 +126,185 @@ TEST(Scene, BallStartsWhereTheyAgreed) {
   const double below = bowl.centre.z() - std::sqrt(bowl.radius * bowl.radius - start.x() * start.x());
   EXPECT_NEAR(start.x(), 0.01, 1e-12);
   EXPECT_NEAR(start.z() - 0.05 - below, 0.025, 1e-4);
+}
+
+struct Damage {
+  const char* name;
+  const char* piece;
+  const char* replacement;
+  const char* message;  // all of it, or its beginning
+};
+
+class SceneError : public testing::TestWithParam<Damage> {};
+
+TEST_P(SceneError, SaysWhereWhatAndWhatInstead) {
+  const auto& [name, piece, replacement, message] = GetParam();
+  EXPECT_EQ(error_of(damaged(piece, replacement)).substr(0, std::string(message).size()), message);
+}
+
+const Damage damages[] = {
+    {"UnknownKey",
+     "material:", "materal:", "a.yaml:7: body: unknown key 'materal'; did you mean 'material'? (choices: "},
+    {"UnknownTopLevelKey", "gravity:", "gravty:", "a.yaml:2: unknown key 'gravty'; did you mean 'gravity'? (choices: "},
+    {"MisplacedKey", "gravity: [0, 0, -9.81]", "young_modulus: 3",
+     "a.yaml:2: unknown key 'young_modulus'; it belongs in body.material or body.regions.<name>"},
+    {"MisplacedBelow", "macro_step: 1 ms", "gravity: [0, 0, -9.81]",
+     "a.yaml:11: integration: unknown key 'gravity'; it belongs in the top level"},
+    {"DuplicateKey", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.81]\ngravity: [0, 0, 0]",
+     "a.yaml:3: the key 'gravity' stands here for the second time; the first is in line 2"},
+    {"MissingKey", "duration: 1 s", "name: x", "a.yaml:1: the key 'duration' is missing"},
+    {"MissingKeyBelow", "radius: 4 cm, ", "", "a.yaml:8: body.surface.sphere: the key 'radius' is missing"},
+    {"WrongDimension", "50 kPa", "4 cm",
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) > 0, got '4 cm', a length"},
+    {"UnknownUnit", "50 kPa", "50 kpa",
+     "a.yaml:7: body.material.young_modulus: expected a pressure (Pa) > 0, got '50 kpa', unknown unit 'kpa'; did you "
+     "mean "
+     "'kPa'?"},
+    {"NotANumber", "1 s", "long", "a.yaml:1: duration: expected a time (s) > 0, got 'long', not a number"},
+    {"NotFinite", "1 s", ".inf", "a.yaml:1: duration: expected a time (s) > 0, got '.inf', not a number"},
+    {"OutOfRange", "1 s", "-1 s", "a.yaml:1: duration: expected a time (s) > 0, got '-1 s'"},
+    {"PoissonRatio", "young_modulus: 50 kPa", "poisson_ratio: 0.5",
+     "a.yaml:7: body.material.poisson_ratio: expected a number in [0, 0.5), got '0.5'"},
+    {"Nothing", "1 s", "", "a.yaml:1: duration: expected a time (s) > 0, got nothing"},
+    {"ScalarForList", "[0, 0, -9.81]", "-9.81",
+     "a.yaml:2: gravity: expected a list of 3 accelerations (m/s^2), got '-9.81'"},
+    {"ListLength", "[0, 0, -9.81]", "[0, -9.81]",
+     "a.yaml:2: gravity: expected a list of 3 accelerations (m/s^2), got a list of 2"},
+    {"ListEntry", "[0, 0, -9.81]", "[0, x, -9.81]",
+     "a.yaml:2: gravity.1: expected an acceleration (m/s^2), got 'x', not a number"},
+    {"MapForScalar", "1 s", "{s: 1}", "a.yaml:1: duration: expected a time (s) > 0, got a map (s)"},
+    {"ScalarForMap", "{model: neo_hookean, young_modulus: 50 kPa}", "soft",
+     "a.yaml:7: body.material: expected a map of keys, got 'soft'"},
+    {"FractionalCount", "[4, 4, 4]", "[4, 4.5, 4]",
+     "a.yaml:5: body.levels.0.box.cells.1: expected a whole number >= 1, got '4.5'"},
+    {"CountTooSmall", "[2, 2, 2]", "[2, 2, 0]",
+     "a.yaml:6: body.levels.1.box.cells.2: expected a whole number >= 1, got '0'"},
+    {"CountTooLarge", "[2, 2, 2]", "[2000, 2000, 2000]",
+     "a.yaml:6: body.levels.1: a mesh this fine makes the scene take about 1.68e+04 GB of memory; this machine has "},
+    {"SubdividedTooOften", "subdivisions: 1", "subdivisions: 2000000000",
+     "a.yaml:8: body.surface: a mesh this fine makes the scene take about "},
+    {"NotAFlag", "macro_step: 1 ms", "allow_unstable: yes",
+     "a.yaml:11: integration.allow_unstable: expected true or false, got 'yes'"},
+    {"UnknownName", "neo_hookean", "neohookean",
+     "a.yaml:7: body.material.model: unknown material 'neohookean'; did you mean 'neo_hookean'? (choices: "},
+    {"TwoAlternatives", "{plane: {point: [0, 0, -0.1]}, ", "{plane: {}, sphere: {radius: 1}, ",
+     "a.yaml:14: contact.obstacles.0: expected only one of plane, sphere, bowl, capsule, box, cylinder, surface, got "
+     "a map (plane, sphere, friction)"},
+    {"NoAlternative", "{plane: {point: [0, 0, -0.1]}, friction: 0.2}", "{friction: 0.2}",
+     "a.yaml:14: contact.obstacles.0: expected one of plane, sphere, bowl, capsule, box, cylinder, surface, got a "
+     "map (friction)"},
+    {"EmptyList", "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}", "[]",
+     "a.yaml:14: contact.obstacles: expected at least one entry, got a list of 0"},
+    {"AutoMisspelt", "1 ms", "automatic",
+     "a.yaml:11: integration.macro_step: expected a time (s) > 0, or auto, got 'automatic', not a number"},
+    {"Substeps", "macro_step: 1 ms", "substeps: 0",
+     "a.yaml:11: integration.substeps: expected a whole number >= 1, got '0'"},
+    {"SubstepsPerLevel", "macro_step: 1 ms", "substeps: [auto, 2, 3]",
+     "a.yaml:11: integration.substeps: expected one for all or one for each level (2 in body.levels), got a list of 3"},
+    {"IntegratorPerLevel", "macro_step: 1 ms", "integrator: [rk4, rk4, rk4]",
+     "a.yaml:11: integration.integrator: expected one for all or one for each level (2 in body.levels), got a list of "
+     "3"},
+    {"SharesPerLevel", "macro_step: 1 ms", "distribution: [1]",
+     "a.yaml:11: integration.distribution: expected one for each level (2 in body.levels), got a list of 1"},
+    {"SharesSum", "macro_step: 1 ms", "distribution: [0.5, 0.6]",
+     "a.yaml:11: integration.distribution: the shares must add up to 1, got 1.1"},
+    {"ContactWithoutSurface", "  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", "",
+     "a.yaml:12: contact.obstacles: the body has no surface to touch them; give body.surface"},
+    {"RimAboveRadius", "plane: {point: [0, 0, -0.1]}", "bowl: {radius: 1, rim: 2}",
+     "a.yaml:14: contact.obstacles.0.bowl.rim is 2 m; expected at most the radius, 1 m"},
+    {"NoNormal", "point: [0, 0, -0.1]", "normal: [0, 0, 0]",
+     "a.yaml:14: contact.obstacles.0.plane.normal: expected a direction, got [0, 0, 0]"},
+    {"BoxUpsideDown", "material:", "fixed: [{box: {min: [0, 0, 1], max: [1, 1, 0]}}]\n  material:",
+     "a.yaml:7: body.fixed.0.box.min is [0, 0, 1] m; expected at most max, [1, 1, 0] m"},
+    {"ScaleWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, scale: 2}",
+     "a.yaml:5: body.levels.0.scale: only a file has one"},
+    {"MergeWithoutFile", "cells: [4, 4, 4]}}", "cells: [4, 4, 4]}, merge_duplicates: 0}",
+     "a.yaml:5: body.levels.0.merge_duplicates: only a file has one"},
+    {"SurfaceScaleWithoutFile", "subdivisions: 1}", "subdivisions: 1}, scale: 2",
+     "a.yaml:8: body.surface.scale: only a file has one"},
+    {"NoSurfaceKind", "sphere: {radius: 4 cm, subdivisions: 1}", "boundary: false",
+     "a.yaml:8: body.surface.boundary: expected true, got 'false'; leave body.surface out to have none"},
+    {"UnknownGroup", "material:", "fixed: [{group: left}]\n  material:",
+     "a.yaml:7: body.fixed.0.group: there is no group 'left': the meshes name none"},
+    {"UnknownRegion", "material:", "regions: {tumour: {density: 1}}\n  material:",
+     "a.yaml:7: body.regions.tumour: there is no region 'tumour': the meshes name none"},
+    {"MissingMesh", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{file: nowhere.msh}",
+     "a.yaml:5: there is no mesh file 'nowhere.msh' (its name is relative to the scene)"},
+    {"StepOverDuration", "macro_step: 1 ms", "macro_step: 10 s",
+     "a.yaml:11: integration.macro_step is 10 s; expected at most the duration, 1 s"},
+    {"TooManyHalvings", "macro_step: 1 ms", "retry: {halvings: 11}",
+     "a.yaml:11: integration.retry.halvings: expected a whole number in [0, 10], got '11'"},
+    {"NotYaml", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.81", "a.yaml:3: not YAML: "},
+    {"TwoDocuments", "gravity:", "---\ngravity:", "a.yaml:2: a scene is one YAML document; here begins another"},
+    {"StrayBrace", "duration: 1 s", "}", "a.yaml:"},
+    {"AliasOfItself", "duration: 1 s", "duration: &a [*a]", "a.yaml:1: nested more than 50 deep"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SceneError, testing::ValuesIn(damages),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(Scene, EmptyIsAnError) {
+  EXPECT_EQ(error_of(""), "a.yaml: the scene is empty");
+  EXPECT_EQ(error_of("# nothing but words\n"), "a.yaml: the scene is empty");
+  EXPECT_EQ(error_of("- a list\n").substr(0, 10), "a.yaml:1: ");
+}
+
+TEST(Scene, MissingFileIsAnError) {
+  EXPECT_THROW(load_scene("/nowhere/at/all.yaml"), InputError);
+  EXPECT_THROW(load_scene(PLICA_SOURCE_DIR), InputError);
+}
+
+// What the program says to hierarchies and cycles that make no sense: exit 2, and nothing is run.
+class Levels : public testing::Test {
+ protected:
+  Levels() { std::ofstream(folder / "a.yaml") << sound_scene; }
+  Child plica(const std::string& command, const std::vector<std::string>& set) {
+    std::vector<std::string> words = {PLICA_EXECUTABLE, command, folder / "a.yaml"};
+    if (command == "run") words.insert(words.end(), {"-o", folder / "out", "--force"});
+    for (const std::string& assignment : set) words.insert(words.end(), {"--set", assignment});
+    return run_child(words, folder);
+  }
+  void expect_refusal(const std::vector<std::string>& set, const std::string& says) {
+    for (const char* command : {"run", "explain", "check"}) {
+      const Child child = plica(command, set);
+      EXPECT_EQ(child.status, 2) << set[0] << child.output << child.errors;
+      EXPECT_NE(child.errors.find(says), std::string::npos) << child.errors;
+      EXPECT_FALSE(std::filesystem::exists(folder / "out")) << set[0];
+    }
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(Levels, RefusesWhatMakesNoSense) {
+  expect_refusal({"integration.distribution=[0.5, 0.4]"}, "must add up to 1, got 0.9");
+  expect_refusal({"integration.macro_step=10 s", "duration=50 ms"},
+                 "integration.macro_step is 10 s; expected at most the duration, 0.05 s");
+  expect_refusal({"integration.substeps=0"}, "expected a whole number >= 1, got '0'");
+  expect_refusal({"integration.cycle=fas", "integration.outside=extrapolate"}, "expected clamp");
+  expect_refusal({"integration.distribution=[1]"}, "expected one for each level (2 in body.levels), got a list of 1");
+  expect_refusal({"body.levels.1.box.origin=[1, 0, 0]"}, "do not overlap, they are 0.9 m apart");
+  expect_refusal({"body.initial={twist: {from: [0, 0, 0], to: [0, 0, 0], angular_velocity: 3}}"},
+                 "body.initial.twist.to, as a distance from .from, is 0");
+  expect_refusal({"body.initial={parts: [{sphere: {centre: [9, 9, 9], radius: 1}, velocity: [0, 0, 1]}]}"},
+                 "body.initial.parts.0");
+  expect_refusal({"body.initial={parts: [{group: tip, velocity: [0, 0, 1]}]}"},
+                 "body.initial.parts.0.group: there is no group 'tip': the meshes name none");
+}
+
+TEST_F(Levels, WarnsWhereTheyDoNotCoarsen) {
+  for (const char* command : {"run", "explain", "check"}) {
+    const Child child = plica(command, {"body.levels.1.box.cells=[4, 4, 4]", "duration=1 ms"});
+    EXPECT_EQ(child.status, 0) << child.errors;
+    EXPECT_NE(child.errors.find("level 1 is not coarser than level 0: 384 tetrahedra after 384"), std::string::npos)
+        << child.errors;
+    EXPECT_EQ(plica(command, {"duration=1 ms"}).errors.find("coarser"), std::string::npos);
+  }
+}
+
+// What the fuzzer of scenes starts from, and what it once found, without libFuzzer
+
+TEST(FuzzScenes, AreRefusedOrSound) {
+  for (const plica::fuzz::Target& target : plica::fuzz::scene_targets) EXPECT_GE(plica::fuzz::replay(target), 3);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numeric>
 #include <plica/core/functions.hpp>
 #include <plica/core/small.hpp>
+#include <plica/core/transposed.hpp>
 #include <random>
 
 #include "support/tolerance.hpp"
@@ -11,6 +13,7 @@
 namespace {
 
 using namespace plica;
+
 using test::round_off;
 
 Eigen::Matrix3d eigen(const Mat3<double>& A) {
@@ -90,6 +93,53 @@ TEST(Functions, MaxKeepsNaN) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(max(nan, 1.0)));
   EXPECT_TRUE(std::isnan(max(Pack<double, 2>(nan), Pack<double, 2>(1.0))[1]));
+}
+
+// Vectors scattered in memory, taken into the lanes of packs and back. Packs may be wider than the registers of the processor.
+
+template <class T, int N>
+struct Rows {
+  std::vector<T> memory = std::vector<T>(1 + 4 * 3 * N);  // from 1: rows need no alignment
+  T* operator()(int l) { return memory.data() + 1 + 4 * ((5 * l + 3) % (3 * N)); }
+};
+
+template <class T, int N>
+void expect_rows_in_lanes() {
+  Rows<T, N> rows;
+  std::iota(rows.memory.begin(), rows.memory.end(), T(0));
+  const auto row = [&](int l) { return rows(l); };
+  using Lanes = typename PackOf<T, N>::type;
+  Vec3<Lanes> v;
+  load_vectors(row, v);
+  for (int l = 0; l < N; ++l)
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(lane(v[k], l), row(l)[k]) << N << " lanes, lane " << l << ", component " << k;
+}
+
+template <class T, int N>
+void expect_lanes_in_rows() {
+  Rows<T, N> rows;
+  using Lanes = typename PackOf<T, N>::type;
+  Lanes four[4];
+  for (int k = 0; k < 4; ++k)
+    for (int l = 0; l < N; ++l) set_lane(four[k], l, T(1 + 4 * l + k));
+  store_fours(four, [&](int l) { return rows(l); });
+  T sum = 0;
+  for (const T& x : rows.memory) sum += x;
+  EXPECT_EQ(sum, T(4 * N * (4 * N + 1) / 2)) << N << " lanes: numbers that are no row's have changed";
+  for (int l = 0; l < N; ++l)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_EQ(rows(l)[k], T(1 + 4 * l + k)) << N << " lanes, lane " << l << ", number " << k;
+}
+
+template <class T, int... N>
+void expect_both_ways() {
+  (expect_rows_in_lanes<T, N>(), ...);
+  (expect_lanes_in_rows<T, N>(), ...);
+}
+
+TEST(Transposed, IsWhatNumberByNumberGives) {
+  expect_both_ways<double, 1, 2, 4, 8, 16>();
+  expect_both_ways<float, 1, 2, 4, 8, 16>();
 }
 
 }  // namespace

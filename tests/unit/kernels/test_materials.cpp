@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/materials.hpp>
 
 #include "support/gradients.hpp"
+#include "support/refusal.hpp"
 #include "support/three_constants.hpp"
 #include "support/tolerance.hpp"
 
@@ -262,13 +263,8 @@ TEST(PolarRotation, IsTheNearestRotation) {
   }
 }
 
-std::string refusal(const MaterialInfo& info, const Body& body) {
-  try {
-    check_parameters(info, body);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+std::string refusal_of(const MaterialInfo& info, const Body& body) {
+  return refusal([&] { check_parameters(info, body); });
 }
 
 TEST(MaterialParameters, AreTheRegionsThenTheBodysThenTheStandard) {
@@ -283,19 +279,19 @@ TEST(MaterialParameters, AreTheRegionsThenTheBodysThenTheStandard) {
 
 TEST(MaterialParameters, AreRefusedOutOfTheirRangeAndByAWrongName) {
   Body body;
-  EXPECT_EQ(refusal(three_constants(), body), "");
+  EXPECT_EQ(refusal_of(three_constants(), body), "");
   body.material.parameters = {{"c1", 0}};
-  EXPECT_EQ(refusal(three_constants(), body), "body.material.c1 is 0 Pa; expected a pressure (Pa) > 0");
+  EXPECT_EQ(refusal_of(three_constants(), body), "body.material.c1 is 0 Pa; expected a pressure (Pa) > 0");
   body.material.parameters = {{"c2", 2e6}};
-  EXPECT_EQ(refusal(three_constants(), body),
+  EXPECT_EQ(refusal_of(three_constants(), body),
             "body.material.c2 is 2000000 Pa; expected a pressure (Pa) in [0, 1e+06] Pa");
   body.material.parameters = {{"blk", 1}};
   EXPECT_EQ(
-      refusal(three_constants(), body),
+      refusal_of(three_constants(), body),
       "body.material.blk: unknown parameter of three_constants 'blk'; did you mean 'bulk'? (choices: c1, c2, bulk)");
   body.material.parameters.clear(), body.regions["liver"].parameters = {{"bulk", -1}};
-  EXPECT_EQ(refusal(three_constants(), body), "body.regions.liver.bulk is -1 Pa; expected a pressure (Pa) > 0");
-  EXPECT_EQ(refusal(*find_material("linear"), body),
+  EXPECT_EQ(refusal_of(three_constants(), body), "body.regions.liver.bulk is -1 Pa; expected a pressure (Pa) > 0");
+  EXPECT_EQ(refusal_of(*find_material("linear"), body),
             "body.regions.liver.bulk: unknown parameter of linear 'bulk' (choices: young_modulus, poisson_ratio)");
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
@@ -11,6 +12,8 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
+#include "support/refusal.hpp"
+#include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
 // The predicted critical step against dense eigenvalues of the same matrices.
@@ -127,14 +130,8 @@ TEST(CriticalStep, NamesTheElementsThatSetIt) {
     EXPECT_LE(report.stiffest[i - 1].step, report.stiffest[i].step);
   // a step that is refused for it says so, one of a sound mesh does not
   p.integration.macro_step = 2 * sound.critical_step, p.integration.substeps = {1};
-  try {
-    const Simulation<Host> simulation(p);
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("element " + std::to_string(worst.element) + " (region right)"),
-              std::string::npos)
-        << e.what();
-  }
+  const std::string text = refusal([&] { Simulation<Host>{p}; });
+  EXPECT_NE(text.find("element " + std::to_string(worst.element) + " (region right)"), std::string::npos) << text;
 }
 
 TEST(CriticalStep, NearTheIncompressibleLimit) {
@@ -184,6 +181,136 @@ TYPED_TEST(CriticalStepOn, IsTheSameOnEveryBackend) {
   const double here = LevelProbe<TypeParam>(p).built.reports[0].critical_step,
                there = LevelProbe<Host>(p).built.reports[0].critical_step;
   EXPECT_NEAR(here, there, 1e-5 * there);
+}
+
+// Shares of the macro step, sub-steps, and what is refused.
+
+const std::vector<LevelLimits> levels = {{6 * 17 * 17 * 17, "symplectic_euler", true, 1.0e-3},
+                                         {6 * 15 * 15 * 15, "symplectic_euler", true, 1.1e-3},
+                                         {6 * 12 * 12 * 12, "symplectic_euler", true, 1.4e-3},
+                                         {6 * 10 * 10 * 10, "implicit_euler", false, 1.7e-3}};
+
+IntegrationOptions options(const std::string& distribution, double shift, double macro_step) {
+  IntegrationOptions o;
+  o.distribution = distribution, o.shift_to_coarsest = shift, o.macro_step = macro_step;
+  return o;
+}
+
+std::string refusal_of(const IntegrationOptions& o, const std::vector<LevelLimits>& of = levels) {
+  return refusal([&] { plan_steps(o, of); });
+}
+
+TEST(Shares, SumToOneInEveryDistribution) {
+  for (const char* distribution : {"equal", "inverse_elements", "critical", "custom"})
+    for (double shift : {0.0, 0.3, 0.99}) {
+      IntegrationOptions o = options(distribution, shift, 1e-3);
+      o.shares = {0.1, 0.2, 0.3, 0.4};
+      const auto share = plan_steps(o, levels).share;
+      EXPECT_NEAR(std::accumulate(share.begin(), share.end(), 0.0), 1, round_off<double>(8)) << distribution;
+      for (double w : share) EXPECT_GT(w, 0);
+    }
+}
+
+TEST(Shares, AreWhatTheirNamesSay) {
+  const auto critical = plan_steps(options("critical", 0, 1e-3), levels).share;
+  EXPECT_NEAR(critical[3] / critical[0], 1.7, round_off<double>(8));
+  const auto elements = plan_steps(options("inverse_elements", 0, 1e-3), levels).share;
+  EXPECT_NEAR(elements[3] / elements[0], std::pow(1.7, 3), round_off<double>(16));
+  EXPECT_NEAR(plan_steps(options("equal", 0, 1e-3), levels).share[2], 0.25, round_off<double>(2));
+}
+
+// The paper's hybrid cycle: equation 1 on cubes of 17, 15, 12 and 10 cells, half of it moved, shares 23 ms as 17 + 6.
+TEST(Shares, MovedToTheCoarsestAreThePapersTable2) {
+  const auto share = plan_steps(options("inverse_elements", 0.5, 0.023), levels).share;
+  EXPECT_NEAR(share[3] * 23, 17.03, 0.005);
+  EXPECT_NEAR((share[0] + share[1] + share[2]) * 23, 5.97, 0.005);
+}
+
+TEST(Shares, OfOneLevelAreAll) {
+  EXPECT_EQ(plan_steps(options("inverse_elements", 0.5, 1e-4), {levels[0]}).share, std::vector<double>{1.0});
+}
+
+TEST(Shares, RefusesCustomOnesThatDoNotFit) {
+  IntegrationOptions o = options("custom", 0, 1e-3);
+  o.shares = {0.1, 0.2, 0.3, 0.41};
+  EXPECT_NE(refusal_of(o).find("the shares must add up to 1, got 1.01"), std::string::npos) << refusal_of(o);
+  o.shares = {0.1, 0.2, 0.3, 0.4 + 1e-11};
+  EXPECT_NE(refusal_of(o).find("add up to 1, got 1.00000000001"), std::string::npos) << refusal_of(o);
+  o.shares = {0.5, 0.5};
+  EXPECT_NE(refusal_of(o).find("one for each level (4 in body.levels), got a list of 2"), std::string::npos)
+      << refusal_of(o);
+  o.shares = {0.5, 0.6, -0.2, 0.1};
+  EXPECT_NE(refusal_of(o).find("integration.distribution is -0.2; expected a number > 0"), std::string::npos)
+      << refusal_of(o);
+  o.distribution = "equall";
+  EXPECT_NE(refusal_of(o).find("did you mean 'equal'?"), std::string::npos) << refusal_of(o);
+}
+
+// A level without a limit of its own has no critical share: never a NaN that runs.
+TEST(Shares, RefusesCriticalOnesWithoutALimit) {
+  auto none = levels, rigid = levels;
+  none[0].integrator = "euler", none[0].critical_step = 0;
+  rigid[3].critical_step = std::numeric_limits<double>::infinity();
+  IntegrationOptions o = options("critical", 0, 1e-3);
+  o.allow_unstable = true;
+  for (const auto& bad : {none, rigid}) {
+    EXPECT_NE(refusal_of(o, bad).find("critical"), std::string::npos) << refusal_of(o, bad);
+    EXPECT_NE(refusal_of(o, bad).find("equal"), std::string::npos) << refusal_of(o, bad);
+  }
+  auto all = none;
+  for (auto& level : all) level.critical_step = 0, level.integrator = "euler", level.is_explicit = true;
+  EXPECT_NE(refusal_of(o, all), "");
+  o.distribution = "equal";
+  EXPECT_EQ(refusal_of(o, all), "");
+  // one level needs no shares
+  EXPECT_EQ(refusal_of(options("critical", 0, 1e-3), {rigid[3]}), "");
+}
+
+TEST(Substeps, AutomaticOnesKeepTheLimit) {
+  IntegrationOptions o = options("equal", 0, 0.02);
+  const StepPlan plan = plan_steps(o, levels);
+  EXPECT_EQ(plan.substeps, (std::vector<int>{6, 6, 4, 1}));  // ceil(5 ms / (0.9 * limit)); implicit: one
+  o.safety = 1;
+  EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{5, 5, 4, 1}));
+  o.substeps = {7, 8, 9, 2};
+  EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{7, 8, 9, 2}));
+  EXPECT_EQ(refusal_of(options("equal", 0, 1e6)),
+            "integration.macro_step asks for 277777778 sub-steps on one level; expected at most 1000000");
+}
+
+TEST(MacroStep, AutomaticIsNineTenthsOfTheTightestLevel) {
+  IntegrationOptions o;
+  o.distribution = "custom", o.shares = {0.4, 0.3, 0.2, 0.1};
+  EXPECT_NEAR(plan_steps(o, levels).macro_step, 0.9 * 1e-3 / 0.4, round_off<double>(8, 1e-3));
+  EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{1, 1, 1, 1}));
+  o.substeps = {4, 1, 1, 1};
+  EXPECT_NEAR(plan_steps(o, levels).macro_step, 0.9 * 1.1e-3 / 0.3, round_off<double>(8, 1e-3));
+  EXPECT_NE(refusal_of(IntegrationOptions{}, {levels[3]}).find("give it in seconds"), std::string::npos);
+}
+
+TEST(MacroStep, AboveTheLimitIsRefusedWithNumbersAndRemedy) {
+  IntegrationOptions o = options("equal", 0, 0.008);
+  o.substeps = {1};
+  const std::string text = refusal_of(o);
+  for (const char* part : {"level 0", "symplectic_euler", "0.002 s", "2 times", "critical step 0.001 s", "substeps: 2",
+                           "implicit", "allow_unstable: true"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << " not in: " << text;
+  o.allow_unstable = true;
+  EXPECT_EQ(refusal_of(o), "");
+  EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{1, 1, 1, 1}));
+}
+
+TEST(MacroStep, UndampedEulerIsRefused) {
+  Problem p = small_cube();
+  p.integration.integrator = {"euler"};
+  const auto text = [&] { return refusal([&] { Simulation<Host>{p}; }); };
+  EXPECT_NE(text().find("stable at no step"), std::string::npos) << text();
+  p.integration.macro_step = 1e-5;
+  EXPECT_NE(text().find("grows at every step"), std::string::npos) << text();
+  p.integration.allow_unstable = true;
+  EXPECT_EQ(text(), "");
+  p.integration.allow_unstable = false, p.integration.macro_step.reset(), p.body.damping.mass = 1;
+  EXPECT_EQ(text(), "");
 }
 
 }  // namespace

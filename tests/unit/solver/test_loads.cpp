@@ -3,7 +3,7 @@
 
 #include <numbers>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/load_factor.hpp>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/contact/shapes.hpp>
@@ -13,6 +13,7 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
+#include "support/refusal.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
@@ -124,26 +125,21 @@ TEST(Loads, FollowTheirCourse) {
 }
 
 template <class Change>
-std::string refusal(const Change& change) {
+std::string refusal_after(const Change& change) {
   Problem p = small_cube();
   change(p.body);
-  try {
-    Simulation<Host> simulation(p);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return refusal([&] { Simulation<Host>{p}; });
 }
 
 TEST(Loads, WithoutEffectAreRefused) {
-  const std::string held = refusal([](Body& b) {
+  const std::string held = refusal_after([](Body& b) {
     b.fixed = {right_face};
     b.loads = {{right_face, Traction{{1, 0, 0}}, {}}};
   });
   EXPECT_NE(held.find("body.loads.0: all 16 vertices it acts on, on level 0, are fixed or prescribed"),
             std::string::npos)
       << held;
-  const std::string point = refusal([](Body& b) { b.loads = {{NearestSelection{}, Traction{{1, 0, 0}}, {}}}; });
+  const std::string point = refusal_after([](Body& b) { b.loads = {{NearestSelection{}, Traction{{1, 0, 0}}, {}}}; });
   EXPECT_NE(point.find("no boundary triangle"), std::string::npos) << point;
 }
 

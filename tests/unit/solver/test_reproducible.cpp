@@ -8,6 +8,7 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
+#include "support/refusal.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
@@ -184,15 +185,13 @@ TYPED_TEST(SavedStates, KeepTheLastGoodState) {
 }
 
 template <class B>
-std::string refusal(Simulation<B>& simulation, const SavedState& saved) {
+std::string refusal_of(Simulation<B>& simulation, const SavedState& saved) {
   const auto before = simulation.save().bytes;
-  try {
-    simulation.restore(saved);
-  } catch (const InputError& error) {
+  const std::string text = refusal([&] { simulation.restore(saved); });
+  if (!text.empty()) {
     EXPECT_EQ(simulation.save().bytes, before) << "changed although it refused";
-    return error.what();
   }
-  return "restored";
+  return text;
 }
 
 TEST(SavedState, OfAnotherSimulationIsRefused) {
@@ -202,16 +201,16 @@ TEST(SavedState, OfAnotherSimulationIsRefused) {
   const std::string start = "the saved state is that of another simulation: ";
   Problem other = problem;
   other.integration.macro_step = 4e-4;
-  EXPECT_EQ(refusal(simulation, from(other)), start + "the macro step differs");
+  EXPECT_EQ(refusal_of(simulation, from(other)), start + "the macro step differs");
   other = problem;
   other.body.levels.pop_back();
-  EXPECT_EQ(refusal(simulation, from(other)), start + "the number of levels differs");
+  EXPECT_EQ(refusal_of(simulation, from(other)), start + "the number of levels differs");
   other = problem;
   other.body.levels[1] = jittered_box(decimetre, {2, 2, 2});
-  EXPECT_EQ(refusal(simulation, from(other)), start + "the size of level 1's state.u differs");
-  EXPECT_EQ(refusal(simulation, from(thrown("rs", "symplectic_euler"))),
+  EXPECT_EQ(refusal_of(simulation, from(other)), start + "the size of level 1's state.u differs");
+  EXPECT_EQ(refusal_of(simulation, from(thrown("rs", "symplectic_euler"))),
             start + "the size of level 0's start.u differs");
-  EXPECT_EQ(refusal(simulation, Simulation<HostFloat>(problem).save()), start + "the precision differs");
+  EXPECT_EQ(refusal_of(simulation, Simulation<HostFloat>(problem).save()), start + "the precision differs");
 }
 
 TEST(SavedState, CutShortOrTooLongIsRefused) {
@@ -219,11 +218,11 @@ TEST(SavedState, CutShortOrTooLongIsRefused) {
   advance(simulation, 2);
   const SavedState saved = simulation.save();
   for (std::size_t size = 0; size < saved.bytes.size(); size += 1 + saved.bytes.size() / 50)
-    EXPECT_EQ(refusal(simulation, {{saved.bytes.begin(), saved.bytes.begin() + static_cast<std::ptrdiff_t>(size)}}),
+    EXPECT_EQ(refusal_of(simulation, {{saved.bytes.begin(), saved.bytes.begin() + static_cast<std::ptrdiff_t>(size)}}),
               "the saved state is damaged: it ends early");
   SavedState longer = saved;
   longer.bytes.resize(longer.bytes.size() + 3);
-  EXPECT_EQ(refusal(simulation, longer), "the saved state is damaged: 3 bytes too many");
+  EXPECT_EQ(refusal_of(simulation, longer), "the saved state is damaged: 3 bytes too many");
 }
 
 }  // namespace

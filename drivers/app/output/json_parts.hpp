@@ -2,8 +2,12 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <plica/core/obstacles.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <string>
+#include <vector>
 
+/// What several results have in common: rows, materials, obstacles, the machine.
 namespace plica::app {
 
 /// JSON as the program writes it: indented, with an end of line. Bytes that are not UTF-8, as names of files may have them, become
@@ -48,5 +52,32 @@ inline std::string csv_table(const nlohmann::ordered_json& rows) {
   }
   return text;
 }
+
+/// A material of this kind: "neo_hookean, young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3". The parameters are those
+/// that the material declares.
+std::string material_text(const MaterialInfo& info, const MaterialOptions& material);
+
+/// The same: {"model", each parameter by its name, "density"}, in SI units.
+nlohmann::ordered_json material_json(const MaterialInfo& info, const MaterialOptions& material);
+
+/// The obstacles, so that a picture can show what was hit. Of a surface its box and counts.
+nlohmann::ordered_json obstacles_json(const std::vector<ObstacleOptions>& obstacles);
+
+/// What measurements were made on.
+struct StudyMachine {
+  std::string cpu;
+  int cores = 0;
+  std::string backend;
+  int threads = 0;  ///< at most
+};
+
+/// This one. Needs Kokkos.
+StudyMachine this_machine();
+
+/// plica --version: the program, Kokkos and its back ends, the compiler, the commit.
+std::string version_text();
+
+/// With the program that measured.
+nlohmann::ordered_json machine_json(const StudyMachine& machine);
 
 }  // namespace plica::app

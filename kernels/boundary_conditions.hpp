@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/level.hpp>
+#include <plica/core/path.hpp>
+
+// What is given from outside: vertices that follow a path, and loads.
+namespace plica {
+
+/// Where a path has got to at a time, and how fast it moves from there on. `knots` are those of all paths.
+KOKKOS_INLINE_FUNCTION PathPoint path_at(const Path& path, const PathKnot* knots, double time) {
+  PathPoint p{time * path.velocity, path.velocity};
+  if (path.rate > 0) {
+    const double angle = path.rate * time + path.phase;
+    p.displacement += (Kokkos::sin(angle) - Kokkos::sin(path.phase)) * path.amplitude;
+    p.velocity += (path.rate * Kokkos::cos(angle)) * path.amplitude;
+  }
+  if (path.knots > 0) {
+    const PathKnot* k = knots + path.first_knot;
+    int after = 0;  // knots that time has reached
+    for (int end = path.knots; after < end;) {
+      const int middle = (after + end) / 2;
+      if (k[middle].time <= time)
+        after = middle + 1;
+      else
+        end = middle;
+    }
+    if (after == 0 || after == path.knots) {
+      p.displacement += k[after == 0 ? 0 : after - 1].displacement;
+    } else {
+      const PathKnot &a = k[after - 1], &b = k[after];
+      const Vec3<double> speed = (1 / (b.time - a.time)) * (b.displacement - a.displacement);
+      p.displacement += a.displacement + (time - a.time) * speed;
+      p.velocity += speed;
+    }
+  }
+  return p;
+}
+
+/// The same with, for ahead > 0 [s], the mean velocity from there to time + ahead: an implicit step ends where the path does.
+KOKKOS_INLINE_FUNCTION PathPoint path_step(const Path& path, const PathKnot* knots, double time, double ahead) {
+  PathPoint p = path_at(path, knots, time);
+  if (ahead > 0) p.velocity = (1 / ahead) * (path_at(path, knots, time + ahead).displacement - p.displacement);
+  return p;
+}
+
+/// Vertices whose motion is given are where their path says, with its velocity: nothing is integrated, so nothing drifts.
+template <class B>
+struct PrescribeMotion {
+  PrescribedVertices<B> given;
+  State<B> state;
+  double time, ahead;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    using Real = typename B::Real;
+    const PathPoint p = path_step(given.paths(given.path(i)), given.knots.data(), time, ahead);
+    for (int k = 0; k < 3; ++k) {
+      state.u(given.vertex(i), k) = static_cast<Real>(p.displacement[k]);
+      state.v(given.vertex(i), k) = static_cast<Real>(p.velocity[k]);
+    }
+  }
+};
+
+/// Puts them into a level's state at a time [s]; see path_step() for `ahead`.
+template <class B>
+void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<B>& state, double time,
+               double ahead = 0) {
+  if (level.prescribed.count > 0)
+    Kokkos::parallel_for("plica::prescribe", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.prescribed.count),
+                         PrescribeMotion<B>{level.prescribed, state, time, ahead});
+}
+
+/// f += factor * the load's forces, vertex by vertex.
+template <class B>
+struct AddLoad {
+  using Real = typename B::Real;
+  Indices<B> vertex;
+  Vectors<B> force, f;
+  Real factor;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    for (int k = 0; k < 3; ++k) f(vertex(i), k) += factor * force(i, k);
+  }
+};
+
+template <class B>
+void add_load(const typename B::Exec& exec, const Load<B>& load, double factor, const Vectors<B>& f) {
+  Kokkos::parallel_for("plica::load", Kokkos::RangePolicy<typename B::Exec>(exec, 0, load.count),
+                       AddLoad<B>{load.vertex, load.force, f, static_cast<typename B::Real>(factor)});
+}
+
+}  // namespace plica
