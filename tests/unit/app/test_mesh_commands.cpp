@@ -10,8 +10,6 @@
 namespace plica::app::test {
 namespace {
 
-using Json = nlohmann::json;
-
 class MeshCommands : public testing::Test {
  protected:
   Child plica(std::vector<std::string> words) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "unit/app/program_test.hpp"
+#include "unit/app/child.hpp"
 
 namespace plica::app::test {
 namespace {

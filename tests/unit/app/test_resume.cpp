@@ -7,13 +7,10 @@
 #include <random>
 
 #include "unit/app/child.hpp"
-#include "unit/app/program_test.hpp"
 
 // Runs that stop, in whatever way, and go on.
 namespace plica::app::test {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr const char* bouncing_block = R"(duration: 1 s
 gravity: [0, 0, -9.81]

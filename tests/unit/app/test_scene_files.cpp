@@ -172,8 +172,6 @@ TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {
 
 // Names and files that are not in UTF-8, as older programs write them: the program runs, and what it writes is UTF-8.
 
-using Json = nlohmann::json;
-
 const std::string latin =
                       "L\xE9"
                       "ber",

@@ -10,8 +10,6 @@
 namespace plica::app::test {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr const char* small_beam = R"(duration: 50 ms
 gravity: [0, 0, -9.81]
 body:
