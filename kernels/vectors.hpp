@@ -115,7 +115,7 @@ void add(const typename B::Exec& exec, const char* label, typename B::Real a, co
   vectors::add<B>(exec, label, y.span(), a, x.data(), y.data());
 }
 /// out = a x + b y, number by number; out may be one of them.
-template <class B, class View>
+template <class B, class View, class Number = typename View::value_type>
 void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x, typename B::Real b,
              const View& y, const View& out) {
   vectors::combine<B>(exec, label, out.span(), a, x.data(), b, y.data(), out.data());
