@@ -98,16 +98,44 @@ integration: {macro_step: 1 ms}
 output: {every: 5 ms}
 )";
 
-/// A folder with a scene, and the program run in it.
-class Program : public testing::Test {
- protected:
-  Program() { std::ofstream(scene) << falling_block; }
+/// Two levels of a beam that is held at one end, for 50 ms.
+inline std::string small_beam(const std::string& material, const std::string& more) {
+  return R"(duration: 50 ms
+gravity: [0, 0, -9.81]
+body:
+  levels:
+    - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
+    - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
+  material: {young_modulus: 1 MPa, poisson_ratio: 0.3, model: )" +
+         material + "}\n  fixed: [{plane: {normal: [1, 0, 0]}}]\n" + more;
+}
 
-  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
+/// A folder with a scene, and the program run in it.
+class ProgramTest : public testing::Test {
+ protected:
+  explicit ProgramTest(const std::string& text) { std::ofstream(scene) << text; }
+
+  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) const {
     words.insert(words.begin(), PLICA_EXECUTABLE);
     return run_child(words, folder, meanwhile);
   }
-  Json summary() const { return Json::parse(content_of(folder / "out/summary.json")); }
+  /// plica COMMAND, what it needs, and `more` words.
+  Child plica(std::vector<std::string> words, const std::vector<std::string>& more,
+              const std::function<bool(pid_t)>& meanwhile = {}) const {
+    words.insert(words.end(), more.begin(), more.end());
+    return plica(words, meanwhile);
+  }
+  Json json_of(const std::string& file) const { return Json::parse(content_of(folder / file)); }
+
+  TemporaryFolder folder;
+  std::string scene = folder / "block.yaml", out = folder / "out";
+};
+
+/// The same with a block that falls.
+class Program : public ProgramTest {
+ protected:
+  Program() : ProgramTest(falling_block) {}
+  Json summary() const { return json_of("out/summary.json"); }
   std::size_t lines(const std::string& file) const {
     const std::string text = content_of(folder / file);
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -117,9 +145,6 @@ class Program : public testing::Test {
     return {"run", scene, "-o", out, "--duration", "1000 s", "--set", "output.every=2 ms", "--threads", "1"};
   }
   bool has_frames() const { return std::filesystem::exists(folder / "out/frames/surface_0003.vtu"); }
-
-  TemporaryFolder folder;
-  std::string scene = folder / "block.yaml", out = folder / "out";
 };
 
 }  // namespace plica::app::test

@@ -25,25 +25,17 @@ contact: {obstacles: [{plane: {point: [0, 0, 0.01]}, friction: 0.2}]}
 output: {every: 20 steps, volume: all, probes: {tip: [0.1, 0.02, 0.02], middle: [5 cm, 5 cm, 5 cm]}}
 )";
 
-class Resume : public testing::Test {
+class Resume : public ProgramTest {
  protected:
-  Resume() { std::ofstream(scene) << bouncing_block; }
+  Resume() : ProgramTest(bouncing_block) {}
 
-  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
-    words.insert(words.begin(), PLICA_EXECUTABLE);
-    return run_child(words, folder, meanwhile);
-  }
-  Child begin(const std::string& out, std::vector<std::string> more = {},
+  Child begin(const std::string& out, const std::vector<std::string>& more = {},
               const std::function<bool(pid_t)>& meanwhile = {}) {
-    std::vector<std::string> words = {"run", scene, "-o", folder / out, "--quiet", "--threads", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return plica(words, meanwhile);
+    return plica({"run", scene, "-o", folder / out, "--quiet", "--threads", "1"}, more, meanwhile);
   }
-  Child go_on(const std::string& out, std::vector<std::string> more = {},
+  Child go_on(const std::string& out, const std::vector<std::string>& more = {},
               const std::function<bool(pid_t)>& meanwhile = {}) {
-    std::vector<std::string> words = {"run", "--resume", folder / out, "--quiet", "--threads", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return plica(words, meanwhile);
+    return plica({"run", "--resume", folder / out, "--quiet", "--threads", "1"}, more, meanwhile);
   }
 
   /// All of a run that must not depend on how often it was interrupted.
@@ -66,9 +58,6 @@ class Resume : public testing::Test {
     }
     EXPECT_EQ(first.size(), second.size());
   }
-
-  TemporaryFolder folder;
-  std::string scene = folder / "block.yaml";
 };
 
 TEST_F(Resume, SurvivesFiftyKills) {

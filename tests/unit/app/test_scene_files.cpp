@@ -187,33 +187,27 @@ std::string mesh_with(const std::string& one, const std::string& other) {
          "$Elements\n3\n1 2 2 3 3 1 2 3\n2 4 2 1 1 1 2 3 4\n3 4 2 2 2 2 3 4 5\n$EndElements\n";
 }
 
-class ForeignText : public testing::Test {
+class ForeignText : public ProgramTest {
  protected:
-  ForeignText() {
+  ForeignText() : ProgramTest("") {
     std::ofstream(folder / "a.msh", std::ios::binary) << mesh_with(latin,
                                                                    "L\xE8"
                                                                    "ber");
   }
 
-  Child plica(std::vector<std::string> words) {
-    words.insert(words.begin(), PLICA_EXECUTABLE);
-    return run_child(words, folder);
-  }
-  std::string scene(const std::string& file, const std::string& body, const std::string& more = {}) const {
+  std::string scene_file(const std::string& file, const std::string& body, const std::string& more = {}) const {
     std::ofstream(folder / file, std::ios::binary)
         << "duration: 2 ms\nbody: {levels: [{file: a.msh}]" << body << "}\nintegration: {macro_step: 1 ms}\n"
         << more;
     return folder / file;
   }
   Json summary(const std::string& out = "out") const { return Json::parse(content_of(folder / out / "summary.json")); }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(ForeignText, RegionsOfAMeshFile) {
   const std::string file =
-      scene("a.yaml", ", regions: {" + valid + ": {density: 900}, " + valid + " (2): {density: 950}}",
-            "output: {volume: all}\n");
+      scene_file("a.yaml", ", regions: {" + valid + ": {density: 900}, " + valid + " (2): {density: 950}}",
+                 "output: {volume: all}\n");
   const Child run = plica({"run", file, "-o", folder / "out"});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(summary()["status"], "completed");
@@ -235,8 +229,8 @@ TEST_F(ForeignText, NamesOfAMeshFileStayDistinct) {
 }
 
 TEST_F(ForeignText, SceneInLatin1) {
-  const std::string file =
-      scene("a.yaml", "", "name: " + latin + "\noutput: {probes: {" + latin + ": [0.1, 0.1, 0.1]}}  # " + latin + "\n");
+  const std::string file = scene_file(
+      "a.yaml", "", "name: " + latin + "\noutput: {probes: {" + latin + ": [0.1, 0.1, 0.1]}}  # " + latin + "\n");
   const Child run = plica({"run", file, "-o", folder / "out", "--checkpoint", "every=1"});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(summary()["name"], valid);
@@ -255,7 +249,7 @@ TEST_F(ForeignText, FilesWithLatin1Names) {
   const std::string inside = "d\xE9pot";
   std::filesystem::create_directory(folder / inside);
   std::filesystem::copy(folder / "a.msh", folder / inside / "a.msh");
-  const std::string file = scene(inside + "/sc\xE8ne.yaml", ""), out = inside + "/r\xE9sultat";
+  const std::string file = scene_file(inside + "/sc\xE8ne.yaml", ""), out = inside + "/r\xE9sultat";
   const Child run = plica({"run", file, "-o", folder / out, "--checkpoint", "every=1"});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(summary(out)["name"], "sc\xEF\xBF\xBDne");

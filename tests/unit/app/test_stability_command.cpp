@@ -13,39 +13,22 @@
 namespace plica::app::test {
 namespace {
 
-constexpr const char* small_beam = R"(duration: 50 ms
-gravity: [0, 0, -9.81]
-body:
-  levels:
-    - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
-    - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
-  material: {model: linear, young_modulus: 1 MPa, poisson_ratio: 0.3}
-  fixed: [{plane: {normal: [1, 0, 0]}}]
-study: {methods: [single/symplectic_euler, single/implicit_euler, coarse/1, cycle/rs/equal, cycle/rv/equal, cycle/him]}
-)";
-
-class StabilityCommand : public testing::Test {
+class StabilityCommand : public ProgramTest {
  protected:
-  StabilityCommand() { std::ofstream(scene) << small_beam; }
-  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) {
-    words.insert(words.begin(), {PLICA_EXECUTABLE, "stability"});
-    return run_child(words, folder, meanwhile);
+  StabilityCommand()
+      : ProgramTest(small_beam("linear",
+                               "study: {methods: [single/symplectic_euler, single/implicit_euler, coarse/1, "
+                               "cycle/rs/equal, cycle/rv/equal, cycle/him]}\n")) {}
+  Child stability(const std::vector<std::string>& more = {}, const std::function<bool(pid_t)>& meanwhile = {}) {
+    return plica({"stability", scene, "-o", out}, more, meanwhile);
   }
-  Child stability(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {scene, "-o", out};
-    words.insert(words.end(), more.begin(), more.end());
-    return plica(words);
-  }
-  Json json() const { return Json::parse(content_of(folder / "out/stability.json")); }
+  Json json() const { return json_of("out/stability.json"); }
   Json row(const std::string& method) const {
     const Json all = json();
     for (const Json& one : all["rows"])
       if (one["method"] == method) return one;
     return {};
   }
-
-  TemporaryFolder folder;
-  std::string scene = folder / "beam.yaml", out = folder / "out";
 };
 
 TEST_F(StabilityCommand, SaysWhatItPredictedAndMeasured) {
@@ -136,14 +119,14 @@ TEST_F(StabilityCommand, BadInputIs2) {
 }
 
 TEST_F(StabilityCommand, HelpsWithAnExample) {
-  const Child help = plica({"--help"});
+  const Child help = plica({"stability", "--help"});
   EXPECT_EQ(help.status, 0);
   for (const char* word : {"--matrix", "--budget", "Exit status", "plica stability beam.yaml"})
     EXPECT_NE(help.output.find(word), std::string::npos) << word;
 }
 
 TEST_F(StabilityCommand, StopsWithItsBudgetAndAtCtrlCWithWholeFiles) {
-  const Child late = plica({"--matrix", "-o", out, "--budget", "200ms"});
+  const Child late = plica({"stability", "--matrix", "-o", out, "--budget", "200ms"});
   EXPECT_EQ(late.status, 0) << late.output << late.errors;
   EXPECT_GT(json()["left_out"], 0);
   EXPECT_GT(json()["rows"].size(), 0U);
@@ -153,7 +136,7 @@ TEST_F(StabilityCommand, StopsWithItsBudgetAndAtCtrlCWithWholeFiles) {
     for (const char* name : {"case", "method", "expected", "outcome"}) EXPECT_TRUE(one[name].is_string()) << name;
   }
   std::filesystem::remove_all(out);
-  const Child run = plica({"--matrix", "-o", out}, [&](pid_t id) {
+  const Child run = plica({"stability", "--matrix", "-o", out}, [&](pid_t id) {
     return std::filesystem::exists(out + "/stability.json") && kill(id, SIGINT) == 0;
   });
   EXPECT_EQ(run.status, 130) << run.errors;
@@ -182,16 +165,12 @@ TEST_F(StabilityCommand, CanBeDrawn) {
   EXPECT_GT(std::filesystem::file_size(folder / "out/stability.png"), 10000U);
 }
 
-class VerifyCommand : public testing::Test {
+class VerifyCommand : public ProgramTest {
  protected:
-  Child verify(std::vector<std::string> more, const std::function<bool(pid_t)>& meanwhile = {}) {
-    std::vector<std::string> words = {PLICA_EXECUTABLE, "verify", "-o", out};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_child(words, folder, meanwhile);
+  VerifyCommand() : ProgramTest("") {}
+  Child verify(const std::vector<std::string>& more, const std::function<bool(pid_t)>& meanwhile = {}) {
+    return plica({"verify", "-o", out}, more, meanwhile);
   }
-
-  TemporaryFolder folder;
-  std::string out = folder / "out";
 };
 
 TEST_F(VerifyCommand, WritesTheTable) {

@@ -10,33 +10,17 @@
 namespace plica::app::test {
 namespace {
 
-constexpr const char* small_beam = R"(duration: 50 ms
-gravity: [0, 0, -9.81]
-body:
-  levels:
-    - {box: {size: [0.4, 0.1, 0.1], cells: [8, 2, 2]}}
-    - {box: {size: [0.4, 0.1, 0.1], cells: [4, 1, 1]}}
-  material: {model: neo_hookean, young_modulus: 1 MPa, poisson_ratio: 0.3}
-  fixed: [{plane: {normal: [1, 0, 0]}}]
-study:
-  methods: [single/symplectic_euler, coarse, cycle/rs/equal]
-  macro_steps: [auto, 40 ms]
-  samples: 10
-)";
-
-class StudyCommand : public testing::Test {
+class StudyCommand : public ProgramTest {
  protected:
-  StudyCommand() { std::ofstream(scene) << small_beam; }
+  StudyCommand()
+      : ProgramTest(small_beam("neo_hookean",
+                               "study:\n  methods: [single/symplectic_euler, coarse, cycle/rs/equal]\n"
+                               "  macro_steps: [auto, 40 ms]\n  samples: 10\n")) {}
 
-  Child study(std::vector<std::string> more = {}, const std::function<bool(pid_t)>& meanwhile = {}) {
-    std::vector<std::string> words = {PLICA_EXECUTABLE, "study", scene, "-o", out};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_child(words, folder, meanwhile);
+  Child study(const std::vector<std::string>& more = {}, const std::function<bool(pid_t)>& meanwhile = {}) {
+    return plica({"study", scene, "-o", out}, more, meanwhile);
   }
-  Json json() const { return Json::parse(content_of(folder / "out/study.json")); }
-
-  TemporaryFolder folder;
-  std::string scene = folder / "beam.yaml", out = folder / "out";
+  Json json() const { return json_of("out/study.json"); }
 };
 
 void expect_number_or_null(const Json& row, const char* name, bool number) {

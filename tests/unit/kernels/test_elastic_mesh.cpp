@@ -17,14 +17,6 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-template <class Test>
-void for_each_material(const Test& test) {
-  Materials::for_each([&](auto material) {
-    SCOPED_TRACE(decltype(material)::name);
-    test(material);
-  });
-}
-
 std::vector<Point> along(const std::vector<Point>& u, double t, const std::vector<Point>& p) {
   std::vector<Point> moved = u;
   for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];

@@ -15,14 +15,6 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-template <class Test>
-void for_each_material(const Test& test) {
-  Materials::for_each([&](auto material) {
-    SCOPED_TRACE(decltype(material)::name);
-    test(material);
-  });
-}
-
 std::vector<Mat3<double>> directions() {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> within(-1, 1);

@@ -61,21 +61,30 @@ TYPED_TEST(Prescribed, IsExactForEveryIntegrator) {
   }
 }
 
-TYPED_TEST(Prescribed, IsOnEveryLevelAtItsOwnTime) {
+/// Lets three levels share macro steps, and looks at each at the time at which its share ends: expect(simulation, problem, level,
+/// time).
+template <class B, class Change, class Expect>
+void expect_at_own_times(const Change& change, const Expect& expect) {
+  constexpr double t = 4e-4;
   for (const std::string& cycle : sharing_cycles()) {
     if (cycle == "single") continue;
     SCOPED_TRACE(cycle);
-    Problem p = pulled(cube_levels(3, 4, cycle));
+    Problem p = change(cube_levels(3, 4, cycle));
     p.body.damping.mass = 50;
     p.integration.distribution = "custom", p.integration.shares = {0.2, 0.3, 0.5};
-    p.integration.macro_step = 4e-4;
-    Simulation<TypeParam> simulation(p);
+    p.integration.macro_step = t;
+    Simulation<B> simulation(p);
     advance(simulation, 20);
-    const double before = simulation.time() - 4e-4;
-    expect_there(simulation, p, 2, before + 0.5 * 4e-4);
-    expect_there(simulation, p, 1, before + 0.8 * 4e-4);
-    expect_there(simulation, p, 0, simulation.time());
+    const double before = simulation.time() - t;
+    expect(simulation, p, 2, before + 0.5 * t);
+    expect(simulation, p, 1, before + 0.8 * t);
+    expect(simulation, p, 0, simulation.time());
   }
+}
+
+TYPED_TEST(Prescribed, IsOnEveryLevelAtItsOwnTime) {
+  expect_at_own_times<TypeParam>([](const Problem& p) { return pulled(p); },
+                                 [](const auto&... where) { expect_there(where...); });
 }
 
 // A body that moves as one of its sides is led stays free of stress on all levels.
@@ -148,21 +157,11 @@ TYPED_TEST(Prescribed, FollowsItsPathUnderEveryIntegrator) {
 }
 
 TYPED_TEST(Prescribed, IsOnItsPathOnEveryLevelAfterTransfers) {
-  for (const std::string& cycle : sharing_cycles()) {
-    if (cycle == "single") continue;
-    SCOPED_TRACE(cycle);
-    Problem p = cube_levels(3, 4, cycle);
+  const auto led = [](Problem p) {
     p.body.prescribed = {{left_face(), shake}};
-    p.body.damping.mass = 50;
-    p.integration.distribution = "custom", p.integration.shares = {0.2, 0.3, 0.5};
-    p.integration.macro_step = 4e-4;
-    Simulation<TypeParam> simulation(p);
-    advance(simulation, 20);
-    const double before = simulation.time() - 4e-4;
-    expect_on_path(simulation, p, 2, before + 0.5 * 4e-4);
-    expect_on_path(simulation, p, 1, before + 0.8 * 4e-4);
-    expect_on_path(simulation, p, 0, simulation.time());
-  }
+    return p;
+  };
+  expect_at_own_times<TypeParam>(led, [](const auto&... where) { expect_on_path(where...); });
 }
 
 TYPED_TEST(Prescribed, TenThousandStepsLeaveNoDrift) {
