@@ -110,7 +110,7 @@ class CommandLine {
     folder->type_name("FOLDER");
     command
         ->add_option("--checkpoint", arguments_.checkpoint,
-                     "so many macro steps, or simulated time [s], to resume from")
+                     "save a checkpoint to resume from, every N macro steps or every TIME [s] of simulated time")
         ->type_name("every=N|TIME");
     CLI::Option* resume =
         command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint");
@@ -125,7 +125,7 @@ class CommandLine {
                                           [this] { return study(arguments_, study_); });
     command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)")->type_name("FOLDER");
     command
-        ->add_option("--budget", study_.budget, "wall time of all of it [s]; what does not fit is left out, and listed")
+        ->add_option("--budget", study_.budget, "wall time of all runs [s]; what does not fit is left out and listed")
         ->type_name("TIME");
     command->add_flag("--space", study_.space, "a second reference on a mesh twice as fine, for the error in space");
     command->add_flag("--growth", study_.growth, "the growth of small motions by each cycle, linearised about rest");
@@ -136,12 +136,12 @@ class CommandLine {
     CLI::App* command = add_scene_command("stability", "search the largest stable macro step of each method",
                                           [this] { return stability(arguments_, stability_); });
     command->add_flag("--matrix", stability_.matrix,
-                      "no scene: all stiff and extreme cases, each with what it must come to");
+                      "no scene: all stiff and extreme cases, each with the outcome that it must have");
     command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE, out/stability)")
         ->type_name("FOLDER");
     command
         ->add_option("--budget", stability_.budget,
-                     "wall time of all of it [s]; what does not fit is left out, and listed")
+                     "wall time of all runs [s]; what does not fit is left out and listed")
         ->type_name("TIME");
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }
@@ -197,7 +197,7 @@ class CommandLine {
     convert->add_option("--merge-duplicates", convert_.merge_duplicates,
                         "a distance, such as 1um, after scaling: vertices this close become one");
     convert->footer("Written are\n" + written_formats_text() +
-                    "Read are also surfaces in .msh. A mesh written as .obj or .stl leaves its boundary there.");
+                    "Surfaces in .msh are read, too. Of a mesh written as .obj or .stl only the boundary is kept.");
     convert->callback([this] { action_ = [this] { return mesh_convert(convert_); }; });
   }
 

@@ -12,7 +12,7 @@ try:
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
-    vtk.vtkLogger.SetStderrVerbosity(vtk.vtkLogger.VERBOSITY_ERROR)  # no display is no news
+    vtk.vtkLogger.SetStderrVerbosity(vtk.vtkLogger.VERBOSITY_ERROR)  # no display is no error to report
 except ImportError:
     vtk = None
 
@@ -33,7 +33,7 @@ def cells_facing(points, triangles):
 
 
 def vtk_renders():
-    """Tried in another process: without any OpenGL VTK takes the whole interpreter down."""
+    """Tried in another process: without OpenGL, VTK ends the whole interpreter."""
     trial = "import vtk; w = vtk.vtkRenderWindow(); w.OffScreenRenderingOn(); w.AddRenderer(vtk.vtkRenderer()); w.Render()"
     return vtk is not None and subprocess.run([sys.executable, "-c", trial], capture_output=True).returncode == 0
 
@@ -63,7 +63,7 @@ def vtk_actor(points, triangles, colours=None):
 
 
 class View:
-    """One camera for all pictures of a run: a parallel projection that just holds everything."""
+    """One camera for all pictures of a run: the smallest parallel projection that shows everything."""
 
     def __init__(self, run):
         self.shapes = obstacles(run)
@@ -152,6 +152,6 @@ class View:
         shaded[:, :3] *= 0.5 + 0.5 * (0.5 + 0.5 * light if solid else numpy.abs(light))[:, None]
         order = numpy.argsort(-(corners.mean(axis=1) @ FORWARD))
         flat = (corners - self.focus) @ numpy.stack([RIGHT, UP], axis=1)
-        # edges close the seams, but would show twice where one looks through
+        # edges close the seams between triangles; on transparent surfaces they would be drawn twice
         axes.add_collection(PolyCollection(flat[order], facecolors=shaded[order],
                                            edgecolors=shaded[order] if solid else "none", linewidths=0.4))

@@ -59,7 +59,7 @@ class Run:
         return numpy.linalg.norm(now - rest @ (u @ flip @ v), axis=1)
 
     def telling_frames(self, count):
-        """Frames between which about equally much moves, among them the first, the last and the most deformed one."""
+        """Frames with about equal motion between them; the first, the last and the most deformed one are among them."""
         moved = numpy.sqrt(((self.points[1:] - self.points[:-1]) ** 2).sum(axis=2).mean(axis=1))
         path = numpy.concatenate([[0], numpy.cumsum(moved)])
         chosen = {int(numpy.abs(path - length).argmin()) for length in numpy.linspace(0, path[-1], count)[:-1]}

@@ -2,7 +2,7 @@
 """The obstacles of a run as triangles, and where they are at a time."""
 import numpy
 
-BACK, FRONT = 0.45, 0.10  # opacity of what is behind the body, and of what is between it and the eye
+BACK, FRONT = 0.45, 0.10  # opacity behind the body, and in front of it
 # seen from the front, a little from the right and above
 FORWARD = numpy.array([-0.28, 0.88, -0.38]) / numpy.linalg.norm([-0.28, 0.88, -0.38])
 
@@ -25,7 +25,7 @@ def on_sphere(centre, radius):
 
 
 def bowl(shape):
-    """The half behind its centre and the half in front, through which one looks in."""
+    """The half behind its centre, and the transparent half in front of it."""
     steepest = numpy.arccos(1 - shape["rim"] / shape["radius"])
     polar, facing = numpy.linspace(0, steepest, 40), numpy.arctan2(FORWARD[1], FORWARD[0])
     half = numpy.linspace(-numpy.pi / 2, numpy.pi / 2, 80)
@@ -39,7 +39,7 @@ def sphere(shape):
 
 
 def plane(shape, low, high):
-    """A square of it, wide enough for the body."""
+    """A square part of the plane, wide enough for the body."""
     normal = numpy.array(shape["normal"]) / numpy.linalg.norm(shape["normal"])
     along = numpy.cross(normal, [1, 0, 0] if abs(normal[0]) < 0.9 else [0, 1, 0])
     along /= numpy.linalg.norm(along)
@@ -97,7 +97,7 @@ def box(shape):
 
 
 def surface(shape):
-    """Of a triangulated one the run keeps the bounding box."""
+    """A triangulated surface is drawn as its bounding box, which is all that a run keeps of it."""
     low, high = numpy.array(shape["min"]), numpy.array(shape["max"])
     return box({"centre": (low + high) / 2, "size": high - low, "rotation": [0, 0, 0]})
 

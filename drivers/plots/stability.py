@@ -29,7 +29,7 @@ def name_of(row):
 
 
 def words_of(row):
-    """What the step alone does not say."""
+    """The text at the right: measured over predicted, growth, how the scene failed."""
     words = []
     if row["ratio"]:
         words.append(f"{row['ratio']:.3f}")
@@ -38,7 +38,7 @@ def words_of(row):
     if row["status"] == "refused":
         words.append("refused")
     if row["stable_up_to"]:
-        words.append("none so far")
+        words.append("no limit found")
     if row["growth_per_second"] and row["spectral_radius"] > 1 + 1e-6:
         words.append(f"{row['growth_per_second']:.2g}/s")
     if row["scene_kind"]:

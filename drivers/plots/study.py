@@ -37,7 +37,7 @@ def families(rows):
 
 
 def seconds_per_work(rows):
-    """Of a row that came to its end; places rows that did not."""
+    """Median wall time per unit of work of the completed rows; it places the other rows on the time axis."""
     rates = sorted(row["wall_time"] / row["work"] for row in rows if row["status"] == "completed" and row["work"])
     return rates[len(rates) // 2] if rates else 1.0
 
@@ -47,7 +47,7 @@ def draw_completed(axes, rows, look):
         mine = [row for row in rows if row["method"] == method]
         done = [row for row in mine if row["status"] == "completed" and row["error"] > 0]
         failed = len(mine) - len(done)
-        label = method + (f" ({failed} of {len(mine)} not to the end)" if failed else "")
+        label = method + (f" ({failed} of {len(mine)} not completed)" if failed else "")
         for variant in (False, True):  # with settings of its own: hollow
             some = [row for row in done if bool(row["variant"]) == variant]
             axes.scatter([row["wall_time"] for row in some], [row["error"] for row in some],
@@ -60,7 +60,7 @@ def draw_completed(axes, rows, look):
 
 
 def name_of(row, rows):
-    """With what tells it from other rows of its method."""
+    """The name of a row, with what distinguishes it from other rows of its method."""
     parts = [row["method"], row["distribution"], row["variant"] and "+" + row["variant"]]
     parts += [row["precision"]] if len({other["precision"] for other in rows}) > 1 else []
     parts += [f"{row['threads']} thr."] if len({other["threads"] for other in rows}) > 1 else []
@@ -94,7 +94,7 @@ def draw_failed(axes, rows, look, left):
 
 
 def draw_limits(axes, reference):
-    """Below ten times its own error the reference tells nothing."""
+    """Errors below ten times the error of the reference mean nothing."""
     told = 10 * reference["own_error"]
     if told > axes.get_ylim()[0]:
         axes.axhspan(0, told, color="#000000", alpha=0.07, zorder=0, linewidth=0)

@@ -44,9 +44,8 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
     d.remedy = "a macro_step or sub-steps within the critical step of that level";
   else if (built.reports.size() > 1)
     d.remedy =
-        "another macro_step (a cycle adds some error every time: a smaller one can be worse), sub-steps, or cycle: "
-        "single to"
-        " compare with";
+        "another macro_step (every cycle adds some error, so that a smaller step can be worse), more sub-steps, or "
+        "cycle: single for comparison";
   else if (report.explicit_integrator)
     d.remedy =
         "a smaller macro_step, or integration.retry.halvings: the critical step is that of the body at rest, and large "
@@ -65,7 +64,8 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
 }  // namespace
 
 std::string Diagnosis::text() const {
-  const char* what = kind == "inverted"    ? (element < 0 ? "the elements around a vertex turned inside out" : "an element turned inside out")
+  const char* what = kind == "inverted"
+                         ? (element < 0 ? "the elements around a vertex are inside out" : "an element is inside out")
                      : kind == "energy"    ? "the body has more kinetic energy than was put in"
                      : kind == "speed"     ? "a vertex leaves the body faster than its elements can follow"
                      : kind == "contact"   ? "a point is deeper in an obstacle than the body is large"

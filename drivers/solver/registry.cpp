@@ -27,7 +27,8 @@ std::vector<Choice> obstacle_shapes() { return choices<ObstacleShapes>(); }
 std::vector<Choice> cycle_choices() {
   std::vector<Choice> list = cycles();
   list.push_back(
-      {"auto", "him or single, with its macro step: what short trials find to be within integration.error_class"});
+      {"auto",
+       "him or single, with its macro step: the longest that short trials find within integration.error_class"});
   return list;
 }
 
@@ -65,14 +66,14 @@ std::vector<Choice> matrix_choices() {
 }
 
 std::vector<Choice> tangents() {
-  return {{"exact", "the derivative of the force; a solve follows no direction in which it softens"},
+  return {{"exact", "the derivative of the force; a solve takes no direction in which the body softens"},
           {"positive", "projected to positive semi-definite, element by element"},
-          {"auto", "exact, and projected where Newton's method meets softening"}};
+          {"auto", "exact; projected where Newton's method finds that the body softens"}};
 }
 
 std::vector<Choice> newton_outcomes() {
   return {{"accept", "goes on, and counts it (newton_misses)"},
-          {"halve", "takes it again in two halves while that leaves less of the residual, then as accept"},
+          {"halve", "repeats it in two halves as long as that reduces the residual, then as accept"},
           {"stop", "ends the run: kind solver"}};
 }
 

@@ -151,7 +151,7 @@ class CycleTrials {
       choice_.trials.back().reason = "nothing moves in the trial";
       take("him", choice_.trials.back().macro_step, "nothing moves in the trial, so the usual step is taken");
     } else {
-      choice_.reason = "nothing moves in the trial, and the usual step of him is out";
+      choice_.reason = "nothing moves in the trial, and the usual step of him cannot be used";
     }
   }
 

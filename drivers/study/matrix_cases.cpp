@@ -231,15 +231,14 @@ Expected of_explicit(const MatrixBody& body, bool linear, bool forbids) {
   if (body.impact > hypersonic_impact) return linear ? stops("contact") : stops();
   if (linear) return completes();
   if (body.impact > fast_impact)
-    return either(
-        "struck at several times its waves' speed, its lowest layer stiffens by about what the step is clear of");
+    return either("struck at several times its wave speed, its lowest layer stiffens by about the margin of the step");
   if (body.impact > 0) return completes();
   if (body.start == Start::flat || (body.start == Start::thin && !forbids))
     return either(
-        "its elements leave the plane at once; some combinations damp that before an element stiffens too far");
+        "its elements leave the plane in the first step; some combinations damp that before an element stiffens too "
+        "far");
   if (body.start != Start::rest || body.strain() > large_strain) return stops();
-  return either(
-      "strained by its own size it stiffens by about what the step is clear of: at which step depends on both");
+  return either("strained by about its own size it stiffens by about the margin of the step; when depends on both");
 }
 
 // Integrators that damp fast motion come to the end at any step, as long as the solver finds a state: with a material that
@@ -250,13 +249,13 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
   const bool damped = kind == Method::Kind::damped, pierces = body.impact > hypersonic_impact;
   if (linear) return pierces && !damped ? stops("contact") : completes();
   if (kind == Method::Kind::conserving)
-    return body.start == Start::stretched
-               ? either(
-                     "it conserves the energy of a linear problem: what a changing stiffness adds depends on the shape")
-               : stops();
+    return body.start == Start::stretched ? either(
+                                                "it conserves the energy of a linear problem; how much a changing "
+                                                "stiffness adds depends on the shape")
+                                          : stops();
   if (!damped && pierces) return stops();
   if (!damped && body.start == Start::stretched)
-    return either("bdf2 damps slow motion little: the recoil may have more energy than was put in");
+    return either("bdf2 damps slow motion little, so the recoil may have more energy than was put in");
   const bool crushed = body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
   return forbids && crushed ? stops("inverted") : completes();
 }
@@ -268,9 +267,9 @@ Expected of_him(const MatrixBody& body, bool linear) {
   if (body.impact > fast_impact) return stops("contact");
   if (body.start == Start::flat || body.start == Start::turned || body.start == Start::mirrored) return stops();
   if (body.start == Start::random)
-    return either("how far its inertia is from one that fits such a shape is a matter of the shape");
+    return either("its inertia is fitted at rest; how well it fits such a shape depends on the shape");
   if (linear) return completes();
-  return either("its inertia is fitted again where the body stiffens, and whether in time depends on the material");
+  return either("its inertia is fitted again where the body stiffens; whether that is in time depends on the material");
 }
 
 // rs and fas at the finest level's critical step, shared equally: below the limit of each level, as an explicit level alone with
@@ -278,13 +277,14 @@ Expected of_him(const MatrixBody& body, bool linear) {
 Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
   if (linear && body.impact > hypersonic_impact)
-    return either("whether a share of the step takes it through the plane depends on where it meets it");
+    return either("whether a share of the step takes it through the plane depends on where it touches the plane");
   if (linear) return completes();
   if (body.impact > 0) return body.impact > hypersonic_impact ? stops() : completes();
   if (body.strain() > large_strain || body.start == Start::random) return stops();
   if (body.start == Start::flat) return completes();
   if (body.start == Start::thin) return forbids ? stops() : completes();
-  return either("strained by its own size it stiffens by about what the step is clear of: mappings decide where");
+  return either(
+      "strained by about its own size it stiffens by about the margin of the step; when depends on the mapping");
 }
 
 // What must become of it, and why:

@@ -51,7 +51,7 @@ const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t t
   if (kind != kinds.end() && kind->taken) return *kind;
   refuse(file, place,
          who() + " has type " + std::to_string(type) + (kind != kinds.end() ? ", a " + std::string(kind->name) : "") +
-             "; supported are tetrahedra, and whatever is of lower dimension, of first order");
+             "; supported are tetrahedra and elements of lower dimension, of first order");
 }
 
 }  // namespace plica

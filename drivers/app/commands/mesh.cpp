@@ -122,11 +122,11 @@ WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const N
   warn(arguments.in, mesh_warnings(read.mesh, read.report));
   for (const auto& [kind, count] : read.report.other_elements)
     if (kind != "point")
-      warn(arguments.in, {counted(count, kind) + " not kept, only their groups, as sets of vertices"});
+      warn(arguments.in, {counted(count, kind) + " are left out; their groups are kept as sets of vertices"});
   if (!is_surface_file(arguments.out)) return write_mesh(arguments.out, read.mesh, arguments.format, arguments.binary);
   WrittenMesh written =
       write_surface(arguments.out, boundary_surface(read.mesh).surface, arguments.format, arguments.binary);
-  written.left_out.push_back("this format has triangles only: the boundary of the mesh");
+  written.left_out.push_back("this format holds triangles only, so the boundary of the mesh was written");
   return written;
 }
 

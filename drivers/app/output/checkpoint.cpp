@@ -117,7 +117,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "checkpoint.bin";
   const Where where{file.string()};
   if (!std::filesystem::exists(file))
-    throw InputError("there is no checkpoint to resume from; a run leaves one where --checkpoint asks for it", where);
+    throw InputError("there is no checkpoint to resume from; a run writes one only with --checkpoint", where);
   std::ostringstream read;
   read << std::ifstream(file, std::ios::binary).rdbuf();
   const std::string text = read.str();

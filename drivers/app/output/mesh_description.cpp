@@ -159,7 +159,7 @@ std::string steps_text(const MeshDescription& m) {
   return "\nLargest stable explicit step (symplectic_euler, without contact)\n" +
          text_table({{"material", material_text(*find_material(m.material.model), m.material)},
                      {"critical step", in_units(m.critical_step, "s")},
-                     {"worst element alone", in_units(m.element_bound, "s") + ", on the sure side"}},
+                     {"worst element alone", in_units(m.element_bound, "s") + ", a lower bound"}},
                     "<<");
 }
 

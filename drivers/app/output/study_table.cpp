@@ -109,7 +109,8 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine, const
                {"left_out", Json::array()}};
   for (const StudyRow& row : result.rows) json["rows"].push_back(row_json(row));
   for (const LeftOut& one : result.left_out) json["left_out"].push_back({{"case", one.key}, {"reason", one.reason}});
-  if (!stopped.empty()) json["left_out"].push_back({{"case", stopped}, {"reason", "the study was stopped in it"}});
+  if (!stopped.empty())
+    json["left_out"].push_back({{"case", stopped}, {"reason", "the study was stopped during this case"}});
   return json_text(json);
 }
 
@@ -166,14 +167,15 @@ std::string name_of(const StudyRow& row, const StudyResult& result) {
 
 std::string reference_text(const StudyResult& result) {
   const StudyReference& r = result.reference;
-  std::string text = fmt::format("Reference: {} at {}; doubling that step moves it by {}.", r.method,
+  std::string text = fmt::format("Reference: {} at {}; doubling that step changes it by {}.", r.method,
                                  in_units(r.macro_step, "s"), percent(r.own_error));
   if (!good_enough(result))
     text += fmt::format(
-        " That is not good enough for the smallest error reported, {}: errors below {} are not to be told apart.",
+        " The smallest error reported, {}, is too small for this reference: errors below {} cannot be compared.",
         percent(*smallest_error(result.rows)), percent(10 * r.own_error));
   if (r.space_error)
-    text += fmt::format(" A mesh twice as fine is {} away: the finest mesh's error in space.", percent(*r.space_error));
+    text +=
+        fmt::format(" A mesh twice as fine differs by {}: the finest mesh's error in space.", percent(*r.space_error));
   return wrapped(text, width, "");
 }
 
@@ -187,7 +189,7 @@ std::string pareto_text(const StudyResult& result) {
   std::vector<const StudyRow*> front;
   for (const StudyRow& row : result.rows)
     if (row.pareto) front.push_back(&row);
-  if (front.empty()) return "No method came to the end.\n";
+  if (front.empty()) return "No method completed.\n";
   std::ranges::sort(front, {}, [](const StudyRow* row) { return *row->wall_time; });
   const bool growth = std::ranges::any_of(front, [](const StudyRow* row) { return row->spectral_radius.has_value(); });
   std::vector<std::vector<std::string>> table = {
@@ -217,7 +219,7 @@ std::string growth_text(const StudyResult& result) {
     return fmt::format("{} at {:.3g} x critical", name_of(row, result), *row.macro_step_over_critical);
   };
   std::string text =
-      fmt::format("Small motions about rest: of {} of cycles, {} let them grow.", counted(found, "row"), growing);
+      fmt::format("Small motions about rest: {} of cycles, of which {} let them grow.", counted(found, "row"), growing);
   if (fastest != nullptr)
     text += fmt::format(" {} grows fastest, by {:.3g} per second.", at(*fastest), *fastest->growth_per_second);
   if (stable != nullptr) text += fmt::format(" The longest macro step without growth: {}.", at(*stable));
@@ -227,9 +229,9 @@ std::string growth_text(const StudyResult& result) {
 std::string fastest_text(const StudyResult& result, double threshold) {
   const std::string head = fmt::format("Under {:g} % error: ", 100 * threshold);
   if (!resolves(result.reference, threshold))
-    return wrapped(head + fmt::format("not to be told; the reference itself is only good to {}.",
-                                      percent(result.reference.own_error)),
-                   width, "");
+    return wrapped(
+        head + fmt::format("unknown: the error of the reference itself is {}.", percent(result.reference.own_error)),
+        width, "");
   const StudyRow* fastest = fastest_below(result.rows, threshold);
   if (fastest == nullptr) return head + "none.\n";
   std::string text =
@@ -245,7 +247,7 @@ std::string missing_text(const StudyResult& result) {
   };
   std::string text;
   if (count("diverged") + count("refused") > 0)
-    text += fmt::format("Not to the end: {} diverged, {} refused; study.json says why.\n", count("diverged"),
+    text += fmt::format("Not completed: {} diverged, {} refused; study.json says why.\n", count("diverged"),
                         count("refused"));
   std::map<std::string, int> left_out;
   for (const LeftOut& one : result.left_out) ++left_out[one.key.substr(0, one.key.find(','))];

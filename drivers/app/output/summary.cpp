@@ -120,7 +120,7 @@ std::string slivers_text(const Plan& plan) {
         rows.push_back({std::to_string(i), std::to_string(e.element), fmt::format("{:.3g}", e.height_ratio),
                         in_units(e.step, "s"), fmt::format("{:.2g}", e.step / median), e.region});
   if (rows.size() == 1) return {};
-  return "\nElements that hold the step back, at most ten of a level\n" + text_table(rows, ">>>>><");
+  return "\nElements that limit the step, at most ten of a level\n" + text_table(rows, ">>>>><");
 }
 
 // Two tables: what a level is, then what it does in a macro step

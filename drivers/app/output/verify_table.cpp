@@ -145,8 +145,8 @@ std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) 
       "last three tend to\n"
       "(Richardson). *Order*: of the error against the accepted value, or of the differences where the row is judged "
       "by its limit\n"
-      "or by nothing; of time steps, in time. An outcome `shown` is for information: what is wrong there is said, not "
-      "judged.\n\n"
+      "or by nothing; of time steps, in time. An outcome `shown` is for information: such a row is not judged, and its "
+      "note says what is known to be wrong.\n\n"
       "| problem | quantity | accepted | source | ours | limit | order | asked | outcome | note |\n"
       "|---|---|---|---|---|---|---|---|---|---|\n",
       head.small ? " --small" : "", head.wall_time, head.machine.cpu, head.machine.cores, head.machine.backend,

@@ -79,7 +79,7 @@ GrowingFile::GrowingFile(std::filesystem::path file, std::uint64_t size) : file_
   const std::uint64_t found = std::filesystem::file_size(file_, error);
   if (error || found < size)
     throw InputError(
-        "cannot resume: " + file_.string() + " is not what the run left: " +
+        "cannot resume: " + file_.string() + " was changed since the checkpoint: " +
         (error ? error.message() : std::to_string(found) + " bytes, " + std::to_string(size) + " expected"));
   std::filesystem::resize_file(file_, size, error);
   if (error) throw FileError("cannot write " + file_.string() + ": " + error.message());

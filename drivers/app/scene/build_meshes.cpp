@@ -41,7 +41,7 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
   sentences.add(count_duplicate_vertices(mesh, at_the_same_place * mean_edge_length(mesh)), "duplicate",
                 "among the vertices: at the place of another one, where the mesh may come apart (merge them?)");
   const int parts = count_parts(mesh);
-  sentences.add(parts > 1, fmt::format("the mesh is in {} parts that share no vertex", parts));
+  sentences.add(parts > 1, fmt::format("the mesh has {} parts that share no vertex", parts));
   for (const std::string& section : report.skipped_sections)
     sentences.add(true, "the section " + section + " is not read");
   return sentences.take();
@@ -54,8 +54,8 @@ std::vector<std::string> surface_warnings(const SurfaceReport& report) {
   sentences.add(report.repeated, "repeated triangle", "dropped");
   sentences.add(report.open_edges, "open edge", "of one triangle only: the surface is not closed");
   sentences.add(report.crowded_edges, "crowded edge", "of more than two triangles: the surface is no manifold");
-  sentences.add(report.inconsistent_edges, "inconsistent edge", "of triangles that look to different sides");
-  sentences.add(report.parts > 1, fmt::format("the surface is in {} parts that share no vertex", report.parts));
+  sentences.add(report.inconsistent_edges, "inconsistent edge", "of triangles that face different sides");
+  sentences.add(report.parts > 1, fmt::format("the surface has {} parts that share no vertex", report.parts));
   sentences.add(report.turned, "the surface was inside out: all triangles turned");
   return sentences.take();
 }
@@ -149,7 +149,7 @@ TriangleSurface tool_surface(const ToolRecipe& recipe, const Scene& scene, const
   if (!report.closed())
     throw InputError(
         fmt::format("the surface '{}' has no inside: {} open edges, {} edges of more than two triangles, {} "
-                    "edges between triangles that look to different sides",
+                    "edges between triangles that face different sides",
                     file.string(), report.open_edges, report.crowded_edges, report.inconsistent_edges),
         where);
   const double angle = recipe.rotation.norm();

@@ -21,9 +21,9 @@ Eigen::MatrixXd on_vectors(const RowMatrix& A) {
 void expect_small(const TetMesh& coarsest, std::size_t level) {
   const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
   if (coarsest.vertices.size() > most)
-    throw InputError("cycle him answers its coarsest level by a dense matrix; level " + std::to_string(level) +
-                     " has " + std::to_string(coarsest.vertices.size()) + " vertices, expected at most " +
-                     std::to_string(most) + ": add a coarser level, of 200 to 350 vertices");
+    throw InputError("cycle him solves its coarsest level by a dense matrix; level " + std::to_string(level) + " has " +
+                     std::to_string(coarsest.vertices.size()) + " vertices, expected at most " + std::to_string(most) +
+                     ": add a coarser level, of 200 to 350 vertices");
 }
 
 template <class B>

@@ -13,12 +13,12 @@
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
-#include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
@@ -57,8 +57,8 @@ class HierarchyBuilder {
 
   BuiltHierarchy<B> build() {
     phase("placing the meshes", [&] { place_meshes(); });
-    phase("finding the levels in each other", [&] { embed_levels(); });
-    phase("looking at the elements", [&] {
+    phase("embedding the levels in each other", [&] { embed_levels(); });
+    phase("measuring the elements", [&] {
       for (std::size_t i = 0; i < meshes_; ++i) report_mesh(i);
     });
     phase("building the levels", [&] {
@@ -135,7 +135,7 @@ class HierarchyBuilder {
       if (const std::string inverted = inverted_at_start(mesh, u); !inverted.empty())
         throw InputError("body.initial: " + inverted +
                          ", which this material may not; expected "
-                         "body.material.allow_inversion: true, or a start that leaves them their sides");
+                         "body.material.allow_inversion: true, or a start without inverted elements");
     Kokkos::deep_copy(state.u, to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
   }
 

@@ -78,7 +78,7 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   if (o.solver == VCycleSolver::name && !multigrid) {  // the cycle of one level is the coarsest one's answer
     if (!on_host || unknowns(body.levels[level]) > static_cast<std::size_t>(most_dense_unknowns))
       throw InputError("level " + std::to_string(level) +
-                       " is answered by a V-cycle, but has no coarser mesh of at most " +
+                       " is solved by a V-cycle, but has no coarser mesh of at most " +
                        std::to_string(most_dense_unknowns / 3) +
                        " vertices below it; expected more of body.levels, or another integrator");
     o.solver = Direct::name;

@@ -144,7 +144,7 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
     throw InputError(option + " has no inside: of its edges " + std::to_string(edges.open_edges) +
                      " are open (of one triangle), " + std::to_string(edges.crowded_edges) +
                      " of more than two triangles and " + std::to_string(edges.inconsistent_edges) +
-                     " between triangles that look to different sides; expected a closed surface");
+                     " between triangles that face different sides; expected a closed surface");
   Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,", enclosed_volume(surface));
 }
 
@@ -158,7 +158,7 @@ void check_multigrid(const Body& body, const ImplicitOptions& o) {
   const std::size_t vertices = body.levels.back().vertices.size();
   if (3 * vertices > static_cast<std::size_t>(most_dense_unknowns))
     throw InputError(
-        "integration.implicit.preconditioner is multigrid, which answers its coarsest level by a dense matrix; level " +
+        "integration.implicit.preconditioner is multigrid, which solves its coarsest level by a dense matrix; level " +
         std::to_string(body.levels.size() - 1) + " has " + std::to_string(vertices) + " vertices, expected at most " +
         std::to_string(most_dense_unknowns / 3) + ": add a coarser level, of 50 to 200 vertices");
 }
@@ -242,7 +242,7 @@ void validate_options(const Problem& problem, std::size_t levels) {
   validate_methods(problem.integration, levels);
   if (damps_by_stiffness(problem.body) && problem.integration.cycle == "him")
     throw InputError(
-        "body.damping.stiffness is above 0, but cycle him answers for the stability of forces without it; use "
+        "body.damping.stiffness is above 0, but cycle him is stable for forces without it only; use "
         "body.damping.mass or another cycle");
 }
 
@@ -315,13 +315,13 @@ std::vector<std::string> doubts(const Problem& problem) {
         inverted_at_start(mesh, initial_displacement(body.initial, mesh, bounding_box(mesh.vertices)));
     if (!inverted.empty())
       sentences.push_back("body.initial: " + inverted + "; " + body.material.model +
-                          " has nothing that turns them back, they may stay so");
+                          " does not push them back; they may stay inverted");
   }
   for (std::size_t i = 0; i < problem.body.prescribed.size(); ++i)
     if (const auto* path = std::get_if<PathMotion>(&problem.body.prescribed[i].motion);
         path && path->knots.front().displacement.norm() > 0)
       sentences.push_back("body.prescribed." + std::to_string(i) +
-                          ".path does not start at [0, 0, 0]: the body is torn from its rest at once");
+                          ".path does not start at [0, 0, 0]: the vertices jump there at the start");
   return sentences;
 }
 

@@ -107,7 +107,7 @@ void validate_methods(const IntegrationOptions& o, std::size_t levels) {
   validate_shares(o, o.cycle == "auto" ? levels : integrated_levels(o.cycle, levels));
   if (o.cycle == "fas" && o.outside != "clamp" && levels > 1)
     throw InputError("integration.outside is " + o.outside +
-                     ", but cycle fas hands masses down by its weights, which "
+                     ", but cycle fas restricts masses by its weights, which "
                      "must not be negative or missing; expected clamp");
   check_him(o);
   check_auto(o);

@@ -11,8 +11,10 @@ namespace plica {
 // Boundary vertices go where x = F X + c takes them; inner ones start off their place and must find it.
 VerifyRows affine_patch(const VerifyContext& context) {
   constexpr const char* source = "exact: linear shape functions (Irons' patch test; Zienkiewicz & Taylor, FEM vol. 1)";
-  VerifyRow place{.quantity = "inner vertices off their place, over the displacement", .unit = "1", .source = source};
-  VerifyRow stress{.quantity = "mean first Piola-Kirchhoff stress off P(F), relative", .unit = "1", .source = source};
+  VerifyRow place{.quantity = "error of inner vertices, over the displacement", .unit = "1", .source = source};
+  VerifyRow stress{.quantity = "error of the mean first Piola-Kirchhoff stress against P(F), relative",
+                   .unit = "1",
+                   .source = source};
   place.judged = stress.judged = Judged::size;
   place.tolerance = stress.tolerance = 1e-11;
   std::mt19937 random(9);
@@ -60,7 +62,7 @@ VerifyRow stress_of_a_turn(int n) {
   row.accepted = 2 * (c.mu + c.lambda) * (std::cos(angle) - 1);
   row.source = "2 (mu + lambda) (cos theta - 1), from the strain (R + R^T)/2 - I";
   row.judged = Judged::finest, row.tolerance = 1e-12;
-  row.note = "not zero: small strain is not for rotations";
+  row.note = "not zero: small strains do not hold for rotations";
   const auto f = probe.force(affine_field(mesh, R, Point::Zero()));
   row.add(cells_text(n, n, n), 1, virial(f, mesh)(0, 0) / 1e-3);
   return row;
@@ -151,10 +153,11 @@ std::array<double, 2> on_a_mesh(const char* material, int cells) {
 
 VerifyRows derivatives(const VerifyContext& context) {
   constexpr const char* source = "central differences of order 4 of the same functions";
-  VerifyRows rows = {{.quantity = "stress off the energy's slope; nearly flat and inverted F among them"},
-                     {.quantity = "its change off the stress's slope"},
-                     {.quantity = "nodal forces off the slope of the mesh's energy"},
-                     {.quantity = "tangent off the slope of the nodal forces"}};
+  VerifyRows rows = {
+      {.quantity = "error of the stress against the derivative of the energy; some F nearly flat or inverted"},
+      {.quantity = "error of its change against the derivative of the stress"},
+      {.quantity = "error of nodal forces against the derivative of the mesh's energy"},
+      {.quantity = "error of the tangent against the derivative of the nodal forces"}};
   for (VerifyRow& row : rows) row.unit = "1", row.source = source, row.judged = Judged::size, row.tolerance = tolerance;
   Materials::for_each([&](auto material) {
     using M = decltype(material);

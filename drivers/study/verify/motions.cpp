@@ -65,11 +65,12 @@ VerifyRows stopped_bar(const VerifyContext& context) {
   const double c = std::sqrt(E / rho);
   constexpr const char* source =
       "one-dimensional wave equation, c = sqrt(E/rho): L/c, 4L/c (Graff, Wave Motion in Elastic Solids, 2.4)";
-  VerifyRows rows = {{.quantity = "arrival of the first front at the free end", .unit = "s", .accepted = length / c},
-                     {.quantity = "period of the pulses there", .unit = "s", .accepted = 4 * length / c},
-                     {.quantity = "overshoot of the velocity there, over v", .unit = "1", .accepted = 0},
-                     {.quantity = "velocity there off the rectangular pulses, L2 over v", .unit = "1", .accepted = 0},
-                     {.quantity = "energy at the end over that at the start, less 1", .unit = "1", .accepted = 0}};
+  VerifyRows rows = {
+      {.quantity = "arrival of the first front at the free end", .unit = "s", .accepted = length / c},
+      {.quantity = "period of the pulses there", .unit = "s", .accepted = 4 * length / c},
+      {.quantity = "overshoot of the velocity there, over v", .unit = "1", .accepted = 0},
+      {.quantity = "error of the velocity there against rectangular pulses, L2 over v", .unit = "1", .accepted = 0},
+      {.quantity = "energy at the end over that at the start, less 1", .unit = "1", .accepted = 0}};
   for (VerifyRow& row : rows) row.source = source;
   rows[0].judged = rows[1].judged = Judged::finest, rows[0].tolerance = 0.02, rows[1].tolerance = 0.01;
   rows[0].note =
@@ -137,7 +138,7 @@ VerifyRows twisting_column(const VerifyContext& context) {
   VerifyRows rows = {{.quantity = "largest rotation of the top", .unit = "rad"},
                      {.quantity = "time of that", .unit = "s"},
                      {.quantity = "energy at 0.25 s over that at the start, less 1", .unit = "1", .accepted = 0}};
-  rows[0].source = rows[1].source = "none: its own finest mesh";
+  rows[0].source = rows[1].source = "none; compared with its own finest mesh";
   rows[0].note = rows[1].note =
       "E 17 MPa, nu 0.45: linear tetrahedra are too stiff, so it turns further as the mesh is refined";
   rows[2].source = "no outside work", rows[2].judged = Judged::size, rows[2].tolerance = 0.01;
@@ -235,8 +236,8 @@ std::array<double, 2> errors(int n) {
 
 VerifyRows manufactured_solution(const VerifyContext& context) {
   using namespace manufactured;
-  VerifyRows rows = {{.quantity = "displacement off the chosen motion, L2 relative"},
-                     {.quantity = "velocity off the chosen motion, L2 relative"}};
+  VerifyRows rows = {{.quantity = "error of the displacement against the chosen motion, L2 relative"},
+                     {.quantity = "error of the velocity against the chosen motion, L2 relative"}};
   for (VerifyRow& row : rows) {
     row.unit = "1", row.accepted = 2, row.judged = Judged::order, row.tolerance = 0.3;
     row.source = "h^2 of linear elements (Hughes, The Finite Element Method, 4.1); b = rho0 x'' - Div P (Roache)";

@@ -105,7 +105,7 @@ VerifyRows hanging_bar(const VerifyContext& context) {
       "VPCS SSLV07)";
   VerifyRows rows = {{.quantity = "deflection of the lower end on the axis", .unit = "m", .source = source},
                      {.quantity = "lateral contraction at the upper end's edge", .unit = "m", .source = source},
-                     {.quantity = "displacement off the exact field but for a vertical translation, L2 relative",
+                     {.quantity = "error of the displacement, without vertical translation, L2 relative",
                       .unit = "1",
                       .source = source}};
   rows[0].accepted = exact({0, 0, 0})[2], rows[0].judged = Judged::finest,

@@ -41,7 +41,8 @@ VerifyRows time_order(const VerifyContext& context) {
     using Kind = decltype(integrator);
     const std::string name = Kind::name;
     context.proceed();
-    VerifyRow row{.quantity = name + ": positions off rk4's at 1/640 of the time, rms", .unit = "m"};
+    VerifyRow row{.quantity = name + ": difference of positions from rk4 with steps of 1/640 of the time, rms",
+                  .unit = "m"};
     row.accepted = Kind::order, row.judged = Judged::order, row.tolerance = 0.1 * *row.accepted;
     row.source = "as `plica list integrators` states (Hairer & Wanner, Solving ODEs I and II)";
     const int most = *row.accepted > 2 ? 80 : 320;  // between coarse steps and round-off
@@ -70,7 +71,7 @@ VerifyRow against_eigenvalues(int cells) {
   VerifyRow row{.quantity = "predicted critical step, symplectic_euler", .unit = "s", .accepted = 2 / std::sqrt(w2)};
   row.source = "2/w_max, dense eigenvalues of the same matrices (Hughes, The Finite Element Method, 9.2)";
   row.judged = Judged::finest, row.tolerance = 0.02;
-  row.note = "on the sure side by up to 1e-3, which is added to the eigenvalue";
+  row.note = "too small by up to 1e-3, which is added to the eigenvalue for safety";
   row.add(cells_text(cells, cells, cells) + ", irregular", 1, probe.built.reports[0].critical_step);
   return row;
 }

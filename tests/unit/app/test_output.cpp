@@ -267,12 +267,12 @@ TEST(PlanText, NamesElementsThatAreOutOfTheOrdinary) {
   Plan plan;
   plan.macro_step = 1e-3, plan.levels = {level_with(0.04e-3)};
   const std::string text = plan_text(scene, plan);
-  EXPECT_NE(text.find("Elements that hold the step back"), std::string::npos) << text;
+  EXPECT_NE(text.find("Elements that limit the step"), std::string::npos) << text;
   EXPECT_NE(text.find("71"), std::string::npos);
   EXPECT_NE(text.find("bone"), std::string::npos);
   EXPECT_EQ(text.find("0.6 ms"), std::string::npos) << text;  // more than half the median
   plan.levels = {level_with(0.55e-3)};
-  EXPECT_EQ(plan_text(scene, plan).find("hold the step back"), std::string::npos);
+  EXPECT_EQ(plan_text(scene, plan).find("limit the step"), std::string::npos);
 }
 
 TEST(LevelsJson, HaveTheStiffestElements) {

@@ -187,7 +187,7 @@ TEST_F(Resume, RefusesDamage) {
 TEST_F(Resume, RefusesFilesThatWereCut) {
   ASSERT_EQ(begin("run", {"--duration", "0.2 s", "--checkpoint", "every=10"}).status, 0);
   std::filesystem::resize_file(folder / "run/probes.csv", 60);
-  EXPECT_NE(go_on("run").errors.find("probes.csv is not what the run left"), std::string::npos);
+  EXPECT_NE(go_on("run").errors.find("probes.csv was changed since the checkpoint"), std::string::npos);
 }
 
 // Runs that a signal, a full disk or a kill ends.

@@ -140,7 +140,7 @@ TEST(Validate, DoubtsPathsThatStartElsewhere) {
   Problem p = small_cube();
   p.body.prescribed = {{left_face(), PathMotion{{{0.1, {0, 0, 1e-3}}}}}};
   ASSERT_EQ(doubts(p).size(), 1);
-  EXPECT_EQ(doubts(p)[0], "body.prescribed.0.path does not start at [0, 0, 0]: the body is torn from its rest at once");
+  EXPECT_EQ(doubts(p)[0], "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
 }
 
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
@@ -204,7 +204,7 @@ TEST(Validate, ASurfaceObstacleIsClosedAndLooksOutwards) {
   open.triangles.pop_back();
   EXPECT_NE(with(open).find("of its edges 3 are open"), std::string::npos) << with(open);
   std::swap(mixed.triangles[0][0], mixed.triangles[0][1]);
-  EXPECT_NE(with(mixed).find("3 between triangles that look to different sides"), std::string::npos) << with(mixed);
+  EXPECT_NE(with(mixed).find("3 between triangles that face different sides"), std::string::npos) << with(mixed);
   for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
   EXPECT_NE(with(inside_out).find("contact.obstacles.0.surface, as an enclosed volume, is -"), std::string::npos);
   wild.triangles[0][0] = 42;
