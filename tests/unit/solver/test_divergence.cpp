@@ -73,8 +73,8 @@ TEST(Diagnosis, HoldsNamesOfAnyLength) {
                     .J = -0.5,
                     .reason = reason,
                     .remedy = "a smaller macro_step"};
-  EXPECT_EQ(d.text(), "an element is inside out: level 1, element 3 (region " + name + ") with J = -0.5; " +
-                          reason + "; try a smaller macro_step");
+  EXPECT_EQ(d.text(), "an element is inside out: level 1, element 3 (region " + name + ") with J = -0.5; " + reason +
+                          "; try a smaller macro_step");
 }
 
 TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
