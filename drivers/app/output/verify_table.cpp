@@ -121,6 +121,9 @@ std::optional<double> headline(const VerifyRow& row) {
   return row.judged == Judged::size ? worst : row.ours.back().value;
 }
 
+std::string limit(const VerifyRow& row) { return number(row.limit); }
+std::string order(const VerifyRow& row) { return row.order ? fmt::format("{:.2f}", *row.order) : ""; }
+
 std::string values(const VerifyRow& row) {
   std::string text;
   for (const VerifyValue& v : row.ours)
@@ -128,12 +131,26 @@ std::string values(const VerifyRow& row) {
   return text;
 }
 
-std::string markdown_row(const VerifyRow& row) {
-  return fmt::format("| {} | {}{} | {} | {} | {} | {} | {} | {} | {} | {} |\n", row.problem, row.quantity,
-                     row.unit == "1" ? "" : " [" + row.unit + "]", accepted(row), row.source, values(row),
-                     number(row.limit), row.order ? fmt::format("{:.2f}", *row.order) : "", demand(row), row.outcome,
-                     row.note);
-}
+using Cell = std::string (*)(const VerifyRow&);
+
+// The tables' columns: in verify.md, and on the terminal where that is not null
+struct Column {
+  const char* name;
+  Cell markdown, text;
+};
+
+const Column columns[] = {
+    {"problem", [](const VerifyRow& row) { return row.problem; }, [](const VerifyRow& row) { return row.problem; }},
+    {"quantity", [](const VerifyRow& row) { return row.quantity + (row.unit == "1" ? "" : " [" + row.unit + "]"); },
+     [](const VerifyRow& row) { return row.quantity; }},
+    {"accepted", accepted, accepted},
+    {"source", [](const VerifyRow& row) { return row.source; }, nullptr},
+    {"ours", values, [](const VerifyRow& row) { return with_unit(headline(row), row.unit); }},
+    {"limit", limit, limit},
+    {"order", order, order},
+    {"asked", demand, nullptr},
+    {"outcome", [](const VerifyRow& row) { return row.outcome; }, [](const VerifyRow& row) { return row.outcome; }},
+    {"note", [](const VerifyRow& row) { return row.note; }, nullptr}};
 
 }  // namespace
 
@@ -146,21 +163,29 @@ std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) 
       "(Richardson). *Order*: of the error against the accepted value, or of the differences where the row is judged "
       "by its limit\n"
       "or by nothing; of time steps, in time. An outcome `shown` is for information: such a row is not judged, and its "
-      "note says what is known to be wrong.\n\n"
-      "| problem | quantity | accepted | source | ours | limit | order | asked | outcome | note |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n",
+      "note says what is known to be wrong.\n\n",
       head.small ? " --small" : "", head.wall_time, head.machine.cpu, head.machine.cores, head.machine.backend,
       counted(head.machine.threads, "thread"), compiler(), version(), git_revision(), head.status);
-  for (const VerifyRow& row : result.rows) text += markdown_row(row);
+  std::string names = "|", rule = "|";
+  for (const Column& column : columns) names += fmt::format(" {} |", column.name), rule += "---|";
+  text += names + "\n" + rule + "\n";
+  for (const VerifyRow& row : result.rows) {
+    text += "|";
+    for (const Column& column : columns) text += " " + column.markdown(row) + " |";
+    text += "\n";
+  }
   return text;
 }
 
 std::string verify_text(const VerifyResult& result, const std::string& folder) {
-  std::vector<std::vector<std::string>> table = {
-      {"problem", "quantity", "accepted", "ours", "limit", "order", "outcome"}};
-  for (const VerifyRow& row : result.rows)
-    table.push_back({row.problem, row.quantity, accepted(row), with_unit(headline(row), row.unit), number(row.limit),
-                     row.order ? fmt::format("{:.2f}", *row.order) : "", row.outcome});
+  std::vector<std::vector<std::string>> table(1);
+  for (const Column& column : columns)
+    if (column.text) table[0].emplace_back(column.name);
+  for (const VerifyRow& row : result.rows) {
+    table.emplace_back();
+    for (const Column& column : columns)
+      if (column.text) table.back().push_back(column.text(row));
+  }
   const auto wrong = std::ranges::count_if(result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
   return text_table(table, "<<>>>><") + fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
                                                     counted(static_cast<long>(result.rows.size()), "row"), wrong,
