@@ -21,6 +21,7 @@
 namespace {
 
 using namespace plica;
+using namespace plica::test;
 
 constexpr double pi = std::numbers::pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
@@ -287,8 +288,6 @@ TEST(CompareLevels, RefusesAnotherScaleOrPlace) {
 
 // What the fuzzers start from, and what they once found, without libFuzzer
 
-using fuzz::folder;
-
 TEST(FuzzCorpus, IsRefusedOrSound) {
   for (const fuzz::Target& target : fuzz::mesh_targets) EXPECT_GE(fuzz::replay(target), 3) << target.name;
 }
@@ -296,10 +295,10 @@ TEST(FuzzCorpus, IsRefusedOrSound) {
 // Every seed is a whole file, so that the fuzzers start behind the first checks
 TEST(FuzzCorpus, SeedsAreRead) {
   for (const char* name : {"msh", "vtk", "vtu"})
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "corpus" / name))
+    for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / name))
       EXPECT_NO_THROW(read_mesh(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes})) << entry.path();
   for (const char* name : {"obj", "stl"})
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "corpus" / name))
+    for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / name))
       EXPECT_NO_THROW(read_surface(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes}))
           << entry.path();
 }
