@@ -287,10 +287,10 @@ TEST(Regions, GroupsSelectVertices) {
     }
   }
   p.body.fixed = {GroupSelection{"sofd"}};
-  const auto probe = [&] { LevelProbe<Host>{p}; };
-  EXPECT_NE(refusal(probe).find("did you mean 'soft'?"), std::string::npos) << refusal(probe);
+  const auto again = [&] { LevelProbe<Host>{p}; };
+  EXPECT_NE(refusal(again).find("did you mean 'soft'?"), std::string::npos) << refusal(again);
   p.body.fixed = {Box{{1, 1, 1}, {2, 2, 2}}};
-  EXPECT_NE(refusal(probe).find("selects no vertex on level 0"), std::string::npos) << refusal(probe);
+  EXPECT_NE(refusal(again).find("selects no vertex on level 0"), std::string::npos) << refusal(again);
 }
 
 }  // namespace
