@@ -70,7 +70,7 @@ template <class V, class Options>
 void describe_damping(V& v, Options& o) {
   v("mass", o.mass, Quantity{rate, not_negative}, "proportional to the mass: slows all motion, falling too");
   v("stiffness", o.stiffness, Quantity{duration, not_negative},
-    "proportional to the stiffness: slows what deforms, fast");
+    "proportional to the stiffness: slows fast deformation most");
 }
 template <class V>
 void describe(V& v, DampingOptions& o) {
@@ -98,7 +98,7 @@ template <class V>
 void describe(V& v, SineMotion& o) {
   v.required("amplitude", o.amplitude, Vector{length}, "largest displacement from the middle");
   v.required("frequency", o.frequency, Quantity{rate, positive}, "in hertz");
-  v("phase", o.phase, Quantity{angle}, "at the start, which is at rest's place: -90 deg starts without speed");
+  v("phase", o.phase, Quantity{angle}, "at the start, where the displacement is zero: -90 deg starts without speed");
 }
 
 template <class V>
@@ -107,7 +107,7 @@ void describe(V& v, Motion& o) {
                 "with which it moves from the start");
   v.alternative("path", o, CaseList<&PathMotion::knots>{},
                 "displacements at given times, straight in between; before the first and after the last it stays");
-  v.alternative("sine", o, Case<SineMotion>{}, "to and fro: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
+  v.alternative("sine", o, Case<SineMotion>{}, "oscillates: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
 }
 
 template <class V>
@@ -136,10 +136,10 @@ void describe(V& v, LoadOptions& o) {
   v.alternative("traction", o.load, As<&Traction::value, Vector>(Vector{pressure}),
                 "force per area, on the boundary triangles at rest with all their vertices chosen");
   v.alternative("force", o.load, As<&TotalForce::value, Vector>(Vector{force}),
-                "of all chosen vertices together, each in proportion to its mass; on a face, traction is evener");
+                "of all chosen vertices together, each in proportion to its mass; on a face, traction is more even");
   v.at_most_one();
   v.alternative("ramp", o.course, As<&RampCourse::duration, Quantity>(Quantity{duration, positive}),
-                "rises smoothly from nothing in this time");
+                "rises smoothly from zero within this time");
   v.alternative("course", o.course, CaseList<&PolygonCourse::knots>{},
                 "factors at given times, straight in between, constant before and after");
   v.alternative("sine", o.course, Case<SineCourse>{}, "times sin(2 pi frequency t + phase)");
@@ -154,7 +154,8 @@ void describe(V& v, PartVelocity& o) {
 template <class V>
 void describe(V& v, TwistOptions& o) {
   v.required("from", o.from, Vector{length}, "point on the axis where nothing turns, of the mesh at rest");
-  v.required("to", o.to, Vector{length}, "another one: towards it and beyond, the rotation grows linearly");
+  v.required("to", o.to, Vector{length},
+             "another point on the axis: the rotation grows linearly towards it and beyond");
   v.required("angular_velocity", o.angular_velocity, Quantity{angular_velocity}, "there");
 }
 
@@ -177,7 +178,7 @@ void describe(V& v, Body& o) {
     "beta of nodal elements: smaller for thin bending (0.3), larger for clean high modes (0.6)");
   v("pressure", o.pressure, Name{"pressure", pressures}, "of nodal elements");
   v("material", o.material, Group{}, "what the body is made of");
-  v("regions", o.regions, Map{}, "what parts of it have of their own: volumes of the mesh file, or selections");
+  v("regions", o.regions, Map{}, "parts with options of their own: volumes of the mesh file, or selections");
   v("fixed", o.fixed, List{}, "vertices that stay where they are");
   v("prescribed", o.prescribed, List{}, "vertices whose motion is given");
   v("loads", o.loads, List{}, "forces from outside, of fixed direction");
@@ -190,11 +191,12 @@ void describe(V& v, ImplicitOptions& o) {
   v("solver", o.solver, Name{"solver", linear_solver_choices}, "of linear systems; auto: direct for small meshes");
   v("preconditioner", o.preconditioner, Name{"preconditioner", preconditioner_choices},
     "of conjugate gradients; auto: multigrid where the body has coarser levels");
-  v("matrix", o.matrix, Name{"matrix", matrix_choices}, "how the system is kept; auto: assembled where that pays");
+  v("matrix", o.matrix, Name{"matrix", matrix_choices},
+    "how the system is stored; auto: assembled where that is faster");
   v("polynomial_degree", o.polynomial_degree, Count{2, 16}, "of chebyshev, and of the smoothing in multigrid");
   v("relative_residual", o.relative_residual, Quantity{plain, inside_zero_one}, "at which a linear solve ends");
-  v("iterations", o.iterations, Count{0}, "above 0: exactly so many per linear solve, whatever the residual");
-  v("max_iterations", o.max_iterations, Count{1}, "a solve that is not done by then is counted as a miss");
+  v("iterations", o.iterations, Count{0}, "above 0: exactly so many per linear solve, at any residual");
+  v("max_iterations", o.max_iterations, Count{1}, "a solve that has not converged by then is counted as a miss");
   v("newton_iterations", o.newton_iterations, AutoCount{},
     "per step, at most; 1: linearly implicit; auto: 20 where the integrator conserves energy, else 1");
   v("newton_tolerance", o.newton_tolerance, Quantity{plain, positive}, "of the residual, relative to the first");
@@ -204,13 +206,13 @@ void describe(V& v, ImplicitOptions& o) {
   v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");
   v("halvings", o.halvings, Count{1, 20}, "of such a step, at most, with halve; the shortest are accepted");
   v("rho_infinity", o.rho_infinity, Quantity{plain, zero_to_one},
-    "of generalized_alpha: what a step leaves of the fastest motion");
+    "of generalized_alpha: the part of the fastest motion that is left after a step");
 }
 
 template <class V>
 void describe(V& v, HimOptions& o) {
   v("sigma", o.sigma, Quantity{plain, inside_zero_one},
-    "part of its stability limit that a step uses at rest; the rest is room for stiffening");
+    "part of its stability limit that a step uses at rest; the remainder is reserved for stiffening");
   v("dissipation", o.dissipation, AutoQuantity{{plain, below_one}},
     "of slowed motion, per step; auto: 1e-4 where the body turns");
   v("smoothing", o.smoothing, Flag{}, "of its transfers between the levels");
@@ -228,8 +230,8 @@ void describe_stepping(V& v, Options& o) {
     "this part of every finer level's share goes to the coarsest");
   v("integrator", o.integrator, NamePerLevel{{"integrator", integrators}}, "each level's own");
   v("substeps", o.substeps, AutoCountPerLevel{}, "auto: as many as the level's limit asks for");
-  v("safety", o.safety, Quantity{plain, up_to_one}, "of that limit that auto keeps");
-  v("allow_unstable", o.allow_unstable, Flag{}, "run explicit sub-steps above their limit all the same");
+  v("safety", o.safety, Quantity{plain, up_to_one}, "part of that limit that auto uses");
+  v("allow_unstable", o.allow_unstable, Flag{}, "run also with explicit sub-steps above their limit");
   v("switch_threshold", o.switch_threshold, Quantity{plain, positive},
     "of the switched mappings: drift over the local edge length");
   v("outside", o.outside, Name{"rule", outside_rules}, "for vertices outside the other level's mesh");
@@ -239,7 +241,8 @@ template <class V>
 void describe(V& v, IntegrationOptions& o) {
   v("cycle", o.cycle, Name{"cycle", cycle_choices}, "how the levels share a macro step; auto: chosen by short trials");
   v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
-  v("macro_step", o.macro_step, AutoQuantity{{duration, positive}}, "auto: 0.9 of the predicted limit");
+  v("macro_step", o.macro_step, AutoQuantity{{duration, positive}},
+    "auto: 0.9 of the predicted limit; the last step ends at the duration");
   v("distribution", keys::Shares::Target{o.distribution, o.shares}, keys::Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
   describe_stepping(v, o);

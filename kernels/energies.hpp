@@ -4,7 +4,7 @@
 
 namespace plica {
 
-/// What one pass over the vertices tells of a motion: kinetic energy, gravity's potential energy [J], zero at rest, momentum
+/// Sums over the vertices of a moving body, in one pass: kinetic energy, gravity's potential energy [J], zero at rest, momentum
 /// [kg m/s], and the largest (v - drift)^2 over the squared local edge [1/s^2]. Sums are not finite where u or v is not.
 using MotionSums = Sums<6, 1>;
 

@@ -25,7 +25,7 @@ std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 /// where it conserves energy on the linear problem, 20. What one iteration leaves unsolved is energy lost or won in every step.
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator);
 
-/// Whether a body of that material goes on with inverted elements: as its options say, else as the material has it.
+/// Whether elements of that material may be inverted: by its options, or where they say nothing by the material.
 bool allows_inversion(const MaterialOptions& material);
 /// Whether inverted elements of that material are pushed back; false for a name it does not know.
 bool recovers(std::string_view material);

@@ -123,9 +123,9 @@ class Simulation {
   /// every macro step; states that pass are kept from time to time.
   std::optional<Diagnosis> check();
 
-  /// What can be done about a state that did not pass check(): goes back to the last state that was kept and from there comes again
-  /// to the same time, with the inertia fitted anew (cycle him), or in halved steps (integration.retry), asking external
-  /// forces again. What is still bad then, as left as it is; none: the run goes on.
+  /// Repairs a state that did not pass check(), where that is possible: goes back to the last state that was kept and steps again
+  /// to the same time, with the inertia fitted again (cycle him), or in halved steps (integration.retry). External forces are
+  /// asked for again. Returns the diagnosis of a state that is still bad, which stays as it is; none: the run goes on.
   std::optional<Diagnosis> recover(const Diagnosis& bad);
 
   /// step(), check() and, where that finds something, recover(): one macro step of a run. Waits.

@@ -25,13 +25,13 @@ struct StepperSetup {
 };
 
 /// How the levels take a macro step together. The paper's cycles share it out among the levels (shared_step/), the
-/// hierarchical inverse mass (him/) steps the finest level with an inertia that all levels answer for. Whoever holds a stepper does
-/// not ask which one it is. In the order of a run:
+/// hierarchical inverse mass (him/) steps the finest level, with an inertia that all levels contribute to. The code that holds a
+/// stepper does not depend on which one it is. In the order of a run:
 ///
 ///   plan     at set-up: the macro step, what each level does in it, work arrays
 ///   start    once, from the state that set-up has made
 ///   step     macro steps
-///   check    lost_stability(), where the state may still look sound; repair() makes it stable from there on
+///   check    lost_stability(), which may be true before the state is bad; repair() makes the next steps stable
 ///   report   counters(), bytes(); persist() for checkpoints
 template <class B>
 class Stepper {
@@ -51,8 +51,8 @@ class Stepper {
 
   /// Whether steps so far have lost stability. Waits.
   virtual bool lost_stability(const Hierarchy<B>&) const { return false; }
-  /// Makes steps of `t` [s] stable again at the state as it is; false where it cannot. `attempt`: how many before have not
-  /// been enough.
+  /// Makes steps of `t` [s] stable again, starting from the present state; false where it cannot. `attempt`: how many repairs
+  /// before this one failed.
   virtual bool repair(Hierarchy<B>&, double, int) { return false; }
 
   virtual std::map<std::string, long> counters() const { return {}; }

@@ -11,13 +11,13 @@ namespace plica {
 template <class B>
 class Stepper;
 
-/// What a stepper asks of set-up.
+/// What a stepper needs from set-up.
 struct StepperNeeds {
   bool coarse_meshes = false;     ///< it uses more than the finest mesh
   bool coarse_states = false;     ///< coarser levels have states of their own and are integrated
   bool drift_limits = false;      ///< per vertex, for mappings that switch between state and variation
-  bool inherited_masses = false;  ///< coarse masses are the finer ones', handed down
-  bool extrapolation = false;     ///< its embeddings extrapolate, whatever integration.outside says
+  bool inherited_masses = false;  ///< coarse masses are restricted from the finer ones
+  bool extrapolation = false;     ///< its embeddings extrapolate, for any integration.outside
 };
 
 /// Level 0 alone.

@@ -13,10 +13,10 @@ struct CycleTrial {
   double macro_step = 0;        ///< [s]
   double over_critical = 0;     ///< the same over the finest level's critical step
   std::optional<double> error;  ///< of level 0's displacements in the trial, relative (L2); none: there is no number
-  std::string reason;           ///< why it is out, or was taken without a number; empty otherwise
+  std::string reason;           ///< why it cannot be used, or was taken without an error; empty otherwise
 };
 
-/// What `integration.cycle: auto` has come to.
+/// What `integration.cycle: auto` has chosen.
 struct CycleChoice {
   std::string cycle;         ///< him | single
   double macro_step = 0;     ///< [s]
@@ -32,13 +32,12 @@ struct CycleChoice {
 inline constexpr double him_step_cost = 1.8;      ///< of one force evaluation of level 0, about
 inline constexpr double trial_evaluations = 800;  ///< of level 0, by the trials of cycle auto that end at 8, about
 
-/// What `integration.cycle: auto` comes to; none for any other cycle. To be asked before a Simulation is constructed, which is
-/// then given with_choice(). Short runs of the problem from its own
-/// start decide: level 0's displacements in cycle `him` at 32, 16, 8, 4 and 2 times the finest level's critical step against
+/// Chooses for `integration.cycle: auto`; none for any other cycle. Call it before a Simulation is constructed, and construct that
+/// of with_choice(). Short runs of the problem from its own start decide: level 0's displacements in cycle `him` at 32, 16, 8, 4 and 2 times the finest level's critical step against
 /// level 0 alone (rk4 at half its limit), over 128 critical steps, at their quarters. The longest step whose error is within the
 /// class is taken; where there is none, or no coarser level, level 0 alone at 0.9 of its limit. A run that is refused, diverges
-/// or has its inertia fitted anew is out. No clock is asked: the same choice on any number of threads. What a caller changes
-/// later (forces, states) is not in the trials. Throws InputError for a problem that is not
+/// or needs its inertia fitted again is not taken. Run times do not matter, so the choice is the same on any number of threads. The
+/// trials do not include what a caller changes later (forces, states). Throws InputError for a problem that is not
 /// valid, and where level 0 alone cannot be set up.
 template <class B>
 std::optional<CycleChoice> choose_cycle(const Problem& problem, const typename B::Exec& exec = {});

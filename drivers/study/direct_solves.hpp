@@ -20,7 +20,7 @@ void require_sound(Simulation<HostBackend>& simulation);
 /// Whether the vertex at this rest position must not move along this axis: planes of symmetry, plane strain.
 using Held = std::function<bool(const Point& rest, int axis)>;
 
-/// Solvers on a level's own tangent kernel, for what the integrators should come to: direct ones, with nodal elements conjugate gradients to
+/// Solvers on a level's own tangent kernel, to compare the integrators with: direct ones, with nodal elements conjugate gradients to
 /// round-off, preconditioned by a direct solve of linear elements with lambda = 2 mu at most. Its degrees of freedom are those of
 /// the free vertices that nothing holds.
 class SparseStiffness {

@@ -50,7 +50,7 @@ LargestStep largest_stable(const StepRange& range, const Stable& stable) {
   return {LargestStep::Kind::limited, low};
 }
 
-/// How far the scene itself, from its own start under its own loads, could be taken with a method.
+/// The largest step of the scene itself, from its own start under its own loads, with a method.
 struct SceneLimit {
   std::optional<double> step;  ///< the largest macro step with which it came to its end [s]; none: no step tried did
   std::optional<double> failed_step;  ///< the smallest with which it did not [s]; none: every step tried did
@@ -59,13 +59,13 @@ struct SceneLimit {
   std::optional<Diagnosis> failure;   ///< where and how; none where the set-up refused
 };
 
-/// How far a method can be taken on one problem.
+/// The stability of a method on one problem.
 struct StabilityRow {
   std::string method, distribution, variant;  ///< see StudyCase
   std::string integrator;                     ///< of a level alone
-  std::string status;  ///< limited | unlimited: as far as was looked | growing: at every step worth while | refused
-  std::string reason;  ///< where it is refused
-  double critical_step = 0;            ///< of its finest level under symplectic Euler, contact included [s]
+  std::string status;        ///< limited | unlimited: up to stable_up_to | growing: at every useful step | refused
+  std::string reason;        ///< where it is refused
+  double critical_step = 0;  ///< of its finest level under symplectic Euler, contact included [s]
   std::optional<double> predicted;     ///< largest stable macro step of small motions [s]; 0: none; empty: no limit
   std::optional<double> measured;      ///< the same by runs [s]
   std::optional<double> ratio;         ///< measured over predicted
@@ -96,7 +96,7 @@ using StabilityWatch = std::function<bool(const StabilityProgress&)>;
 /// The largest stable macro step of each method, by bisection on runs beside the one predicted before. Small motions: about rest,
 /// linearised, without loads and contact, see small_motion.hpp. Predicted is, of a level alone, what its set-up says; of cycle
 /// him, the limit of the inertia that it has at its own macro step, 2 / sqrt(lambda); of the other cycles, the step at which the spectral
-/// radius of their map leaves 1 by more than such a run can tell.
+/// radius of their map exceeds 1 by more than such a run can detect.
 /// @param options  its methods (empty: all, explicit integrators on coarser levels too), variants, duration, budget, and the first precision
 /// InputError for bad options or problems; methods that refuse are rows. Kokkos must be initialised.
 StabilityResult stability(const Problem& problem, const StudyOptions& options, const StabilityWatch& watch = {});

@@ -52,11 +52,11 @@ void set_levels(MatrixBody& body, double count);
 /// Level 1 lies so many lengths of the beam further along.
 void set_overlap(MatrixBody& body, double lengths);
 
-/// What a run may come to. At least one is true.
+/// The outcomes that a run may have. At least one is true.
 struct Expected {
   bool complete = false;     ///< it reaches its end
   bool stop = false;         ///< it is stopped with a diagnosis
-  bool refuse = false;       ///< its set-up says no
+  bool refuse = false;       ///< its set-up refuses
   std::string kind = {};     ///< of the diagnosis; empty: any that fits what is run
   std::string why = {};      ///< why more than one is right; empty where only one is
   std::string text() const;  ///< "completed or stopped"
@@ -74,7 +74,7 @@ struct MatrixCase {
   Expected expected;
 };
 
-/// What it came to.
+/// Its outcome.
 struct MatrixRow {
   std::string name, method, expected;
   std::string
@@ -100,7 +100,7 @@ enum class MatrixSize {
 /// Whether an element that turns inside out ends the run.
 bool forbids_inversion(const std::string& material);
 
-/// Every case, from one table; what each must come to follows from rules that are stated there.
+/// Every case, from one table; the outcome that each must have follows from rules that are stated there.
 std::vector<MatrixCase> stability_matrix(MatrixSize size = MatrixSize::whole);
 
 /// Runs one. A state that the caller could write and that is not finite, a diagnosis that does not say where, or a kind that

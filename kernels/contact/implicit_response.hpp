@@ -7,12 +7,12 @@
 #include <plica/kernels/reduce.hpp>
 
 // Penalty contact and friction of a step t of the hierarchical inverse mass, implicit in the step's own acceleration: what an
-// explicit penalty would push through A is far too stiff. Per point, with the depth d and the velocity v at the state, N out
+// explicit penalty force is far too stiff when it acts through A. Per point, with the depth d and the velocity v at the state, N out
 // of the obstacle, e the point's acceleration without contact, r that by contact:
 //   normal      n = k (d - t^2/2 N.(e + r)) - c N.(v + t/2 (e + r)), never pulling
 //   tangential  q = -c_t (v + t/2 (e + r)) across N, at most friction times n
 // solved by two sweeps of projected Jacobi, preconditioned by rho = N . (acceleration by a unit force on every touching point).
-// Points do not know each other: they meet in A, the answer of the whole body, which is applied three times.
+// Points are coupled only by A, the inverse mass of the whole body, which is applied three times.
 //
 //   points                                    vertices
 //   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
@@ -22,7 +22,7 @@
 // W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices).
 namespace plica {
 
-/// The nearest obstacle of every surface point, and the answer to it.
+/// The nearest obstacle of every surface point, and the contact with it.
 template <class B>
 struct TouchingPoints {
   Vectors<B> normal;      ///< [points][3] out of the obstacle

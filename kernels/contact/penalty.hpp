@@ -25,7 +25,7 @@ struct PointContact {
 
 /// Penalty with damping, never pulling: n = k p - d v.n >= 0 with the penetration p = -(distance + ahead * v.n); friction
 /// regularised by a viscous branch: -min(tangential, friction n / |v_t|) v_t. v is relative to the obstacle; `ahead` [s]
-/// predicts the penetration for implicit steps, which would else meet a fast body one step too late.
+/// predicts the penetration for implicit steps, which would otherwise detect the contact of a fast body one step too late.
 template <class Real>
 KOKKOS_INLINE_FUNCTION PointContact<Real> penalty_contact(const PenaltyLaw<Real>& law, const Gap<Real>& gap,
                                                           const Vec3<Real>& v, Real ahead) {

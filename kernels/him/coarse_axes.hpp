@@ -4,9 +4,9 @@
 #include <plica/kernels/him/inverse_mass.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// The axes of the coarsest level, and the force by which they act back.
+// The axes of the coarsest level, and the force that follows from their rotation.
 //
-// The coarsest level answers forces by a matrix S that was made for the body at rest. A body that has turned must be answered by
+// The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body that has turned it must be
 // R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in four steps, each a kernel:
 //
 //   u  --E-->  u_C  --edges-->  F of each element  --sum-->  D of each vertex  --W, polar-->  R of each vertex

@@ -96,7 +96,7 @@ template <class V>
 void describe(V& v, BodyKeys& o) {
   v.required("levels", o.scene.levels, List{}, "the body's meshes, finest first");
   describe(v, o.scene.problem.body);
-  v("surface", o.scene.surface, Group{}, "embedded in every level: it touches the obstacles and is looked at");
+  v("surface", o.scene.surface, Group{}, "embedded in every level: it touches the obstacles, and frames show it");
 }
 
 template <class V>

@@ -97,15 +97,15 @@ struct HimParts {
 };
 
 /// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per macro step. Forces go down to
-/// the coarser levels, each answers them with the inertia of what it can move, and their accelerations come back up: motion
-/// that coarse levels represent keeps its own inertia, finer detail gets more of it, and so is slowed and allows the step.
-/// Static equilibrium is the finest mesh's. Second order. See cmake/docs/him.md.
+/// the coarser levels. Each level computes accelerations with the inertia of the motion that it can represent, and these are
+/// interpolated back up. Motion that coarse levels represent keeps its own inertia. Finer detail gets more inertia: it is slowed,
+/// and so allows the step. Static equilibrium is that of the finest mesh. Second order. See cmake/docs/him.md.
 ///
-/// Momenta p are what is stepped, v = A p follows: symplectic Euler of the energy p.A(x) p/2 + V(x), seen half a step off the
-/// forces, so that the state at t_n and t_n+1 is that of position Verlet. The energy stays bounded and, of a free body, sum p =
-/// sum m v and sum x x p stay; sum x x m v wavers. A start from given velocities takes p = m v and v = A m v; a state that is put
-/// in later keeps its v, with p = A^-1 v, where the axes were when it was written. Where the body has stiffened so far that
-/// stability is lost, lost_stability() tells; repair() fits the inertia to the state as it is.
+/// The momenta p are integrated, and v = A p. The scheme is symplectic Euler of the energy p.A(x) p/2 + V(x). The state is taken
+/// half a step after the forces, so that at t_n and t_n+1 it is that of position Verlet. The energy stays bounded. Of a free body
+/// sum p = sum m v and sum x x p are conserved; sum x x m v oscillates. A start from given velocities takes p = m v and v = A m v.
+/// A state that is set later keeps its v, with p = A^-1 v and the axes of that moment. lost_stability() is true where the body has
+/// stiffened beyond the stable step; repair() fits the inertia to the present state.
 template <class B>
 class HimStepper final : public Stepper<B> {
   using Real = typename B::Real;

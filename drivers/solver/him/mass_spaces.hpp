@@ -7,13 +7,13 @@
 
 namespace plica {
 
-/// The coarsest level's linear problem K phi = w^2 M phi at rest, and how the inverse mass answers its modes.
+/// The coarsest level's linear problem K phi = w^2 M phi at rest, and the inverse mass of its modes.
 class CoarseModes {
  public:
-  static constexpr Eigen::Index most_modes = 1200;     ///< solved for; larger levels answer as implicit Euler would
+  static constexpr Eigen::Index most_modes = 1200;     ///< computed; larger levels use the matrix of implicit Euler
   static constexpr Eigen::Index most_unknowns = 4500;  ///< of a dense matrix
 
-  /// [3 vertices x 3 vertices] each; M of vertices without mass gets a unit of its own.
+  /// [3 vertices x 3 vertices] each; vertices without mass have the identity in M.
   CoarseModes(Eigen::MatrixXd K, Eigen::MatrixXd M);
 
   /// S = Phi s Phi^T [1/kg]. With all modes s = min(sinc^2(w t / 2), kappa / (w t)^2), beyond w t = pi only the latter: leapfrog

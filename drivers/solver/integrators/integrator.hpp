@@ -28,7 +28,7 @@ class Integrator {
   virtual std::size_t bytes() const { return 0; }
   /// The largest relative residual that a linear solve of the last advance() ended with; 0 where there are none.
   virtual double residual() const { return 0; }
-  /// Why the last advance() cannot be trusted, a sentence for whoever runs it; empty where it can.
+  /// Why the result of the last advance() is not valid, as a sentence for the user; empty where it is.
   virtual std::string failure() const { return {}; }
   /// The state was replaced: what it carries from the steps before does not belong to it.
   virtual void forget() {}

@@ -48,7 +48,7 @@ class StageSolver {
     return true;
   }
 
-  /// Of the last stage that Newton's method has not solved: what is left of its first residual.
+  /// Of the last stage that Newton's method did not solve: its residual over its first one.
   double unsolved() const { return unsolved_; }
   /// Stages that were not solved; those of a step that is taken again are taken back.
   long misses() const { return unfinished_; }

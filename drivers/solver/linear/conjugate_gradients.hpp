@@ -8,9 +8,9 @@
 
 namespace plica {
 
-/// Conjugate gradients, with or without a matrix, and any preconditioner. One that is costly to fit is kept from step to step and fitted anew
-/// when the stage's weights change, or when the iterations spent beyond what its first solve needed per digit have added up to
-/// `patience`: about what fitting it costs. Solves to a residual start from a guess by the last solutions.
+/// Conjugate gradients, with or without a matrix, and any preconditioner. A preconditioner that is costly to fit is kept from step to step. It is fitted
+/// again when the stage's weights change, or when solves took `patience` iterations more than its first solve needed for the same
+/// number of digits, which is about what fitting costs. Solves to a residual start from a guess by the last solutions.
 struct ConjugateGradients {
   static constexpr const char* name = "conjugate_gradients";
   static constexpr const char* summary = "preconditioned, with or without a matrix";

@@ -7,12 +7,12 @@
 
 namespace plica {
 
-/// Answers each system by one V-cycle, x = C r, without a matrix but where the cycle is fitted: anew when the stage's weights change, when
-/// the residual it leaves has grown to `worn` times that of its first answer, and in every step where contact may set in. In exact arithmetic C A has its eigenvalues in
-/// (0, 1], as long as it is the cycle of this A.
+/// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is fitted: when the stage's weights change, when
+/// the residual after the cycle has grown to `worn` times that of its first solve, and in every step in which contact may begin. In exact
+/// arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this A.
 struct VCycleSolver {
   static constexpr const char* name = "v_cycle";
-  static constexpr const char* summary = "one V-cycle of multigrid per system, whatever it leaves";
+  static constexpr const char* summary = "one V-cycle of multigrid per system, at any residual";
   static constexpr double worn = 1.5;
 
   template <class B>

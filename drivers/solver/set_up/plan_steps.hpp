@@ -67,7 +67,7 @@ struct StepPlan {
 /// sound meshes of one material have.
 inline constexpr double named_below = 0.5;
 
-/// An explicit sub-step above its limit. Where one element sets that, `element` tells which, for who knows another number of it.
+/// An explicit sub-step above its limit. `element`: the one that sets the limit, if one alone does; a caller may number it otherwise.
 class SubstepRefused : public InputError {
  public:
   SubstepRefused(const std::string& words, int level, const std::optional<StiffElement>& element);
