@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/elastic/nodal_rows.hpp>
-#include <plica/kernels/materials/cauchy_stress.hpp>
+#include <plica/kernels/materials/material.hpp>
 #include <type_traits>
 
 // Elements with one strain per vertex and region ("nodal"), stabilised:
