@@ -23,6 +23,7 @@ class Patched {
   Patched(const TetMesh& mesh, const std::vector<double>& constants) {
     model_.vertices = static_cast<int>(mesh.vertices.size());
     model_.patches = build_patches<B>(mesh, {constants});
+    model_.shares = model_.patches.shares;
     model_.mass = Scalars<B>("bench::mass", mesh.vertices.size());
     if (!Material::allows_inversion) flags_ = make_element_flags<B>(model_.patches.count);
     partial_ = Vectors<B>("bench::partial", model_.patches.vertex.extent(0));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
@@ -82,6 +83,7 @@ SparseStiffness::SparseStiffness(LevelProbe<HostBackend>& probe, const Held& hel
 void SparseStiffness::linearise(const std::vector<Point>& u) {
   LevelProbe<HostBackend>& probe = linear_ ? *linear_ : probe_;
   at_ = u;
+  if (linear_ && matrix_.rows() > 0) return;  // linear elements may be inverted where nodal ones are not: those at rest will do
   std::vector<Eigen::Index> row_of(3 * mass_.size(), -1);
   const auto n = static_cast<Eigen::Index>(free_.size());
   for (Eigen::Index r = 0; r < n; ++r) row_of[static_cast<std::size_t>(free_[static_cast<std::size_t>(r)])] = r;
@@ -134,6 +136,7 @@ Eigen::VectorXd SparseStiffness::solve(const Factor& factor, const Eigen::Vector
   double rz = r.dot(z);
   for (int i = 0; i < 5000 && r.norm() > 1e-12 * b.norm(); ++i) {
     const Eigen::VectorXd q = part(probe_.stiffness(at_, field(p))) + shifted.cwiseProduct(p);
+    if (!(p.dot(q) > 0)) break;
     const double alpha = rz / p.dot(q);
     x += alpha * p, r -= alpha * q;
     z = factor.solve(r);
@@ -189,8 +192,11 @@ class Newton {
   std::vector<Point> to(double time, std::vector<Point> u) {
     double size = residual(u, time).norm();
     largest_ = std::max(largest_, size);
+    double before = std::numeric_limits<double>::infinity();
     for (int i = 0; i < most_iterations; ++i) {
       if (size <= options_.relative_residual * largest_) return u;
+      if (size <= round_off * largest_ && size > 0.5 * before) return u;
+      before = size;
       stiffness_.linearise(u);
       const auto change = stiffness_.equilibrium(forces(u, time));
       const auto moved = search(u, change, time, size);

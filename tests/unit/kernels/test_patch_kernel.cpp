@@ -88,7 +88,7 @@ Field through_patches(const TetMesh& mesh, const Patches<B>& patches, const Inte
   const Vectors<B> partial("test.partial", patches.vertex.extent(0)), f("test.f", mesh.vertices.size());
   Model<B> model;
   model.vertices = static_cast<int>(mesh.vertices.size());
-  model.patches = patches;
+  model.patches = patches, model.shares = patches.shares;
   model.mass = Scalars<B>("test.mass", mesh.vertices.size());
   launch_patches<B>(exec, "test", patches, integrand, partial);
   gather_forces<B>(exec, model, partial, {}, f);

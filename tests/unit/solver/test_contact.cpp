@@ -126,7 +126,7 @@ TEST(Contact, IsLinearisedAsItActs) {
     const Vectors<Host> q("test.q", probe.vertices());
     auto& part = probe.at(0);
     part.linearise(state, 0, {h * h, h}, 0, part.f);
-    part.product(state, device_field<Host>(direction), {h * h, h}, q);
+    part.product(state, device_field<Host>(direction), {h * h, h}, false, q);
     const auto product = to_host<Host>({}, q);
     EXPECT_LE(largest_difference(product, want), 1e-6 * largest(want)) << sliding.transpose();
   }

@@ -67,7 +67,7 @@ struct StageCase {
   }
   std::vector<Point> product(const std::vector<Point>& p) {
     Vectors<B> q("test.q", p.size());
-    level().product(state, device_field<B>(p), weights, q);
+    level().product(state, device_field<B>(p), weights, false, q);
     return free_part(to_host<B>(exec(), q));
   }
   std::vector<Point> free_part(std::vector<Point> q) {
