@@ -21,8 +21,10 @@ inline int beam_tets(const Cells& cells) { return 6 * cells[0] * cells[1] * cell
 
 inline TetMesh beam_mesh(const Cells& cells) { return box_mesh({Point::Zero(), Point(0.1, 0.1, 0.25)}, cells); }
 
-inline Problem beam_problem(const std::vector<Cells>& levels, const std::string& material) {
+inline Problem beam_problem(const std::vector<Cells>& levels, const std::string& material,
+                            const std::string& element = "linear") {
   Problem p;
+  p.body.element = {element};
   for (const Cells& cells : levels) p.body.levels.push_back(beam_mesh(cells));
   p.body.material = {material, 1e5, 0.45, 1000};
   p.body.fixed.push_back(Box{Point::Zero(), Point(0.1, 0.1, 0)});

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/explicit/updates.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/materials/list.hpp>
 
@@ -25,25 +27,36 @@ struct BentBeam {
   Vectors<B> direction;
   std::unique_ptr<Elasticity<B>> elasticity;
 
-  BentBeam(const Cells& cells, const std::string& material) : elasticity(make_elasticity<B>(material)) {
-    const Problem problem = beam_problem({cells}, material);
+  BentBeam(const Cells& cells, const std::string& material, Element element)
+      : elasticity(make_elasticity<B>(material, element)) {
+    const Problem problem = beam_problem({cells}, material, name_of(element));
     const TetMesh& mesh = problem.body.levels.front();
     level = build_level<B>(problem.body, mesh, level_constants(problem.body, mesh, Point::Zero(), 0));
     level.state.u = direction = to_field<B>(bent(mesh, 0.1 / cells[0]));
   }
 };
 
-/// Compulsory bytes: per tetrahedron its corners and shape, per vertex `numbers` of the precision.
+/// Compulsory bytes, each array once: per tetrahedron its corners and shape, or per pair of neighbours their constants; per vertex
+/// `numbers` of the precision.
 template <class B>
 double compulsory_bytes(const Model<B>& model, int numbers) {
   constexpr double s = sizeof(typename B::Real);
+  if (const NodalRows<B>& rows = model.rows; rows.slices > 0)
+    return static_cast<double>(bytes_of_views(rows.first, rows.neighbour, rows.gradient, rows.coupling, rows.first_surface,
+                                              rows.surface_neighbour, rows.surface_gradient, rows.inverse_volume)) +
+           model.vertices * (numbers * s);
   return model.tets * (4 * sizeof(std::uint16_t) + 10 * s) + model.vertices * (numbers * s);
 }
 
 template <class B>
-void force(benchmark::State& state, const Case& c, double flops) {
-  auto& beam =
-      fixture<BentBeam<B>>("bent " + c.name, [&] { return std::make_shared<BentBeam<B>>(c.cells, c.material); });
+BentBeam<B>& bent_beam(const Case& c, Element element) {
+  return fixture<BentBeam<B>>(text("bent ", name_of(element), " ", c.name),
+                              [&] { return std::make_shared<BentBeam<B>>(c.cells, c.material, element); });
+}
+
+template <class B>
+void force(benchmark::State& state, const Case& c, double flops, Element element) {
+  auto& beam = bent_beam<B>(c, element);
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
   measure<typename B::Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 1), tets * flops}, [&] {
@@ -53,10 +66,9 @@ void force(benchmark::State& state, const Case& c, double flops) {
 }
 
 template <class B>
-void tangent(benchmark::State& state, const Case& c, double flops) {
+void tangent(benchmark::State& state, const Case& c, double flops, Element element) {
   using Real = typename B::Real;
-  auto& beam =
-      fixture<BentBeam<B>>("bent " + c.name, [&] { return std::make_shared<BentBeam<B>>(c.cells, c.material); });
+  auto& beam = bent_beam<B>(c, element);
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
   measure<Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 3 + 1), tets * flops}, [&] {
@@ -70,8 +82,13 @@ void tangent(benchmark::State& state, const Case& c, double flops) {
 
 void register_kernels() {
   for_each_case<Materials>([]<class B, class Material>(const Case& c) {
-    benchmark::RegisterBenchmark(("force/" + c.name).c_str(), force<B>, c, flops_per_tet<Material>(1));
-    benchmark::RegisterBenchmark(("tangent/" + c.name).c_str(), tangent<B>, c, flops_per_tet<Material>(2));
+    for (const Element element : {Element::linear, Element::nodal}) {
+      const std::string prefix = element == Element::linear ? "" : "nodal_";
+      const double by_tets = element == Element::linear ? 1 : 0;  // rows are judged by their bytes alone
+      benchmark::RegisterBenchmark((prefix + "force/" + c.name).c_str(), force<B>, c, by_tets * flops_per_tet<Material>(1), element);
+      benchmark::RegisterBenchmark((prefix + "tangent/" + c.name).c_str(), tangent<B>, c,
+                                   by_tets * flops_per_tet<Material>(2), element);
+    }
   });
 }
 

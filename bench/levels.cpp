@@ -22,6 +22,7 @@ const std::vector<Cells> four_levels{medium_beam, {16, 16, 39}, {13, 13, 32}, {1
 /// The ball of the main scene, resting in its bowl, on the first `levels` of its meshes.
 Problem ball_problem(std::size_t levels, int subdivisions) {
   Problem p;
+  p.body.element = {"linear"};
   for (int cells : {17, 15, 12, 10})
     if (p.body.levels.size() < levels)
       p.body.levels.push_back(box_mesh({Point::Zero(), Point::Constant(0.11)}, {cells, cells, cells}));

@@ -127,7 +127,10 @@ class CommandLine {
     command
         ->add_option("--budget", study_.budget, "wall time of all runs [s]; what does not fit is left out and listed")
         ->type_name("TIME");
-    command->add_flag("--space", study_.space, "a second reference on a mesh twice as fine, for the error in space");
+    CLI::Option* space = command->add_flag("--space", study_.space,
+                                           "a second reference on a mesh twice as fine, for the error in space");
+    command->add_flag("--truth", study_.truth, "errors against the limit of refined meshes, in space and in time")
+        ->excludes(space);
     command->add_flag("--growth", study_.growth, "the growth of small motions by each cycle, linearised about rest");
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }

@@ -50,6 +50,7 @@ MatrixBody clamped_beam() {
   MatrixBody body;
   Body& b = body.problem.body;
   b.levels = {box_mesh(beam, {8, 2, 2}), box_mesh(beam, {4, 1, 1})};
+  b.element = {"linear"};
   b.material = {"", 1e5, 0.4, 1000};
   b.fixed = {HalfSpaceSelection{Point::Zero(), Point::UnitX()}};
   return body;

@@ -38,6 +38,7 @@ inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, dou
 inline Problem verify_body(TetMesh mesh, const MaterialOptions& material) {
   Problem p;
   p.body.levels = {std::move(mesh)};
+  p.body.element = {"linear"};
   p.body.material = material;
   return p;
 }

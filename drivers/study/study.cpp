@@ -7,7 +7,9 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/cycle_growth.hpp>
+#include <plica/drivers/study/elements.hpp>
 #include <plica/drivers/study/study.hpp>
+#include <plica/drivers/study/truth.hpp>
 
 namespace plica {
 
@@ -20,16 +22,22 @@ class Study {
   Study(const Problem& problem, const StudyOptions& options, const StudyWatch& watch, StudyResult before)
       : problem_(problem), options_(options), watch_(watch), result_(std::move(before)) {
     result_.left_out.clear(), result_.stopped = false;
-    levels_ = study_levels(problem);
-    cases_ = study_cases(problem, options, levels_);
+    for (const std::string& element : elements()) {
+      const Problem one = with_element(problem, element);
+      levels_[element] = study_levels(one);
+      for (StudyCase& added : study_cases(one, options, levels_[element])) {
+        added.element = element;
+        cases_.push_back(std::move(added));
+      }
+    }
+    const StudyLevel& finest = levels_.at(elements().front()).front();
     std::vector<Point> probe_points;
     for (const auto& [name, point] : options.probes) probe_points.push_back(point);
     probes_ = embed(probe_points, problem.body.levels.front(), Outside::clamp);
     std::erase_if(result_.rows, [&](const StudyRow& row) {
       return std::ranges::none_of(cases_, [&](const StudyCase& c) { return c.key() == row.key; });
     });
-    const double step = 0.9 * levels_[0].critical_step;
-    unit_work_ = levels_[0].tets * std::ceil(options.duration / step - 1e-9);
+    unit_work_ = finest.tets * std::ceil(options.duration / (0.9 * finest.critical_step) - 1e-9);
   }
 
   StudyResult all() {
@@ -55,9 +63,21 @@ class Study {
     return std::ranges::any_of(result_.rows, [&](const StudyRow& row) { return row.key == one.key(); });
   }
 
+  // "": the problem's own
+  std::vector<std::string> elements() const {
+    if (!options_.elements.empty()) return options_.elements;
+    return options_.truth ? element_families() : std::vector<std::string>{""};
+  }
+
   bool have_reference() {
-    if (result_.reference.trajectory.u.empty() || (options_.finer && !result_.reference.finer))
-      result_.reference = make_reference(problem_, options_, levels_[0].critical_step,
+    const StudyReference& there = result_.reference;
+    const bool none = there.trajectory.u.empty() || there.truth.has_value() != options_.truth.has_value();
+    if (none && options_.truth)
+      result_.reference =
+          make_truth(problem_, options_, options_.budget,
+                     [this](const std::string& doing, double part) { return tell("truth: " + doing, part); });
+    else if (none || (options_.finer && !there.finer))
+      result_.reference = make_reference(problem_, options_, study_level(problem_, 0).critical_step,
                                          [this](double part) { return tell("reference", part); });
     if (result_.stopped) return false;
     tell("reference", 1, true);
@@ -73,16 +93,16 @@ class Study {
     return run * (1 + timed_runs_of(run, options_.timed_runs));
   }
   double& correction(const StudyCase& one) {
-    const std::string kind = study_label(one.method, {}, one.variant) + " " + one.precision;
+    const std::string kind = study_label(one.method, {}, one.variant) + " " + one.element + " " + one.precision;
     return correction_.try_emplace(kind + std::to_string(one.threads), 1.0).first->second;
   }
   bool fits(double seconds) const { return !options_.budget || elapsed() + seconds <= *options_.budget; }
 
   // Timed runs that there is time for; none where not even one run fits. Controls make do with one run. The first of them, which
-  // says what the budget would have bought without any cycle, is run as long as anything is left.
+  // says what the budget would have bought without any cycle, is run whatever is left.
   std::optional<int> affordable(const StudyCase& one) {
     if (fits(predicted(one))) return options_.timed_runs;
-    if (one.control && fits(one.rank == 0 ? 0 : predicted_once(one))) return 0;
+    if (one.control && (one.rank == 0 || fits(predicted_once(one)))) return 0;
     return {};
   }
 
@@ -134,12 +154,14 @@ class Study {
   StudyRow row_of(const StudyCase& one, const StudyRun& run) const {
     StudyRow row;
     row.method = one.method, row.distribution = one.distribution, row.variant = one.variant, row.key = one.key();
+    row.element =
+        one.element.empty() ? name_of(element_of(problem_.body, static_cast<std::size_t>(one.level))) : one.element;
     row.precision = one.precision, row.status = run.status, row.reason = run.reason;
     row.threads = one.threads > 0 ? one.threads : Kokkos::DefaultExecutionSpace().concurrency();
     row.automatic = !one.integration.macro_step;
     row.macro_step = one.integration.macro_step;
     if (run.macro_step > 0) row.macro_step = run.macro_step;
-    if (row.macro_step) row.macro_step_over_critical = *row.macro_step / levels_[0].critical_step;
+    if (row.macro_step) row.macro_step_over_critical = *row.macro_step / levels_.at(one.element).front().critical_step;
     if (run.status != "refused") row.setup_time = run.setup_time;
     if (run.status == "diverged") {
       row.reached = run.reached;
@@ -164,6 +186,7 @@ class Study {
     }
     row.error = errors.displacement, row.error_velocity = errors.velocity, row.error_worst_vertex = errors.worst_vertex;
     if (result_.reference.finer) row.error_finer = errors_of(found, *result_.reference.finer).displacement;
+    if (result_.reference.truth) add_parts(row, one, found);
     add_probes(row, found);
     row.energy_drift = run.energy_drift;
     if (run.energy_drift) row.phase = delay_of(found, reference);
@@ -171,8 +194,19 @@ class Study {
     row.work = static_cast<double>(run.tet_evaluations) / unit_work_;
   }
 
+  // The same mesh and elements converged in time lie between the row and the truth
+  void add_parts(StudyRow& row, const StudyCase& one, const Trajectory& found) const {
+    for (const MeshReference& mesh : result_.reference.meshes) {
+      if (mesh.element != row.element || mesh.level != one.level) continue;
+      row.total_error = row.error, row.space_error = mesh.error_space;
+      row.error = difference(found, mesh.trajectory, result_.reference.trajectory);
+    }
+  }
+
   void add_probes(StudyRow& row, const Trajectory& found) const {
-    const Trajectory at = interpolated(found, probes_), reference = interpolated(result_.reference.trajectory, probes_);
+    const Trajectory at = interpolated(found, probes_);
+    const Trajectory& truth = result_.reference.probes;
+    const Trajectory reference = truth.u.empty() ? interpolated(result_.reference.trajectory, probes_) : truth;
     std::size_t i = 0;
     for (const auto& [name, point] : options_.probes) row.error_probes[name] = error_at(at, reference, i++);
   }
@@ -190,7 +224,7 @@ class Study {
   const StudyWatch& watch_;
   Clock::time_point start_ = Clock::now();
   StudyResult result_;
-  std::vector<StudyLevel> levels_;
+  std::map<std::string, std::vector<StudyLevel>> levels_;  // by elements
   std::vector<StudyCase> cases_;
   Embedding probes_;
   GrowthOfCycles growth_{problem_};
@@ -208,6 +242,9 @@ void check(const StudyOptions& o) {
   for (const int threads : o.threads) check_threads(threads);
   for (const auto& step : o.macro_steps)
     if (step && !(*step > 0)) throw InputError("study.macro_steps: " + std::to_string(*step) + "; expected > 0");
+  if (o.truth && o.truth->refinements && *o.truth->refinements < 1)
+    throw InputError("study.truth.refinements: " + std::to_string(*o.truth->refinements) + "; expected >= 1");
+  for (const std::string& element : o.elements) check_element(element);
   if (!(o.reference_step > 0)) throw InputError("study: the reference's step is not above 0");
 }
 
@@ -224,11 +261,11 @@ namespace {
 
 constexpr double resolution = 0.1;  // of an error: what the reference's own may be
 
-bool completed(const StudyRow& row) { return row.status == "completed" && row.error && row.wall_time; }
+bool completed(const StudyRow& row) { return row.status == "completed" && row.judged() && row.wall_time; }
 
 bool dominates(const StudyRow& a, const StudyRow& b) {
-  const bool as_good = *a.error <= *b.error && *a.wall_time <= *b.wall_time;
-  return as_good && (*a.error < *b.error || *a.wall_time < *b.wall_time);
+  const bool as_good = *a.judged() <= *b.judged() && *a.wall_time <= *b.wall_time;
+  return as_good && (*a.judged() < *b.judged() || *a.wall_time < *b.wall_time);
 }
 
 }  // namespace
@@ -247,7 +284,7 @@ bool grows(const StudyRow& row) {
 std::optional<double> smallest_error(const std::vector<StudyRow>& rows) {
   std::optional<double> smallest;
   for (const StudyRow& row : rows)
-    if (completed(row) && (!smallest || *row.error < *smallest)) smallest = row.error;
+    if (completed(row) && (!smallest || *row.judged() < *smallest)) smallest = row.judged();
   return smallest;
 }
 
@@ -261,7 +298,7 @@ bool good_enough(const StudyResult& result) {
 const StudyRow* fastest_below(const std::vector<StudyRow>& rows, double error) {
   const StudyRow* fastest = nullptr;
   for (const StudyRow& row : rows)
-    if (completed(row) && *row.error < error && (fastest == nullptr || *row.wall_time < *fastest->wall_time))
+    if (completed(row) && *row.judged() < error && (fastest == nullptr || *row.wall_time < *fastest->wall_time))
       fastest = &row;
   return fastest;
 }

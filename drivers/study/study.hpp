@@ -13,12 +13,16 @@ struct StudyRow {
   bool automatic = false;                     ///< the macro step was `auto`
   std::optional<double>
       macro_step_over_critical;  ///< of the finest level under symplectic Euler, whatever the row runs
+  std::string element;           ///< of its levels
   std::string precision;
   int threads = 0;
   std::string status;                                               ///< completed | diverged | refused
   std::string reason;                                               ///< diagnosis or message, where it is not completed
   std::optional<double> reached;                                    ///< diverged: simulated time until then [s]
   std::optional<double> error, error_velocity, error_worst_vertex;  ///< see StudyErrors, against the reference
+  std::optional<double> total_error;  ///< against the truth, where that is the reference; `error` is then against the row's own mesh,
+                                      ///< converged in time: total_error <= space_error + error
+  std::optional<double> space_error;  ///< of that mesh and its elements, converged in time, against the truth
   std::optional<double> error_finer;  ///< like error, against the finer mesh's reference: space and time together
   std::map<std::string, std::optional<double>> error_probes;  ///< of displacement, of each probe: see error_at()
   std::optional<double> energy_drift;                         ///< see StudyRun
@@ -32,6 +36,8 @@ struct StudyRow {
   bool pareto = false;  ///< completed, and no other row is as fast with a smaller error
   std::string key;      ///< StudyCase::key()
   std::string label() const { return study_label(method, distribution, variant); }
+  /// What the front is drawn by.
+  const std::optional<double>& judged() const { return total_error ? total_error : error; }
 };
 
 /// A case that was not run, and why.

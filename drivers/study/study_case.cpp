@@ -8,6 +8,7 @@
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
+#include <plica/drivers/study/elements.hpp>
 #include <plica/drivers/study/study_case.hpp>
 
 namespace plica {
@@ -15,6 +16,8 @@ namespace plica {
 namespace {
 
 using Step = std::optional<double>;  // none: auto
+
+constexpr const char* coarse_integrator = "symplectic_euler";  // where coarse/LEVEL names none
 
 constexpr double implicit_factors[] = {16, 4, 64};           // of the finest critical step, the most telling first
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
@@ -71,8 +74,15 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   }
 }
 
+// What all else is compared with
+bool is_control(const StudyCase& one) {
+  const std::string& integrator = one.integration.integrator.front();
+  return integrator == coarse_integrator ||
+         (one.level == 0 && (integrator == "implicit_euler" || integrator == "v_cycle_euler"));
+}
+
 bool is_same_run(const StudyCase& a, const StudyCase& b) {
-  return a.method == b.method && a.precision == b.precision && a.threads == b.threads &&
+  return a.method == b.method && a.element == b.element && a.precision == b.precision && a.threads == b.threads &&
          steps_alike(a.integration, b.integration);
 }
 
@@ -118,18 +128,20 @@ struct Builder {
   void add_alone(const StudyCase& one) {
     const std::string integrator = one.integration.integrator.front();
     const bool finest = one.level == 0;
+    const double critical = levels[static_cast<std::size_t>(one.level)].critical_step;
     if (!is_explicit(integrator)) {
       std::vector<double> steps;
       for (const Step& step : options.macro_steps)
         if (step) steps.push_back(*step);
       if (options.macro_steps.empty())
-        for (const double factor : implicit_factors) steps.push_back(factor * levels[0].critical_step);
-      for (std::size_t i = 0; i < steps.size(); ++i) i == 0 ? add_control(one, steps[i], 2) : add(one, steps[i], 7);
+        for (const double factor : implicit_factors) steps.push_back(factor * critical);
+      for (std::size_t i = 0; i < steps.size(); ++i)
+        i == 0 && is_control(one) ? add_control(one, steps[i], 2) : add(one, steps[i], i == 0 ? 6 : 7);
       if (options.macro_steps.empty()) add_own(one);
       return;
     }
-    const double limit = limit_of(integrator, levels[static_cast<std::size_t>(one.level)].critical_step);
-    add_control(one, {}, finest ? 0 : 1);
+    const double limit = limit_of(integrator, critical);
+    is_control(one) ? add_control(one, {}, finest ? 0 : 1) : add(one, {}, 5);
     if (finest && limit > 0) add(one, 0.5 * limit, 5);
     for (const Step& step : options.macro_steps)
       if (step && *step < limit) add(one, step, 5);
@@ -147,6 +159,7 @@ struct Builder {
   void add_cycle(const StudyCase& one) {
     if (!integrates_coarse_levels(one.integration.cycle)) return add_him(one);
     int rank = (one.distribution == "critical" ? 4 : 6) + (one.variant.empty() ? 0 : 1);
+    if (options.truth) rank += 6;  // levels alone first: to what is off in space, cycles add errors in time
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
       return;
@@ -168,7 +181,8 @@ std::string StudyCase::label() const { return study_label(method, distribution, 
 
 std::string StudyCase::key() const {
   const std::string step = integration.macro_step ? number(*integration.macro_step) + " s" : "auto";
-  return label() + ", " + step + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") + " threads";
+  return label() + ", " + step + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") +
+         " threads" + (element.empty() ? "" : ", " + element);
 }
 
 StudyLevel study_level(const Problem& problem, int level) {
@@ -194,9 +208,12 @@ StudyCase study_case(const Problem& problem, const StudyOptions& options, const 
   one.integration = problem.integration;
   IntegrationOptions& o = one.integration;
   const std::string name = chosen.method.substr(chosen.method.find('/') + 1);
-  if (chosen.method.starts_with("coarse/")) one.level = std::stoi(name);
-  if (!chosen.method.starts_with("cycle/")) {
-    step_alone(o, one.level > 0 ? "symplectic_euler" : name);
+  const std::size_t second = name.find('/');
+  if (chosen.method.starts_with("coarse/")) {
+    one.level = std::stoi(name);
+    step_alone(o, second == std::string::npos ? coarse_integrator : name.substr(second + 1));
+  } else if (chosen.method.starts_with("single/")) {
+    step_alone(o, name);
   } else if (!integrates_coarse_levels(name)) {
     step_together(o, name, one);
   } else {
@@ -217,10 +234,12 @@ std::vector<StudyCase> study_cases(const Problem& problem, const StudyOptions& o
 }
 
 Problem problem_of(const Problem& problem, const StudyCase& one) {
-  Problem result = problem;
+  Problem result = with_element(problem, one.element);
   result.integration = one.integration;
   if (one.integration.cycle != "single") return result;
-  result.body.levels = {problem.body.levels[static_cast<std::size_t>(one.level)]};
+  // implicit ones have those below for multigrid
+  const bool alone = is_explicit(one.integration.integrator.front());
+  keep_levels(result.body, static_cast<std::size_t>(one.level), alone ? 1 : problem.body.levels.size());
   const auto centre = [](const TetMesh& mesh) {
     const Box box = bounding_box(mesh.vertices);
     return Point((box.min + box.max) / 2);

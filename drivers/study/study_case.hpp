@@ -27,6 +27,13 @@ bool steps_alike(const IntegrationOptions& a, const IntegrationOptions& b);
 /// "cycle/rsv/critical+hybrid", without what is empty.
 std::string study_label(const std::string& method, const std::string& distribution, const std::string& variant);
 
+/// How the truth is found: see make_truth().
+struct TruthOptions {
+  std::optional<int>
+      refinements;  ///< of level 0's mesh, 1 or more; none: 2, or 1 where half the budget is too little for it
+  std::optional<double> jitter;  ///< of the second family's mesh, see jittered(); none: it has linear elements
+};
+
 /// What a study compares.
 struct StudyOptions {
   double duration = 1;               ///< simulated time [s] > 0
@@ -43,7 +50,9 @@ struct StudyOptions {
   std::optional<double> budget;         ///< wall time of all of it [s]; rows that do not fit are left out, and listed
   std::string reference_integrator = "rk4";  ///< of the finest level alone
   double reference_error = 1e-5;             ///< its own error, displacement, above which both steps are halved, once
-  double reference_step = 1;  ///< its coarser step over the finest level's critical step; the other is half
+  double reference_step = 1;          ///< its coarser step over the finest level's critical step; the other is half
+  std::optional<TruthOptions> truth;  ///< errors against it instead of against level 0's mesh
+  std::vector<std::string> elements;  ///< of element_families(); empty: the problem's own, with truth all of them
   std::optional<TetMesh>
       finer;  ///< a finer mesh of the body, for a second reference: the finest level's error in space
 };
@@ -56,9 +65,10 @@ struct StudyLevel {
 
 /// One run of a study: how which levels are integrated, in which precision, by how many threads.
 struct StudyCase {
-  std::string method;        ///< single/INTEGRATOR, coarse/LEVEL or cycle/NAME
+  std::string method;        ///< single/INTEGRATOR, coarse/LEVEL, coarse/LEVEL/INTEGRATOR or cycle/NAME
   std::string distribution;  ///< of a cycle; of cycle/auto its error class
   std::string variant;       ///< of a cycle; empty: as the problem says
+  std::string element;       ///< empty: the problem's own
   std::string precision;
   int threads = 0;
   int level = 0;  ///< that is the run's finest
@@ -70,8 +80,8 @@ struct StudyCase {
   std::string key() const;           ///< what tells it from the study's other cases
 };
 
-/// Every method there is for this problem: single/ each integrator, coarse/ each coarser level, cycle/ each cycle of
-/// several levels.
+/// Every method there is for this problem: single/ each integrator, coarse/ each coarser level by symplectic Euler or by each other
+/// integrator, cycle/ each cycle of several levels.
 std::vector<std::string> study_methods(const Problem& problem);
 
 /// Sets a level up alone. InputError where that fails or nothing limits the step.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/steppers.hpp>
@@ -89,6 +90,11 @@ bool shares_step(const ChosenMethod& one) {
 
 bool is_chosen_by_trials(const ChosenMethod& one) { return one.method == "cycle/auto"; }
 
+// coarse/1/rk4: the family has each level by one integrator
+bool names_coarse_integrator(const std::string& method) {
+  return family_of(method) == "coarse" && std::ranges::count(method, '/') > 1;
+}
+
 // A cycle without a distribution means each of them, with the problem's own list if it has one
 void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const ChosenMethod& one) {
   if (is_chosen_by_trials(one) && one.distribution.empty()) {
@@ -104,7 +110,7 @@ void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const C
 void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem, const StudyOptions& options,
                 const ChosenMethod& family) {
   for (const std::string& method : study_methods(problem)) {
-    if (family_of(method) != family.method) continue;
+    if (family_of(method) != family.method || names_coarse_integrator(method)) continue;
     if (family.variant.empty() || shares_step({method, {}, {}}))
       add_each(chosen, problem, {method, is_chosen_by_trials({method, {}, {}}) ? usual_class : "", family.variant});
     if (family.method == "cycle" && family.variant.empty() && shares_step({method, {}, {}}))
@@ -161,17 +167,42 @@ void check_variants(const Problem& problem, const StudyOptions& options) {
 std::vector<std::string> study_methods(const Problem& problem) {
   std::vector<std::string> methods;
   for (const std::string& integrator : names(integrators())) methods.push_back("single/" + integrator);
-  for (std::size_t i = 1; i < problem.body.levels.size(); ++i) methods.push_back("coarse/" + std::to_string(i));
+  for (std::size_t i = 1; i < problem.body.levels.size(); ++i) {
+    methods.push_back("coarse/" + std::to_string(i));
+    for (const std::string& integrator : names(integrators()))
+      if (integrator != "symplectic_euler") methods.push_back("coarse/" + std::to_string(i) + "/" + integrator);
+  }
   for (const std::string& cycle : names(cycle_choices()))
     if ((cycle == "auto" || uses_coarse_levels(cycle)) && problem.body.levels.size() > 1)
       methods.push_back("cycle/" + cycle);
   return methods;
 }
 
+namespace {
+
+// Against the truth: each level alone by every integrator that is stable undamped, then the cycles
+std::vector<std::string> all_alone(const Problem& problem) {
+  std::vector<std::string> stable, all;
+  Integrators::for_each([&](auto member) {
+    using Member = decltype(member);
+    const bool cycles = std::string(Member::name) == "v_cycle_euler" && problem.body.levels.size() == 1;
+    if ((!Member::is_explicit || Member::limit.radius > 0) && !cycles) stable.push_back(Member::name);
+  });
+  for (const std::string& integrator : stable) all.push_back("single/" + integrator);
+  for (std::size_t i = 1; i < problem.body.levels.size(); ++i)
+    for (const std::string& integrator : stable)
+      all.push_back("coarse/" + std::to_string(i) + (integrator == "symplectic_euler" ? "" : "/" + integrator));
+  if (problem.body.levels.size() > 1) all.push_back("cycle");
+  return all;
+}
+
+}  // namespace
+
 std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options) {
   std::vector<std::string> asked = options.methods;
+  if (asked.empty() && options.truth) asked = all_alone(problem);
   if (asked.empty()) asked = {"single/symplectic_euler", "single/implicit_euler", "coarse", "cycle"};
-  if (options.methods.empty() && problem.body.levels.size() > 1)
+  if (options.methods.empty() && !options.truth && problem.body.levels.size() > 1)
     asked.insert(asked.begin() + 2, "single/v_cycle_euler");
   std::vector<ChosenMethod> chosen;
   for (const std::string& name : asked) {

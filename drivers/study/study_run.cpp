@@ -89,13 +89,18 @@ class Measured {
     return result_.status == "completed";
   }
 
+  std::vector<Point> sampled(const Vectors<B>& field) const {
+    std::vector<Point> values = to_host<B>(exec_, field);
+    return options_.at == nullptr ? values : interpolated(values, *options_.at);
+  }
+
   void sampled() {
     TrajectorySampler sampler(options_.sample_times, result_.macro_step, result_.macro_steps);
     const double before = conserves_ ? simulation_.energies().total() : 0;
     double most = 0, wall_time = 0;
     for (long n = 0;; ++n) {
       if (sampler.wants(n)) {
-        sampler.add(n, to_host<B>(exec_, simulation_.displacement()), to_host<B>(exec_, simulation_.velocity()));
+        sampler.add(n, sampled(simulation_.displacement()), sampled(simulation_.velocity()));
         if (conserves_) {
           const Energies e = simulation_.energies();
           most = std::max(most, e.kinetic + e.elastic + e.contact);
@@ -163,30 +168,38 @@ struct Pair {
   bool stopped() const { return coarse.status == "stopped" || fine.status == "stopped"; }
 };
 
-StudyRun run_at(const Problem& problem, const StudyOptions& options, double step,
-                const std::function<bool(double)>& go_on) {
+StudyRun run_at(const Problem& problem, const StudyOptions& options, const std::string& integrator, double step,
+                const std::function<bool(double)>& go_on, const Embedding* at) {
   StudyCase one;
   one.integration = problem.integration;
   IntegrationOptions& o = one.integration;
-  o.cycle = "single", o.integrator = {options.reference_integrator}, o.substeps = {1};
+  o.cycle = "single", o.integrator = {integrator}, o.substeps = {1};
   o.distribution = "equal", o.shares = {}, o.macro_step = step;
   StudyRunOptions run{options.duration, sampling_times(options.duration, options.samples)};
-  run.timed_runs = 0, run.go_on = go_on;
+  run.timed_runs = 0, run.go_on = go_on, run.at = at;
   return study_run(problem_of(problem, one), run);
 }
 
-// Hits every sampling time; at half the step, and half of that, where it does not come to its end
-StudyRun run_below(const Problem& problem, const StudyOptions& options, double longest_step,
-                   const std::function<bool(double)>& go_on) {
+}  // namespace
+
+StudyRun run_to_samples(const Problem& problem, const StudyOptions& options, const std::string& integrator,
+                        double longest_step, const std::function<bool(double)>& go_on, const Embedding* at) {
   const double interval = options.duration / options.samples;
   double step = interval / std::ceil(interval / longest_step - 1e-9);
   for (int halvings = 0;; ++halvings, step /= 2) {
-    StudyRun result = run_at(problem, options, step, go_on);
+    StudyRun result = run_at(problem, options, integrator, step, go_on, at);
     if (result.status != "diverged" && result.status != "refused") return result;
     if (halvings == most_halvings)
-      throw InputError("study: the reference, single/" + options.reference_integrator + " at " +
-                       std::to_string(1e3 * step) + " ms, is not to be had: " + result.reason);
+      throw InputError("study: the reference, single/" + integrator + " at " + std::to_string(1e3 * step) +
+                       " ms, is not to be had: " + result.reason);
   }
+}
+
+namespace {
+
+StudyRun run_below(const Problem& problem, const StudyOptions& options, double longest_step,
+                   const std::function<bool(double)>& go_on) {
+  return run_to_samples(problem, options, options.reference_integrator, longest_step, go_on);
 }
 
 Pair run_both(const Problem& problem, const StudyOptions& options, double critical_step, double& wall_time,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/limit.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <plica/drivers/study/trajectory.hpp>
 #include <string>
@@ -17,6 +18,7 @@ struct StudyRunOptions {
   std::string precision = "double";  ///< float | double
   int threads = 0;                   ///< of the default execution space; 0: all that it has
   int timed_runs = 3;                ///< 0: only the sampled run, which is the one that is timed
+  const Embedding* at = nullptr;     ///< points of level 0 that are sampled; null: its vertices
   std::function<bool(double)> go_on =
       {};  ///< asked from time to time with the part of the work that is done; false ends the run
 };
@@ -49,8 +51,8 @@ void check_threads(int threads);
 /// precision, or more threads than there are.
 StudyRun study_run(const Problem& problem, const StudyRunOptions& options);
 
-/// What errors are measured against: the finest level alone, in double, at a small step that hits every sampling time. Its own
-/// error is how far it is from a run at twice that step: more than it really is.
+/// What errors are measured against: the finest level alone, in double, at a small step that hits every sampling time, whose own
+/// error is how far it is from a run at twice that step: more than it really is; or the truth, see make_truth().
 struct StudyReference {
   std::string method;
   double macro_step = 0;                         ///< [s]
@@ -61,7 +63,15 @@ struct StudyReference {
   std::optional<double> space_error;             ///< to the finer mesh's reference, displacement
   Trajectory trajectory;                         ///< empty: there is none yet
   std::optional<Trajectory> finer;               ///< of the finer mesh's reference, at the finest level's vertices
+  std::optional<Truth> truth;                    ///< none: errors are those in time
+  Trajectory probes;                             ///< the truth's, of the options' probes in their order
+  std::vector<MeshReference> meshes;             ///< with truth, of each kind of elements and level
 };
+
+/// Level 0 alone by that integrator, in double, at a step that hits every sampling time and is no longer than `longest_step` [s];
+/// half of it, and half of that, where it does not come to its end. InputError where it never does; stopped where go_on says so.
+StudyRun run_to_samples(const Problem& problem, const StudyOptions& options, const std::string& integrator,
+                        double longest_step, const std::function<bool(double)>& go_on, const Embedding* at = nullptr);
 
 /// Runs it, and the one on options.finer where there is one. Empty trajectory where go_on ended it. InputError where it diverges, also at
 /// an eighth of the step.

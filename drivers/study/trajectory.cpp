@@ -23,15 +23,15 @@ void accumulate(std::vector<Point>& sum, double weight, const std::vector<Point>
   for (std::size_t a = 0; a < field.size(); ++a) sum[a] += weight * field[a];
 }
 
-std::vector<Point> at_points(const std::vector<Point>& field, const Embedding& embedding) {
+}  // namespace
+
+std::vector<Point> interpolated(const std::vector<Point>& field, const Embedding& embedding) {
   std::vector<Point> result(embedding.vertices.size(), Point::Zero());
   for (std::size_t a = 0; a < result.size(); ++a)
     for (std::size_t k = 0; k < 4; ++k)
       result[a] += embedding.weights[a][k] * field[static_cast<std::size_t>(embedding.vertices[a][k])];
   return result;
 }
-
-}  // namespace
 
 std::vector<double> sampling_times(double duration, int samples) {
   std::vector<double> times;
@@ -66,8 +66,8 @@ void TrajectorySampler::add(long step, const std::vector<Point>& u, const std::v
 Trajectory interpolated(const Trajectory& trajectory, const Embedding& embedding) {
   Trajectory result;
   result.times = trajectory.times;
-  for (const auto& u : trajectory.u) result.u.push_back(at_points(u, embedding));
-  for (const auto& v : trajectory.v) result.v.push_back(at_points(v, embedding));
+  for (const auto& u : trajectory.u) result.u.push_back(interpolated(u, embedding));
+  for (const auto& v : trajectory.v) result.v.push_back(interpolated(v, embedding));
   return result;
 }
 
@@ -114,6 +114,16 @@ void expect_motion(const Trajectory& trajectory, const TetMesh& mesh) {
 StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference) {
   const Squares u(trajectory.u, reference.u), v(trajectory.v, reference.v);
   return {u.relative(), v.relative(), u.worst()};
+}
+
+double difference(const Trajectory& a, const Trajectory& b, const Trajectory& size) {
+  double apart = 0, whole = 0;
+  for (std::size_t j = 0; j < size.u.size(); ++j)
+    for (std::size_t v = 0; v < size.u[j].size(); ++v) {
+      apart += (a.u[j][v] - b.u[j][v]).squaredNorm();
+      whole += size.u[j][v].squaredNorm();
+    }
+  return std::sqrt(apart / whole);
 }
 
 std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference, std::size_t vertex) {

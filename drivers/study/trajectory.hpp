@@ -39,6 +39,9 @@ class TrajectorySampler {
   Trajectory trajectory_;
 };
 
+/// Values of points that hang on the field's mesh.
+std::vector<Point> interpolated(const std::vector<Point>& field, const Embedding& embedding);
+
 /// The motion of points that hang on the trajectory's mesh.
 Trajectory interpolated(const Trajectory& trajectory, const Embedding& embedding);
 
@@ -55,6 +58,9 @@ void expect_motion(const Trajectory& trajectory, const TetMesh& mesh);
 
 /// Of trajectories at the same times and vertices.
 StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference);
+
+/// |a - b| / |size| of displacements, all over all vertices and sampling times (L2).
+double difference(const Trajectory& a, const Trajectory& b, const Trajectory& size);
 
 /// |u - r| / |r| over all sampling times of one vertex; none where it stays at rest in the reference.
 std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference, std::size_t vertex);

@@ -55,6 +55,7 @@ struct StudyArguments {
   std::string budget;   ///< wall time, "60s"; empty: as long as it takes
   bool space = false;   ///< a second reference on a finer mesh
   bool growth = false;  ///< of the linearised cycles too
+  bool truth = false;   ///< errors against it
 };
 
 struct StabilityArguments {

@@ -20,6 +20,10 @@ StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const
   if (!arguments.precision.empty()) options.precision = {arguments.precision};
   if (!more.budget.empty())
     read_option("--budget", more.budget, Quantity{duration, positive}, options.budget.emplace());
+  if (more.truth && !options.truth) options.truth.emplace();
+  if (more.space && options.truth)
+    throw InputError("--space: the study is against the truth (study.truth), which has the error in space",
+                     place_of(scene.source, "study.truth"));
   if (more.space) options.finer = finer_mesh(scene);
   return options;
 }

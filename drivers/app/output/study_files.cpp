@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
 #include <plica/drivers/app/output/study_files.hpp>
+#include <plica/drivers/app/output/truth_report.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
+#include <plica/drivers/solver/elements.hpp>
 #include <plica/version.hpp>
 #include <sstream>
 
@@ -18,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 std::uint64_t digest_of(const std::string& bytes) {
   Digest digest;
@@ -58,6 +60,8 @@ std::string reference_bytes(const StudyReference& r, std::uint64_t digest) {
   std::string states;
   append(states, r.trajectory);
   if (r.finer) append(states, *r.finer);
+  if (r.truth) append(states, r.probes);
+  for (const MeshReference& mesh : r.meshes) append(states, mesh.trajectory);
   const Json head = {{"plica_reference", format_version},
                      {"of", digest},
                      {"states", digest_of(states)},
@@ -71,7 +75,10 @@ std::string reference_bytes(const StudyReference& r, std::uint64_t digest) {
                      {"space_error", r.space_error.value_or(0)},
                      {"samples", r.trajectory.times.size()},
                      {"vertices", r.trajectory.u.front().size()},
-                     {"finer", r.finer.has_value()}};
+                     {"finer", r.finer.has_value()},
+                     {"truth", r.truth ? truth_json(*r.truth) : Json()},
+                     {"meshes", meshes_json(r.meshes)},
+                     {"probes", r.truth ? r.probes.u.front().size() : 0}};
   return head.dump() + "\n" + states;
 }
 
@@ -91,11 +98,17 @@ std::optional<StudyReference> parse_reference(const std::string& bytes, std::uin
   head.at("wall_time").get_to(r.wall_time);
   head.at("seconds_per_evaluation").get_to(r.seconds_per_evaluation);
   const auto samples = head.at("samples").get<std::size_t>(), vertices = head.at("vertices").get<std::size_t>();
-  const bool finer = head.at("finer").get<bool>();
-  if (states.size() != (finer ? 2U : 1U) * samples * (1 + 6 * vertices) * sizeof(double)) return {};
+  const bool finer = head.at("finer").get<bool>(), truth = !head.at("truth").is_null();
+  r.meshes = meshes_of(head.at("meshes"));
+  const auto size_of = [&](std::size_t points) { return samples * (1 + 6 * points) * sizeof(double); };
+  const auto probes = head.at("probes").get<std::size_t>();
+  if (states.size() != (1 + (finer ? 1U : 0U) + r.meshes.size()) * size_of(vertices) + (truth ? size_of(probes) : 0))
+    return {};
   std::size_t at = 0;
   r.trajectory = take(states, at, samples, vertices);
   if (finer) r.finer = take(states, at, samples, vertices), r.space_error = head.at("space_error").get<double>();
+  if (truth) r.truth = truth_of(head.at("truth")), r.probes = take(states, at, samples, probes);
+  for (MeshReference& mesh : r.meshes) mesh.trajectory = take(states, at, samples, vertices);
   return r;
 } catch (const Json::exception&) {
   return {};
@@ -120,8 +133,14 @@ void add_tools(Digest& digest, const Problem& problem) {
 std::uint64_t reference_digest(const Scene& scene, const StudyOptions& o) {
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study", "integration"}));
+  for (std::size_t i = 0; i < scene.problem.body.levels.size(); ++i)
+    digest.add(std::string(name_of(element_of(scene.problem.body, i))));
   digest.add(fmt::format("{} {} {} {} {} {}", mesh_digest(scene.problem.body), o.samples, o.reference_integrator,
                          o.reference_step, o.reference_error, o.finer.has_value()));
+  if (o.truth) {
+    digest.add(fmt::format("truth {} {}", o.truth->refinements.value_or(0), o.truth->jitter.value_or(0)));
+    for (const auto& [name, p] : o.probes) digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
+  }
   add_tools(digest, scene.problem);
   return digest.value();
 }

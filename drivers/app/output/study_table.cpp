@@ -6,6 +6,7 @@
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/study_table.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/output/truth_report.hpp>
 #include <plica/drivers/study/study.hpp>
 
 namespace plica::app {
@@ -23,6 +24,7 @@ void each_member(Row& row, const Visit& visit) {
   visit("macro_step", row.macro_step);
   visit("macro_step_over_critical", row.macro_step_over_critical);
   visit("automatic", row.automatic);
+  visit("element", row.element);
   visit("precision", row.precision);
   visit("threads", row.threads);
   visit("status", row.status);
@@ -31,6 +33,8 @@ void each_member(Row& row, const Visit& visit) {
   visit("error", row.error);
   visit("error_velocity", row.error_velocity);
   visit("error_worst_vertex", row.error_worst_vertex);
+  visit("total_error", row.total_error);
+  visit("space_error", row.space_error);
   visit("error_finer", row.error_finer);
   visit("error_probes", row.error_probes);
   visit("energy_drift", row.energy_drift);
@@ -81,15 +85,17 @@ StudyRow row_of(const Json& json) {
 
 Json reference_json(const StudyResult& result) {
   const StudyReference& r = result.reference;
-  return {{"method", r.method},
-          {"macro_step", r.macro_step},
-          {"critical_step", r.critical_step},
-          {"own_error", r.own_error},
-          {"own_error_velocity", r.own_error_velocity},
-          {"smallest_error", row_value(smallest_error(result.rows))},
-          {"good_enough", good_enough(result)},
-          {"space_error", row_value(r.space_error)},
-          {"wall_time", r.wall_time}};
+  Json json = {{"method", r.method},
+               {"macro_step", r.macro_step},
+               {"critical_step", r.critical_step},
+               {"own_error", r.own_error},
+               {"own_error_velocity", r.own_error_velocity},
+               {"smallest_error", row_value(smallest_error(result.rows))},
+               {"good_enough", good_enough(result)},
+               {"space_error", row_value(r.space_error)},
+               {"wall_time", r.wall_time}};
+  if (r.truth) json["truth"] = truth_json(*r.truth), json["meshes"] = meshes_json(r.meshes);
+  return json;
 }
 
 }  // namespace
@@ -150,9 +156,7 @@ std::string study_csv(const std::vector<StudyRow>& rows) {
 namespace {
 
 constexpr double thresholds[] = {0.05, 0.01, 0.001};
-constexpr std::size_t width = 110;
-
-std::string percent(double fraction) { return fmt::format("{:.3g} %", 100 * fraction); }
+constexpr std::size_t width = text_width;
 
 // With what tells it from other rows of its name
 std::string name_of(const StudyRow& row, const StudyResult& result) {
@@ -160,6 +164,7 @@ std::string name_of(const StudyRow& row, const StudyResult& result) {
     return std::ranges::any_of(result.rows, [&](const StudyRow& other) { return other.*member != row.*member; });
   };
   std::string name = row.label();
+  if (differs(&StudyRow::element)) name += ", " + row.element;
   if (differs(&StudyRow::precision)) name += ", " + row.precision;
   if (differs(&StudyRow::threads)) name += ", " + counted(row.threads, "thread");
   return name;
@@ -167,6 +172,7 @@ std::string name_of(const StudyRow& row, const StudyResult& result) {
 
 std::string reference_text(const StudyResult& result) {
   const StudyReference& r = result.reference;
+  if (r.truth) return truth_text(result);
   std::string text = fmt::format("Reference: {} at {}; doubling that step changes it by {}.", r.method,
                                  in_units(r.macro_step, "s"), percent(r.own_error));
   if (!good_enough(result))
@@ -194,14 +200,17 @@ std::string pareto_text(const StudyResult& result) {
   const bool growth = std::ranges::any_of(front, [](const StudyRow* row) { return row->spectral_radius.has_value(); });
   std::vector<std::vector<std::string>> table = {
       {"the best for their time", "macro step", "x critical", "error", "of velocity", "time", "work"}};
+  const bool truth = result.reference.truth.has_value();
+  if (truth) table[0].insert(table[0].end(), {"in space", "in time"});
   if (growth) table[0].emplace_back("growth");
   for (const StudyRow* row : front) {
     table.push_back({name_of(*row, result), in_units(*row->macro_step, "s"),
-                     fmt::format("{:.3g}", *row->macro_step_over_critical), percent(*row->error),
+                     fmt::format("{:.3g}", *row->macro_step_over_critical), percent(*row->judged()),
                      percent(*row->error_velocity), in_units(*row->wall_time, "s"), fmt::format("{:.3g}", *row->work)});
+    if (truth) table.back().insert(table.back().end(), {percent(*row->space_error), percent(*row->error)});
     if (growth) table.back().push_back(growth_of(*row));
   }
-  return text_table(table, "<>>>>>>>");
+  return text_table(table, "<>>>>>>>>>");
 }
 
 // Of the linearised cycles, all rows: the amplitude's logarithm per simulated second
@@ -236,7 +245,7 @@ std::string fastest_text(const StudyResult& result, double threshold) {
   if (fastest == nullptr) return head + "none.\n";
   std::string text =
       head + fmt::format("{} at {}, {} for {}.", name_of(*fastest, result), in_units(*fastest->macro_step, "s"),
-                         in_units(*fastest->wall_time, "s"), percent(*fastest->error));
+                         in_units(*fastest->wall_time, "s"), percent(*fastest->judged()));
   if (fastest->method.starts_with("coarse/")) text += " A coarser mesh alone is enough here.";
   return wrapped(text, width, "");
 }

@@ -18,6 +18,8 @@ Json row_head(const VerifyRow& row) {
   return {{"problem", row.problem},
           {"quantity", row.quantity},
           {"unit", row.unit},
+          {"element", row.element},
+          {"mesh", row.mesh},
           {"accepted", row_value(row.accepted)},
           {"source", row_value(row.source)}};
 }
@@ -143,6 +145,8 @@ const Column columns[] = {
     {"problem", [](const VerifyRow& row) { return row.problem; }, [](const VerifyRow& row) { return row.problem; }},
     {"quantity", [](const VerifyRow& row) { return row.quantity + (row.unit == "1" ? "" : " [" + row.unit + "]"); },
      [](const VerifyRow& row) { return row.quantity; }},
+    {"element", [](const VerifyRow& row) { return row.element; }, [](const VerifyRow& row) { return row.element; }},
+    {"mesh", [](const VerifyRow& row) { return row.mesh; }, [](const VerifyRow& row) { return row.mesh; }},
     {"accepted", accepted, accepted},
     {"source", [](const VerifyRow& row) { return row.source; }, nullptr},
     {"ours", values, [](const VerifyRow& row) { return with_unit(headline(row), row.unit); }},
@@ -158,7 +162,7 @@ std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) 
   std::string text = fmt::format(
       "# Problems with known answers\n\n"
       "Written by `plica verify{}` in {:.0f} s: {}, {} cores, {} with {}; {}; plica {} ({}). Status: {}.\n\n"
-      "All in double precision. *Ours*: on each mesh, in cells, each cut into six linear tetrahedra. *Limit*: what the "
+      "All in double precision. *Ours*: on each mesh, in cells, each cut into six tetrahedra, with these elements; *jittered*: vertices moved by up to a fifth of a cell. *Limit*: what the "
       "last three tend to\n"
       "(Richardson). *Order*: of the error against the accepted value, or of the differences where the row is judged "
       "by its limit\n"
@@ -187,7 +191,7 @@ std::string verify_text(const VerifyResult& result, const std::string& folder) {
       if (column.text) table.back().push_back(column.text(row));
   }
   const auto wrong = std::ranges::count_if(result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
-  return text_table(table, "<<>>>><") + fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
+  return text_table(table, "<<<<>>>><") + fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
                                                     counted(static_cast<long>(result.rows.size()), "row"), wrong,
                                                     folder);
 }

@@ -9,6 +9,7 @@
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/sound_mesh.hpp>
 #include <plica/meshes/generators.hpp>
+#include <plica/meshes/jitter.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica::app {
@@ -131,6 +132,8 @@ TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where
 TetMesh generated(const LevelRecipe& recipe) {
   if (const auto& box = recipe.box) return box_mesh({box->origin, box->origin + box->size}, box->cells);
   if (const auto& ball = recipe.ball) return ball_mesh(ball->centre, ball->radius, ball->cells);
+  if (const auto& blob = recipe.blob) return blob_mesh(blob->centre, blob->length, blob->cells);
+  if (const auto& tube = recipe.tube) return tube_mesh(*tube);
   const CylinderRecipe& cylinder = *recipe.cylinder;
   return cylinder_mesh(cylinder.base, cylinder.radius, cylinder.length, cylinder.across, cylinder.along);
 }
@@ -209,13 +212,17 @@ TetMesh finer_mesh(const Scene& scene) {
   LevelRecipe recipe = scene.levels.front();
   const Where where = place_of(scene.source, "body.levels.0");
   if (!recipe.file.empty())
-    throw InputError("--space needs a finest level that can be made finer: a box, a ball or a cylinder, got a file",
-                     where);
+    throw InputError(
+        "--space needs a finest level that can be made finer: a box, a ball, a cylinder, a blob or a tube, got a file; "
+        "--truth refines any",
+        where);
   if (recipe.box)
     for (int& cells : recipe.box->cells) cells *= 2;
   if (recipe.ball) recipe.ball->cells *= 2;
   if (recipe.cylinder) recipe.cylinder->across *= 2, recipe.cylinder->along *= 2;
-  return placed(where, [&] { return generated(recipe); });
+  if (recipe.blob) recipe.blob->cells *= 2;
+  if (recipe.tube) recipe.tube->around *= 2, recipe.tube->across *= 2, recipe.tube->along *= 2;
+  return placed(where, [&] { return jittered(generated(recipe), scene.jitter); });
 }
 
 void build_meshes(Scene& scene, const Tree& tree) {
@@ -227,6 +234,7 @@ void build_meshes(Scene& scene, const Tree& tree) {
     const Where where = place_of(tree, fmt::format("body.levels.{}", i));
     body.levels.push_back(recipe.file.empty() ? placed(where, [&] { return generated(recipe); })
                                               : from_file(recipe, scene, where, scene.numbering[i]));
+    if (scene.jitter > 0) body.levels.back() = jittered(std::move(body.levels.back()), scene.jitter);
   }
   if (scene.surface) {
     const Where where = place_of(tree, "body.surface");

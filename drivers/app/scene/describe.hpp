@@ -28,6 +28,9 @@ struct LevelChoice {
   std::string shown(const VolumeLevels& value) const;
 };
 
+/// true for a struct with its defaults, false for none, or the struct: of an optional.
+struct Switch {};
+
 /// Points with names.
 struct NamedPoints {
   std::string expects() const { return "a map of names to lists of 3 lengths (m)"; }
@@ -57,6 +60,25 @@ void describe(V& v, CylinderRecipe& o) {
   v("base", o.base, Vector{length}, "centre of the lower disc");
 }
 
+template <class V>
+void describe(V& v, BlobRecipe& o) {
+  v.required("length", o.length, Quantity{length, positive}, "along x");
+  v.required("cells", o.cells, Count{4}, "cells across, a multiple of 4: faces follow the inclusion");
+  v("centre", o.centre, Vector{length}, "centre of the ball that it is shaped from");
+}
+
+template <class V>
+void describe(V& v, Tube& o) {
+  v.required("radius", o.radius, Quantity{length, positive}, "radius of the inside");
+  v.required("wall", o.wall, Quantity{length, positive}, "thickness of the wall");
+  v.required("length", o.length, Quantity{length, positive}, "length of the axis, which starts along z");
+  v("bend", o.bend, Quantity{angle, not_negative}, "angle that the axis turns by, towards x");
+  v.required("around", o.around, Count{3}, "cells around");
+  v.required("across", o.across, Count{1}, "cells through the wall");
+  v.required("along", o.along, Count{1}, "cells along the axis");
+  v("start", o.start, Vector{length}, "centre of the first end");
+}
+
 inline constexpr const char* scale_help = "metres per unit of that file: 0.001 for millimetres";
 
 template <class V>
@@ -65,6 +87,8 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("box", o.box, Case<BoxRecipe>{}, "a box of cells");
   v.alternative("ball", o.ball, Case<BallRecipe>{}, "a ball");
   v.alternative("cylinder", o.cylinder, Case<CylinderRecipe>{}, "a cylinder");
+  v.alternative("blob", o.blob, Case<BlobRecipe>{}, "a lump like a liver, with the region inclusion");
+  v.alternative("tube", o.tube, Case<Tube>{}, "a bent pipe with a wall, like a vessel");
   v.alternative("file", o.file, Text{}, "a mesh file (.msh, .vtk, .vtu, .ele), relative to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
   v("merge_duplicates", o.merge_duplicates, Quantity{length, not_negative},
@@ -87,6 +111,8 @@ void describe(V& v, SurfaceRecipe& o) {
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
 }
 
+inline constexpr Bounds below_half{.min = 0, .max = 0.5, .max_excluded = true};  ///< from 0
+
 /// The key `body` fills the library's Body and the recipes of its meshes.
 struct BodyKeys {
   Scene& scene;
@@ -95,6 +121,8 @@ struct BodyKeys {
 template <class V>
 void describe(V& v, BodyKeys& o) {
   v.required("levels", o.scene.levels, List{}, "the body's meshes, finest first");
+  v("jitter", o.scene.jitter, Quantity{plain, below_half},
+    "vertices of every level are moved at random by up to this part of their shortest edge; its faces stay");
   describe(v, o.scene.problem.body);
   v("surface", o.scene.surface, Group{}, "embedded in every level: it touches the obstacles, and frames show it");
 }
@@ -148,6 +176,14 @@ void describe(V& v, StudyVariant& o) {
 }
 
 template <class V>
+void describe(V& v, TruthOptions& o) {
+  v("refinements", o.refinements, Count{1, 6},
+    "of level 0's mesh, each with eight times the tetrahedra; left out: 2, or 1 where that takes half the budget");
+  v("jitter", o.jitter, Quantity{plain, below_half},
+    "of a second mesh, whose limit checks the first one's; left out: that of linear elements does");
+}
+
+template <class V>
 void describe(V& v, StudyOptions& o) {
   v("methods", o.methods, ListOf<Text>{},
     "single, coarse, cycle, or one of them: single/rk4, coarse/1, cycle/rsv, cycle/rsv/equal, with a variant "
@@ -158,6 +194,9 @@ void describe(V& v, StudyOptions& o) {
     "limit");
   v("precision", o.precision, ListOf<Name>{{"precision", precisions}}, "in which each method runs");
   v("threads", o.threads, ListOf<Count>{thread_count}, "with which each method runs; left out: all there are");
+  v("elements", o.elements, ListOf<Name>{{"element", elements}},
+    "with which each method runs; left out: the body's own, with truth all of them");
+  v("truth", o.truth, Switch{}, "errors against the limit of refined meshes, in space and in time");
   v("samples", o.samples, Count{1}, "times, evenly over the duration, at which states are compared");
   v("timed_runs", o.timed_runs, Count{0}, "of each row, short ones at least five; 0: the compared one is timed");
   v("growth", o.growth, Flag{}, "find the growth of small motions by every cycle, linearised about rest");

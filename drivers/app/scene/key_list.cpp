@@ -148,6 +148,7 @@ class Catalogue {
   }
 
   static const char* words_of(const Group&) { return "a map"; }
+  static const char* words_of(const Switch&) { return "true, false, or a map"; }
   static const char* words_of(const List&) { return "a list of maps"; }
   static const char* words_of(const Map&) { return "a map of maps"; }
   template <class T>
@@ -182,6 +183,12 @@ class Catalogue {
   template <class T>
   Json inside(std::optional<T>&, const Group&, const std::string& path) {
     return object<T>(path);
+  }
+  template <class T>
+  Json inside(std::optional<T>&, const Switch&, const std::string& path) {
+    Json schema = object<T>(path);  // what it says of keys holds for objects only
+    schema["type"] = {"boolean", "object"};
+    return schema;
   }
   template <class T>
   Json inside(std::vector<T>&, const List&, const std::string& path) {

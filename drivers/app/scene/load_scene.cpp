@@ -74,6 +74,8 @@ double generated_bytes(const LevelRecipe& level) {
   if (const auto& box = level.box) return cells(box->cells[0], box->cells[1], box->cells[2]);
   if (const auto& ball = level.ball) return cells(ball->cells, ball->cells, ball->cells);
   if (const auto& cylinder = level.cylinder) return cells(cylinder->across, cylinder->across, cylinder->along);
+  if (const auto& blob = level.blob) return cells(blob->cells, blob->cells, blob->cells);
+  if (const auto& tube = level.tube) return cells(tube->across, tube->around, tube->along);
   return 0;
 }
 

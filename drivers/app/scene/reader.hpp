@@ -109,6 +109,13 @@ class Reader {
     fill(value, kind, member.emplace());
   }
   template <class T>
+  static void fill(const Value& value, const Switch&, std::optional<T>& member) {
+    if (value.tree.kind != Tree::Kind::scalar) return fill(value, Group{}, member);
+    bool on = false;
+    read(value, Flag{}, on);
+    on ? void(member.emplace()) : member.reset();
+  }
+  template <class T>
   static void fill(const Value& value, const List&, std::vector<T>& member) {
     const std::size_t size = value.list("a list").size();
     if (size == 0) value.mismatch("at least one entry");

@@ -8,6 +8,7 @@
 #include <plica/drivers/app/scene/units.hpp>
 #include <plica/drivers/study/study_case.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/organs.hpp>
 #include <plica/meshes/reordering.hpp>
 #include <string>
 #include <vector>
@@ -37,11 +38,20 @@ struct CylinderRecipe {
   Point base = Point::Zero();  ///< centre of the lower disc [m]
 };
 
+/// See blob_mesh().
+struct BlobRecipe {
+  double length = 1;             ///< along x [m]
+  int cells = 4;                 ///< across, a multiple of 4
+  Point centre = Point::Zero();  ///< [m]
+};
+
 /// One of them, or a file.
 struct LevelRecipe {
   std::optional<BoxRecipe> box;
   std::optional<BallRecipe> ball;
   std::optional<CylinderRecipe> cylinder;
+  std::optional<BlobRecipe> blob;
+  std::optional<Tube> tube;
   std::string file;                        ///< relative to the scene
   double scale = 1;                        ///< metres per unit of the file
   std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m]
@@ -121,6 +131,7 @@ struct Scene {
   std::vector<Numbering> numbering;   ///< of each of these meshes
   std::vector<std::string> warnings;  ///< about what was found in it and its files, a sentence each
   std::vector<LevelRecipe> levels;
+  double jitter = 0;  ///< of every level: see jittered()
   std::optional<SurfaceRecipe> surface;
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;

@@ -87,7 +87,7 @@ TEST(Schema, HasEveryKey) {
     EXPECT_TRUE(at->contains("description")) << key.path;
   }
   EXPECT_EQ(schema["required"], Json({"duration", "body"}));
-  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 4);
+  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 6);
 }
 
 bool fits(const Dimension& dimension, const std::string& unit) {
@@ -146,7 +146,8 @@ TEST_F(SchemaByPython, TakesWhatTheReaderTakes) {
        {"integration.substeps=[3, auto]", "integration.distribution=[0.25, 75 %]", "integration.macro_step=auto",
         "integration.integrator=[symplectic_euler, implicit_euler]", "body.surface={boundary: true}",
         "output={every: 10 steps, volume: [0, 1], probes: {tip: [0.1, 2 cm, 20 mm]}, probe_every: 1 ms}",
-        "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]"}) {
+        "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]", "study.truth=true",
+        "study.truth={refinements: 1}", "body.jitter=0.2"}) {
     scenes.push_back(parse_tree(sound_scene, set));
     override_value(scenes.back(), set, set);
     EXPECT_NO_THROW(check_scene(read_scene(scenes.back()), scenes.back())) << set;
@@ -158,12 +159,27 @@ TEST_F(SchemaByPython, TakesWhatTheReaderTakes) {
 
 TEST_F(SchemaByPython, RefusesBadScenes) {
   std::vector<Tree> scenes;
-  for (const char* set :
-       {"durtion=1 s", "duration=4 cm", "duration=0", "duration=-1 s", "gravity=[0, 0]", "integration.cycle=rvs",
-        "body.levels=[]", "body.levels.0={box: {size: [1, 1, 1], cells: [1, 1, 1]}, file: a.msh}",
-        "body.levels.0.box.cells=[4, 4, 0]", "body.levels.0.box={size: [1, 1, 1]}", "body.material.poisson_ratio=0.5",
-        "body.material.young_modulus=50 kpa", "body=3", "output={volume: some}", "output={every: 0 steps}",
-        "output={probes: {a b: [0, 0, 0]}}", "integration.substeps=0"}) {
+  for (const char* set : {"durtion=1 s",
+                          "duration=4 cm",
+                          "duration=0",
+                          "duration=-1 s",
+                          "gravity=[0, 0]",
+                          "integration.cycle=rvs",
+                          "body.levels=[]",
+                          "body.levels.0={box: {size: [1, 1, 1], cells: [1, 1, 1]}, file: a.msh}",
+                          "body.levels.0.box.cells=[4, 4, 0]",
+                          "body.levels.0.box={size: [1, 1, 1]}",
+                          "body.material.poisson_ratio=0.5",
+                          "body.material.young_modulus=50 kpa",
+                          "body=3",
+                          "output={volume: some}",
+                          "output={every: 0 steps}",
+                          "output={probes: {a b: [0, 0, 0]}}",
+                          "integration.substeps=0",
+                          "study.truth={refinements: 0}",
+                          "study.truth=1",
+                          "body.jitter=0.5",
+                          "body.levels.0={tube: {radius: 1, wall: 1, length: 1}}"}) {
     scenes.push_back(parse_tree(sound_scene, set));
     override_value(scenes.back(), set, set);
     EXPECT_THROW(check_scene(read_scene(scenes.back()), scenes.back()), InputError) << set;

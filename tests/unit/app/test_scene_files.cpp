@@ -59,7 +59,7 @@ TEST(SceneFiles, FramesAreInTheOrderOfTheFile) {
   Snapshot snapshot;
   const std::vector<double> ones(input.tets.size(), 1);
   snapshot.positions = snapshot.velocities = scene.problem.body.levels[0].vertices;
-  snapshot.volumes = {{0, snapshot.positions, snapshot.velocities, {ones, ones}}};
+  snapshot.volumes = {{0, snapshot.positions, snapshot.velocities, {false, ones, ones}}};
   files.write(snapshot);
   const TetMesh volume = read_mesh(folder / "frames/volume_0000.vtu");
   EXPECT_EQ(volume.vertices, input.vertices);

@@ -126,21 +126,21 @@ TEST(Validate, ChecksTheMeshesOfACaller) {
 }
 
 TEST(Validate, DoubtsLevelsThatDoNotCoarsen) {
-  EXPECT_TRUE(doubts(cube_levels(3, 4, "rs")).empty());
+  EXPECT_TRUE(other_doubts(cube_levels(3, 4, "rs")).empty());
   Problem p = cube_levels(3, 4, "rs");
   p.body.levels[1] = p.body.levels[0];
-  ASSERT_EQ(doubts(p).size(), 1);
-  EXPECT_EQ(doubts(p)[0],
+  ASSERT_EQ(other_doubts(p).size(), 1);
+  EXPECT_EQ(other_doubts(p)[0],
             "body.levels: level 1 is not coarser than level 0: 384 tetrahedra after 384; expected the finest first");
   std::swap(p.body.levels[0], p.body.levels[2]);
-  EXPECT_EQ(doubts(p).size(), 2);  // 2, 4 and 4 cells a side
+  EXPECT_EQ(other_doubts(p).size(), 2);  // 2, 4 and 4 cells a side
 }
 
 TEST(Validate, DoubtsPathsThatStartElsewhere) {
   Problem p = small_cube();
   p.body.prescribed = {{left_face(), PathMotion{{{0.1, {0, 0, 1e-3}}}}}};
-  ASSERT_EQ(doubts(p).size(), 1);
-  EXPECT_EQ(doubts(p)[0], "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
+  ASSERT_EQ(other_doubts(p).size(), 1);
+  EXPECT_EQ(other_doubts(p)[0], "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
 }
 
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
@@ -348,6 +348,36 @@ TEST(Regions, BySelectionActLikeTheMeshsOwn) {
   EXPECT_DOUBLE_EQ(own.levels()[0].mass, selected.levels()[0].mass);
   EXPECT_LE(largest_difference(own.positions(), selected.positions()), 1e-12);
   EXPECT_GT(largest_difference(own.positions(), body(false).body.levels[0].vertices), 1e-3);
+}
+
+TEST(Validate, DoubtsElementsThatAreTooStiff) {
+  const auto said = [](const std::string& element, double poisson, const std::array<int, 3>& cells) {
+    Problem p = body_of({box_mesh({{0, 0, 0}, {1, 0.05, 0.05}}, cells)});
+    p.body.element = {element}, p.body.material.poisson_ratio = poisson;
+    const auto all = doubts(p);
+    return all.empty() ? std::string() : all.front();
+  };
+  EXPECT_EQ(said("linear", 0.45, {80, 4, 4}),
+            "body.element: level 0 has linear elements, about 3.9 across its thickness, at nu 0.45; a slender beam of these "
+            "bends 0.61 of what it should, of nodal elements 0.97: expected body.element: nodal");
+  EXPECT_NE(said("linear", 0.3, {40, 2, 2}).find("bends 0.4"), std::string::npos) << "for its few elements";
+  EXPECT_EQ(said("linear", 0.3, {180, 9, 9}), "");
+  EXPECT_EQ(said("nodal", 0.45, {40, 2, 2}), "");
+  EXPECT_NE(said("nodal", 0.45, {20, 1, 1}).find("expected a finer mesh"), std::string::npos);
+}
+
+TEST(Validate, ElementsArePerLevelAndKnown) {
+  Problem p = cube_levels(2, 3, "rs");
+  p.body.element = {"linear", "nodal"};
+  EXPECT_NO_THROW(validate(p));
+  p.body.element = {"linear", "nodal", "nodal"};
+  EXPECT_NE(refusal_of(p).find("expected one name, or one for each of 2 levels"), std::string::npos);
+  p.body.element = {"nodl"};
+  EXPECT_NE(refusal_of(p).find("did you mean 'nodal'"), std::string::npos);
+  p.body.element = {"nodal"}, p.body.stabilisation = 0.1;
+  EXPECT_NE(refusal_of(p).find("body.stabilisation"), std::string::npos);
+  p.body.stabilisation = 0.4, p.body.pressure = "smoothed", p.body.material.model = "linear";
+  EXPECT_NE(refusal_of(p).find("no stiffness for the volume alone"), std::string::npos);
 }
 
 }  // namespace

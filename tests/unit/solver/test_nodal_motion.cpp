@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/core/error.hpp>
+#include <plica/drivers/study/level_probe.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Nodal elements in motion: by every integrator, cycle and stepper, implicit solves, failures.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+/// An irregular clamped beam under gravity, of nodal elements.
+Problem sagging_beam(int levels = 1, double poisson = 0.45) {
+  std::vector<TetMesh> meshes;
+  for (int i = 0; i < levels; ++i) meshes.push_back(jittered_box(beam_box, {12 - 4 * i, 3 - i, 3 - i}));
+  Problem p = body_of(std::move(meshes), "neo_hookean");
+  p.body.element = {"nodal"};
+  p.body.material.poisson_ratio = poisson;
+  p.body.fixed = {left_face()};
+  p.gravity = {0, 0, -9.81};
+  return p;
+}
+
+/// Level 0's displacement after 20 ms.
+std::vector<Point> after(const Problem& p, double step) {
+  Problem one = p;
+  one.integration.macro_step = step;
+  Simulation<Host> simulation(one);
+  advance(simulation, static_cast<int>(std::lround(0.02 / step)));
+  return displacements(simulation, p.body.levels[0]);
+}
+
+TEST(NodalMotion, EveryIntegratorFollowsTheSameMotion) {
+  const Problem body = sagging_beam();
+  Problem fine = body;
+  fine.integration.integrator = {"rk4"};
+  const auto want = after(fine, 1e-4);
+  for (const std::string& integrator : names(integrators())) {
+    SCOPED_TRACE(integrator);
+    if (integrator == "euler") continue;  // stable in damped motion only
+    Problem p = body;
+    p.integration.integrator = {integrator};
+    EXPECT_LE(largest_difference(after(p, 2e-4), want), 0.06 * largest(want));
+  }
+}
+
+TEST(NodalMotion, EveryCycleRunsOnLevelsOfEitherElement) {
+  const auto want = after(sagging_beam(), 1e-4);
+  for (const std::string& cycle : names(cycles()))
+    for (const std::vector<std::string>& element :
+         {std::vector<std::string>{"nodal"}, {"nodal", "linear"}, {"linear", "nodal"}}) {
+      SCOPED_TRACE(cycle + ", " + element.front() + "/" + element.back());
+      Problem p = sagging_beam(2);
+      p.body.element = element, p.integration.cycle = cycle;
+      p.integration.macro_step.reset();
+      Simulation<Host> simulation(p);
+      EXPECT_EQ(simulation.levels()[0].element, element.front());
+      while (simulation.time() < 0.02) advance(simulation, 1);
+      EXPECT_NEAR(largest(displacements(simulation, p.body.levels[0])), largest(want), 0.5 * largest(want));
+    }
+}
+
+TEST(NodalMotion, DampingByStiffnessTakesEnergyAway) {
+  Problem p = sagging_beam();
+  p.gravity = Point::Zero(), p.body.initial.velocity = {0, 0, 1};
+  const auto left = [&](double damping) {
+    Problem one = p;
+    one.body.damping.stiffness = damping, one.integration.macro_step = 1e-4;
+    Simulation<Host> simulation(one);
+    advance(simulation, 200);
+    return simulation.energies().total();
+  };
+  const double free = left(0), damped = left(1e-3);
+  EXPECT_LT(damped, 0.95 * free);
+  EXPECT_GT(damped, 0);
+}
+
+// 10 ms at nu 0.45: preconditioned by multigrid of linear elements that do not lock
+TEST(NodalMotion, MultigridOfLinearElementsPreconditionsImplicitSteps) {
+  const auto iterations = [](const std::string& preconditioner) {
+    Problem p = sagging_beam(2);
+    p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 10e-3;
+    p.integration.implicit.preconditioner = preconditioner, p.integration.implicit.relative_residual = 1e-8;
+    Simulation<Host> simulation(p);
+    advance(simulation, 5);
+    EXPECT_LE(simulation.worst_residual(), 1e-8);
+    return simulation.counters().at("cg_iterations") / 5;
+  };
+  const long multigrid = iterations("multigrid");
+  EXPECT_LE(multigrid, 60);
+  EXPECT_GE(iterations("block_jacobi"), 2 * multigrid);
+}
+
+TEST(NodalMotion, NewtonsMethodSolvesAStepToItsTolerance) {
+  Problem p = sagging_beam();
+  p.integration.integrator = {"newmark"}, p.integration.macro_step = 5e-3;
+  p.integration.implicit.unfinished = "stop", p.integration.implicit.relative_residual = 1e-10;
+  Simulation<Host> simulation(p);
+  const double start = simulation.energies().total();
+  advance(simulation, 40);
+  const Energies e = simulation.energies();
+  EXPECT_NEAR(e.total() - start, 0, 0.02 * e.kinetic + 0.02 * e.elastic);
+}
+
+TEST(NodalMotion, WhatNeedsAMatrixIsRefused) {
+  for (const bool direct : {true, false}) {
+    Problem p = sagging_beam();
+    p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 1e-3;
+    (direct ? p.integration.implicit.solver : p.integration.implicit.matrix) = direct ? "direct" : "assembled";
+    try {
+      Simulation<Host> simulation(p);
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("nodal elements, whose matrix is not assembled"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(NodalMotion, AnInvertedVertexIsNamed) {
+  Problem p = sagging_beam();
+  p.integration.macro_step = 1e-4;
+  Simulation<Host> simulation(p);
+  auto u = std::vector<Point>(p.body.levels[0].vertices.size(), Point::Zero());
+  const std::size_t corner = vertex_at(p.body.levels[0], {0.4, 0.1, 0.1});
+  u[corner] = {-0.2, 0, 0};
+  simulation.set_state(u, std::vector<Point>(u.size(), Point::Zero()));
+  const auto bad = simulation.step_checked();
+  ASSERT_TRUE(bad.has_value());
+  EXPECT_EQ(bad->kind, "inverted");
+  EXPECT_EQ(bad->element, -1);
+  EXPECT_GE(bad->vertex, 0);
+  EXPECT_LT(bad->J, 0);
+  EXPECT_NE(bad->text().find("around a vertex turned inside out: level 0, vertex"), std::string::npos) << bad->text();
+}
+
+TEST(NodalMotion, SavedStatesGoOnBitForBit) {
+  Problem p = sagging_beam();
+  p.integration.macro_step = 1e-4;
+  Simulation<Host> one(p), other(p);
+  advance(one, 10);
+  const SavedState saved = one.save();
+  advance(one, 10);
+  other.restore(saved);
+  advance(other, 10);
+  EXPECT_TRUE(same_bits(one.positions(), other.positions()));
+}
+
+TEST(NodalMotion, FieldsArePerVertex) {
+  Problem p = sagging_beam();
+  p.integration.macro_step = 1e-4;
+  Simulation<Host> simulation(p);
+  const ElementFields fields = simulation.element_fields();
+  EXPECT_TRUE(fields.per_vertex);
+  EXPECT_EQ(fields.von_mises.size(), p.body.levels[0].vertices.size());
+  for (const double J : fields.J) EXPECT_NEAR(J, 1, 1e-12);
+}
+
+}  // namespace
