@@ -2,9 +2,9 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/explicit/updates.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/materials/list.hpp>
 
@@ -42,8 +42,9 @@ template <class B>
 double compulsory_bytes(const Model<B>& model, int numbers) {
   constexpr double s = sizeof(typename B::Real);
   if (const NodalRows<B>& rows = model.rows; rows.slices > 0)
-    return static_cast<double>(bytes_of_views(rows.first, rows.neighbour, rows.gradient, rows.coupling, rows.first_surface,
-                                              rows.surface_neighbour, rows.surface_gradient, rows.inverse_volume)) +
+    return static_cast<double>(bytes_of_views(rows.first, rows.neighbour, rows.gradient, rows.coupling,
+                                              rows.first_surface, rows.surface_neighbour, rows.surface_gradient,
+                                              rows.inverse_volume)) +
            model.vertices * (numbers * s);
   return model.tets * (4 * sizeof(std::uint16_t) + 10 * s) + model.vertices * (numbers * s);
 }
@@ -85,7 +86,8 @@ void register_kernels() {
     for (const Element element : {Element::linear, Element::nodal}) {
       const std::string prefix = element == Element::linear ? "" : "nodal_";
       const double by_tets = element == Element::linear ? 1 : 0;  // rows are judged by their bytes alone
-      benchmark::RegisterBenchmark((prefix + "force/" + c.name).c_str(), force<B>, c, by_tets * flops_per_tet<Material>(1), element);
+      benchmark::RegisterBenchmark((prefix + "force/" + c.name).c_str(), force<B>, c,
+                                   by_tets * flops_per_tet<Material>(1), element);
       benchmark::RegisterBenchmark((prefix + "tangent/" + c.name).c_str(), tangent<B>, c,
                                    by_tets * flops_per_tet<Material>(2), element);
     }

@@ -30,10 +30,10 @@ struct NodalRows {
 
   int slices = 0;
   int domains = 0;
-  Indices<B> first;    ///< [slices + 1]
-  Indices<B> region;   ///< [slices]
-  Indices<B> vertex;   ///< [slots] -1: none
-  Scalars<B> volume;   ///< [slots] V_a [m^3]
+  Indices<B> first;   ///< [slices + 1]
+  Indices<B> region;  ///< [slices]
+  Indices<B> vertex;  ///< [slots] -1: none
+  Scalars<B> volume;  ///< [slots] V_a [m^3]
   Scalars<B> inverse_volume;
   Array<int* [height]> neighbour;  ///< slots
   Array<Real* [3][height]> gradient;

@@ -47,7 +47,7 @@ struct Patches {
   Indices<B> first_slot;       ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
   Shares<B> shares;
-  Indices<B> element;          ///< [packs * lanes] the mesh's tetrahedron, -1: padding
+  Indices<B> element;  ///< [packs * lanes] the mesh's tetrahedron, -1: padding
 };
 
 }  // namespace plica

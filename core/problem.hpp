@@ -81,9 +81,9 @@ struct InitialOptions {
 /// A deformable body.
 struct Body {
   std::vector<TetMesh> levels;                   ///< finest first, at least one
-  std::vector<std::string> element = {"auto"};    ///< of elements(): one for all levels, or one each, finest first
-  double stabilisation = 0.4;                     ///< beta of nodal elements
-  std::string pressure = "auto";                  ///< of pressures(), of nodal elements
+  std::vector<std::string> element = {"auto"};   ///< of elements(): one for all levels, or one each, finest first
+  double stabilisation = 0.4;                    ///< beta of nodal elements
+  std::string pressure = "auto";                 ///< of pressures(), of nodal elements
   MaterialOptions material;                      ///< everywhere but where a region has its own
   std::map<std::string, RegionOptions> regions;  ///< by name
   std::vector<Selection> fixed;                  ///< vertices that stay where they are

@@ -24,8 +24,9 @@ std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Elemen
   return made;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) \
-  template std::unique_ptr<Elasticity<Backend<Real, Exec>>> make_elasticity<Backend<Real, Exec>>(std::string_view, Element);
+#define PLICA_INSTANTIATE(Real, Exec)                                                                              \
+  template std::unique_ptr<Elasticity<Backend<Real, Exec>>> make_elasticity<Backend<Real, Exec>>(std::string_view, \
+                                                                                                 Element);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

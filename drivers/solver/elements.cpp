@@ -37,16 +37,21 @@ bool smooths_pressure(const Body& body, const std::vector<Lame<double>>& of_regi
 
 double bending_ratio(Element element, double poisson_ratio, double across) {
   const double lambda_over_mu = 2 * poisson_ratio / (1 - 2 * poisson_ratio);
-  const double c = element == Element::linear ? 3.5 + 0.7 * lambda_over_mu : 0.45 + 0.006 * std::min(lambda_over_mu, 50.0);
+  const double c =
+      element == Element::linear ? 3.5 + 0.7 * lambda_over_mu : 0.45 + 0.006 * std::min(lambda_over_mu, 50.0);
   return 1 / (1 + c / (across * across));
 }
 
 double elements_across(const TetMesh& mesh) {
-  const double surface = surface_area(boundary_surface(mesh).surface);
+  const BoundarySurface boundary = boundary_surface(mesh);
+  const double surface = surface_area(boundary.surface);
+  const double inside =
+      1 - static_cast<double>(boundary.mesh_vertex.size()) / static_cast<double>(mesh.vertices.size());
   double volume = 0;
   const auto x = [&](int v) -> const Point& { return mesh.vertices[static_cast<std::size_t>(v)]; };
   for (const auto& t : mesh.tets) volume += tet_volume(x(t[0]), x(t[1]), x(t[2]), x(t[3]));
-  return 4 * volume / surface / std::cbrt(6 * volume / static_cast<double>(mesh.tets.size()));
+  const double by_volume = 4 * volume / surface / std::cbrt(6 * volume / static_cast<double>(mesh.tets.size()));
+  return std::max(by_volume, (1 + std::sqrt(inside)) / (1 - std::sqrt(inside)));
 }
 
 }  // namespace plica

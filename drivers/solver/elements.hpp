@@ -26,7 +26,8 @@ bool smooths_pressure(const Body& body, const std::vector<Lame<double>>& of_regi
 /// measured beams of irregular tetrahedra, 2, 4 and 8 across, nu from 0.3 to 0.49, within 0.06.
 double bending_ratio(Element element, double poisson_ratio, double across);
 
-/// About how many elements lie across the body's thickness: 4 V/S of a beam, over the cube root of six mean elements.
+/// About how many elements lie across the body's thickness. The larger of 4 V/S of a beam, over the cube root of six mean elements, and, for
+/// flat elements, what the part r of vertices inside a beam's section says: (1 + sqrt r) / (1 - sqrt r).
 double elements_across(const TetMesh& mesh);
 
 /// The part of lambda that acts on each domain; the rest acts on smoothed volumes.

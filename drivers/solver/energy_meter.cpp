@@ -48,8 +48,8 @@ Energies EnergyMeter<B>::all(double time) const {
   const SolverLevel<B>& level = hierarchy_[0];
   Energies e = motion(Point::Zero()).energies;
   level.elasticity().energy(exec, level, level.state.u);
-  reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows,
-               FirstComponent<B>{level.partial}, blocks_, result_);
+  reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial}, blocks_,
+               result_);
   e.elastic = read()[0];
   if (level.contact()) e.contact = level.contact()->energy(exec, level, time, blocks_);
   return e;

@@ -83,7 +83,8 @@ SparseStiffness::SparseStiffness(LevelProbe<HostBackend>& probe, const Held& hel
 void SparseStiffness::linearise(const std::vector<Point>& u) {
   LevelProbe<HostBackend>& probe = linear_ ? *linear_ : probe_;
   at_ = u;
-  if (linear_ && matrix_.rows() > 0) return;  // linear elements may be inverted where nodal ones are not: those at rest will do
+  if (linear_ && matrix_.rows() > 0)
+    return;  // linear elements may be inverted where nodal ones are not: those at rest will do
   std::vector<Eigen::Index> row_of(3 * mass_.size(), -1);
   const auto n = static_cast<Eigen::Index>(free_.size());
   for (Eigen::Index r = 0; r < n; ++r) row_of[static_cast<std::size_t>(free_[static_cast<std::size_t>(r)])] = r;
@@ -193,6 +194,7 @@ class Newton {
     double size = residual(u, time).norm();
     largest_ = std::max(largest_, size);
     double before = std::numeric_limits<double>::infinity();
+    first_ = size;
     for (int i = 0; i < most_iterations; ++i) {
       if (size <= options_.relative_residual * largest_) return u;
       if (size <= round_off * largest_ && size > 0.5 * before) return u;
@@ -211,7 +213,7 @@ class Newton {
   LevelProbe<HostBackend>& probe_;
   const StaticOptions& options_;
   SparseStiffness stiffness_;
-  double largest_ = 0;
+  double largest_ = 0, first_ = 0;  ///< residuals: of all, of this load step
 
   std::vector<Point> forces(const std::vector<Point>& u, double time) {
     auto f = probe_.force(u, probe_.zero(), time);
@@ -226,7 +228,7 @@ class Newton {
                                            double& size) {
     double step = 1;
     const bool nodal = probe_.at(0).model.rows.slices > 0;
-    const double allowed = (nodal ? 1e4 : 1) * size;
+    const double allowed = nodal ? std::max(size, 1e3 * first_) : size;
     for (int i = 0; i < most_halvings; ++i, step /= 2) {
       auto moved = u;
       for (std::size_t a = 0; a < u.size(); ++a) moved[a] += step * change[a];

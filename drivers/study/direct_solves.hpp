@@ -52,7 +52,7 @@ class SparseStiffness {
   LevelProbe<HostBackend>& probe_;
   std::unique_ptr<LevelProbe<HostBackend>> linear_;  // with nodal elements
   std::vector<Point> at_;                            // the displacements of K
-  std::vector<int> free_;  // 3 a + k
+  std::vector<int> free_;                            // 3 a + k
   std::vector<double> mass_;
   std::vector<std::vector<int>> neighbours_, colours_;
   Matrix matrix_;

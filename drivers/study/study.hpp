@@ -20,8 +20,9 @@ struct StudyRow {
   std::string reason;                                               ///< diagnosis or message, where it is not completed
   std::optional<double> reached;                                    ///< diverged: simulated time until then [s]
   std::optional<double> error, error_velocity, error_worst_vertex;  ///< see StudyErrors, against the reference
-  std::optional<double> total_error;  ///< against the truth, where that is the reference; `error` is then against the row's own mesh,
-                                      ///< converged in time: total_error <= space_error + error
+  std::optional<double>
+      total_error;  ///< against the truth, where that is the reference; `error` is then against the row's own mesh,
+                    ///< converged in time: total_error <= space_error + error
   std::optional<double> space_error;  ///< of that mesh and its elements, converged in time, against the truth
   std::optional<double> error_finer;  ///< like error, against the finer mesh's reference: space and time together
   std::map<std::string, std::optional<double>> error_probes;  ///< of displacement, of each probe: see error_at()

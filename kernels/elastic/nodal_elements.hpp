@@ -289,8 +289,8 @@ struct MeanOfDomains {
 };
 
 template <class B, class Material>
-void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                  const Scalars<B>& von_mises, const Scalars<B>& J) {
+void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& von_mises,
+                  const Scalars<B>& J) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {

@@ -89,8 +89,7 @@ KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalar
   using Real = typename B::Real;
   constexpr int stride = 4 * fields;
   const Real* const base = near.data();
-  for (int f = 0; f < fields; ++f)
-    load_vectors([=](int l) { return base + (at.slot + l) * stride + 4 * f; }, own[f]);
+  for (int f = 0; f < fields; ++f) load_vectors([=](int l) { return base + (at.slot + l) * stride + 4 * f; }, own[f]);
   for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
     const int* const neighbour = &rows.neighbour(e, at.offset);
     const Vec3<RowPack<B>> C = load_gradient<B>(rows.gradient, e, at.offset);

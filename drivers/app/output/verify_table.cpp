@@ -15,12 +15,8 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 Json row_head(const VerifyRow& row) {
-  return {{"problem", row.problem},
-          {"quantity", row.quantity},
-          {"unit", row.unit},
-          {"element", row.element},
-          {"mesh", row.mesh},
-          {"accepted", row_value(row.accepted)},
+  return {{"problem", row.problem},         {"quantity", row.quantity}, {"unit", row.unit},
+          {"element", row.element},         {"mesh", row.mesh},         {"accepted", row_value(row.accepted)},
           {"source", row_value(row.source)}};
 }
 
@@ -162,7 +158,8 @@ std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) 
   std::string text = fmt::format(
       "# Problems with known answers\n\n"
       "Written by `plica verify{}` in {:.0f} s: {}, {} cores, {} with {}; {}; plica {} ({}). Status: {}.\n\n"
-      "All in double precision. *Ours*: on each mesh, in cells, each cut into six tetrahedra, with these elements; *jittered*: vertices moved by up to a fifth of a cell. *Limit*: what the "
+      "All in double precision. *Ours*: on each mesh, in cells, each cut into six tetrahedra, with these elements; "
+      "*jittered*: vertices moved by up to a fifth of a cell. *Limit*: what the "
       "last three tend to\n"
       "(Richardson). *Order*: of the error against the accepted value, or of the differences where the row is judged "
       "by its limit\n"
@@ -192,8 +189,8 @@ std::string verify_text(const VerifyResult& result, const std::string& folder) {
   }
   const auto wrong = std::ranges::count_if(result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
   return text_table(table, "<<<<>>>><") + fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
-                                                    counted(static_cast<long>(result.rows.size()), "row"), wrong,
-                                                    folder);
+                                                      counted(static_cast<long>(result.rows.size()), "row"), wrong,
+                                                      folder);
 }
 
 }  // namespace plica::app

@@ -226,8 +226,8 @@ class StageSolver {
   Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
     level.elasticity().energy(level.exec(), level, level.state.u);
-    reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows,
-                 FirstComponent<B>{level.partial}, blocks_, result_);
+    reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
+                 blocks_, result_);
     double stored = read(level.exec())[0];
     if (level.contact()) stored += level.contact()->energy(level.exec(), level, end, blocks_);
     return {terms[0] + stored, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(stored)};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <algorithm>
 #include <functional>
 #include <map>
 #include <plica/core/error.hpp>
@@ -163,7 +162,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   return level;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                               \
+#define PLICA_INSTANTIATE(Real, Exec)                                   \
   template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
       const Body&, const TetMesh&, const LevelConstants&, const std::vector<std::vector<double>>*);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)

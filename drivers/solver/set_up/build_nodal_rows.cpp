@@ -150,7 +150,8 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Pair& p = pairs[i];
         neighbour[e0 + i][row] = slot_of[at(p.neighbour)];
-        for (std::size_t k = 0; k < 3; ++k) gradient[e0 + i][k][row] = static_cast<Real>(p.gradient[static_cast<int>(k)]);
+        for (std::size_t k = 0; k < 3; ++k)
+          gradient[e0 + i][k][row] = static_cast<Real>(p.gradient[static_cast<int>(k)]);
         coupling[e0 + i][row] = static_cast<Real>(p.coupling), smoothing[e0 + i][row] = static_cast<Real>(p.smoothing);
         if (p.surface == Point::Zero()) continue;
         const std::size_t s = s0 + on_surface++;
@@ -215,8 +216,9 @@ NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
   return work;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                            \
-  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>(const TetMesh&, const NodalConstants&); \
+#define PLICA_INSTANTIATE(Real, Exec)                                                                   \
+  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>(const TetMesh&,         \
+                                                                                const NodalConstants&); \
   template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(const NodalRows<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

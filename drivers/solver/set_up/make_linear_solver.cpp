@@ -72,9 +72,10 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   }
   o.solver = std::move(solver);
   if (nodal && (o.solver == Direct::name || o.matrix == "assembled"))
-    throw InputError("integration.implicit: level " + std::to_string(level) +
-                     " has nodal elements, whose matrix is not assembled; expected solver conjugate_gradients or auto, and "
-                     "matrix free or auto");
+    throw InputError(
+        "integration.implicit: level " + std::to_string(level) +
+        " has nodal elements, whose matrix is not assembled; expected solver conjugate_gradients or auto, and "
+        "matrix free or auto");
   if (o.solver == VCycleSolver::name && !multigrid) {  // the cycle of one level is the coarsest one's answer
     if (!on_host || unknowns(body.levels[level]) > static_cast<std::size_t>(most_dense_unknowns))
       throw InputError("level " + std::to_string(level) +
@@ -92,7 +93,8 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
     o.preconditioner = BlockJacobi::name;  // also of a level that has no coarser one, where others have
     if (multigrid && (asked || !fixed)) add_multigrid(parts, body, level, asked);
   }
-  if (o.matrix == "auto") o.matrix = cycle || nodal || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";
+  if (o.matrix == "auto")
+    o.matrix = cycle || nodal || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";
   return parts;
 }
 

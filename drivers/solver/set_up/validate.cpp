@@ -224,8 +224,9 @@ void check_elements(const Body& body, std::size_t levels) {
                      " levels, got a list of " + std::to_string(body.element.size()));
   const MaterialInfo& material = *find_material(body.material.model);
   if (body.pressure == "smoothed" && !(material.with_lambda && material.rotation_invariant))
-    throw InputError("body.pressure is smoothed, but material " + std::string(material.name) +
-                     " has no stiffness for the volume alone at finite strains; expected plain or auto, or another material");
+    throw InputError(
+        "body.pressure is smoothed, but material " + std::string(material.name) +
+        " has no stiffness for the volume alone at finite strains; expected plain or auto, or another material");
 }
 
 }  // namespace
@@ -288,13 +289,14 @@ void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
   const Element element = element_of(body, 0);
   const double across = elements_across(body.levels.front());
   const bool linear = element == Element::linear;
-  if (linear ? poisson <= 0.4 && across >= 8 : across >= 1.5) return;
+  if (linear ? poisson <= 0.4 && across >= 8 : across >= 1.2) return;
   const auto bends = [&](Element one) { return number(bending_ratio(one, poisson, across), 2); };
   sentences.push_back(text("body.element: level 0 has ", name_of(element), " elements, about ", number(across, 2),
                            " across its thickness, at nu ", number(poisson, 4), "; a slender beam of these bends ",
                            bends(element), " of what it should",
-                           linear ? text(", of nodal elements ", bends(Element::nodal), ": expected body.element: nodal")
-                                  : ": expected a finer mesh"));
+                           linear
+                               ? text(", of nodal elements ", bends(Element::nodal), ": expected body.element: nodal")
+                               : ": expected a finer mesh"));
 }
 
 }  // namespace

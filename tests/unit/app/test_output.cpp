@@ -36,7 +36,8 @@ Snapshot moved(const Scene& scene, double time, const Point& by) {
   }
   const std::size_t tets = scene.problem.body.levels[0].tets.size();
   if (!scene.output.volume.levels.empty())
-    snapshot.volumes = {{0, snapshot.positions, snapshot.velocities, {false, std::vector(tets, 7.0), std::vector(tets, 0.9)}}};
+    snapshot.volumes = {
+        {0, snapshot.positions, snapshot.velocities, {false, std::vector(tets, 7.0), std::vector(tets, 0.9)}}};
   snapshot.energies = {.kinetic = 1, .elastic = 2, .potential = -4, .contact = 0.5};
   return snapshot;
 }

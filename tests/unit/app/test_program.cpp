@@ -248,7 +248,7 @@ TEST_F(Program, CompletesCommandLines) {
   EXPECT_EQ(completed("plica mesh i"), "info\n");
   EXPECT_EQ(completed("plica stab"), "stability\n");
   EXPECT_EQ(completed("plica stability --m"), "--matrix\n");
-  EXPECT_EQ(completed("plica verify cook"), "cook_membrane\n");
+  EXPECT_EQ(completed("plica verify cook"), "cook_membrane cook_incompressible\n");
   EXPECT_EQ(plica({"completion", "fish"}).status, 2);
 }
 

@@ -101,9 +101,12 @@ TEST_F(Resume, InterruptedRunGoesOn) {
 }
 
 TEST_F(Resume, FromTheVeryStart) {
-  const std::vector<std::string> diverging = {"--set", "integration.integrator=symplectic_euler"};
+  const std::vector<std::string> diverging = {"--set", "integration.integrator=symplectic_euler", "--set",
+                                              "body.element=linear"};
   ASSERT_EQ(begin("whole", diverging).status, 3);
-  ASSERT_EQ(begin("again", {diverging[0], diverging[1], "--checkpoint", "every=100 s"}).status, 3);
+  ASSERT_EQ(
+      begin("again", {diverging[0], diverging[1], diverging[2], diverging[3], "--checkpoint", "every=100 s"}).status,
+      3);
   EXPECT_EQ(go_on("again").status, 3) << "nothing is saved after it went wrong";
   expect_same_results("whole", "again");
 }

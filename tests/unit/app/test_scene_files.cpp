@@ -135,7 +135,7 @@ TEST(SceneFiles, DuplicatesAreMergedOnRequest) {
   EXPECT_EQ(apart.problem.body.levels[0].vertices.size(), 8);
   EXPECT_TRUE(mentions(apart.warnings, "1 inverted element turned"));
   EXPECT_TRUE(mentions(apart.warnings, "1 unused point dropped"));
-  EXPECT_TRUE(mentions(apart.warnings, "in 2 parts"));
+  EXPECT_TRUE(mentions(apart.warnings, "has 2 parts"));
   const Scene glued = scene_of(of_files(file + ", merge_duplicates: 2 mm"));
   EXPECT_EQ(glued.problem.body.levels[0].vertices.size(), 5);
   EXPECT_TRUE(mentions(glued.warnings, "merged 3 duplicate vertices"));

@@ -104,7 +104,7 @@ TEST_F(StabilityCommand, RowsOfJsonAndCsvHaveTheSameFields) {
 
 TEST_F(StabilityCommand, BadInputIs2) {
   const auto refuses = [&](const std::vector<std::string>& words, const std::string& text) {
-    const Child run = plica(words);
+    const Child run = plica({"stability"}, words);
     EXPECT_EQ(run.status, 2);
     EXPECT_NE(run.errors.find(text), std::string::npos) << run.errors;
   };
@@ -195,8 +195,10 @@ TEST_F(VerifyCommand, WritesTheTable) {
   EXPECT_EQ(json["rows"][2]["problem"], "uniaxial_tension");
   EXPECT_NEAR(double(json["rows"][2]["ours"][0]["value"]), 1e-3, 1e-12);
   const std::string csv = content_of(folder / "out/verify.csv"), table = content_of(folder / "out/verify.md");
-  EXPECT_EQ(csv.find("problem,quantity,unit,accepted,"), 0U);
-  EXPECT_NE(table.find("| uniaxial_tension | strain along | 0.001 | p/E (Hooke) |"), std::string::npos) << table;
+  EXPECT_EQ(csv.find("problem,quantity,unit,element,mesh,accepted,"), 0U);
+  EXPECT_NE(table.find("| uniaxial_tension | strain along | linear | regular | 0.001 | p/E (Hooke) |"),
+            std::string::npos)
+      << table;
   for (const char* words : {"uniaxial_tension", "strain along", "4 rows, 0 not ok", "verify.md"})
     EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
 }
@@ -239,9 +241,9 @@ TEST(VerifyTable, SaysWhatIsWrong) {
   result.rows = {row};
   VerifyHead head;
   head.status = "completed";
-  EXPECT_NE(
-      verify_markdown(head, result).find("| p | q [m] | 1 m | s | 2x2x2: 1.5 |  |  | finest within 1 % | not ok | n |"),
-      std::string::npos)
+  EXPECT_NE(verify_markdown(head, result)
+                .find("| p | q [m] | linear | regular | 1 m | s | 2x2x2: 1.5 |  |  | finest within 1 % | not ok | n |"),
+            std::string::npos)
       << verify_markdown(head, result);
   EXPECT_NE(verify_text(result, "out").find("1 row, 1 not ok"), std::string::npos);
 }

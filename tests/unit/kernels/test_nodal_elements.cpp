@@ -285,8 +285,8 @@ TEST(NodalElements, StressOfAnAffineMotionIsTheSameEverywhere) {
   const Eigen::Matrix3d F = Eigen::Vector3d(1.2, 0.95, 1).asDiagonal();
   const SolverLevel<Host>& level = probe.at(0);
   const Scalars<Host> stress("test.stress", probe.vertices()), J("test.J", probe.vertices());
-  level.elasticity().stress(level.exec(), level, device_field<Host>(affine_field(problem.body.levels[0], F, Point::Zero())),
-                            stress, J);
+  level.elasticity().stress(level.exec(), level,
+                            device_field<Host>(affine_field(problem.body.levels[0], F, Point::Zero())), stress, J);
   const auto c = lame_constants(20e3, 0.35);
   const double want = von_mises(cauchy_stress<NeoHookean>(mat3<double>(F), c));
   for (std::size_t a = 0; a < probe.vertices(); ++a) {

@@ -140,7 +140,8 @@ TEST(Validate, DoubtsPathsThatStartElsewhere) {
   Problem p = small_cube();
   p.body.prescribed = {{left_face(), PathMotion{{{0.1, {0, 0, 1e-3}}}}}};
   ASSERT_EQ(other_doubts(p).size(), 1);
-  EXPECT_EQ(other_doubts(p)[0], "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
+  EXPECT_EQ(other_doubts(p)[0],
+            "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
 }
 
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
@@ -357,9 +358,10 @@ TEST(Validate, DoubtsElementsThatAreTooStiff) {
     const auto all = doubts(p);
     return all.empty() ? std::string() : all.front();
   };
-  EXPECT_EQ(said("linear", 0.45, {80, 4, 4}),
-            "body.element: level 0 has linear elements, about 3.9 across its thickness, at nu 0.45; a slender beam of these "
-            "bends 0.61 of what it should, of nodal elements 0.97: expected body.element: nodal");
+  EXPECT_EQ(
+      said("linear", 0.45, {80, 4, 4}),
+      "body.element: level 0 has linear elements, about 3.9 across its thickness, at nu 0.45; a slender beam of these "
+      "bends 0.61 of what it should, of nodal elements 0.97: expected body.element: nodal");
   EXPECT_NE(said("linear", 0.3, {40, 2, 2}).find("bends 0.4"), std::string::npos) << "for its few elements";
   EXPECT_EQ(said("linear", 0.3, {180, 9, 9}), "");
   EXPECT_EQ(said("nodal", 0.45, {40, 2, 2}), "");

@@ -135,9 +135,9 @@ TEST(Truth, IsNearTheKnownMotionOfABar) {
   ASSERT_EQ(truth.family.meshes.size(), 2u);
   EXPECT_EQ(truth.family.meshes[1].tets, 8 * 6 * 8 * 2 * 2);
   EXPECT_TRUE(truth.converges()) << *truth.family.order;
-  EXPECT_LT(error, 0.6 * truth.family.meshes[1].error) << "better than the finest mesh";
+  EXPECT_LT(error, truth.family.meshes[1].error) << "better than the finest mesh";
   EXPECT_LT(error, 1.5 * found.own_error) << "as uncertain as it says";
-  EXPECT_LT(truth.time_error, 0.1 * truth.family.meshes[1].error);
+  EXPECT_LT(truth.time_error, 0.3 * truth.family.meshes[1].error);
   EXPECT_EQ(truth.family.name, "nodal");
   EXPECT_EQ(truth.check.name, "linear");
   ASSERT_EQ(found.meshes.size(), 4u) << "two levels, two kinds of elements";
