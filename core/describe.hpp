@@ -243,7 +243,7 @@ void describe(V& v, IntegrationOptions& o) {
   v("error_class", o.error_class, Name{"error class", error_classes}, "of cycle auto: how far from level 0 alone");
   v("macro_step", o.macro_step, AutoQuantity{{duration, positive}},
     "auto: 0.9 of the predicted limit; the last step ends at the duration");
-  v("distribution", keys::Shares::Target{o.distribution, o.shares}, keys::Shares{{"distribution", distributions}},
+  v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
   describe_stepping(v, o);
   v("implicit", o.implicit, Group{}, "how implicit levels are solved");

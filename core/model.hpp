@@ -26,7 +26,7 @@ struct Model {
   Patches<B>
       patches;  ///< of linear elements; also where an implicit level of nodal ones is preconditioned by linear ones
   NodalRows<B> rows;        ///< of nodal elements
-  Shares<B> shares;         ///< in which the elements' forces are left, of the one or the other
+  VertexShares<B> shares;   ///< in which the elements' forces are left, of the one or the other
   Scalars<B> mass;          ///< lumped [kg], > 0
   Scalars<B> inverse_mass;  ///< [1/kg]; 0: the vertex's motion is given, forces do not move it
   MassDamping<B> damping;

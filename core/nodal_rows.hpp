@@ -46,7 +46,7 @@ struct NodalRows {
   Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
   Scalars<B> excess;      ///< [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
   Scalars<B> damping;     ///< [regions] part of the stiffness that damps [s]; empty: none anywhere
-  Shares<B> shares;
+  VertexShares<B> shares;
 
   int slots() const { return slices * height; }
 };

@@ -8,7 +8,7 @@ namespace plica {
 /// Where an element kernel leaves what it adds to a vertex: in rows of its own per patch or region, which are added up in this
 /// order. Vertex a: rows [first(a), first(a+1)) of `row`.
 template <class B>
-struct Shares {
+struct VertexShares {
   int rows = 0;      ///< that the kernel writes; those of no vertex are 0
   Indices<B> first;  ///< [vertices + 1]
   Indices<B> row;
@@ -46,7 +46,7 @@ struct Patches {
   Scalars<B> damping;          ///< [count] part of its stiffness that damps [s]; empty: none anywhere
   Indices<B> first_slot;       ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
-  Shares<B> shares;
+  VertexShares<B> shares;
   Indices<B> element;  ///< [packs * lanes] the mesh's tetrahedron, -1: padding
 };
 

@@ -73,8 +73,8 @@ KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B
 ///                 \______________  |  ___________________/
 ///                                  a                               start + x + x + x
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const Shares<B>& shares, const Vectors<B>& partial, int a,
-                                                            Vec3<typename B::Real> start = {}) {
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B>& shares, const Vectors<B>& partial,
+                                                            int a, Vec3<typename B::Real> start = {}) {
   for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
     const int i = shares.row(s);
     for (int k = 0; k < 3; ++k) start[k] += partial(i, k);

@@ -9,6 +9,7 @@ namespace plica {
 /// straight edges and corners stay. Where a tetrahedron would lose more than nine tenths of its volume, its vertices go half as far,
 /// and so on.
 ///
+/// @param mesh    the body
 /// @param amount  in [0, 0.5); InputError otherwise
 /// @param seed    the same moves for the same seed on every machine
 /// @return        the same tetrahedra, regions and sets

@@ -94,7 +94,7 @@ struct SavedState {
 
 /// Of a level with linear elements per tetrahedron, with nodal ones per vertex; in input order.
 struct ElementFields {
-  bool per_vertex = false;
+  bool per_vertex = false;  ///< else per tetrahedron
 
   std::vector<double> von_mises;  ///< equivalent stress of the Cauchy stress [Pa]
   std::vector<double> J;          ///< volume ratio

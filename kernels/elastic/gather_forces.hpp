@@ -9,7 +9,7 @@ namespace plica {
 template <class B>
 struct GatherForces {
   using Real = typename B::Real;
-  Shares<B> shares;
+  VertexShares<B> shares;
   Vectors<B> partial;
   Scalars<B> mass;
   Vec3<Real> gravity;  ///< [m/s^2]

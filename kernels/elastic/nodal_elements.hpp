@@ -276,7 +276,7 @@ struct NodalStress {
 template <class B>
 struct MeanOfDomains {
   using Real = typename B::Real;
-  Shares<B> shares;
+  VertexShares<B> shares;
   Scalars<B> volume, records, equivalent, ratio;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     Real total = 0, stress = 0, J = 0;

@@ -73,9 +73,7 @@ Json schema_of(const NamedPoints&) {
           {"additionalProperties", schema_of(Vector{length})}};
 }
 
-Json schema_of(const keys::Shares& kind) {
-  return any_of({schema_of(kind.name), list_of(schema_of(keys::Shares::share))});
-}
+Json schema_of(const Shares& kind) { return any_of({schema_of(kind.name), list_of(schema_of(Shares::share))}); }
 
 template <auto Member, class Kind>
 Json schema_of(const As<Member, Kind>& as) {

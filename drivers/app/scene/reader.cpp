@@ -133,11 +133,11 @@ void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& t
   read_per_level(value, kind.expects(), target, [](const Value& one, int& count) { read(one, AutoCount{}, count); });
 }
 
-void read(const Value& value, const keys::Shares& kind, const keys::Shares::Target& target) {
+void read(const Value& value, const Shares& kind, const Shares::Target& target) {
   if (value.tree.kind != Tree::Kind::list) return read(value, kind.name, target.rule);
   target.rule = "custom";
   target.shares.resize(value.list(kind.expects()).size());
-  for (std::size_t i = 0; i < target.shares.size(); ++i) read(value.item(i), keys::Shares::share, target.shares[i]);
+  for (std::size_t i = 0; i < target.shares.size(); ++i) read(value.item(i), Shares::share, target.shares[i]);
 }
 
 void read(const Value& value, const Entry& kind, Entry::Map& target) { read(value, kind.quantity, target[kind.name]); }

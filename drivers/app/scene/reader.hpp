@@ -35,7 +35,7 @@ void read(const Value& value, const Text& kind, std::string& target);
 void read(const Value& value, const Name& kind, std::string& target);
 void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target);
 void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target);
-void read(const Value& value, const keys::Shares& kind, const keys::Shares::Target& target);
+void read(const Value& value, const Shares& kind, const Shares::Target& target);
 void read(const Value& value, const Entry& kind, Entry::Map& target);
 void read(const Value& value, const Every& kind, Interval& target);
 void read(const Value& value, const LevelChoice& kind, VolumeLevels& target);

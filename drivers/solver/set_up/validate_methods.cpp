@@ -95,7 +95,7 @@ void check_implicit(const ImplicitOptions& o, const std::vector<std::string>& in
 void validate_shares(const IntegrationOptions& o, std::size_t levels) {
   if (o.distribution != "custom") return;
   check_length("integration.distribution", o.shares.size(), levels, false);
-  for (const double one : o.shares) keys::Shares::share.check("integration.distribution", one);
+  for (const double one : o.shares) Shares::share.check("integration.distribution", one);
   const double sum = std::accumulate(o.shares.begin(), o.shares.end(), 0.0);
   if (!(std::abs(sum - 1) <= 1e-12))
     throw InputError("integration.distribution: the shares must add up to 1, got " + number(sum, 15));
