@@ -2,9 +2,6 @@
 #pragma once
 #include <plica/core/small.hpp>
 #include <utility>
-#if defined(__AVX512F__) && !defined(__CUDACC__)
-#include <immintrin.h>
-#endif
 
 namespace plica {
 
@@ -26,20 +23,6 @@ struct Transposed {
   static Packed gather(int i, const Row& row) {
     const auto four = [&](int j) { return reinterpret_cast<const Four*>(row(i + 4 * j)); };
     Packed p;
-#if defined(__AVX512F__)  // inserted from memory: the compiler would load each by itself first
-    if constexpr (N == 8 && sizeof(T) == 8) {
-      const __m512d low = _mm512_castpd256_pd512(_mm256_loadu_pd(row(i)));
-      p.v = _mm512_insertf64x4(low, _mm256_loadu_pd(row(i + 4)), 1);
-      return p;
-    }
-    if constexpr (N == 16 && sizeof(T) == 4) {
-      __m512 all = _mm512_castps128_ps512(_mm_loadu_ps(row(i)));
-      all = _mm512_insertf32x4(all, _mm_loadu_ps(row(i + 4)), 1);
-      all = _mm512_insertf32x4(all, _mm_loadu_ps(row(i + 8)), 2);
-      p.v = _mm512_insertf32x4(all, _mm_loadu_ps(row(i + 12)), 3);
-      return p;
-    }
-#endif
     if constexpr (N == 4) p.v = four(0)->v;
     if constexpr (N == 8) p.v = __builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7);
     if constexpr (N == 16)

@@ -70,7 +70,9 @@ std::vector<Freedom> freedoms(const TetMesh& mesh) {
 
 std::vector<Point> moves_of(const TetMesh& mesh, double amount, unsigned seed) {
   std::mt19937 random(seed);  // its numbers are the standard's, unlike those of the distributions
-  const auto within = [&random] { return 2.0 * random() / std::mt19937::max() - 1.0; };
+  const auto within = [&random] {
+    return 2.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.0;
+  };
   const std::vector<double> shortest = shortest_edges(mesh);
   const std::vector<Freedom> free = freedoms(mesh);
   std::vector<Point> moves(mesh.vertices.size());

@@ -104,8 +104,8 @@ bool Simulation<B>::Inside::reaches_end() const {
 template <class B>
 double Simulation<B>::Inside::next_span() const {
   if (reaches_end()) return end - time;
-  const double start = static_cast<double>(steps) * built.macro_step;
-  return built.macro_step - (time - start);  // which is 0 but after a step that was shorter
+  const double whole = static_cast<double>(steps) * built.macro_step;
+  return built.macro_step - (time - whole);  // which is 0 but after a step that was shorter
 }
 
 /// The time after the next macro step; a shorter one does not count.

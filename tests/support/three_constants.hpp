@@ -49,7 +49,8 @@ struct ThreeConstants {
 /// What it says of itself, as those in the list do.
 inline MaterialInfo three_constants() {
   using M = ThreeConstants;
-  return {M::name, "", true, false, false, false, {M::parameters.begin(), M::parameters.end()}, nullptr, nullptr};
+  return {M::name, "",      true,   false, false, false, {M::parameters.begin(), M::parameters.end()},
+          nullptr, nullptr, nullptr};
 }
 
 }  // namespace plica::test

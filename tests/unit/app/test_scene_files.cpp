@@ -201,7 +201,7 @@ class ForeignText : public ProgramTest {
         << more;
     return folder / file;
   }
-  Json summary(const std::string& out = "out") const { return Json::parse(content_of(folder / out / "summary.json")); }
+  Json summary(const std::string& of = "out") const { return Json::parse(content_of(folder / of / "summary.json")); }
 };
 
 TEST_F(ForeignText, RegionsOfAMeshFile) {
@@ -249,13 +249,13 @@ TEST_F(ForeignText, FilesWithLatin1Names) {
   const std::string inside = "d\xE9pot";
   std::filesystem::create_directory(folder / inside);
   std::filesystem::copy(folder / "a.msh", folder / inside / "a.msh");
-  const std::string file = scene_file(inside + "/sc\xE8ne.yaml", ""), out = inside + "/r\xE9sultat";
-  const Child run = plica({"run", file, "-o", folder / out, "--checkpoint", "every=1"});
+  const std::string file = scene_file(inside + "/sc\xE8ne.yaml", ""), result = inside + "/r\xE9sultat";
+  const Child run = plica({"run", file, "-o", folder / result, "--checkpoint", "every=1"});
   ASSERT_EQ(run.status, 0) << run.errors;
-  EXPECT_EQ(summary(out)["name"], "sc\xEF\xBF\xBDne");
-  EXPECT_TRUE(summary(out)["scene"].get<std::string>().ends_with("/sc\xEF\xBF\xBDne.yaml"));
-  EXPECT_TRUE(std::filesystem::exists(folder / out / "frames/surface_0001.vtu"));
-  const Child resumed = plica({"run", "--resume", folder / out, "--duration", "4 ms"});
+  EXPECT_EQ(summary(result)["name"], "sc\xEF\xBF\xBDne");
+  EXPECT_TRUE(summary(result)["scene"].get<std::string>().ends_with("/sc\xEF\xBF\xBDne.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(folder / result / "frames/surface_0001.vtu"));
+  const Child resumed = plica({"run", "--resume", folder / result, "--duration", "4 ms"});
   EXPECT_EQ(resumed.status, 0) << "the mesh beside the scene is found again: " << resumed.errors;
   const Child check = plica({"check", file, "--json"});
   EXPECT_EQ(Json::parse(check.output)["sound"], true);
