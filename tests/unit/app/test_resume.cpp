@@ -29,21 +29,21 @@ class Resume : public ProgramTest {
  protected:
   Resume() : ProgramTest(bouncing_block) {}
 
-  Child begin(const std::string& out, const std::vector<std::string>& more = {},
+  Child begin(const std::string& into, const std::vector<std::string>& more = {},
               const std::function<bool(pid_t)>& meanwhile = {}) {
-    return plica({"run", scene, "-o", folder / out, "--quiet", "--threads", "1"}, more, meanwhile);
+    return plica({"run", scene, "-o", folder / into, "--quiet", "--threads", "1"}, more, meanwhile);
   }
-  Child go_on(const std::string& out, const std::vector<std::string>& more = {},
+  Child go_on(const std::string& into, const std::vector<std::string>& more = {},
               const std::function<bool(pid_t)>& meanwhile = {}) {
-    return plica({"run", "--resume", folder / out, "--quiet", "--threads", "1"}, more, meanwhile);
+    return plica({"run", "--resume", folder / into, "--quiet", "--threads", "1"}, more, meanwhile);
   }
 
   /// All of a run that must not depend on how often it was interrupted.
-  std::map<std::string, std::string> results(const std::string& out) const {
+  std::map<std::string, std::string> results(const std::string& into) const {
     std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / out))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / into))
       if (entry.is_regular_file() && entry.path().filename() != "checkpoint.bin")
-        files[std::filesystem::relative(entry.path(), folder / out).string()] = content_of(entry.path());
+        files[std::filesystem::relative(entry.path(), folder / into).string()] = content_of(entry.path());
     Json summary = Json::parse(files.at("summary.json"));
     for (const char* changing : {"arguments", "wall_time", "setup_time", "peak_memory", "stages"})
       summary.erase(changing);
