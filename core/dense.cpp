@@ -33,15 +33,29 @@ bool invert(int n, double* A) {
   return true;
 }
 
-void eigenvectors(int n, const double* K, const double* M, double* s, double* phi) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(matrix(n, K), matrix(n, M));
-  Eigen::Map<Eigen::VectorXd>(s, n) = solver.eigenvalues();
-  matrix(n, phi) = solver.eigenvectors();
+int modes(int n, const double* K, const double* M, double* s, double* phi) {
+  constexpr double least = 1e-8;
+  // T: a basis in which M is the unit matrix
+  const Eigen::VectorXd diagonal = matrix(n, M).diagonal();
+  const Eigen::VectorXd scale = (diagonal.array() > 0).select(diagonal.array().rsqrt(), 0.0);
+  const Eigen::SelfAdjointEigenSolver<Matrix> of_mass(scale.asDiagonal() * matrix(n, M) * scale.asDiagonal());
+  const auto small = (of_mass.eigenvalues().array() < least).count();
+  const Eigen::Index kept = n - small;
+  const Matrix T = scale.asDiagonal() * of_mass.eigenvectors().rightCols(kept) *
+                   of_mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  Matrix T3 = Matrix::Zero(3 * n, 3 * kept);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < kept; ++j) T3.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(T(i, j));
+  const Matrix KT = matrix(3 * n, K) * T3;
+  const Eigen::SelfAdjointEigenSolver<Matrix> of_stiffness(T3.transpose() * KT);
+  Eigen::Map<Eigen::VectorXd>(s, 3 * kept) = of_stiffness.eigenvalues();
+  Eigen::Map<Matrix>(phi, 3 * n, 3 * kept).noalias() = T3 * of_stiffness.eigenvectors();
+  return static_cast<int>(3 * kept);
 }
 
-void recompose(int n, const double* s, const double* phi, double* A) {
-  const Eigen::Map<const Matrix> vectors = matrix(n, phi);
-  matrix(n, A).noalias() = vectors * Eigen::Map<const Eigen::VectorXd>(s, n).asDiagonal() * vectors.transpose();
+void recompose(int n, int count, const double* s, const double* phi, double* A) {
+  const Eigen::Map<const Matrix> vectors(phi, n, count);
+  matrix(n, A).noalias() = vectors * Eigen::Map<const Eigen::VectorXd>(s, count).asDiagonal() * vectors.transpose();
 }
 
 RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside, double next) {

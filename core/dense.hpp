@@ -9,12 +9,15 @@ namespace plica::dense {
 /// The inverse of a positive definite matrix, in place. False where it is not positive definite: then A is of no use.
 bool invert(int n, double* A);
 
-/// K phi = s M phi for a positive definite M: the eigenvalues s [n], ascending, and the vectors phi, one after the other, with
-/// phi . M phi = 1.
-void eigenvectors(int n, const double* K, const double* M, double* s, double* phi);
+/// K phi = s M phi for K of 3n x 3n numbers and a positive semi-definite M of n x n, which stands for M times the 3x3 unit matrix.
+/// Left out are combinations whose M is below 1e-8 of what it is for their parts. The eigenvalues s, ascending, and the vectors phi [3n], one
+/// after the other, with phi . M phi = 1; how many there are is returned.
+/// @param s    [3n]
+/// @param phi  [3n x 3n]
+int modes(int n, const double* K, const double* M, double* s, double* phi);
 
-/// sum over k of s_k phi_k phi_k^T, for vectors that stand one after the other.
-void recompose(int n, const double* s, const double* phi, double* A);
+/// sum over k < count of s_k phi_k phi_k^T, for vectors of n numbers that stand one after the other.
+void recompose(int n, int count, const double* s, const double* phi, double* A);
 
 /// The largest eigenvalue of a Lanczos iteration's tridiagonal matrix, and how far it can be from one of the operator's.
 struct RitzBound {

@@ -29,23 +29,29 @@ struct CoarseFilter {
   Vectors<B> rotation;  ///< R, [3 vertices][3], three rows each
 };
 
-/// How the coarsest level's axes follow the body: u_C = E u; D = the volumes' sum of deformation gradients around a vertex;
-/// R = the rotation nearest to W D. And the force by which they act back, g on u_C.
+/// A linear map from vectors at some places to matrices at others: by rows, as the sum of vector times (row's) vector.
+template <class B>
+struct GradientRows {
+  Indices<B> first;       ///< [rows + 1] into the others
+  Indices<B> column;      ///< of an entry
+  Vectors<B> derivative;  ///< [entries][3]
+};
+
+/// How the coarsest level's axes follow the body: u_C = E u; D = its gradient around a vertex, weighed; R = the rotation nearest
+/// to W D. And the force by which they act back, g on u_C.
 template <class B>
 struct CoarseAxes {
   SparseRows<B> restriction, spread;      ///< E, from the finest mesh, and its transpose
-  SparseRows<B> smoothing, smoothing_of;  ///< W, and its transpose
+  GradientRows<B> gradient_of;            ///< D of u_C
+  GradientRows<B> gradient_to;            ///< its transpose
+  Scalars<B> at_rest;                     ///< D at rest is this times 1
+  SparseRows<B> smoothing, smoothing_of;  ///< W, and its transpose; W D = 1 at rest
   SparseRows<B> response;                 ///< Pi^T E^T: coarse momentum per momentum on u_C
-  Indices<B> first, place;                ///< of each vertex in its elements, in order: 4 element + corner
-  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;  ///< of each element
-  Kokkos::View<typename B::Real* [10], Kokkos::LayoutRight, typename B::Memory>
-      shape;                ///< inverse edges, volume / mean
-  Vectors<B> displacement;  ///< u_C [m]
-  Vectors<B> of_tet;        ///< volume times deformation gradient, later the force's, [3 elements][3]
-  Vectors<B> gradient;      ///< D, later what turns it, [3 vertices][3]
-  Vectors<B> stiffness;     ///< (tr U 1 - U)^-1, U = R^T W D, [3 vertices][3]; 0: R is not the nearest
-  Vectors<B> torque;        ///< what W D is turned by, [3 vertices][3]
-  Vectors<B> force;         ///< g [N]
+  Vectors<B> displacement;                ///< u_C [m]
+  Vectors<B> gradient;                    ///< D, later what turns it, [3 vertices][3]
+  Vectors<B> stiffness;                   ///< (tr U 1 - U)^-1, U = R^T W D, [3 vertices][3]; 0: R is not the nearest
+  Vectors<B> torque;                      ///< what W D is turned by, [3 vertices][3]
+  Vectors<B> force;                       ///< g [N]
 };
 
 }  // namespace plica

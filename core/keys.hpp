@@ -127,7 +127,8 @@ struct Count {
 
 /// A whole number >= 1, or `auto`, which is 0.
 struct AutoCount {
-  std::string expects() const { return "a whole number >= 1, or auto"; }
+  int min = 1;
+  std::string expects() const { return "a whole number >= " + std::to_string(min) + ", or auto"; }
   std::string shown(int value) const { return value == 0 ? "auto" : std::to_string(value); }
   void check(const std::string& path, int value) const;
 };

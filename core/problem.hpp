@@ -78,9 +78,14 @@ struct InitialOptions {
   std::optional<int> random;      ///< seed: each vertex anywhere in level 0's bounding box instead
 };
 
+inline constexpr int fewest_points = 30;  ///< of a coarse space
+
 /// A deformable body.
 struct Body {
-  std::vector<TetMesh> levels;                   ///< finest first, at least one
+  std::vector<TetMesh> levels;  ///< finest first, at least one
+  /// Coarse spaces of the one mesh there is, for what needs levels but no elements of theirs: their numbers of points, finest
+  /// first; empty: as many as it takes. None: likewise, where something needs them.
+  std::optional<std::vector<int>> coarsen = {};
   std::vector<std::string> element = {"auto"};   ///< of elements(): one for all levels, or one each, finest first
   double stabilisation = 0.4;                    ///< beta of nodal elements
   std::string pressure = "auto";                 ///< of pressures(), of nodal elements

@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/linear/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/drivers/solver/steppers.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
@@ -79,6 +80,13 @@ std::vector<Choice> newton_outcomes() {
 
 bool uses_coarse_levels(std::string_view cycle) { return stepper_needs(cycle).coarse_meshes; }
 bool integrates_coarse_levels(std::string_view cycle) { return stepper_needs(cycle).coarse_states; }
+
+bool has_coarse_levels(std::string_view cycle, const Body& body) {
+  if (cycle != "auto" && !uses_coarse_levels(cycle)) return false;
+  if (body.levels.size() > 1) return true;
+  return !integrates_coarse_levels(cycle) &&
+         !space_sizes(static_cast<int>(body.levels.front().vertices.size())).empty();
+}
 
 std::size_t integrated_levels(std::string_view cycle, std::size_t levels) {
   return integrates_coarse_levels(cycle) ? levels : 1;

@@ -18,6 +18,9 @@ std::vector<Choice> preconditioners();  ///< of conjugate gradients
 bool uses_coarse_levels(std::string_view cycle);
 /// Whether coarser levels have states of their own there, and shares of the macro step.
 bool integrates_coarse_levels(std::string_view cycle);
+/// Whether a body has coarser levels for that cycle, or auto: meshes, or for those that need no elements there a mesh of which spaces
+/// can be made.
+bool has_coarse_levels(std::string_view cycle, const Body& body);
 /// How many of a body's levels that cycle integrates: those that have a state, from the finest on.
 std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 

@@ -6,6 +6,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/solver/steppers.hpp>
@@ -94,7 +95,7 @@ class CycleTrials {
   }
 
   CycleChoice all() {
-    if (problem_.body.levels.size() == 1) return std::move(choice_);
+    if (!has_coarse_levels(problem_.integration.cycle, problem_.body)) return std::move(choice_);
     choice_.duration = trial_steps * critical_;
     const TrialRun reference = run_reference();
     if (!reference.reason.empty()) {

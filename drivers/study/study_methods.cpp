@@ -173,8 +173,7 @@ std::vector<std::string> study_methods(const Problem& problem) {
       if (integrator != "symplectic_euler") methods.push_back("coarse/" + std::to_string(i) + "/" + integrator);
   }
   for (const std::string& cycle : names(cycle_choices()))
-    if ((cycle == "auto" || uses_coarse_levels(cycle)) && problem.body.levels.size() > 1)
-      methods.push_back("cycle/" + cycle);
+    if (has_coarse_levels(cycle, problem.body)) methods.push_back("cycle/" + cycle);
   return methods;
 }
 
@@ -185,14 +184,14 @@ std::vector<std::string> all_alone(const Problem& problem) {
   std::vector<std::string> stable, all;
   Integrators::for_each([&](auto member) {
     using Member = decltype(member);
-    const bool cycles = std::string(Member::name) == "v_cycle_euler" && problem.body.levels.size() == 1;
+    const bool cycles = std::string(Member::name) == "v_cycle_euler" && !has_coarse_levels("auto", problem.body);
     if ((!Member::is_explicit || Member::limit.radius > 0) && !cycles) stable.push_back(Member::name);
   });
   for (const std::string& integrator : stable) all.push_back("single/" + integrator);
   for (std::size_t i = 1; i < problem.body.levels.size(); ++i)
     for (const std::string& integrator : stable)
       all.push_back("coarse/" + std::to_string(i) + (integrator == "symplectic_euler" ? "" : "/" + integrator));
-  if (problem.body.levels.size() > 1) all.push_back("cycle");
+  if (has_coarse_levels("auto", problem.body)) all.push_back("cycle");
   return all;
 }
 
@@ -202,7 +201,7 @@ std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOpti
   std::vector<std::string> asked = options.methods;
   if (asked.empty() && options.truth) asked = all_alone(problem);
   if (asked.empty()) asked = {"single/symplectic_euler", "single/implicit_euler", "coarse", "cycle"};
-  if (options.methods.empty() && !options.truth && problem.body.levels.size() > 1)
+  if (options.methods.empty() && !options.truth && has_coarse_levels("auto", problem.body))
     asked.insert(asked.begin() + 2, "single/v_cycle_euler");
   std::vector<ChosenMethod> chosen;
   for (const std::string& name : asked) {

@@ -7,16 +7,16 @@
 // The axes of the coarsest level, and the force that follows from their rotation.
 //
 // The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body that has turned it must be
-// R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in four steps, each a kernel:
+// R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in three steps, each a kernel:
 //
-//   u  --E-->  u_C  --edges-->  F of each element  --sum-->  D of each vertex  --W, polar-->  R of each vertex
-//   finest     coarse           volume times               over its elements       means, then the nearest rotation
-//              vertices         deformation gradient
+//   u  --E-->  u_C  --gradient-->  D of each vertex  --W, polar-->  R of each vertex
+//   finest     coarse              deformation gradient,           means, then the nearest rotation
+//              vertices            weighed
 //
 // Because A = A(x) depends on where the body is, the kinetic energy p.A(x)p/2 does, too, and its gradient is a force:
 // p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That force goes the same way back, by the transposes:
 //
-//   p  <--E^T--  g  <--edges^T--  forces of each element  <--W^T--  torque on each vertex's axes
+//   p  <--E^T--  g  <--gradient^T--  forces on gradients  <--W^T--  torque on each vertex's axes
 //
 // With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a): that is the torque.
 // R = polar(G), G = W D, turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
@@ -66,30 +66,17 @@ KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Rea
   return true;
 }
 
-/// Deformation gradients times volumes.
+/// D, [vertices][3][3].
 template <class B>
-struct GradientsOfTets {
-  using Real = typename B::Real;
-  CoarseAxes<B> axes;
-  KOKKOS_INLINE_FUNCTION void operator()(int e) const {
-    Mat3<Real> F = Mat3<Real>::identity();
-    for (int s = 0; s < 3; ++s)
-      for (int i = 0; i < 3; ++i) {
-        const Real edge = axes.displacement(axes.corner(e, s + 1), i) - axes.displacement(axes.corner(e, 0), i);
-        for (int j = 0; j < 3; ++j) F[i][j] += edge * axes.shape(e, 3 * s + j);
-      }
-    set_matrix(axes.of_tet, e, axes.shape(e, 9) * F);
-  }
-};
-
-/// D: their sums around each vertex.
-template <class B>
-struct SumGradients {
+struct CoarseGradients {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    Mat3<Real> D;
-    for (int n = axes.first(a); n < axes.first(a + 1); ++n) D = D + matrix_at<Real>(axes.of_tet, axes.place(n) / 4);
+    const GradientRows<B>& rows = axes.gradient_of;
+    Mat3<Real> D = Mat3<Real>::diagonal(axes.at_rest(a));
+    for (int s = rows.first(a); s < rows.first(a + 1); ++s)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) D[i][j] += axes.displacement(rows.column(s), i) * rows.derivative(s, j);
     set_matrix(axes.gradient, a, D);
   }
 };
@@ -141,32 +128,18 @@ struct TorqueOnGradients {
   }
 };
 
-/// The forces on corners 1, 2, 3 of an element, a row each: through the transpose of D(u_C).
+/// g: through the transpose of D(u_C).
 template <class B>
-struct ForcesOfTets {
-  using Real = typename B::Real;
-  CoarseAxes<B> axes;
-  KOKKOS_INLINE_FUNCTION void operator()(int e) const {
-    Mat3<Real> Z, inverse;
-    for (int s = 0; s < 4; ++s) Z = Z + matrix_at<Real>(axes.gradient, axes.corner(e, s));
-    for (int k = 0; k < 9; ++k) inverse[k / 3][k % 3] = axes.shape(e, 9) * axes.shape(e, k);
-    set_matrix(axes.of_tet, e, inverse * transpose(Z));
-  }
-};
-
-/// g
-template <class B>
-struct SumForces {
+struct ForcesOfGradients {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const GradientRows<B>& rows = axes.gradient_to;
     Vec3<Real> g;
-    for (int n = axes.first(a); n < axes.first(a + 1); ++n) {
-      const int corner = axes.place(n) % 4;
-      const Mat3<Real> forces = matrix_at<Real>(axes.of_tet, axes.place(n) / 4);
-      g = corner == 0 ? g - (forces[0] + forces[1] + forces[2]) : g + forces[corner - 1];
-    }
-    for (int k = 0; k < 3; ++k) axes.force(a, k) = g[k];
+    for (int s = rows.first(a); s < rows.first(a + 1); ++s)
+      g = g + matrix_at<Real>(axes.gradient, rows.column(s)) *
+                  Vec3<Real>{rows.derivative(s, 0), rows.derivative(s, 1), rows.derivative(s, 2)};
+    set_vector<B>(axes.force, a, g);
   }
 };
 

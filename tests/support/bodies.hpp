@@ -30,6 +30,34 @@ inline Problem body_of(std::vector<TetMesh> levels, const std::string& material 
   return p;
 }
 
+/// Makes some tetrahedra very flat: of every thirtieth, a vertex inside the box goes next to the face across from it, where
+/// no element around it turns inside out.
+inline TetMesh with_slivers(TetMesh mesh, double height = 0.04) {
+  const Box box = bounding_box(mesh.vertices);
+  const auto volume = [&](const std::array<int, 4>& t) {
+    const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    return tet_volume(x(0), x(1), x(2), x(3));
+  };
+  for (std::size_t e = 0; e < mesh.tets.size(); e += 30)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const int moved = mesh.tets[e][c];
+      Point& p = mesh.vertices[static_cast<std::size_t>(moved)];
+      if (on_boundary(box, p)) continue;
+      const Point before = p;
+      Point face = Point::Zero();
+      for (std::size_t k = 0; k < 4; ++k)
+        if (k != c) face += mesh.vertices[static_cast<std::size_t>(mesh.tets[e][k])] / 3;
+      const double least = 0.5 * height * volume(mesh.tets[e]);
+      p = face + height * (p - face);
+      bool sound = true;
+      for (const auto& t : mesh.tets)
+        if (std::find(t.begin(), t.end(), moved) != t.end()) sound = sound && volume(t) > least;
+      if (sound) break;
+      p = before;
+    }
+  return mesh;
+}
+
 const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 const Box decimetre{{0, 0, 0}, {0.1, 0.1, 0.1}};
 const Box beam_box{{0, 0, 0}, {0.4, 0.1, 0.1}};

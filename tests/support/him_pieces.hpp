@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/him/him_stepper.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/materials/material.hpp>
 
@@ -20,6 +21,14 @@ inline Problem him_beam(bool nested, const std::string& material = "linear") {
   return p;
 }
 
+/// The same beam as one irregular mesh, with slivers, whose coarser levels are made of it.
+inline Problem him_beam_alone(const std::string& material = "linear") {
+  Problem p = him_beam(false, material);
+  p.body.levels = {with_slivers(jittered_box(beam_box, {16, 4, 4}))};
+  p.body.coarsen = {150, 40};
+  return p;
+}
+
 /// Level 0, the inverse mass above it and its fit, put together by hand.
 struct Pieces {
   explicit Pieces(const Problem& problem)
@@ -36,20 +45,26 @@ struct Pieces {
         constrained[i][a] = levels[i].vertices[a][0] < 1e-9;
       up.push_back(i == 0 ? Embedding{} : embed(levels[i - 1].vertices, levels[i], Outside::extrapolate));
     }
-    std::vector<MassMesh> meshes;
-    for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({levels[i], constrained[i], up[i]});
-    const auto spaces = mass_spaces(meshes, probe.mass(), true);
+    std::vector<RowMatrix> transfers;
+    for (std::size_t i = 1; i < levels.size(); ++i)
+      transfers.push_back(transfer_matrix(levels[i - 1], constrained[i - 1], levels[i], constrained[i], up[i], true));
     const MaterialOptions& m = problem.body.material;
     const Lame<double> lame = lame_constants(m.young_modulus, m.poisson_ratio);
-    const Eigen::MatrixXd K = coarse_stiffness(levels[0], {{lame.lambda, lame.mu}}, to_finest(spaces));
-    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(K.rows(), K.cols());
-    for (Eigen::Index a = 0; a < spaces.back().mass.rows(); ++a)
-      for (RowMatrix::InnerIterator e(spaces.back().mass, a); e; ++e)
-        for (int k = 0; k < 3; ++k) M(3 * a + k, 3 * e.col() + k) = e.value();
-    inverse_mass = std::make_unique<InverseMass<Host>>(level, levels.front(), levels.back(), spaces);
+    BlockRows K = rest_stiffness(levels[0], {{lame.lambda, lame.mu}});
+    const bool made = levels.size() == 1;
+    if (made)
+      for (CoarseSpace& space : coarse_spaces(levels[0], constrained[0], probe.mass(), K,
+                                              {.sizes = space_sizes(problem.body, constrained[0]), .slivers = true}))
+        transfers.push_back(std::move(space.up));
+    const auto spaces = mass_spaces(transfers, probe.mass());
+    for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
+    inverse_mass =
+        std::make_unique<InverseMass<Host>>(level, spaces,
+                                            made ? axes_of_space(levels.front(), to_finest(spaces), probe.mass())
+                                                 : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
     fitter = std::make_unique<InertiaFitter<Host>>(typename Host::Exec{}, level,
                                                    make_elasticity<Host>(problem.body.material.model), *inverse_mass,
-                                                   CoarseModes(K, M));
+                                                   CoarseModes(dense(K), spaces.back().mass));
   }
 
   Eigen::MatrixXd matrix() {

@@ -25,7 +25,8 @@ std::size_t peak_memory() {
 template <class B>
 void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& start) {
   std::string tets;
-  for (const LevelReport& level : simulation.levels()) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
+  for (const LevelReport& level : simulation.levels())
+    if (level.tets > 0) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
   message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {}", scene.name, tets,
                       cycle_name(scene, machine.choice), in_units(simulation.macro_step(), "s"), machine.precision,
                       machine.backend, counted(machine.threads, "thread")));

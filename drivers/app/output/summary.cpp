@@ -67,6 +67,7 @@ std::string elements_text(const Body& body, const Plan& plan) {
     lame.push_back(material.small_strains(parameter_values(material, body.material, region)));
   std::string text;
   for (const LevelReport& level : plan.levels) {
+    if (level.tets == 0) continue;
     text += (text.empty() ? "" : ", ") + level.element;
     if (level.element == name_of(Element::nodal))
       text += fmt::format(" (stabilisation {:g}{})", body.stabilisation,
@@ -123,6 +124,19 @@ std::string slivers_text(const Plan& plan) {
   return "\nElements that limit the step, at most ten of a level\n" + text_table(rows, ">>>>><");
 }
 
+// Coarse levels that were made of the finest mesh
+std::string spaces_text(const Plan& plan) {
+  std::vector<std::vector<std::string>> rows = {{"level", "points", "spacing", "weights per row"}};
+  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
+    const LevelReport& level = plan.levels[i];
+    if (level.tets == 0)
+      rows.push_back({std::to_string(i), std::to_string(level.vertices),
+                      level.mean_edge > 0 ? in_units(level.mean_edge, "m") : "slivers follow",
+                      fmt::format("{:.1f}", level.nonzeros)});
+  }
+  return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0 (body.levels: coarsen)\n" + text_table(rows, ">>>>");
+}
+
 // Two tables: what a level is, then what it does in a macro step
 std::string levels_text(const Plan& plan) {
   std::vector<std::vector<std::string>> meshes = {
@@ -131,6 +145,7 @@ std::string levels_text(const Plan& plan) {
       {"level", "share", "time", "sub-steps", "of", "of / critical", "integrator"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
+    if (level.tets == 0) continue;
     meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets),
                       in_units(level.mean_edge, "m"), in_units(level.mass, "kg"),
                       level.critical_step > 0 ? in_units(level.critical_step, "s") : "",
@@ -142,7 +157,7 @@ std::string levels_text(const Plan& plan) {
                      fmt::format("{:.2f}", substep / level.critical_step),
                      level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
   }
-  const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>");
+  const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + spaces_text(plan);
   if (plan.him) return list + inertia_text(plan);
   return list + "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
 }
@@ -153,6 +168,7 @@ std::string transfers_text(const Plan& plan) {
       {"levels", "coarse vertices outside", "fine vertices outside", "largest miss / edge"}};
   for (std::size_t i = 1; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
+    if (level.tets == 0) return {};
     rows.push_back({fmt::format("{} - {}", i - 1, i), std::to_string(level.outside_down),
                     std::to_string(level.outside_up), fmt::format("{:.2g}", level.largest_miss)});
   }
@@ -238,6 +254,7 @@ Json levels_json(const std::vector<LevelReport>& levels) {
           {{"element", e.element}, {"region", e.region}, {"height_ratio", e.height_ratio}, {"step", e.step}});
     list.push_back({{"vertices", level.vertices},
                     {"tets", level.tets},
+                    {"nonzeros_per_row", level.tets > 0 ? Json(nullptr) : Json(level.nonzeros)},
                     {"mean_edge", level.mean_edge},
                     {"mass", level.mass},
                     {"critical_step", level.critical_step},

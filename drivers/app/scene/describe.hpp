@@ -90,6 +90,9 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("blob", o.blob, Case<BlobRecipe>{}, "a lump like a liver, with the region inclusion");
   v.alternative("tube", o.tube, Case<Tube>{}, "a bent pipe with a wall, like a vessel");
   v.alternative("file", o.file, Text{}, "a mesh file (.msh, .vtk, .vtu, .ele), relative to the scene");
+  v.alternative(
+      "coarsen", o.coarsen, AutoCount{fewest_points},
+      "no mesh, but a coarse space of the mesh before it, of so many points; auto: as many spaces as it takes");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
   v("merge_duplicates", o.merge_duplicates, Quantity{length, not_negative},
     "vertices of that file at most this far apart, after scaling, become one; left out: they are reported");

@@ -15,6 +15,36 @@ std::vector<Choice> frame_formats() { return {{"vtu", "VTK's XML format for unst
 
 std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 bits"}}; }
 
+namespace {
+
+/// Levels without a mesh, which stand after the one mesh, become the body's coarse spaces.
+void take_coarse_spaces(Scene& scene, const Tree& tree) {
+  const auto first =
+      std::ranges::find_if(scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
+  const auto meshes = first - scene.levels.begin();
+  if (first == scene.levels.end()) return;
+  const auto refuse = [&](std::ptrdiff_t level, const std::string& why) {
+    const std::string path = fmt::format("body.levels.{}", level);
+    throw InputError(path + ": " + why, place_of(tree, path));
+  };
+  if (meshes == 0) refuse(0, "coarsen makes coarse spaces of the mesh before it; expected a mesh first");
+  if (meshes > 1)
+    refuse(meshes,
+           fmt::format("coarsen makes coarse spaces of the finest mesh, but {} meshes stand before it; expected one",
+                       meshes));
+  std::vector<int>& sizes = scene.problem.body.coarsen.emplace();
+  for (auto i = meshes; i < std::ssize(scene.levels); ++i) {
+    const std::optional<int>& points = scene.levels[static_cast<std::size_t>(i)].coarsen;
+    if (!points) refuse(i, "a mesh stands after coarsen; expected meshes first");
+    if (*points == 0 && std::ssize(scene.levels) > meshes + 1)
+      refuse(i, "coarsen is auto, which makes as many spaces as it takes; expected it alone, or numbers of points");
+    if (*points > 0) sizes.push_back(*points);
+  }
+  scene.levels.erase(first, scene.levels.end());
+}
+
+}  // namespace
+
 Scene read_scene(const Tree& tree) {
   Scene scene;
   scene.file = tree.where.file;
@@ -22,6 +52,7 @@ Scene read_scene(const Tree& tree) {
   Reader reader({tree, ""});
   describe(reader, scene);
   reader.finish();
+  take_coarse_spaces(scene, tree);
   for (const ObstacleRecipe& recipe : scene.obstacles) {
     ObstacleOptions& made = scene.problem.contact.obstacles.emplace_back(recipe.options);
     if (recipe.tool) made.shape = recipe.tool->options;

@@ -98,7 +98,7 @@ void read(const Value& value, const Count& kind, int& target) {
 
 void read(const Value& value, const AutoCount& kind, int& target) {
   target = 0;
-  if (value.scalar(kind.expects()) != "auto") read(value, Count{1}, target);
+  if (value.scalar(kind.expects()) != "auto") read(value, Count{kind.min}, target);
 }
 
 void read(const Value& value, const Counts& kind, std::array<int, 3>& target) {

@@ -45,13 +45,14 @@ struct BlobRecipe {
   Point centre = Point::Zero();  ///< [m]
 };
 
-/// One of them, or a file.
+/// One of them, a file, or a coarse space of the mesh before.
 struct LevelRecipe {
   std::optional<BoxRecipe> box;
   std::optional<BallRecipe> ball;
   std::optional<CylinderRecipe> cylinder;
   std::optional<BlobRecipe> blob;
   std::optional<Tube> tube;
+  std::optional<int> coarsen;              ///< its points; 0: auto, as many spaces as it takes
   std::string file;                        ///< relative to the scene
   double scale = 1;                        ///< metres per unit of the file
   std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m]

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/him/him_stepper.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 
 namespace plica {
 
 namespace {
 
-constexpr double automatic_step = 8;  // times the finest level's critical step
-
-Eigen::MatrixXd on_vectors(const RowMatrix& A) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * A.rows(), 3 * A.cols());
-  for (Eigen::Index a = 0; a < A.rows(); ++a)
-    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry)
-      for (int k = 0; k < 3; ++k) all(3 * a + k, 3 * entry.col() + k) = entry.value();
-  return all;
-}
+constexpr double automatic_step = 8;  // times the critical step of the finest level, slivers left out
 
 void expect_small(const TetMesh& coarsest, std::size_t level) {
   const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
@@ -26,30 +20,68 @@ void expect_small(const TetMesh& coarsest, std::size_t level) {
                      ": add a coarser level, of 200 to 350 vertices");
 }
 
+/// The coarser levels as the stepper uses them, finest first: of the body's coarser meshes, or made of the finest one alone.
+struct Coarser {
+  std::vector<RowMatrix> transfers;
+  std::vector<CoarseSpace> made;  ///< of the finest mesh
+};
+
+template <class B>
+Coarser coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
+  const std::vector<TetMesh>& meshes = setup.meshes;
+  const std::vector<LevelConstants>& constants = setup.constants;
+  Coarser result;
+  for (std::size_t i = 1; i < meshes.size(); ++i)
+    result.transfers.push_back(transfer_matrix(meshes[i - 1], constants[i - 1].constrained, meshes[i],
+                                               constants[i].constrained, setup.up[i],
+                                               setup.problem.integration.him.smoothing));
+  if (meshes.size() > 1) return result;
+  const std::vector<char>& constrained = constants[0].constrained;
+  const SpaceOptions options{.sizes = space_sizes(setup.problem.body, constrained), .slivers = true};
+  result.made = coarse_spaces(meshes[0], constrained, constants[0].mass, K, options);
+  for (const CoarseSpace& space : result.made) result.transfers.push_back(space.up);
+  return result;
+}
+
+/// What the reports say of spaces: they have no elements.
+void report_spaces(const std::vector<CoarseSpace>& made, std::vector<LevelReport>& reports) {
+  for (const CoarseSpace& space : made) {
+    LevelReport& report = reports.emplace_back();
+    report.vertices = static_cast<int>(space.points.size());
+    report.mean_edge = space.spacing;
+    report.nonzeros = static_cast<double>(space.up.nonZeros()) / static_cast<double>(space.up.rows());
+    report.element = "none";
+  }
+}
+
 template <class B>
 HimParts<B> him_parts(StepperSetup<B>& setup) {
   const auto& exec = setup.hierarchy.exec();
   const Level<B>& finest = setup.hierarchy[0];
   const std::vector<TetMesh>& meshes = setup.meshes;
-  const std::vector<LevelConstants>& constants = setup.constants;
-  std::vector<MassMesh> spaces_of;
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    spaces_of.push_back({meshes[i], constants[i].constrained, setup.up[i]});
-  const auto spaces = mass_spaces(spaces_of, constants[0].mass, setup.problem.integration.him.smoothing);
+  const LevelConstants& constants = setup.constants[0];
+  std::vector<std::array<double, 2>> lame;
+  for (const auto& one : constants.lame) lame.push_back({one.lambda, one.mu});
+  BlockRows K = rest_stiffness(meshes.front(), lame);
+  const Coarser coarser = coarser_levels<B>(setup, K);
+  report_spaces(coarser.made, setup.reports);
+  const auto spaces = mass_spaces(coarser.transfers, constants.mass);
   HimParts<B> parts;
   parts.options = setup.problem.integration.him;
-  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, meshes.front(), meshes.back(), spaces);
+  parts.detail = !coarser.made.empty() && coarser.made.front().slivers();
   std::optional<CoarseModes> modes;
+  AxesShape axes;
   if (!spaces.empty()) {
-    std::vector<std::array<double, 2>> lame;
-    for (const auto& one : constants[0].lame) lame.push_back({one.lambda, one.mu});
-    modes.emplace(coarse_stiffness(meshes.front(), lame, to_finest(spaces)), on_vectors(spaces.back().mass));
+    for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
+    modes.emplace(dense(K), spaces.back().mass);
+    axes = coarser.made.empty() ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
+                                : axes_of_space(meshes.front(), to_finest(spaces), constants.mass);
   }
+  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
   parts.fitter =
       std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, *parts.inverse_mass, std::move(modes));
   if (setup.contact) parts.contact = std::make_unique<ContactResponse<B>>(setup.contact, finest.model.vertices);
-  bool free = true;
-  for (const char constrained : constants[0].constrained) free = free && !constrained;
+  const bool free = std::ranges::count(constants.constrained, 1) == 0;
   if (free && !spaces.empty()) {
     const Box box = bounding_box(meshes.front().vertices);
     std::vector<Point> rest = meshes.front().vertices;
@@ -71,7 +103,7 @@ template <class B>
 InertiaFit fit_step(const StepperSetup<B>& setup, HimParts<B>& parts) {
   const std::optional<double>& given = setup.problem.integration.macro_step;
   const Vectors<B>& u = setup.hierarchy[0].state.u;
-  const double critical = parts.fitter->critical_steps().front(), sigma = parts.options.sigma;
+  const double critical = parts.fitter->critical_steps()[parts.detail], sigma = parts.options.sigma;
   const bool coarse = parts.inverse_mass->levels() > 1;
   const double asked = given.value_or((coarse ? automatic_step : sigma) * critical);
   for (double t = asked; t > 0.01 * critical; t /= 2)

@@ -94,6 +94,8 @@ struct HimParts {
   std::optional<FreeMotion<B>> free;            ///< of a body that nothing holds
   std::unique_ptr<ContactResponse<B>> contact;  ///< of a body with obstacles
   InertiaFit fit;
+  std::size_t detail =
+      0;  ///< the level by whose critical step an automatic one goes: the one below a space for slivers
 };
 
 /// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per macro step. Forces go down to

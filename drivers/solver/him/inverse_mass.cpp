@@ -16,11 +16,14 @@ MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
   level.up = sparse_rows<B>("him.up", space.up);
   level.down = sparse_rows<B>("him.down", RowMatrix(space.up.transpose()));
   if (!coarsest) {
-    const auto n = static_cast<Eigen::Index>(space.inverse_diagonal.size());
-    const Eigen::Map<const Eigen::VectorXd> inverse(space.inverse_diagonal.data(), n);
-    level.mass = sparse_rows<B>("him.mass", RowMatrix(space.mass * inverse.asDiagonal()));
-    level.inverse_diagonal = to_device<Scalars<B>>(
-        "him.inverse_diagonal", std::vector<Real>(space.inverse_diagonal.begin(), space.inverse_diagonal.end()));
+    // E D^-1 (2 - M D^-1) E = E^2 D^-1 (2 - E^-1 M D^-1 E)
+    const auto n = static_cast<Eigen::Index>(space.scale.size());
+    const Eigen::Map<const Eigen::VectorXd> inverse(space.inverse_diagonal.data(), n), E(space.scale.data(), n);
+    level.mass = sparse_rows<B>(
+        "him.mass", RowMatrix(E.cwiseInverse().asDiagonal() * space.mass * inverse.cwiseProduct(E).asDiagonal()));
+    std::vector<Real> own;
+    for (Eigen::Index a = 0; a < n; ++a) own.push_back(static_cast<Real>(E[a] * E[a] * inverse[a]));
+    level.inverse_diagonal = to_device<Scalars<B>>("him.inverse_diagonal", own);
   }
   level.force = zeros<Vectors<B>>("plica::him.force", level.vertices);
   level.acceleration = zeros<Vectors<B>>("plica::him.acceleration", level.vertices);
@@ -30,20 +33,17 @@ MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
 }  // namespace
 
 template <class B>
-InverseMass<B>::InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, const TetMesh& coarsest,
-                            const std::vector<MassSpace>& spaces)
+InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes)
     : vertices_(finest.model.vertices), inverse_mass_(finest.model.inverse_mass), weights_{1} {
   for (std::size_t i = 0; i < spaces.size(); ++i) coarser_.push_back(mass_level<B>(spaces[i], i + 1 == spaces.size()));
   if (spaces.empty()) return;
-  std::vector<double> mass;
-  const auto host = on_host(finest.model.mass);
-  for (std::size_t a = 0; a < host.extent(0); ++a) mass.push_back(static_cast<double>(host(a)));
-  axes_ = TurningAxes<B>(coarsest, axes_shape(finest_mesh, coarsest, mass), to_finest(spaces));
+  axes_ = TurningAxes<B>(axes, to_finest(spaces));
   constexpr std::size_t block = CoarseFilter<B>::block;
-  filter_.vertices = static_cast<int>(coarsest.vertices.size());
-  filter_.turned = zeros<Vectors<B>>("plica::him.turned", coarsest.vertices.size());
+  const auto n = static_cast<std::size_t>(coarser_.back().vertices);
+  filter_.vertices = coarser_.back().vertices;
+  filter_.turned = zeros<Vectors<B>>("plica::him.turned", n);
   filter_.rotation = axes_.rotation();
-  filtered_ = zeros<Scalars<B>>("plica::him.filtered", (3 * coarsest.vertices.size() + block - 1) / block * block);
+  filtered_ = zeros<Scalars<B>>("plica::him.filtered", (3 * n + block - 1) / block * block);
 }
 
 template <class B>

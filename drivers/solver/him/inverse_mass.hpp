@@ -16,9 +16,8 @@ class InverseMass {
   using Real = typename B::Real;
   using Count = Doubles<B>;
 
-  /// @param coarsest  its mesh, placed like the finest
-  InverseMass(const Level<B>& finest, const TetMesh& finest_mesh, const TetMesh& coarsest,
-              const std::vector<MassSpace>& spaces);
+  /// @param axes  of the coarsest space, where there is one
+  InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// The levels' weights b, finest first; they sum to 1.

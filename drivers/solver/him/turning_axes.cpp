@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/LU>
 #include <algorithm>
+#include <map>
 #include <plica/drivers/solver/him/turning_axes.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/him/coarse_axes.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -38,13 +39,25 @@ RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, co
   return E;
 }
 
-double edges_inverted(const std::vector<Point>& x, const std::array<int, 4>& tet, std::array<double, 10>& shape) {
+Eigen::Matrix3d edges_of(const std::vector<Point>& x, const std::array<int, 4>& tet) {
   Eigen::Matrix3d edges;
   for (std::size_t s = 0; s < 3; ++s)
     edges.col(static_cast<Eigen::Index>(s)) =
         x[static_cast<std::size_t>(tet[s + 1])] - x[static_cast<std::size_t>(tet[0])];
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(shape.data()) = edges.inverse();
-  return edges.determinant() / 6;
+  return edges;
+}
+
+double volume_of(const std::vector<Point>& x, const std::array<int, 4>& tet) {
+  return edges_of(x, tet).determinant() / 6;
+}
+
+/// E times positions.
+std::vector<Point> restricted(const RowMatrix& E, const std::vector<Point>& fine) {
+  std::vector<Point> x(static_cast<std::size_t>(E.rows()), Point::Zero());
+  for (Eigen::Index a = 0; a < E.rows(); ++a)
+    for (RowMatrix::InnerIterator entry(E, a); entry; ++entry)
+      x[static_cast<std::size_t>(a)] += entry.value() * fine[static_cast<std::size_t>(entry.col())];
+  return x;
 }
 
 /// Each vertex's mean over its elements, by volume, of the means of their vertices; of flat ones by the volumes in the mesh.
@@ -67,37 +80,119 @@ RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& vol
 
 }  // namespace
 
-AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
+AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
   AxesShape result;
   result.restriction = restriction_by_mass(finest, coarsest, mass);
-  std::vector<Point> x(coarsest.vertices.size(), Point::Zero());
-  for (Eigen::Index a = 0; a < result.restriction.rows(); ++a)
-    for (RowMatrix::InnerIterator entry(result.restriction, a); entry; ++entry)
-      x[static_cast<std::size_t>(a)] += entry.value() * finest.vertices[static_cast<std::size_t>(entry.col())];
-  std::vector<double> volume;
+  const std::vector<Point> x = restricted(result.restriction, finest.vertices);
   double mean = 0;
+  for (const auto& t : coarsest.tets)
+    mean += volume_of(coarsest.vertices, t) / static_cast<double>(coarsest.tets.size());
+  std::vector<double> volume;
+  std::vector<std::map<int, Point>> gradient(x.size());
+  result.at_rest.assign(x.size(), 0.0);
   for (const auto& t : coarsest.tets) {
-    std::array<double, 10> shape{};
-    const double there = edges_inverted(coarsest.vertices, t, shape), here = edges_inverted(x, t, shape);
-    const bool flat = !(here >= least_volume * there);
-    if (flat) shape = {};
-    volume.push_back(flat ? 0 : here), mean += there / static_cast<double>(coarsest.tets.size());
-    result.tets.push_back(shape);
+    const double here = volume_of(x, t);
+    const bool flat = !(here >= least_volume * volume_of(coarsest.vertices, t));
+    volume.push_back(flat ? 0 : here / mean);
+    if (flat) continue;
+    const Eigen::Matrix3d inverse = edges_of(x, t).inverse();
+    for (const int a : t) {
+      const auto add = [&](int b, const Point& derivative) {
+        gradient[static_cast<std::size_t>(a)].try_emplace(b, Point::Zero()).first->second += volume.back() * derivative;
+      };
+      add(t[0], -inverse.colwise().sum().transpose());
+      for (int s = 0; s < 3; ++s) add(t[static_cast<std::size_t>(s) + 1], inverse.row(s).transpose());
+      result.at_rest[static_cast<std::size_t>(a)] += volume.back();
+    }
   }
-  std::vector<double> sum(x.size(), 0.0);
-  for (std::size_t e = 0; e < volume.size(); ++e) {
-    result.tets[e][9] = volume[e] /= mean;
-    for (const int a : coarsest.tets[e]) sum[static_cast<std::size_t>(a)] += volume[e];
-  }
-  const RowMatrix once = neighbourhood_mean(coarsest, volume, sum);
-  RowMatrix all_of_it = once;
-  for (int i = 1; i < smoothings; ++i) all_of_it = RowMatrix(all_of_it * once);
-  all_of_it.prune([](Eigen::Index, Eigen::Index, double value) { return value > least_mean; });
-  const Eigen::VectorXd sums = all_of_it * Eigen::Map<const Eigen::VectorXd>(sum.data(), once.rows());
+  for (const auto& row : gradient) result.gradient.emplace_back(row.begin(), row.end());
+  const RowMatrix once = neighbourhood_mean(coarsest, volume, result.at_rest);
+  RowMatrix W = once;
+  for (int i = 1; i < smoothings; ++i) W = RowMatrix(W * once);
+  W.prune([](Eigen::Index, Eigen::Index, double value) { return value > least_mean; });
+  const Eigen::VectorXd sums = W * Eigen::Map<const Eigen::VectorXd>(result.at_rest.data(), once.rows());
   for (Eigen::Index a = 0; a < once.rows(); ++a)
-    for (RowMatrix::InnerIterator entry(all_of_it, a); entry; ++entry)
-      entry.valueRef() *= sums[a] > 0 ? 1 / sums[a] : 0.0;
-  result.smoothing = all_of_it;
+    for (RowMatrix::InnerIterator entry(W, a); entry; ++entry) entry.valueRef() *= sums[a] > 0 ? 1 / sums[a] : 0.0;
+  result.smoothing = std::move(W);
+  return result;
+}
+
+namespace {
+
+/// Per vertex of the finest mesh the largest four of its |weights|, which then sum to 1.
+RowMatrix main_weights(const RowMatrix& P) {
+  constexpr std::size_t most = 4;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<std::pair<double, int>> row;
+  for (Eigen::Index a = 0; a < P.rows(); ++a) {
+    row.clear();
+    for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
+      row.emplace_back(std::abs(entry.value()), static_cast<int>(entry.col()));
+    std::sort(row.begin(), row.end(), std::greater<>());
+    row.resize(std::min(row.size(), most));
+    double sum = 0;
+    for (const auto& [weight, column] : row) sum += weight;
+    for (const auto& [weight, column] : row) entries.emplace_back(static_cast<int>(a), column, weight / sum);
+  }
+  RowMatrix result(P.rows(), P.cols());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+void divide_by_row_sums(RowMatrix& A) {
+  for (Eigen::Index a = 0; a < A.rows(); ++a) {
+    double sum = 0;
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) sum += entry.value();
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) entry.valueRef() *= sum > 0 ? 1 / sum : 0.0;
+  }
+}
+
+/// The three columns of a matrix of derivatives, by direction.
+using DirectedRows = std::array<RowMatrix, 3>;
+
+}  // namespace
+
+AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const std::vector<double>& mass) {
+  AxesShape result;
+  const Eigen::Index n = to_finest.cols();
+  const Eigen::Map<const Eigen::VectorXd> m(mass.data(), to_finest.rows());
+  const RowMatrix weights = main_weights(to_finest), carried = RowMatrix(weights.transpose()) * m.asDiagonal();
+  result.restriction = carried;
+  divide_by_row_sums(result.restriction);
+  const std::vector<Point> x = restricted(result.restriction, finest.vertices);
+  // W: from a point to what hangs on it and on to all the points that this hangs on
+  RowMatrix W = carried * weights;
+  divide_by_row_sums(W);
+  // h_ab = sum over the finest vertices i of weight_ia m_i (X_i - x_a) Pi_ib, so that sum_b u_b h_ab^T is the moment of the
+  // motion about x_a; smoothed once by W. The moment of rest positions makes a gradient of it
+  DirectedRows h;
+  for (int k = 0; k < 3; ++k) {
+    RowMatrix lever = carried;
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (RowMatrix::InnerIterator entry(lever, a); entry; ++entry)
+        entry.valueRef() *=
+            finest.vertices[static_cast<std::size_t>(entry.col())][k] - x[static_cast<std::size_t>(a)][k];
+    h[static_cast<std::size_t>(k)] = W * RowMatrix(lever * to_finest);
+  }
+  result.gradient.resize(static_cast<std::size_t>(n)), result.at_rest.assign(static_cast<std::size_t>(n), 1.0);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    std::map<int, Point> row;
+    for (int k = 0; k < 3; ++k)
+      for (RowMatrix::InnerIterator entry(h[static_cast<std::size_t>(k)], a); entry; ++entry)
+        row.try_emplace(static_cast<int>(entry.col()), Point::Zero()).first->second[k] = entry.value();
+    Eigen::Matrix3d rest = Eigen::Matrix3d::Zero();
+    Point sum = Point::Zero();
+    for (const auto& [b, derivative] : row)
+      rest += (x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)]) * derivative.transpose(),
+          sum += derivative;
+    row.try_emplace(static_cast<int>(a), Point::Zero()).first->second -=
+        sum;  // of differences: a translation has no gradient
+    const Eigen::Matrix3d inverse = rest.inverse();
+    if (!(std::abs(rest.determinant()) > 0) || !inverse.allFinite()) continue;  // its axes do not turn
+    for (const auto& [b, derivative] : row)
+      result.gradient[static_cast<std::size_t>(a)].emplace_back(b, inverse.transpose() * derivative);
+  }
+  result.smoothing = std::move(W);
   return result;
 }
 
@@ -106,12 +201,30 @@ namespace {
 constexpr int most_rounds = 6;
 constexpr double round_tolerance = 1e-3, least_share = 1e-6;  // of the momenta that the force adds, of all of them
 
+template <class B>
+GradientRows<B> gradient_rows(const AxesShape::Gradients& rows) {
+  std::vector<int> first{0}, column;
+  std::vector<Point> derivative;
+  for (const auto& row : rows) {
+    for (const auto& [b, d] : row) column.push_back(b), derivative.push_back(d);
+    first.push_back(static_cast<int>(column.size()));
+  }
+  return {to_device<Indices<B>>("axes.first", first), to_device<Indices<B>>("axes.column", column),
+          to_device<Vectors<B>>("axes.derivative", plica::rows<typename B::Real>(derivative))};
+}
+
+AxesShape::Gradients transposed(const AxesShape::Gradients& rows) {
+  AxesShape::Gradients result(rows.size());
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    for (const auto& [b, d] : rows[a]) result[static_cast<std::size_t>(b)].emplace_back(static_cast<int>(a), d);
+  return result;
+}
+
 }  // namespace
 
 template <class B>
-TurningAxes<B>::TurningAxes(const TetMesh& coarsest, const AxesShape& shape, const RowMatrix& all)
-    : vertices_(static_cast<int>(coarsest.vertices.size())),
-      tets_(static_cast<int>(coarsest.tets.size())),
+TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& to_finest)
+    : vertices_(static_cast<int>(shape.at_rest.size())),
       blocks_(vertices_),
       open_(zeros<Doubles<B>>("plica::axes.open", 1)),
       sums_(zeros<Doubles<B>>("plica::axes.sums", 3)) {
@@ -120,7 +233,10 @@ TurningAxes<B>::TurningAxes(const TetMesh& coarsest, const AxesShape& shape, con
   axes_.spread = sparse_rows<B>("axes.spread", spread);
   axes_.smoothing = sparse_rows<B>("axes.smoothing", shape.smoothing);
   axes_.smoothing_of = sparse_rows<B>("axes.smoothing_of", RowMatrix(shape.smoothing.transpose()));
-  axes_.response = sparse_rows<B>("axes.response", RowMatrix(RowMatrix(all.transpose()) * spread));
+  axes_.response = sparse_rows<B>("axes.response", RowMatrix(RowMatrix(to_finest.transpose()) * spread));
+  axes_.gradient_of = gradient_rows<B>(shape.gradient);
+  axes_.gradient_to = gradient_rows<B>(transposed(shape.gradient));
+  axes_.at_rest = to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(shape.at_rest.begin(), shape.at_rest.end()));
   const auto n = static_cast<std::size_t>(vertices_);
   for (Vectors<B>* one : {&share_, &momentum_, &axes_.displacement, &axes_.force})
     *one = zeros<Vectors<B>>("plica::axes.vectors", n);
@@ -129,31 +245,13 @@ TurningAxes<B>::TurningAxes(const TetMesh& coarsest, const AxesShape& shape, con
   std::vector<std::array<Real, 3>> unit(3 * n);
   for (std::size_t k = 0; k < unit.size(); ++k) unit[k][k % 3] = 1;
   rotation_ = to_device<Vectors<B>>("axes.rotation", unit);
-
-  std::vector<std::vector<int>> around(n);
-  std::vector<std::array<Real, 10>> shapes(coarsest.tets.size());
-  for (std::size_t e = 0; e < coarsest.tets.size(); ++e) {
-    for (std::size_t k = 0; k < 10; ++k) shapes[e][k] = static_cast<Real>(shape.tets[e][k]);
-    for (std::size_t c = 0; c < 4; ++c)
-      around[static_cast<std::size_t>(coarsest.tets[e][c])].push_back(static_cast<int>(4 * e + c));
-  }
-  axes_.of_tet = zeros<Vectors<B>>("plica::axes.matrices", 3 * coarsest.tets.size());
-  std::vector<int> first{0}, places;
-  for (const auto& own : around) {
-    places.insert(places.end(), own.begin(), own.end());
-    first.push_back(static_cast<int>(places.size()));
-  }
-  axes_.first = to_device<Indices<B>>("axes.first", first), axes_.place = to_device<Indices<B>>("axes.place", places);
-  axes_.corner = to_device<decltype(axes_.corner)>("axes.corner", coarsest.tets);
-  axes_.shape = to_device<decltype(axes_.shape)>("axes.shape", shapes);
 }
 
 template <class B>
 void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const {
   update_vertices<B>(exec, "plica::axes_restrict", vertices_,
                      MultiplyRows<B>{axes_.restriction, u, axes_.displacement});
-  update_vertices<B>(exec, "plica::axes_gradients", tets_, GradientsOfTets<B>{axes_});
-  update_vertices<B>(exec, "plica::axes_gradients", vertices_, SumGradients<B>{axes_});
+  update_vertices<B>(exec, "plica::axes_gradients", vertices_, CoarseGradients<B>{axes_});
   reduce<B, 2>(exec, "plica::axes_turn", vertices_, TurnAxes<B>{axes_, rotation_}, blocks_, moved);
 }
 
@@ -168,8 +266,7 @@ void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& f
     where_touching<B>(exec, open_, "plica::axes_torque", vertices_,
                       TorqueOnAxes<B>{axes_, rotation_, momentum_, x, static_cast<Real>(weight)});
     where_touching<B>(exec, open_, "plica::axes_torque", vertices_, TorqueOnGradients<B>{axes_});
-    where_touching<B>(exec, open_, "plica::axes_force", tets_, ForcesOfTets<B>{axes_});
-    where_touching<B>(exec, open_, "plica::axes_force", vertices_, SumForces<B>{axes_});
+    where_touching<B>(exec, open_, "plica::axes_force", vertices_, ForcesOfGradients<B>{axes_});
     reduce<B, 3>(exec, "plica::axes_momentum", vertices_,
                  NextMomentum<B>{axes_.response, axes_.force, q, share_, momentum_, open_, h}, blocks_, sums_);
     update_vertices<B>(exec, "plica::axes_decide", 1, DecideToGoOn<B>{sums_, open_, round_tolerance, least_share});
@@ -180,9 +277,10 @@ void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& f
 
 template <class B>
 std::size_t TurningAxes<B>::bytes() const {
-  std::size_t total =
-      bytes_of_views(axes_.first, axes_.place, axes_.of_tet, axes_.corner, axes_.shape, axes_.displacement,
-                     axes_.gradient, axes_.stiffness, axes_.torque, axes_.force, rotation_, share_, momentum_);
+  std::size_t total = bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient, axes_.stiffness, axes_.torque,
+                                     axes_.force, rotation_, share_, momentum_);
+  for (const GradientRows<B>* one : {&axes_.gradient_of, &axes_.gradient_to})
+    total += bytes_of_views(one->first, one->column, one->derivative);
   for (const SparseRows<B>* one :
        {&axes_.restriction, &axes_.spread, &axes_.smoothing, &axes_.smoothing_of, &axes_.response})
     total += bytes_of_rows(*one);

@@ -10,14 +10,22 @@ namespace plica {
 
 /// What the axes of the coarsest level are found from, see CoarseAxes.
 struct AxesShape {
-  RowMatrix restriction;  ///< E: means by mass over what hangs on a coarse vertex; rows sum to 1
-  RowMatrix smoothing;    ///< W: six averages over the elements' neighbourhoods, over the volumes; W D = 1 at rest
-  std::vector<std::array<double, 10>>
-      tets;  ///< inverse edges between restricted rest positions, volume / mean; 0: flat
+  /// Per vertex the entries (column, derivative) of its gradient D.
+  using Gradients = std::vector<std::vector<std::pair<int, Point>>>;
+
+  RowMatrix restriction;        ///< E: means by mass over what hangs on a coarse vertex; rows sum to 1
+  Gradients gradient;           ///< D of u_C
+  std::vector<double> at_rest;  ///< D there is this times 1
+  RowMatrix smoothing;          ///< W: means over neighbourhoods; W D = 1 at rest
 };
 
+/// By the elements of a coarser mesh, placed like the finest: D is the sum of volume times deformation gradient.
 /// @param mass  of the finest level's vertices [kg]
-AxesShape axes_shape(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass);
+AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass);
+
+/// Of a coarse space without elements, by the motion that it gives the finest mesh: D is the linear map of rest positions that is nearest to it, by mass, around a point.
+/// @param to_finest  Pi
+AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const std::vector<double>& mass);
 
 /// The axes of the coarsest level, which turn with the body, and the force by which they act back on it.
 template <class B>
@@ -29,7 +37,7 @@ class TurningAxes {
   using Filter = std::function<const Scalars<B>&(const Vectors<B>& q, const Doubles<B>& open)>;
 
   TurningAxes() = default;
-  TurningAxes(const TetMesh& coarsest, const AxesShape& shape, const RowMatrix& all);
+  TurningAxes(const AxesShape& shape, const RowMatrix& to_finest);
 
   /// R at a state. Into moved: the sum of the squares of their angles since the last time [rad^2], and their number.
   void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
@@ -49,7 +57,7 @@ class TurningAxes {
   std::size_t bytes() const;
 
  private:
-  int vertices_ = 0, tets_ = 0;
+  int vertices_ = 0;
   CoarseAxes<B> axes_;
   Vectors<B> rotation_, share_, momentum_;
   BlockSums<B> blocks_;

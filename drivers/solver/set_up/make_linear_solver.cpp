@@ -5,14 +5,16 @@
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 
 namespace plica {
 
 namespace {
 
-constexpr std::size_t most_direct = 200;  // vertices up to which a factorisation is faster: cmake/docs/solvers.md
-constexpr int fewest_assembled = 8;       // iterations from which an assembled matrix has paid
+constexpr std::size_t most_direct = 200;       // vertices up to which a factorisation is faster: cmake/docs/solvers.md
+constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix has paid
+constexpr std::size_t fewest_coarsened = 600;  // vertices
+constexpr double multigrid_reach = 1.5;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
@@ -29,9 +31,16 @@ RestMesh rest_mesh(const Body& body, std::size_t level) {
   return made;
 }
 
+/// Over the body's coarser meshes, or over spaces made of the level itself where it is the coarsest one.
 std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
   std::vector<RowMatrix> transfers;
   RestMesh fine = rest_mesh(body, level);
+  if (level + 1 == body.levels.size()) {
+    const SpaceOptions options{.sizes = space_sizes(body, fine.constrained), .reach = multigrid_reach};
+    for (CoarseSpace& space : coarse_spaces(fine.mesh, fine.constrained, {}, {}, options))
+      transfers.push_back(std::move(space.up));
+    return transfers;
+  }
   for (std::size_t i = level + 1; i < body.levels.size(); ++i) {
     RestMesh coarse = rest_mesh(body, i);
     transfers.push_back(transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained,
@@ -42,9 +51,10 @@ std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
 }
 
 bool has_multigrid(const Body& body, std::size_t level) {
-  return level + 1 < body.levels.size() &&
-         unknowns(body.levels.back()) <= static_cast<std::size_t>(most_dense_unknowns) &&
-         body.levels.back().vertices.size() < body.levels[level].vertices.size();
+  const TetMesh &fine = body.levels[level], &coarsest = body.levels.back();
+  if (level + 1 == body.levels.size()) return fine.vertices.size() >= fewest_coarsened;
+  return unknowns(coarsest) <= static_cast<std::size_t>(most_dense_unknowns) &&
+         coarsest.vertices.size() < fine.vertices.size();
 }
 
 /// With `asked`, what keeps the meshes from being used is the caller's mistake; else there is no multigrid then.

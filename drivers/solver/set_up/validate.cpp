@@ -11,6 +11,7 @@
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
@@ -150,11 +151,13 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
 
 void check_multigrid(const Body& body, const ImplicitOptions& o) {
   if (o.preconditioner != "multigrid" && o.solver != "v_cycle") return;
-  if (body.levels.size() < 2)
+  if (body.levels.size() < 2) {
+    if (has_coarse_levels("auto", body)) return;
     throw InputError(
         "integration.implicit.preconditioner is multigrid, or its solver v_cycle, which needs a coarser mesh, but the "
-        "body has one "
-        "level; expected more of body.levels, or block_jacobi or chebyshev");
+        "body has one, of too few vertices to make coarse spaces of; expected more of body.levels, or block_jacobi or "
+        "chebyshev");
+  }
   const std::size_t vertices = body.levels.back().vertices.size();
   if (3 * vertices > static_cast<std::size_t>(most_dense_unknowns))
     throw InputError(
@@ -231,11 +234,41 @@ void check_elements(const Body& body, std::size_t levels) {
 
 }  // namespace
 
+namespace {
+
+void check_coarsen(const Problem& problem, std::size_t levels) {
+  if (!problem.body.coarsen) return;
+  const std::vector<int>& sizes = *problem.body.coarsen;
+  const std::string& cycle = problem.integration.cycle;
+  if (levels > 1)
+    throw InputError("body.levels: coarsen makes coarse spaces of one mesh, but the body has " +
+                     std::to_string(levels) + "; expected one mesh, or no coarsen");
+  if (integrates_coarse_levels(cycle))
+    throw InputError("body.levels: coarsen makes spaces without elements, but cycle " + cycle +
+                     " integrates its coarser levels; expected coarser meshes there, or cycle him, auto or single");
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    Count{fewest_points}.check("body.levels." + std::to_string(i + 1) + ".coarsen", sizes[i]);
+    if (i > 0 && sizes[i] >= sizes[i - 1])
+      throw InputError("body.levels." + std::to_string(i + 1) + ".coarsen is " + std::to_string(sizes[i]) + " after " +
+                       std::to_string(sizes[i - 1]) + "; expected fewer points from level to level");
+  }
+}
+
+/// Once the mesh is there.
+void check_points(const Body& body) {
+  if (!body.coarsen || body.coarsen->empty()) return;
+  const auto vertices = static_cast<int>(body.levels.front().vertices.size());
+  Count{fewest_points, vertices}.check("body.levels.1.coarsen", body.coarsen->front());
+}
+
+}  // namespace
+
 void validate_options(const Problem& problem, std::size_t levels) {
   check_values("body", problem.body);
   check_parameters(*find_material(problem.body.material.model), problem.body);
   Vector{acceleration}.check("gravity", problem.gravity);
   check_elements(problem.body, levels);
+  check_coarsen(problem, levels);
   check_values("integration", problem.integration);
   check_values("contact", problem.contact);
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i)
@@ -253,6 +286,7 @@ void validate(const Problem& problem) {
   for (std::size_t i = 0; i < body.levels.size(); ++i) validate_mesh(body.levels[i], static_cast<int>(i));
   check_regions(body);
   validate_options(problem, body.levels.size());
+  check_points(body);
   check_multigrid(body, problem.integration.implicit);
   check_contact(problem);
 }

@@ -32,18 +32,42 @@ TEST(Dense, ToldOfMatricesThatAreNotPositiveDefinite) {
   EXPECT_FALSE(dense::invert(5, A.data()));
 }
 
-TEST(Dense, Eigenvectors) {
-  const int n = 60;
-  const MatrixXd K = symmetric(n, 0), M = symmetric(n, 1);
-  VectorXd s(n);
-  MatrixXd phi(n, n), back(n, n);
-  dense::eigenvectors(n, K.data(), M.data(), s.data(), phi.data());
-  EXPECT_LT((K * phi - M * phi * s.asDiagonal()).norm(), 1e-9 * K.norm());
-  EXPECT_LT((phi.transpose() * M * phi - MatrixXd::Identity(n, n)).norm(), 1e-9);
-  for (int i = 1; i < n; ++i) EXPECT_LE(s[i - 1], s[i]);
-  const VectorXd ones = VectorXd::Ones(n);
-  dense::recompose(n, ones.data(), phi.data(), back.data());  // phi phi^T = M^-1
-  EXPECT_LT((back * M - MatrixXd::Identity(n, n)).norm(), 1e-9 * M.norm());
+/// M times the 3x3 unit matrix.
+MatrixXd on_vectors(const MatrixXd& M) {
+  MatrixXd full = MatrixXd::Zero(3 * M.rows(), 3 * M.cols());
+  for (Eigen::Index i = 0; i < M.rows(); ++i)
+    for (Eigen::Index j = 0; j < M.cols(); ++j) full.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(M(i, j));
+  return full;
+}
+
+TEST(Dense, Modes) {
+  const int n = 20;
+  const MatrixXd K = symmetric(3 * n, 0), M = symmetric(n, 1), full = on_vectors(M);
+  VectorXd s(3 * n);
+  MatrixXd phi(3 * n, 3 * n), back(3 * n, 3 * n);
+  ASSERT_EQ(dense::modes(n, K.data(), M.data(), s.data(), phi.data()), 3 * n);
+  EXPECT_LT((K * phi - full * phi * s.asDiagonal()).norm(), 1e-9 * K.norm());
+  EXPECT_LT((phi.transpose() * full * phi - MatrixXd::Identity(3 * n, 3 * n)).norm(), 1e-9);
+  for (int i = 1; i < 3 * n; ++i) EXPECT_LE(s[i - 1], s[i]);
+  const VectorXd ones = VectorXd::Ones(3 * n);
+  dense::recompose(3 * n, 3 * n, ones.data(), phi.data(), back.data());  // phi phi^T = M^-1
+  EXPECT_LT((back * full - MatrixXd::Identity(3 * n, 3 * n)).norm(), 1e-9 * full.norm());
+}
+
+// A function twice, and one that is nothing: what is left is the problem without them.
+TEST(Dense, ModesLeaveOutWhatHasNoMassOfItsOwn) {
+  const int n = 6;
+  const MatrixXd K = symmetric(3 * n, 0), M = symmetric(n, 1);
+  MatrixXd repeat = MatrixXd::Zero(n, n + 2);
+  repeat.leftCols(n).setIdentity();
+  repeat(2, n) = 1;
+  const MatrixXd wide = on_vectors(repeat), more_K = wide.transpose() * K * wide,
+                 more_M = repeat.transpose() * M * repeat;
+  VectorXd s(3 * n), more_s(3 * n + 6);
+  MatrixXd phi(3 * n, 3 * n), more_phi(3 * n + 6, 3 * n + 6);
+  ASSERT_EQ(dense::modes(n, K.data(), M.data(), s.data(), phi.data()), 3 * n);
+  ASSERT_EQ(dense::modes(n + 2, more_K.data(), more_M.data(), more_s.data(), more_phi.data()), 3 * n);
+  EXPECT_LT((more_s.head(3 * n) - s).norm(), 1e-7 * s.norm());
 }
 
 }  // namespace

@@ -113,44 +113,45 @@ TEST(Him, KeepsTheEnergyOfASwing) {
 
 // What the axes do to momenta is what turning them by moving the body does to the kinetic energy.
 TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
-  for (const bool held : {false, true}) {
-    Problem problem = him_beam(false);
-    if (held) problem.body.fixed = {left_face()};
-    Pieces pieces(problem);
-    ASSERT_TRUE(pieces.fit(6));
-    InverseMass<Host>& A = *pieces.inverse_mass;
-    const Level<Host>& level = pieces.probe.at(0);
-    const auto n = pieces.levels[0].vertices.size();
-    const auto inverse_mass = pieces.probe.inverse_mass();
-    std::vector<Point> u(n), along = random_field(n, 0.01, 2), momentum = random_field(n, 1e-3, 3);
-    for (std::size_t a = 0; a < n; ++a) {
-      const Point& x = pieces.levels[0].vertices[a];
-      u[a] = {0.05 * std::sin(9 * x[0]), 0.4 * x[0] * x[0], 0.02 * std::sin(40 * x[1]) + 0.3 * x[0] * x[0]};
-      if (!(inverse_mass[a] > 0)) u[a] = along[a] = momentum[a] = Point::Zero();
-    }
-    const Vectors<Host> v("v", n), p = device_field<Host>(momentum);
-    const Kokkos::View<double*, Host::Memory> moved("moved", 2);
-    const auto kinetic = [&](double step) {
-      std::vector<Point> there = u;
-      for (std::size_t a = 0; a < n; ++a) there[a] += step * along[a];
-      A.turn({}, device_field<Host>(there), moved);
-      A.apply({}, p, v);
-      double sum = 0;
+  for (const bool alone : {false, true})
+    for (const bool held : {false, true}) {
+      Problem problem = alone ? him_beam_alone() : him_beam(false);
+      if (held) problem.body.fixed = {left_face()};
+      Pieces pieces(problem);
+      ASSERT_TRUE(pieces.fit(6));
+      InverseMass<Host>& A = *pieces.inverse_mass;
+      const Level<Host>& level = pieces.probe.at(0);
+      const auto n = pieces.levels[0].vertices.size();
+      const auto inverse_mass = pieces.probe.inverse_mass();
+      std::vector<Point> u(n), along = random_field(n, 0.01, 2), momentum = random_field(n, 1e-3, 3);
+      for (std::size_t a = 0; a < n; ++a) {
+        const Point& x = pieces.levels[0].vertices[a];
+        u[a] = {0.05 * std::sin(9 * x[0]), 0.4 * x[0] * x[0], 0.02 * std::sin(40 * x[1]) + 0.3 * x[0] * x[0]};
+        if (!(inverse_mass[a] > 0)) u[a] = along[a] = momentum[a] = Point::Zero();
+      }
+      const Vectors<Host> v("v", n), p = device_field<Host>(momentum);
+      const Kokkos::View<double*, Host::Memory> moved("moved", 2);
+      const auto kinetic = [&](double step) {
+        std::vector<Point> there = u;
+        for (std::size_t a = 0; a < n; ++a) there[a] += step * along[a];
+        A.turn({}, device_field<Host>(there), moved);
+        A.apply({}, p, v);
+        double sum = 0;
+        for (std::size_t a = 0; a < n; ++a)
+          for (int k = 0; k < 3; ++k) sum += 0.5 * momentum[a][k] * v(a, k);
+        return sum;
+      };
+      const double slope = (kinetic(1e-4) - kinetic(-1e-4)) / 2e-4;
+      kinetic(0);
+      const double t = 1e-7;  // too short for the force to change what it depends on
+      const Vectors<Host> pushed = device_field<Host>(momentum);
+      A.push({}, p, t, level.model, pushed);
+      double work = 0;
       for (std::size_t a = 0; a < n; ++a)
-        for (int k = 0; k < 3; ++k) sum += 0.5 * momentum[a][k] * v(a, k);
-      return sum;
-    };
-    const double slope = (kinetic(1e-4) - kinetic(-1e-4)) / 2e-4;
-    kinetic(0);
-    const double t = 1e-7;  // too short for the force to change what it depends on
-    const Vectors<Host> pushed = device_field<Host>(momentum);
-    A.push({}, p, t, level.model, pushed);
-    double work = 0;
-    for (std::size_t a = 0; a < n; ++a)
-      for (int k = 0; k < 3; ++k) work += (pushed(a, k) - momentum[a][k]) / t * along[a][k];
-    EXPECT_GT(std::abs(slope), 0);
-    EXPECT_NEAR(-work / slope, 1, 1e-6);
-  }
+        for (int k = 0; k < 3; ++k) work += (pushed(a, k) - momentum[a][k]) / t * along[a][k];
+      EXPECT_GT(std::abs(slope), 0);
+      EXPECT_NEAR(-work / slope, 1, 1e-6);
+    }
 }
 
 TYPED_TEST(HimOnEachBackend, ContinuesASavedRunBitForBit) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
+#include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+#include <plica/drivers/solver/spaces/sliver_space.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr int fewest_free = 120, coarsest = 280;
+constexpr double first_part = 0.2, most_ratio = 5;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The columns of free points, and these points.
+RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& constrained, std::vector<int>& points) {
+  std::vector<int> number, free;
+  for (const int point : points) {
+    number.push_back(constrained[at(point)] ? -1 : static_cast<int>(free.size()));
+    if (!constrained[at(point)]) free.push_back(point);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index a = 0; a < P.rows(); ++a)
+    for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
+      if (const int column = number[static_cast<std::size_t>(entry.col())]; column >= 0)
+        entries.emplace_back(static_cast<int>(a), column, entry.value());
+  RowMatrix kept(P.rows(), static_cast<Eigen::Index>(free.size()));
+  kept.setFromTriplets(entries.begin(), entries.end());
+  points = std::move(free);
+  return kept;
+}
+
+}  // namespace
+
+std::vector<int> space_sizes(int free_vertices) {
+  if (free_vertices < fewest_free) return {};
+  const double first = first_part * free_vertices;
+  if (first < 1.5 * coarsest) return {std::min(coarsest, free_vertices / 4)};
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(first / coarsest) / std::log(most_ratio))));
+  std::vector<int> sizes;
+  for (int i = 0; i <= steps; ++i)
+    sizes.push_back(static_cast<int>(std::lround(first * std::pow(coarsest / first, static_cast<double>(i) / steps))));
+  return sizes;
+}
+
+std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained) {
+  if (body.coarsen && !body.coarsen->empty()) return *body.coarsen;
+  return space_sizes(static_cast<int>(std::ranges::count(constrained, 0)));
+}
+
+std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<char>& constrained,
+                                       const std::vector<double>& mass, const BlockRows& K,
+                                       const SpaceOptions& options) {
+  std::vector<CoarseSpace> spaces;
+  if (options.sizes.empty()) return spaces;
+  const EdgeGraph graph = edge_graph(mesh);
+  const std::vector<int> order = farthest_points(graph, options.sizes.front());
+  std::vector<int> rows(mesh.vertices.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  if (options.slivers)
+    if (auto slivers = sliver_space(mesh, constrained, mass, K)) {
+      rows = slivers->kept;
+      spaces.push_back({without_constrained(slivers->up, constrained, rows), rows, 0});
+    }
+  for (const int size : options.sizes) {
+    std::vector<int> points(order.begin(), order.begin() + std::min<std::ptrdiff_t>(size, std::ssize(order)));
+    const double spacing = mean_spacing(graph, points);
+    const RowMatrix P = moving_least_squares(mesh, graph, rows, points, spacing, options.reach);
+    spaces.push_back({without_constrained(P, constrained, points), points, spacing});
+    rows = points;
+  }
+  // vertices whose motion is given have no part in any
+  spaces.front().up.prune(
+      [&](Eigen::Index a, Eigen::Index, double) { return !constrained[static_cast<std::size_t>(a)]; });
+  return spaces;
+}
+
+}  // namespace plica

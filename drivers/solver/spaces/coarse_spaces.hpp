@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/problem.hpp>
+#include <plica/drivers/solver/spaces/block_rows.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <vector>
+
+// Coarse levels that are made of the finest mesh alone: spaces of motions of its vertices, without elements. Steppers and
+// preconditioners that need no coarse elements run on them where a body has no coarser meshes.
+//
+//   vertices of the mesh          all of them, slivers included
+//        | sliver_space()         the few that are much too stiff follow their neighbours
+//   kept vertices
+//        | moving_least_squares() each from the 10 or so points around it
+//   points, a fifth of them       spread evenly along the edges: farthest_points()
+//        | moving_least_squares()
+//   points, 280 of them           the first of these
+namespace plica {
+
+/// One of them, as the next finer one sees it.
+struct CoarseSpace {
+  RowMatrix up;             ///< P: values at its points -> at those of the finer one, [finer points x points]
+  std::vector<int> points;  ///< vertices of the mesh; where these are fixed a space has none
+  double spacing = 0;       ///< mean distance along edges to the next point [m]; 0: of a sliver space
+
+  bool slivers() const { return spacing == 0; }
+};
+
+/// How many points each has by itself, finest first: a fifth of the vertices, then in even steps of at most 5 down to 280. None for
+/// a mesh of fewer than 120 free vertices.
+std::vector<int> space_sizes(int free_vertices);
+/// What the body asks for, or these.
+/// @param constrained  per vertex of the mesh: its motion is given
+std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained);
+
+struct SpaceOptions {
+  std::vector<int> sizes;  ///< numbers of points, finest first, at least fewest_points each
+  double reach = 1.8;      ///< of the transfers' radius over the points' spacing
+  bool slivers = false;    ///< a sliver space comes first, where the mesh has slivers
+};
+
+/// @param constrained  per vertex: its motion is given
+/// @param mass         per vertex [kg]; for slivers only
+/// @param K            the mesh's stiffness; for slivers only
+std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<char>& constrained,
+                                       const std::vector<double>& mass, const BlockRows& K,
+                                       const SpaceOptions& options);
+
+}  // namespace plica

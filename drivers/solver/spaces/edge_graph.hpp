@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <plica/core/mesh.hpp>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace plica {
+
+/// A mesh's vertices and edges, by rows.
+struct EdgeGraph {
+  std::vector<int> first{0};   ///< [vertices + 1] into the others
+  std::vector<int> neighbour;  ///< of a vertex, ascending
+  std::vector<double> length;  ///< of that edge [m]
+
+  int vertices() const { return static_cast<int>(first.size()) - 1; }
+};
+
+EdgeGraph edge_graph(const TetMesh& mesh);
+
+/// Distances along edges, and the vertex: the nearest on top.
+using DistanceQueue = std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>;
+
+/// Vertices in the order of their distance along edges from one of them (Dijkstra 1959). Its memory serves many walks.
+class EdgeWalk {
+ public:
+  explicit EdgeWalk(const EdgeGraph& graph)
+      : graph_(graph), distance_(static_cast<std::size_t>(graph.vertices())), walk_(distance_.size(), 0) {}
+
+  /// Calls visit(vertex, distance) for all that are not further than `reach` [m], the start included.
+  template <class Visit>
+  void from(int start, double reach, const Visit& visit) {
+    ++now_;
+    DistanceQueue open;
+    const auto offer = [&](int v, double d) {
+      const auto at = static_cast<std::size_t>(v);
+      if (d > reach || (walk_[at] == now_ && d >= distance_[at])) return;
+      walk_[at] = now_, distance_[at] = d;
+      open.emplace(d, v);
+    };
+    for (offer(start, 0); !open.empty();) {
+      const auto [d, v] = open.top();
+      open.pop();
+      if (d > distance_[static_cast<std::size_t>(v)]) continue;
+      visit(v, d);
+      for (int k = graph_.first[static_cast<std::size_t>(v)]; k < graph_.first[static_cast<std::size_t>(v) + 1]; ++k)
+        offer(graph_.neighbour[static_cast<std::size_t>(k)], d + graph_.length[static_cast<std::size_t>(k)]);
+    }
+  }
+
+ private:
+  const EdgeGraph& graph_;
+  std::vector<double> distance_;
+  std::vector<int> walk_;
+  int now_ = 0;
+};
+
+/// Vertices in the order in which each is the furthest, along edges, from all before it (Gonzalez 1985): any first part of
+/// them is spread evenly. Every part of a body that hangs together gets one before any gets its second.
+std::vector<int> farthest_points(const EdgeGraph& graph, int count);
+
+/// The mean distance along edges from each of these vertices to the nearest other one [m].
+double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points);
+
+}  // namespace plica

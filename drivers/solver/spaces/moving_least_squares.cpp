@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/drivers/solver/spaces/linear_fit.hpp>
+#include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double detour = 1.4;        // of a way along edges over the straight one
+constexpr double growth = 1.8;        // of the radius, at most
+constexpr double growth_step = 1.16;  // of it, at a time
+constexpr double most_weight = 2;     // sum of |weights| of a good fit
+constexpr double least_spread = 1e-3;
+constexpr double least_weight = 1e-4;
+constexpr std::size_t fewest = 6;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+struct Near {
+  int point;        // its number in the list
+  double distance;  // [m]
+};
+
+class Fitter {
+ public:
+  Fitter(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& points, double radius)
+      : mesh_(mesh), points_(points), radius_(radius), number_(mesh.vertices.size(), -1), walk_(graph) {
+    for (std::size_t j = 0; j < points.size(); ++j) number_[at(points[j])] = static_cast<int>(j);
+  }
+
+  /// Each row's points within the first radius: a walk from each point, which are fewer than the rows.
+  std::vector<std::vector<Near>> neighbourhoods(const std::vector<int>& rows) {
+    std::vector<int> place(number_.size(), -1);
+    for (std::size_t i = 0; i < rows.size(); ++i) place[at(rows[i])] = static_cast<int>(i);
+    std::vector<std::vector<Near>> near(rows.size());
+    for (std::size_t j = 0; j < points_.size(); ++j)
+      walk_.from(points_[j], detour * radius_, [&](int v, double along) {
+        if (place[at(v)] < 0) return;
+        const double d = distance(v, points_[j], along);
+        if (d < radius_) near[at(place[at(v)])].push_back({static_cast<int>(j), d});
+      });
+    return near;
+  }
+
+  /// The row of vertex `a` as (point, weight): by the points `near` within the first radius, or by more of them.
+  void fit(int a, const std::vector<Near>& near, std::vector<std::pair<int, double>>& row) {
+    row.clear();
+    if (good(a, near, radius_, row)) return;
+    const double widest = growth * radius_;
+    std::vector<Near> more;
+    walk_.from(a, detour * widest, [&](int v, double along) {
+      if (number_[at(v)] >= 0) more.push_back({number_[at(v)], distance(a, v, along)});
+    });
+    std::sort(more.begin(), more.end(), [](const Near& x, const Near& y) { return x.point < y.point; });
+    for (double radius = growth_step * radius_; radius <= widest; radius *= growth_step)
+      if (good(a, more, radius, row)) return;
+    // as many directions as it takes
+    gather(a, more, widest);
+    for (int dropped = 0; fit_.size() > 0 && dropped <= 3; ++dropped)
+      if (fit_.weights(dropped, weight_) <= most_weight || dropped == 3) return take(row);
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const std::vector<int>& points_;
+  double radius_;
+  std::vector<int> number_;  // of a vertex among the points, or -1
+  EdgeWalk walk_;
+  LinearFit fit_;
+  std::vector<int> fitted_;  // points in it
+  std::vector<double> weight_;
+
+  double distance(int v, int w, double along) const {
+    return std::max((mesh_.vertices[at(v)] - mesh_.vertices[at(w)]).norm(), along / detour);
+  }
+
+  void gather(int a, const std::vector<Near>& near, double radius) {
+    fit_.clear(), fitted_.clear();
+    for (const Near& one : near)
+      if (const double w = fit_weight(one.distance / radius); w > 0) {
+        fit_.add((mesh_.vertices[at(points_[at(one.point)])] - mesh_.vertices[at(a)]) / radius, w);
+        fitted_.push_back(one.point);
+      }
+    if (fit_.size() > 0) fit_.prepare();
+  }
+
+  bool good(int a, const std::vector<Near>& near, double radius, std::vector<std::pair<int, double>>& row) {
+    gather(a, near, radius);
+    if (fit_.size() < fewest || fit_.flattest() < least_spread || fit_.weights(0, weight_) > most_weight) return false;
+    take(row);
+    return true;
+  }
+
+  void take(std::vector<std::pair<int, double>>& row) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < fitted_.size(); ++k)
+      if (std::abs(weight_[k]) > least_weight) row.emplace_back(fitted_[k], weight_[k]), sum += weight_[k];
+    for (auto& entry : row) entry.second /= sum;
+  }
+};
+
+}  // namespace
+
+RowMatrix moving_least_squares(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
+                               const std::vector<int>& points, double spacing, double reach) {
+  Fitter fitter(mesh, graph, points, reach * spacing);
+  const auto near = fitter.neighbourhoods(rows);
+  RowMatrix P(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(points.size()));
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<std::pair<int, double>> row;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    fitter.fit(rows[i], near[i], row);
+    for (const auto& [point, weight] : row) entries.emplace_back(static_cast<int>(i), point, weight);
+  }
+  P.setFromTriplets(entries.begin(), entries.end());
+  return P;
+}
+
+}  // namespace plica

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <plica/drivers/solver/spaces/linear_fit.hpp>
+#include <plica/drivers/solver/spaces/sliver_space.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double too_stiff = 3.5;  // times the median
+constexpr int most_rounds = 12;
+constexpr double most_removed = 0.35, most_weight = 2, least_entry = 1e-9;
+constexpr std::size_t fewest_neighbours = 4;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+using Row = std::vector<std::pair<int, double>>;
+
+/// Vertices are taken out one after the other; what is left is a smaller body with its own K and masses.
+class Elimination {
+ public:
+  Elimination(const TetMesh& mesh, const std::vector<char>& constrained, std::vector<double>&& mass, BlockRows&& K)
+      : mesh_(mesh),
+        constrained_(constrained),
+        mass_(std::move(mass)),
+        K_(std::move(K)),
+        gone_(mass_.size(), 0),
+        locked_(mass_.size(), -1) {}
+
+  std::optional<SliverSpace> run() {
+    SliverSpace result;
+    std::vector<std::pair<double, int>> stiff = stiffnesses();
+    if (stiff.empty()) return {};
+    const auto middle = stiff.begin() + static_cast<std::ptrdiff_t>(stiff.size() / 2);
+    std::nth_element(stiff.begin(), middle, stiff.end());
+    const double median = middle->first, limit = too_stiff * median;
+    result.before = std::max_element(stiff.begin(), stiff.end())->first / median;
+    if (!(result.before > too_stiff)) return {};
+    const auto most = static_cast<std::size_t>(most_removed * static_cast<double>(mass_.size()));
+    for (int round = 0; round < most_rounds && order_.size() < most; ++round) {
+      std::erase_if(stiff, [&](const auto& one) { return !(one.first > limit); });
+      std::sort(stiff.begin(), stiff.end(), std::greater<>());
+      const std::size_t before = order_.size();
+      for (const auto& [lambda, a] : stiff) eliminate(a, round);
+      stiff = stiffnesses();
+      if (order_.size() == before) break;
+    }
+    result.after = stiff.empty() ? 0 : std::max_element(stiff.begin(), stiff.end())->first / median;
+    write(result);
+    return result;
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const std::vector<char>& constrained_;
+  std::vector<double> mass_;
+  BlockRows K_;
+  std::vector<char> gone_;
+  std::vector<int> locked_;   // the last round in which a neighbour was taken out
+  std::vector<int> order_;    // the vertices taken out
+  std::vector<Row> follows_;  // of each, the neighbours that it follows
+  LinearFit fit_;
+  std::vector<double> weight_;
+
+  std::vector<std::pair<double, int>> stiffnesses() const {
+    std::vector<std::pair<double, int>> all;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a) {
+      if (gone_[at(a)] || constrained_[at(a)]) continue;
+      solver.computeDirect(block(a, a), Eigen::EigenvaluesOnly);
+      all.emplace_back(solver.eigenvalues()[2] / std::max(mass_[at(a)], 1e-300), a);
+    }
+    return all;
+  }
+
+  Eigen::Matrix3d& block(int a, int b) {
+    auto& row = K_[at(a)];
+    auto place =
+        std::lower_bound(row.begin(), row.end(), b, [](const auto& e, int column) { return e.first < column; });
+    if (place == row.end() || place->first != b) place = row.insert(place, {b, Eigen::Matrix3d::Zero()});
+    return place->second;
+  }
+  const Eigen::Matrix3d& block(int a, int b) const { return const_cast<Elimination*>(this)->block(a, b); }
+
+  void eliminate(int a, int round) {
+    const auto row = K_[at(a)];  // with the own block
+    if (locked_[at(a)] == round || row.size() <= fewest_neighbours) return;
+    double radius = 0;
+    const auto offset = [&](int b) { return Point(mesh_.vertices[at(b)] - mesh_.vertices[at(a)]); };
+    for (const auto& [b, K] : row) radius = std::max(radius, 1.1 * offset(b).norm());
+    fit_.clear();
+    for (const auto& [b, K] : row)
+      if (b != a) fit_.add(offset(b) / radius, fit_weight(offset(b).norm() / radius) + 1e-3);
+    fit_.prepare();
+    for (int dropped = 0; dropped <= 3; ++dropped)
+      if (fit_.weights(dropped, weight_) < most_weight) break;
+    Row& followed = follows_.emplace_back();
+    for (const auto& [b, K] : row)
+      if (b != a) followed.emplace_back(b, weight_[followed.size()]);
+    order_.push_back(a), gone_[at(a)] = 1;
+    take_out(a, row, followed, round);
+  }
+
+  /// K and m of the others, with u_a the sum of w_b u_b: K_bc += w_b K_ac + K_ba w_c + w_b K_aa w_c, m_b += w_b m_a.
+  void take_out(int a, const BlockRows::value_type& row, const Row& followed, int round) {
+    Eigen::Matrix3d own = block(a, a);
+    BlockRows::value_type beside;
+    for (const auto& entry : row)
+      if (entry.first != a) beside.push_back(entry);
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      const auto [b, wb] = followed[i];
+      for (std::size_t j = 0; j < followed.size(); ++j) {
+        const auto [c, wc] = followed[j];
+        block(b, c) += wb * beside[j].second + wc * beside[i].second.transpose() + (wb * wc) * own;
+      }
+      std::erase_if(K_[at(b)], [&](const auto& entry) { return entry.first == a; });
+      mass_[at(b)] += wb * mass_[at(a)];
+      locked_[at(b)] = round;
+    }
+    K_[at(a)].clear();
+  }
+
+  /// Who follows vertices that went later follows what those follow.
+  void write(SliverSpace& result) const {
+    std::vector<int> number(mass_.size(), -1);
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
+      if (!gone_[at(a)]) number[at(a)] = static_cast<int>(result.kept.size()), result.kept.push_back(a);
+    std::vector<std::vector<std::pair<int, double>>> rows(mass_.size());
+    for (const int a : result.kept) rows[at(a)] = {{number[at(a)], 1.0}};
+    for (std::size_t i = order_.size(); i-- > 0;) {
+      std::map<int, double> sum;
+      for (const auto& [b, w] : follows_[i])
+        for (const auto& [column, value] : rows[at(b)]) sum[column] += w * value;
+      for (const auto& [column, value] : sum)
+        if (std::abs(value) > least_entry) rows[at(order_[i])].emplace_back(column, value);
+    }
+    result.up = RowMatrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(result.kept.size()));
+    std::vector<Eigen::Triplet<double>> entries;
+    for (std::size_t a = 0; a < rows.size(); ++a)
+      for (const auto& [column, value] : rows[a]) entries.emplace_back(static_cast<int>(a), column, value);
+    result.up.setFromTriplets(entries.begin(), entries.end());
+  }
+};
+
+}  // namespace
+
+std::optional<SliverSpace> sliver_space(const TetMesh& mesh, const std::vector<char>& constrained,
+                                        std::vector<double> mass, BlockRows K) {
+  return Elimination(mesh, constrained, std::move(mass), std::move(K)).run();
+}
+
+}  // namespace plica

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <plica/drivers/solver/linear/stage_system.hpp>
+#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
+#include <plica/drivers/solver/spaces/edge_graph.hpp>
+#include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+#include <plica/drivers/solver/spaces/sliver_space.hpp>
+#include <plica/meshes/organs.hpp>
+#include <set>
+
+#include "support/him_pieces.hpp"
+#include "support/refusal.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Coarse levels of one mesh: what they reproduce, what they keep apart, what they are good for.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+TetMesh irregular_beam() { return with_slivers(jittered_box(beam_box, {20, 5, 5}, 0.2)); }
+
+std::vector<int> all_of(const TetMesh& mesh) {
+  std::vector<int> all(mesh.vertices.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+std::vector<char> none_of(const TetMesh& mesh) { return std::vector<char>(mesh.vertices.size(), 0); }
+
+std::vector<double> mass_of(const TetMesh& mesh) {
+  return level_constants(body_of({mesh}).body, mesh, Point::Zero(), 0).mass;
+}
+
+BlockRows stiffness_of(const TetMesh& mesh) { return rest_stiffness(mesh, {{3e4, 1e4}}); }
+
+/// Two prongs, 0.4 m long and a hundredth apart, that hang together at their left ends.
+TetMesh fork() {
+  TetMesh whole = box_mesh({{0, 0, 0}, {0.4, 0.05, 0.11}}, {40, 5, 11}), cut;
+  std::vector<int> number(whole.vertices.size(), -1);
+  for (const auto& t : whole.tets) {
+    Point middle = Point::Zero();
+    for (const int v : t) middle += whole.vertices[at(v)] / 4;
+    if (middle[0] > 0.05 && middle[2] > 0.05 && middle[2] < 0.06) continue;
+    auto& made = cut.tets.emplace_back(t);
+    for (int& v : made) {
+      int& there = number[at(v)];
+      if (there < 0) there = static_cast<int>(cut.vertices.size()), cut.vertices.push_back(whole.vertices[at(v)]);
+      v = there;
+    }
+  }
+  return cut;
+}
+
+TEST(FarthestPoints, AreSpreadEvenlyAndReachEveryPart) {
+  TetMesh two = box_mesh(beam_box, {16, 4, 4});
+  const TetMesh other = box_mesh({{1, 0, 0}, {1.05, 0.05, 0.05}}, {2, 2, 2});
+  const int first = static_cast<int>(two.vertices.size());
+  two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (auto t : other.tets) {
+    for (int& v : t) v += first;
+    two.tets.push_back(t);
+  }
+  const EdgeGraph graph = edge_graph(two);
+  const std::vector<int> order = farthest_points(graph, 60);
+  ASSERT_EQ(order.size(), 60u);
+  EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), 60u);
+  EXPECT_NE(order[0] < first, order[1] < first);  // each part has one before any has two
+  // no vertex is further from the points than twice their least distance: a walk from every point
+  std::vector<double> nearest(two.vertices.size(), 1e9);
+  double least = 1e9;
+  EdgeWalk walk(graph);
+  for (std::size_t j = 0; j < order.size(); ++j) {
+    least = std::min(least, nearest[at(order[j])]);
+    walk.from(order[j], 10, [&](int v, double d) { nearest[at(v)] = std::min(nearest[at(v)], d); });
+  }
+  EXPECT_LE(*std::max_element(nearest.begin(), nearest.end()), least);
+  EXPECT_GE(mean_spacing(graph, order), least);
+  EXPECT_LE(mean_spacing(graph, order), 2 * least);
+}
+
+TEST(FarthestPoints, OfAllVerticesAreAll) {
+  const TetMesh mesh = box_mesh(decimetre, {2, 2, 2});
+  EXPECT_EQ(farthest_points(edge_graph(mesh), 1000).size(), mesh.vertices.size());
+}
+
+TEST(MovingLeastSquares, ReproduceLinearFields) {
+  for (const TetMesh& mesh : {irregular_beam(), blob_mesh(Point::Zero(), 0.12, 8)}) {
+    const EdgeGraph graph = edge_graph(mesh);
+    const std::vector<int> points = farthest_points(graph, static_cast<int>(mesh.vertices.size() / 5));
+    const RowMatrix P = moving_least_squares(mesh, graph, all_of(mesh), points, mean_spacing(graph, points), 1.8);
+    const auto field = [](const Point& x) { return 3 + x.dot(Point(1, -2, 0.5)); };
+    for (Eigen::Index a = 0; a < P.rows(); ++a) {
+      double sum = 0, value = 0;
+      for (RowMatrix::InnerIterator entry(P, a); entry; ++entry) {
+        sum += entry.value();
+        value += entry.value() * field(mesh.vertices[at(points[static_cast<std::size_t>(entry.col())])]);
+      }
+      EXPECT_NEAR(sum, 1, 2e-3);  // weights below 1e-4 are left out
+      EXPECT_NEAR(value, field(mesh.vertices[static_cast<std::size_t>(a)]), 6e-3);
+    }
+    EXPECT_LE(static_cast<double>(P.nonZeros()) / static_cast<double>(P.rows()), 20);
+  }
+}
+
+TEST(MovingLeastSquares, KeepApartWhatIsNotConnected) {
+  const TetMesh mesh = fork();
+  const EdgeGraph graph = edge_graph(mesh);
+  const std::vector<int> points = farthest_points(graph, 150);
+  const RowMatrix P = moving_least_squares(mesh, graph, all_of(mesh), points, mean_spacing(graph, points), 1.8);
+  const auto upper = [&](int v) { return mesh.vertices[at(v)][2] > 0.055; };
+  int looked_at = 0;
+  for (Eigen::Index a = 0; a < P.rows(); ++a) {
+    if (mesh.vertices[static_cast<std::size_t>(a)][0] < 0.2) continue;
+    ++looked_at;
+    for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
+      EXPECT_EQ(upper(points[static_cast<std::size_t>(entry.col())]), upper(static_cast<int>(a)));
+  }
+  EXPECT_GT(looked_at, 500);
+}
+
+TEST(BlockRows, AreTheStiffnessOfLinearElements) {
+  Problem p = body_of({jittered_box(decimetre, {3, 3, 3})}, "linear");
+  p.integration.macro_step = 1e-9;
+  LevelProbe<Host> probe(p);
+  const Lame<double> lame = lame_constants(p.body.material.young_modulus, p.body.material.poisson_ratio);
+  const BlockRows K = rest_stiffness(p.body.levels[0], {{lame.lambda, lame.mu}});
+  const Eigen::MatrixXd expected = probe.stiffness_matrix(probe.zero());
+  EXPECT_LE((dense(K) - expected).norm(), 1e-12 * expected.norm());
+  const EdgeGraph graph = edge_graph(p.body.levels[0]);
+  const std::vector<int> points = farthest_points(graph, 20);
+  const RowMatrix P =
+      moving_least_squares(p.body.levels[0], graph, all_of(p.body.levels[0]), points, mean_spacing(graph, points), 1.8);
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(3 * P.rows(), 3 * P.cols());
+  for (Eigen::Index a = 0; a < P.rows(); ++a)
+    for (RowMatrix::InnerIterator e(P, a); e; ++e)
+      for (int k = 0; k < 3; ++k) wide(3 * a + k, 3 * e.col() + k) = e.value();
+  const Eigen::MatrixXd product = wide.transpose() * expected * wide;
+  EXPECT_LE((dense(galerkin_product(K, P)) - product).norm(), 1e-12 * product.norm());
+}
+
+TEST(SliverSpace, IsNoneWhereThereAreNoSlivers) {
+  const TetMesh mesh = box_mesh(beam_box, {8, 4, 4});
+  EXPECT_FALSE(sliver_space(mesh, none_of(mesh), mass_of(mesh), stiffness_of(mesh)));
+}
+
+TEST(SliverSpace, LetsSliversFollowAndNothingElse) {
+  const TetMesh mesh = irregular_beam();
+  const BlockRows K = stiffness_of(mesh);
+  const auto slivers = sliver_space(mesh, none_of(mesh), mass_of(mesh), K);
+  ASSERT_TRUE(slivers);
+  EXPECT_GT(slivers->before, 6);
+  EXPECT_LE(slivers->after, 3.5);
+  EXPECT_GT(slivers->kept.size(), 0.8 * static_cast<double>(mesh.vertices.size()));
+  EXPECT_LT(slivers->kept.size(), mesh.vertices.size());
+  // linear fields pass, and the rest of the mesh is as it was
+  for (Eigen::Index a = 0; a < slivers->up.rows(); ++a) {
+    Point x = Point::Zero();
+    int entries = 0;
+    for (RowMatrix::InnerIterator entry(slivers->up, a); entry; ++entry, ++entries)
+      x += entry.value() * mesh.vertices[at(slivers->kept[static_cast<std::size_t>(entry.col())])];
+    EXPECT_LE((x - mesh.vertices[static_cast<std::size_t>(a)]).norm(), 1e-6);
+  }
+  EXPECT_LE(slivers->up.nonZeros(), 4 * slivers->up.rows());
+  // lambda_max is between the largest lambda_a and four times that, also of what is left
+  const BlockRows left = galerkin_product(K, slivers->up);
+  const auto mass = mass_of(mesh);
+  std::vector<double> carried(left.size(), 0.0);
+  for (Eigen::Index a = 0; a < slivers->up.rows(); ++a)
+    for (RowMatrix::InnerIterator entry(slivers->up, a); entry; ++entry)
+      carried[static_cast<std::size_t>(entry.col())] += entry.value() * mass[static_cast<std::size_t>(a)];
+  EXPECT_NEAR(std::accumulate(carried.begin(), carried.end(), 0.0), std::accumulate(mass.begin(), mass.end(), 0.0),
+              1e-9);
+  for (const double m : carried) EXPECT_GT(m, 0);
+}
+
+TEST(SpaceSizes, EndNear280InEvenSteps) {
+  EXPECT_TRUE(space_sizes(100).empty());
+  EXPECT_EQ(space_sizes(400), std::vector<int>{100});
+  for (const int vertices : {2'000, 5'000, 20'000, 200'000, 1'000'000}) {
+    const std::vector<int> sizes = space_sizes(vertices);
+    EXPECT_EQ(sizes.back(), 280) << vertices;
+    EXPECT_LE(sizes.front(), vertices / 4) << vertices;
+    for (std::size_t i = 1; i < sizes.size(); ++i) EXPECT_LE(sizes[i - 1], 5.1 * sizes[i]) << vertices;
+  }
+}
+
+TEST(MassSpaces, AnswerATranslationAsOne) {
+  for (const Problem& problem : {him_beam(false), him_beam_alone()}) {
+    std::vector<RowMatrix> transfers;
+    const std::vector<TetMesh>& meshes = problem.body.levels;
+    const auto mass = mass_of(meshes[0]);
+    if (meshes.size() == 1)
+      for (const CoarseSpace& space :
+           coarse_spaces(meshes[0], none_of(meshes[0]), mass, stiffness_of(meshes[0]), {.sizes = {200, 60}}))
+        transfers.push_back(space.up);
+    for (std::size_t i = 1; i < meshes.size(); ++i)
+      transfers.push_back(transfer_matrix(meshes[i - 1], none_of(meshes[i - 1]), meshes[i], none_of(meshes[i]),
+                                          embed(meshes[i - 1].vertices, meshes[i], Outside::extrapolate), true));
+    const MassSpace space = mass_spaces(transfers, mass).front();
+    const Eigen::Index n = space.mass.rows();
+    const Eigen::Map<const Eigen::ArrayXd> E(space.scale.data(), n), D(space.inverse_diagonal.data(), n);
+    const Eigen::VectorXd momentum = space.mass * Eigen::VectorXd::Ones(n);
+    const Eigen::VectorXd x = (E * momentum.array()).matrix(), lumped = (D * x.array()).matrix();
+    const Eigen::ArrayXd answer = E * D * (2 * x - space.mass * lumped).array();
+    EXPECT_LE((answer - 1).abs().maxCoeff(), 0.02);
+  }
+}
+
+double him_error(const Problem& problem, double duration) {
+  Problem p = problem;
+  p.integration.cycle = "single";
+  Simulation<Host> single(p);
+  p.integration.cycle = "him";
+  Simulation<Host> him(p);
+  p.integration.macro_step = duration / std::ceil(duration / him.macro_step());
+  Simulation<Host> stepped(p);
+  EXPECT_GT(stepped.macro_step(), 6 * single.macro_step());
+  for (Simulation<Host>* one : {&single, &stepped}) {
+    one->end_at(duration);
+    while (one->time() < duration * (1 - 1e-9))
+      if (const auto bad = one->step_checked()) return ADD_FAILURE() << bad->text(), 1.0;
+  }
+  const auto u = displacements(stepped, p.body.levels[0]), truth = displacements(single, p.body.levels[0]);
+  const auto difference = minus(u, truth);
+  return std::sqrt(dot(difference, difference) / dot(truth, truth));
+}
+
+TEST(Him, NeedsOneMeshOnly) {
+  for (const char* element : {"linear", "nodal"}) {
+    Problem p = him_beam_alone("neo_hookean");
+    p.body.element = {element};
+    p.body.levels = {irregular_beam()};
+    p.body.coarsen.reset();
+    p.body.fixed = {left_face()};
+    p.body.material.young_modulus = 200e3;
+    p.gravity = {0, 0, -9.81};
+    EXPECT_LE(him_error(p, 0.1), 0.02) << element;
+  }
+}
+
+TEST(Him, ReportsTheSpacesItMade) {
+  const Problem p = him_beam_alone();
+  const Simulation<Host> him(p);
+  const auto& levels = him.levels();
+  ASSERT_EQ(levels.size(), 4u);  // the mesh, slivers, 150, 40
+  EXPECT_GT(levels[1].vertices, 300);
+  EXPECT_EQ(levels[2].vertices, 150);
+  EXPECT_EQ(levels[3].vertices, 40);
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    EXPECT_EQ(levels[i].tets, 0);
+    EXPECT_GE(levels[i].nonzeros, 1);
+  }
+  EXPECT_EQ(levels[1].mean_edge, 0);
+  EXPECT_GT(levels[3].mean_edge, levels[2].mean_edge);
+}
+
+TEST(Multigrid, RunsOnSpacesOfOneMesh) {
+  Problem p = body_of({irregular_beam()}, "linear");
+  p.body.fixed = {left_face()};
+  p.gravity = {0, 0, -9.81};
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.macro_step = 5e-3;
+  p.integration.implicit.relative_residual = 1e-8;
+  const auto iterations = [&](const char* preconditioner) {
+    p.integration.implicit.preconditioner = preconditioner;
+    Simulation<Host> simulation(p);
+    advance(simulation, 4);
+    return simulation.counters().at("cg_iterations") / 4;
+  };
+  const long multigrid = iterations("multigrid");
+  EXPECT_LE(multigrid, 30);
+  EXPECT_LE(3 * multigrid, iterations("block_jacobi"));
+  p.integration.implicit.preconditioner = "auto";
+  EXPECT_EQ(Simulation<Host>(p).levels()[0].linear_solver.find("conjugate_gradients, multigrid"), 0u);
+}
+
+TEST(Coarsen, RefusesWhatItCannotDo) {
+  Problem p = him_beam_alone();
+  const auto refused = [&] { return refusal([&] { validate(p); }); };
+  EXPECT_EQ(refused(), "");
+  p.integration.cycle = "rsv";
+  EXPECT_NE(refused().find("cycle rsv integrates its coarser levels"), std::string::npos) << refused();
+  p.integration.cycle = "him", p.body.coarsen = {150, 150};
+  EXPECT_NE(refused().find("expected fewer points from level to level"), std::string::npos) << refused();
+  p.body.coarsen = {29};
+  EXPECT_NE(refused().find("expected a whole number >= 30"), std::string::npos) << refused();
+  p.body.coarsen = {100000};
+  EXPECT_NE(refused().find("expected a whole number in [30, "), std::string::npos) << refused();
+  p = him_beam(true), p.body.coarsen.emplace();
+  EXPECT_NE(refused().find("but the body has 3"), std::string::npos) << refused();
+}
+
+}  // namespace
