@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_direct = 200;       // vertices up to which a factorisation is faster: cmake/docs/solvers.md
 constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix has paid
 constexpr std::size_t fewest_coarsened = 600;  // vertices
-constexpr double multigrid_reach = 1.5;
+constexpr double multigrid_reach = 1.3;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
@@ -36,7 +36,7 @@ std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
   std::vector<RowMatrix> transfers;
   RestMesh fine = rest_mesh(body, level);
   if (level + 1 == body.levels.size()) {
-    const SpaceOptions options{.sizes = space_sizes(body, fine.constrained), .reach = multigrid_reach};
+    const SpaceOptions options{.sizes = space_sizes(body, fine.constrained, multigrid_sizes), .reach = multigrid_reach};
     for (CoarseSpace& space : coarse_spaces(fine.mesh, fine.constrained, {}, {}, options))
       transfers.push_back(std::move(space.up));
     return transfers;
@@ -101,7 +101,8 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   }
   if (o.preconditioner == "auto" || asked) {
     o.preconditioner = BlockJacobi::name;  // also of a level that has no coarser one, where others have
-    if (multigrid && (asked || !fixed)) add_multigrid(parts, body, level, asked);
+    const bool has_meshes = level + 1 < body.levels.size();  // over spaces it pays only for stiff systems
+    if (multigrid && (asked || (has_meshes && !fixed))) add_multigrid(parts, body, level, asked);
   }
   if (o.matrix == "auto")
     o.matrix = cycle || nodal || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";

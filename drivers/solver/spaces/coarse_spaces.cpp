@@ -10,8 +10,8 @@ namespace plica {
 
 namespace {
 
-constexpr int fewest_free = 120, coarsest = 280;
-constexpr double first_part = 0.2, most_ratio = 5;
+constexpr int fewest_free = 120;
+constexpr double most_ratio = 5;
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -35,20 +35,20 @@ RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& const
 
 }  // namespace
 
-std::vector<int> space_sizes(int free_vertices) {
+std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
   if (free_vertices < fewest_free) return {};
-  const double first = first_part * free_vertices;
-  if (first < 1.5 * coarsest) return {std::min(coarsest, free_vertices / 4)};
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(first / coarsest) / std::log(most_ratio))));
+  const double first = rule.first * free_vertices, last = rule.last;
+  if (first < 1.5 * last) return {std::min(rule.last, free_vertices / 4)};
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(first / last) / std::log(most_ratio))));
   std::vector<int> sizes;
   for (int i = 0; i <= steps; ++i)
-    sizes.push_back(static_cast<int>(std::lround(first * std::pow(coarsest / first, static_cast<double>(i) / steps))));
+    sizes.push_back(static_cast<int>(std::lround(first * std::pow(last / first, static_cast<double>(i) / steps))));
   return sizes;
 }
 
-std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained) {
+std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained, SizeRule rule) {
   if (body.coarsen && !body.coarsen->empty()) return *body.coarsen;
-  return space_sizes(static_cast<int>(std::ranges::count(constrained, 0)));
+  return space_sizes(static_cast<int>(std::ranges::count(constrained, 0)), rule);
 }
 
 std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<char>& constrained,

@@ -26,12 +26,20 @@ struct CoarseSpace {
   bool slivers() const { return spacing == 0; }
 };
 
-/// How many points each has by itself, finest first: a fifth of the vertices, then in even steps of at most 5 down to 280. None for
-/// a mesh of fewer than 120 free vertices.
-std::vector<int> space_sizes(int free_vertices);
+/// How many points spaces have by themselves.
+struct SizeRule {
+  double first;  ///< of the free vertices, in the first
+  int last;      ///< in the last; in between are even steps of at most 5
+};
+inline constexpr SizeRule him_sizes{0.2, 280};
+inline constexpr SizeRule multigrid_sizes{
+    0.1, 200};  ///< fewer: its coarse matrices cost more than what they leave to iterate
+
+/// Finest first. None for a mesh of fewer than 120 free vertices.
+std::vector<int> space_sizes(int free_vertices, SizeRule rule = him_sizes);
 /// What the body asks for, or these.
 /// @param constrained  per vertex of the mesh: its motion is given
-std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained);
+std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained, SizeRule rule = him_sizes);
 
 struct SpaceOptions {
   std::vector<int> sizes;  ///< numbers of points, finest first, at least fewest_points each

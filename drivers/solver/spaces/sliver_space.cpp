@@ -10,7 +10,7 @@ namespace {
 constexpr double too_stiff = 3.5;  // times the median
 constexpr int most_rounds = 12;
 constexpr double most_removed = 0.35, most_weight = 2, least_entry = 1e-9;
-constexpr std::size_t fewest_neighbours = 4;
+constexpr std::size_t fewest_neighbours = 3;
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -84,7 +84,7 @@ class Elimination {
 
   void eliminate(int a, int round) {
     const auto row = K_[at(a)];  // with the own block
-    if (locked_[at(a)] == round || row.size() <= fewest_neighbours) return;
+    if (locked_[at(a)] == round || row.size() - 1 < fewest_neighbours) return;
     double radius = 0;
     const auto offset = [&](int b) { return Point(mesh_.vertices[at(b)] - mesh_.vertices[at(a)]); };
     for (const auto& [b, K] : row) radius = std::max(radius, 1.1 * offset(b).norm());

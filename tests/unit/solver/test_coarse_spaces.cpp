@@ -277,8 +277,6 @@ TEST(Multigrid, RunsOnSpacesOfOneMesh) {
   const long multigrid = iterations("multigrid");
   EXPECT_LE(multigrid, 30);
   EXPECT_LE(3 * multigrid, iterations("block_jacobi"));
-  p.integration.implicit.preconditioner = "auto";
-  EXPECT_EQ(Simulation<Host>(p).levels()[0].linear_solver.find("conjugate_gradients, multigrid"), 0u);
 }
 
 TEST(Coarsen, RefusesWhatItCannotDo) {

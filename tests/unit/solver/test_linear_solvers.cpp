@@ -220,7 +220,7 @@ TEST(LinearSolvers, CombinationsWithoutSenseAreRefused) {
   p.integration.implicit.solver = "direkt";
   EXPECT_NE(refusal_of(p).find("unknown solver 'direkt'; did you mean 'direct'?"), std::string::npos) << refusal_of(p);
   p = good;
-  p.integration.implicit.preconditioner = "multigrid", p.body.levels.resize(1);
+  p.integration.implicit.preconditioner = "multigrid", p.body.levels = {box_mesh(decimetre, {2, 2, 2})};
   EXPECT_NE(refusal_of(p).find("needs a coarser mesh"), std::string::npos) << refusal_of(p);
   p = good;
   p.integration.implicit.preconditioner = "multigrid", p.body.levels.back() = box_mesh(decimetre, {8, 8, 8});
