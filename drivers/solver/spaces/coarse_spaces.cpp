@@ -57,7 +57,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
   std::vector<CoarseSpace> spaces;
   if (options.sizes.empty()) return spaces;
   const EdgeGraph graph = edge_graph(mesh);
-  const std::vector<int> order = farthest_points(graph, options.sizes.front());
+  const std::vector<int> order = farthest_points(graph, options.sizes.front(), constrained);
   std::vector<int> rows(mesh.vertices.size());
   std::iota(rows.begin(), rows.end(), 0);
   if (options.slivers)
@@ -66,7 +66,10 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
       spaces.push_back({without_constrained(slivers->up, constrained, rows), rows, 0});
     }
   for (const int size : options.sizes) {
-    std::vector<int> points(order.begin(), order.begin() + std::min<std::ptrdiff_t>(size, std::ssize(order)));
+    std::vector<int> points;
+    int free = 0;
+    for (auto point = order.begin(); free < size && point != order.end(); ++point)
+      points.push_back(*point), free += !constrained[at(*point)];
     const double spacing = mean_spacing(graph, points);
     const RowMatrix P = moving_least_squares(mesh, graph, rows, points, spacing, options.reach);
     spaces.push_back({without_constrained(P, constrained, points), points, spacing});

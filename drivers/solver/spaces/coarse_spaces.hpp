@@ -12,9 +12,9 @@
 //        | sliver_space()         the few that are much too stiff follow their neighbours
 //   kept vertices
 //        | moving_least_squares() each from the 10 or so points around it
-//   points, a fifth of them       spread evenly along the edges: farthest_points()
+//   points, a quarter of them     spread evenly along the edges: farthest_points()
 //        | moving_least_squares()
-//   points, 280 of them           the first of these
+//   points, 300 of them           the first of these
 namespace plica {
 
 /// One of them, as the next finer one sees it.
@@ -31,7 +31,7 @@ struct SizeRule {
   double first;  ///< of the free vertices, in the first
   int last;      ///< in the last; in between are even steps of at most 5
 };
-inline constexpr SizeRule him_sizes{0.2, 280};
+inline constexpr SizeRule him_sizes{0.25, 300};
 inline constexpr SizeRule multigrid_sizes{
     0.1, 200};  ///< fewer: its coarse matrices cost more than what they leave to iterate
 
@@ -42,7 +42,7 @@ std::vector<int> space_sizes(int free_vertices, SizeRule rule = him_sizes);
 std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained, SizeRule rule = him_sizes);
 
 struct SpaceOptions {
-  std::vector<int> sizes;  ///< numbers of points, finest first, at least fewest_points each
+  std::vector<int> sizes;  ///< numbers of free points, finest first, at least fewest_points each
   double reach = 1.8;      ///< of the transfers' radius over the points' spacing
   bool slivers = false;    ///< a sliver space comes first, where the mesh has slivers
 };

@@ -35,12 +35,12 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
   return graph;
 }
 
-std::vector<int> farthest_points(const EdgeGraph& graph, int count) {
+std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart) {
   std::vector<double> distance(at(graph.vertices()), unreached);
   std::priority_queue<std::pair<double, int>> furthest;  // distances that may have shrunk since
   for (int v = 0; v < graph.vertices(); ++v) furthest.emplace(unreached, v);
   std::vector<int> points;
-  while (static_cast<int>(points.size()) < count && !furthest.empty()) {
+  for (int counted = 0; counted < count && !furthest.empty();) {
     const auto [known, point] = furthest.top();
     furthest.pop();
     const double now = distance[at(point)];
@@ -49,6 +49,7 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count) {
       continue;
     }
     points.push_back(point);
+    counted += apart.empty() || !apart[at(point)];
     DistanceQueue open;
     distance[at(point)] = 0;
     for (open.emplace(0, point); !open.empty();) {

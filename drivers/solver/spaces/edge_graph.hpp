@@ -58,7 +58,9 @@ class EdgeWalk {
 
 /// Vertices in the order in which each is the furthest, along edges, from all before it (Gonzalez 1985): any first part of
 /// them is spread evenly. Every part of a body that hangs together gets one before any gets its second.
-std::vector<int> farthest_points(const EdgeGraph& graph, int count);
+/// @param count        how many; vertices that are `apart` come on top of it
+/// @param apart        per vertex; or empty
+std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart = {});
 
 /// The mean distance along edges from each of these vertices to the nearest other one [m].
 double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points);
