@@ -260,6 +260,7 @@ void describe(V& v, Problem& o) {
 /// But for its shape.
 template <class V>
 void describe(V& v, ObstacleOptions& o) {
+  v("name", o.name, Text{}, "what results call it; left out: obstacle_0, obstacle_1, ... in order");
   v("friction", o.friction, Quantity{plain, not_negative}, "Coulomb's coefficient; left out: frictionless");
   v.at_most_one();
   describe(v, o.motion);
@@ -268,7 +269,7 @@ void describe(V& v, ObstacleOptions& o) {
 /// But for the obstacles.
 template <class V>
 void describe(V& v, ContactOptions& o) {
-  v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive}, "times the penalty stiffness E A / h");
+  v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive}, "times the penalty stiffness 32 E A / h");
   v("damping_scale", o.damping_scale, Quantity{plain, not_negative}, "times the damping of the approach");
   v("tangential_damping_scale", o.tangential_damping_scale, Quantity{plain, not_negative},
     "times the damping of slow sliding, where friction is not yet at its cap");

@@ -3,6 +3,7 @@
 #include <any>
 #include <optional>
 #include <plica/core/motion.hpp>
+#include <string>
 
 /// Rigid solids that a body's surface can touch.
 namespace plica {
@@ -15,6 +16,7 @@ struct ObstacleOptions {
   ShapeOptions shape;              ///< at t = 0
   std::optional<double> friction;  ///< Coulomb's coefficient; none: frictionless
   Motion motion;                   ///< from where the shape says
+  std::string name = {};           ///< what results call it; empty: obstacle_0, obstacle_1, ... in order
 };
 
 }  // namespace plica

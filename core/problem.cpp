@@ -16,4 +16,9 @@ bool damps_by_stiffness(const Body& body) {
          });
 }
 
+std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle) {
+  const std::string& own = contact.obstacles[obstacle].name;
+  return own.empty() ? "obstacle_" + std::to_string(obstacle) : own;
+}
+
 }  // namespace plica

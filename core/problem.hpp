@@ -154,14 +154,18 @@ struct IntegrationOptions {
   RetryOptions retry;                                          ///< of a bad macro step
 };
 
-/// Penalty contact of the embedded surface's vertices. The scales multiply, per surface point, the stiffness E A / h
-/// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
+/// Penalty contact of the embedded surface's vertices, see cmake/docs/contact.md. The scales multiply, per surface point, the
+/// stiffness k = 32 E A / h and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest
+/// level's mean edge.
 struct ContactOptions {
   std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch
   double stiffness_scale = 1;              ///< of the penalty
   double damping_scale = 1;                ///< of the approach
   double tangential_damping_scale = 1;     ///< caps what friction can do at small sliding speed
 };
+
+/// What results call that obstacle.
+std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle);
 
 /// A body, what acts on it, and how it is integrated.
 struct Problem {

@@ -13,69 +13,73 @@ namespace plica {
 template <class B>
 Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area,
                     double edge, double size)
-    : points_(points), deepest_(size), lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
+    : points_(points), reach_(edge), deepest_(size), lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
+  constexpr double stiffening = 32;  // over the layer of elements under the surface: what keeps it visibly outside
   const DepthWatch<B> watch{lost_, static_cast<Real>(size)};
   const double per_point = area / points;
-  stiffness_ = options.stiffness_scale * stiffness_at_rest(material) * per_point / edge;
+  stiffness_ = options.stiffness_scale * stiffening * stiffness_at_rest(material) * per_point / edge;
   const double critical = std::sqrt(stiffness_ * material.density * per_point * edge);  // 2 * 0.5 * sqrt(k m)
-  const double normal = options.damping_scale * critical, tangential = options.tangential_damping_scale * critical;
-  damping_ = normal_damping_ = normal;
+  damping_ = options.damping_scale * critical;
+  std::vector<PenaltyLaw<Real>> laws;
   for (const ObstacleOptions& o : options.obstacles) {
-    if (o.friction) damping_ = std::max(damping_, tangential);
-    const PenaltyLaw<Real> law{static_cast<Real>(stiffness_), static_cast<Real>(normal),
-                               static_cast<Real>(o.friction ? tangential : 0),
-                               static_cast<Real>(o.friction.value_or(0))};
-    obstacles_.push_back(make_obstacle<B>(o, law, watch));
+    laws.push_back({static_cast<Real>(stiffness_), static_cast<Real>(damping_),
+                    static_cast<Real>(o.friction ? options.tangential_damping_scale * critical : 0),
+                    static_cast<Real>(o.friction.value_or(0))});
+    obstacles_.push_back(make_obstacle<B>(o, laws.back(), watch));
   }
+  laws_ = to_device<decltype(laws_)>("contact.laws", laws);
 }
 
 template <class B>
-ContactPoints<B> Contact<B>::make_points(bool implicit) const {
-  ContactPoints<B> points{zeros<Vectors<B>>("plica::contact.force", points_), {}};
-  if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", points_);
+TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
+  const std::size_t n = static_cast<std::size_t>(points_), records = n * obstacles_.size();
+  TouchingPoints<B> points;
+  points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
+  points.law = laws_;
+  points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
+  points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
+  points.force = zeros<Vectors<B>>("plica::contact.force", records);
+  points.depth = zeros<Scalars<B>>("plica::contact.depth", records);
+  points.mobility = zeros<Scalars<B>>("plica::contact.mobility", records);
+  points.count = zeros<Doubles<B>>("plica::contact.count", 1);
+  if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", n);
   return points;
-}
-
-template <class B>
-void Contact<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
-                            const ContactPoints<B>& points, const Vectors<B>& f) const {
-  for (std::size_t i = 0; i < obstacles_.size(); ++i)
-    obstacles_[i]->forces(exec, level.surface, s, time, i == 0, points);
-  scatter_to_vertices<B>(exec, level.surface, points.force, f);
-}
-
-template <class B>
-void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
-                           const ImplicitWeights& w, double ahead, const ContactPoints<B>& points,
-                           const Vectors<B>& f) const {
-  for (std::size_t i = 0; i < obstacles_.size(); ++i)
-    obstacles_[i]->linearise(exec, level.surface, s, time, w, ahead, i == 0, points);
-  scatter_to_vertices<B>(exec, level.surface, points.force, f);
 }
 
 template <class B>
 void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
                       const TouchingPoints<B>& points) const {
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i]->find(exec, level.surface, s, time, i == 0, points);
+  for (int o = 0; o < obstacles(); ++o)
+    obstacles_[static_cast<std::size_t>(o)]->find(exec, level.surface, s, time, o, points);
+}
+
+template <class B>
+void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+                           const ImplicitWeights& w, double ahead, const TouchingPoints<B>& points,
+                           const Vectors<B>& f) const {
+  for (int o = 0; o < obstacles(); ++o)
+    obstacles_[static_cast<std::size_t>(o)]->linearise(exec, level.surface, s, time, w, ahead, o, points);
+  update_vertices<B>(exec, "plica::contact_scatter", level.surface.touched,
+                     ScatterContact<B>{level.surface, points, f});
 }
 
 template <class B>
 void Contact<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p,
-                             const ContactPoints<B>& points, const Vectors<B>& q) const {
+                             const TouchingPoints<B>& points, const Vectors<B>& q) const {
   Kokkos::parallel_for("plica::contact_product", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.points),
                        PointProduct<B>{level.surface, p, points.block, points.force});
   scatter_to_vertices<B>(exec, level.surface, points.force, q);
 }
 
 template <class B>
-void Contact<B>::add_diagonal(const Exec& exec, const Level<B>& level, const ContactPoints<B>& points,
+void Contact<B>::add_diagonal(const Exec& exec, const Level<B>& level, const TouchingPoints<B>& points,
                               const Blocks<B>& diagonal) const {
   Kokkos::parallel_for("plica::contact_diagonal", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
                        AddPointBlocks<B>{level.surface, points.block, diagonal});
 }
 
 template <class B>
-void Contact<B>::add_matrix(const Exec& exec, const Level<B>& level, const ContactPoints<B>& points,
+void Contact<B>::add_matrix(const Exec& exec, const Level<B>& level, const TouchingPoints<B>& points,
                             const BlockMatrix<B>& A) const {
   Kokkos::parallel_for("plica::contact_matrix", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
                        AddContact<B>{level.surface, points.block, A});

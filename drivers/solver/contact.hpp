@@ -13,31 +13,24 @@
 
 namespace plica {
 
-/// Contact's work arrays for one level's surface points.
-template <class B>
-struct ContactPoints {
-  Vectors<B> force;  ///< [points][3] N
-  Blocks<B> block;   ///< [points][6] kg, on implicit levels only
-};
-
 /// One obstacle: launches the kernels of its shape.
 template <class B>
 class Obstacle {
  public:
   using Exec = typename B::Exec;
   virtual ~Obstacle() = default;
-  /// Sets (first) or adds its forces on the surface points of the state at `time`.
-  virtual void forces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, bool first,
-                      const ContactPoints<B>&) const = 0;
-  /// The same with the blocks of an implicit stage; contact is predicted `ahead` of the state [s].
+  /// Its forces on the surface points of the state at `time`, and the blocks of an implicit stage; contact is predicted `ahead` of
+  /// the state [s]. `number`: which of the obstacles it is.
   virtual void linearise(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const ImplicitWeights&,
-                         double ahead, bool first, const ContactPoints<B>&) const = 0;
-  /// Makes it the nearest obstacle of the points that it is the nearest of, so far.
-  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, bool first,
+                         double ahead, int number, const TouchingPoints<B>&) const = 0;
+  /// Its gap to every point of a state.
+  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                     const TouchingPoints<B>&) const = 0;
   /// Energy stored in its penalties [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const BlockSums<B>&,
                       const Doubles<B>& result) const = 0;
+  /// Its origin [m], which moves with it: what torques are about.
+  virtual Point origin(double time) const = 0;
   /// Device memory of its own.
   virtual std::size_t bytes() const = 0;
 };
@@ -59,20 +52,19 @@ class Contact {
   Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area, double edge,
           double size);
 
-  ContactPoints<B> make_points(bool implicit) const;
-  /// f += the contact forces of a state
-  void add_forces(const Exec&, const Level<B>&, const State<B>&, double time, const ContactPoints<B>&,
-                  const Vectors<B>& f) const;
-  void linearise(const Exec&, const Level<B>&, const State<B>&, double time, const ImplicitWeights&, double ahead,
-                 const ContactPoints<B>&, const Vectors<B>& f) const;
-  /// The nearest obstacle of every point of a state.
+  /// Work arrays of one level; blocks on an implicit one only.
+  TouchingPoints<B> make_points(bool implicit) const;
+  /// The gaps of a state.
   void find(const Exec&, const Level<B>&, const State<B>&, double time, const TouchingPoints<B>&) const;
+  /// f += the forces of a stage, linearised about a state
+  void linearise(const Exec&, const Level<B>&, const State<B>&, double time, const ImplicitWeights&, double ahead,
+                 const TouchingPoints<B>&, const Vectors<B>& f) const;
   /// q += W^T block W p, and diagonal += its vertex blocks
-  void add_product(const Exec&, const Level<B>&, const Vectors<B>& p, const ContactPoints<B>&,
+  void add_product(const Exec&, const Level<B>&, const Vectors<B>& p, const TouchingPoints<B>&,
                    const Vectors<B>& q) const;
-  void add_diagonal(const Exec&, const Level<B>&, const ContactPoints<B>&, const Blocks<B>& diagonal) const;
+  void add_diagonal(const Exec&, const Level<B>&, const TouchingPoints<B>&, const Blocks<B>& diagonal) const;
   /// A += W^T block W
-  void add_matrix(const Exec&, const Level<B>&, const ContactPoints<B>&, const BlockMatrix<B>& A) const;
+  void add_matrix(const Exec&, const Level<B>&, const TouchingPoints<B>&, const BlockMatrix<B>& A) const;
   double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
 
   /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
@@ -80,15 +72,17 @@ class Contact {
   double deepest() const { return deepest_; }  ///< [m]
 
   double stiffness() const { return stiffness_; }  ///< of a point [N/m]
-  double damping() const { return damping_; }      ///< the larger of its coefficients [N s/m]
-  double normal_damping() const { return normal_damping_; }
+  double damping() const { return damping_; }      ///< along the normal [N s/m]
   int points() const { return points_; }
+  int obstacles() const { return static_cast<int>(obstacles_.size()); }
+  Point origin(int obstacle, double time) const { return obstacles_[static_cast<std::size_t>(obstacle)]->origin(time); }
   std::size_t grid_bytes() const;  ///< of sampled distances
 
  private:
   int points_;
-  double stiffness_, normal_damping_, damping_, deepest_;
+  double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
+  Kokkos::View<PenaltyLaw<Real>*, typename B::Memory> laws_;
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
 };
 

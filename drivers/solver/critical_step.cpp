@@ -4,7 +4,6 @@
 #include <limits>
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/critical_step.hpp>
-#include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/spectrum/scaled_operator.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -19,13 +18,11 @@ class Lanczos {
   using Exec = typename B::Exec;
 
  public:
-  Lanczos(const Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity, const Vectors<B>& u,
-          double stiffness, double over)
+  Lanczos(const Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity, const Vectors<B>& u, double over)
       : exec_(exec),
         level_(level),
         elasticity_(elasticity),
         u_(u),
-        stiffness_(stiffness),
         over_(over),
         n_(level.model.vertices),
         v_(zeros<Vectors<B>>("plica::lanczos.v", n_)),
@@ -33,12 +30,7 @@ class Lanczos {
         before_(zeros<Vectors<B>>("plica::lanczos.before", n_)),
         p_(zeros<Vectors<B>>("plica::lanczos.p", n_)),
         blocks_(n_),
-        result_(zeros<Doubles<B>>("plica::lanczos.result", 1)) {
-    if (stiffness > 0) {
-      contact_ = zeros<Vectors<B>>("plica::lanczos.contact", n_);
-      points_ = zeros<Vectors<B>>("plica::lanczos.points", level.surface.points);
-    }
-  }
+        result_(zeros<Doubles<B>>("plica::lanczos.result", 1)) {}
 
   double largest() {
     fill_from_hash<B>(exec_, "plica::lanczos_start", level_.model.inverse_mass, w_, blocks_, result_);
@@ -68,9 +60,9 @@ class Lanczos {
   const Level<B>& level_;
   const Elasticity<B>& elasticity_;
   const Vectors<B>& u_;
-  double stiffness_, over_;
+  double over_;
   int n_;
-  Vectors<B> v_, w_, before_, p_, contact_, points_;
+  Vectors<B> v_, w_, before_, p_;
   BlockSums<B> blocks_;
   Doubles<B> result_;
 
@@ -84,19 +76,12 @@ class Lanczos {
     return host_values(exec_, result_)[0];
   }
 
-  /// w = M^-1/2 (K + over D + contact) M^-1/2 v - beta before; v.w
+  /// w = M^-1/2 (K + over D) M^-1/2 v - beta before; v.w
   double product(double beta) {
     each("plica::lanczos_scale", ScaleByMass<B>{level_.model.inverse_mass, v_, p_, Real(1)});
     elasticity_.tangent(exec_, level_, u_, p_, over_);
-    if (stiffness_ > 0) {
-      fill(exec_, contact_, 0);
-      update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.points,
-                         PointStiffness<B>{level_.surface, p_, points_, static_cast<Real>(stiffness_)});
-      update_vertices<B>(exec_, "plica::lanczos_contact", level_.surface.touched,
-                         ScatterToVertices<B>{level_.surface, points_, contact_});
-    }
-    return sum("plica::lanczos_product", LanczosProduct<B>{level_.model, level_.partial, contact_, v_, before_, w_,
-                                                           static_cast<Real>(beta), stiffness_ > 0});
+    return sum("plica::lanczos_product",
+               LanczosProduct<B>{level_.model, level_.partial, v_, before_, w_, static_cast<Real>(beta)});
   }
 };
 
@@ -104,19 +89,16 @@ class Lanczos {
 
 template <class B>
 double largest_eigenvalue(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                          const Vectors<B>& u, double point_stiffness, double over) {
-  return Lanczos<B>(exec, level, elasticity, u, point_stiffness, over).largest();
+                          const Vectors<B>& u, double over) {
+  return Lanczos<B>(exec, level, elasticity, u, over).largest();
 }
 
 template <class B>
 double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                     const Vectors<B>& u, const StabilityLimit& limit, const PointContactLimit& contact,
-                     const DampingLimit& damping) {
-  const auto frequency = [&](double stiffness, double over) {
-    return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, stiffness, over));
-  };
+                     const Vectors<B>& u, const StabilityLimit& limit, const DampingLimit& damping) {
+  const auto frequency = [&](double over) { return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, over)); };
   const double infinite = std::numeric_limits<double>::infinity();
-  const double w = frequency(contact.stiffness, 0);
+  const double w = frequency(0);
   const double most = damping.most_mass + damping.most_stiffness * w * w;
   const double by_damping = limit.damping > 0 && most > 0 ? limit.damping / most : infinite;
   if (!(w > 0)) return by_damping;
@@ -128,9 +110,8 @@ double critical_step(const typename B::Exec& exec, const Level<B>& level, const 
   // damping acts like the stiffness radius D / h: the limit is where step(h) = h, reached from above. There ln step has a
   // slope of at most 1/2 over ln h (the eigenvalue is convex in 1/h), so that it is not below step^2 / h.
   double h = limit.radius / w;
-  for (int i = 0; i < 20 && (contact.damping > 0 || damping.most_stiffness > 0); ++i) {
-    const double over = limit.radius / h;
-    const double step = limit.radius / frequency(contact.stiffness + over * contact.damping, over);
+  for (int i = 0; i < 20 && damping.most_stiffness > 0; ++i) {
+    const double step = limit.radius / frequency(limit.radius / h);
     const bool close = std::abs(step - h) < 5e-3 * h;
     h = close ? std::min(step, step * step / h) : step;
     if (close) break;
@@ -139,13 +120,13 @@ double critical_step(const typename B::Exec& exec, const Level<B>& level, const 
   return std::min(h, by_mass);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                           \
-  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const Level<Backend<Real, Exec>>&,       \
-                                                          const Elasticity<Backend<Real, Exec>>&,               \
-                                                          const Vectors<Backend<Real, Exec>>&, double, double); \
-  template double critical_step<Backend<Real, Exec>>(                                                           \
-      const Exec&, const Level<Backend<Real, Exec>>&, const Elasticity<Backend<Real, Exec>>&,                   \
-      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const PointContactLimit&, const DampingLimit&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                                     \
+  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const Level<Backend<Real, Exec>>&, \
+                                                          const Elasticity<Backend<Real, Exec>>&,         \
+                                                          const Vectors<Backend<Real, Exec>>&, double);   \
+  template double critical_step<Backend<Real, Exec>>(                                                     \
+      const Exec&, const Level<Backend<Real, Exec>>&, const Elasticity<Backend<Real, Exec>>&,             \
+      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const DampingLimit&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -6,17 +6,11 @@
 
 namespace plica {
 
-/// Contact as it enters a stability limit: every surface point active, in every direction.
-struct PointContactLimit {
-  double stiffness = 0;  ///< [N/m]
-  double damping = 0;    ///< [N s/m]
-};
-
-/// w_max^2 of M^-1 (K + over D + point_stiffness W^T W) at the state u [1/s^2], D the stiffness that damps, by the Lanczos iteration (Golub & Van Loan, 10.1) to a
-/// relative residual of 1e-3, which is added: on the sure side. It converges where the power iteration still crawls.
+/// w_max^2 of M^-1 (K + over D) at the state u [1/s^2], D the stiffness that damps, by the Lanczos iteration (Golub & Van Loan,
+/// 10.1) to a relative residual of 1e-3, which is added: on the sure side. It converges where the power iteration still crawls.
 template <class B>
 double largest_eigenvalue(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                          const Vectors<B>& u, double point_stiffness, double over = 0);
+                          const Vectors<B>& u, double over = 0);
 
 /// The range of Rayleigh damping in a level.
 struct DampingLimit {
@@ -24,10 +18,10 @@ struct DampingLimit {
   double least_stiffness = 0, most_stiffness = 0;  ///< [s]
 };
 
-/// The largest stable step of an explicit integrator at the state u [s], see StabilityLimit; infinite for a free rigid level.
+/// The largest stable step of an explicit integrator at the state u [s], see StabilityLimit; infinite for a free rigid level. Contact
+/// does not enter: it is implicit in the step, see cmake/docs/contact.md.
 template <class B>
 double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                     const Vectors<B>& u, const StabilityLimit& limit, const PointContactLimit& contact,
-                     const DampingLimit& damping);
+                     const Vectors<B>& u, const StabilityLimit& limit, const DampingLimit& damping);
 
 }  // namespace plica

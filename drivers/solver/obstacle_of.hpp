@@ -4,7 +4,7 @@
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
-#include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
@@ -18,6 +18,7 @@ class ObstacleOf final : public Obstacle<B> {
   using Exec = typename B::Exec;
   Shape shape_;
   Scalars<B> storage_;  // of the shape
+  Point origin_;        // at t = 0
   std::vector<PathKnot> knots_;
   Path path_;
   PenaltyLaw<Real> law_;
@@ -28,42 +29,35 @@ class ObstacleOf final : public Obstacle<B> {
     return {static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])};
   }
 
-  template <bool Tangent>
-  void launch(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
-              const ImplicitWeights& w, double ahead, bool first, const ContactPoints<B>& points) const {
-    const PathPoint now = at(time, ahead);
-    Kokkos::parallel_for(
-        "plica::contact_forces", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
-        ObstacleContact<B, Shape, Tangent>{surface, s.u, s.v, shape_, rounded(now.displacement), rounded(now.velocity),
-                                           law_, watch_, static_cast<Real>(ahead), static_cast<Real>(w.a),
-                                           static_cast<Real>(w.b), first, points.force, points.block});
-  }
-
  public:
-  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Motion& motion, const PenaltyLaw<Real>& law,
-             const DepthWatch<B>& watch)
-      : shape_(shape), storage_(storage), path_(make_path(motion, knots_)), law_(law), watch_(watch) {}
+  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, const Motion& motion,
+             const PenaltyLaw<Real>& law, const DepthWatch<B>& watch)
+      : shape_(shape), storage_(storage), origin_(origin), path_(make_path(motion, knots_)), law_(law), watch_(watch) {}
 
-  void forces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
-              const ContactPoints<B>& points) const override {
-    launch<false>(exec, surface, s, time, {}, 0, first, points);
-  }
   void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
-                 const ImplicitWeights& w, double ahead, bool first, const ContactPoints<B>& points) const override {
-    launch<true>(exec, surface, s, time, w, ahead, first, points);
+                 const ImplicitWeights& w, double ahead, int number, const TouchingPoints<B>& points) const override {
+    const PathPoint now = at(time, ahead);
+    update_vertices<B>(exec, "plica::contact_forces", surface.points,
+                       ObstacleContact<B, Shape>{surface, s.u, s.v, shape_, rounded(now.displacement),
+                                                 rounded(now.velocity), law_, watch_, static_cast<Real>(ahead),
+                                                 static_cast<Real>(w.a), static_cast<Real>(w.b), number, points});
   }
-  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, bool first,
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
             const TouchingPoints<B>& points) const override {
     const PathPoint now = at(time, 0);
-    Kokkos::parallel_for("plica::find_touching", Kokkos::RangePolicy<Exec>(exec, 0, surface.points),
-                         FindTouching<B, Shape>{surface, s, shape_, rounded(now.displacement), rounded(now.velocity),
-                                                law_, watch_, first, points});
+    update_vertices<B>(exec, "plica::contact_find", surface.points,
+                       FindTouching<B, Shape>{surface, s, shape_, rounded(now.displacement), rounded(now.velocity),
+                                              watch_, points.record(number, 0), points});
   }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
               const BlockSums<B>& blocks, const Doubles<B>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
                  ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, rounded(at(time, 0).displacement), law_.stiffness},
                  blocks, result);
+  }
+  Point origin(double time) const override {
+    const Vec3<double> moved = at(time, 0).displacement;
+    return origin_ + Point(moved[0], moved[1], moved[2]);
   }
   std::size_t bytes() const override { return storage_.span() * sizeof(Real); }
 };
@@ -93,7 +87,8 @@ std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const
     Scalars<B> storage;
     const auto made = device_shape<B>(shape, its, storage);
     using Shape = std::decay_t<decltype(made)>;
-    obstacle = std::make_unique<ObstacleOf<B, Shape>>(made, storage, options.motion, law, watch);
+    obstacle =
+        std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), options.motion, law, watch);
   });
   return obstacle;
 }

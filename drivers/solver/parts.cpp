@@ -107,7 +107,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
       sum([](const L& l) { return bytes_of(l.surface); }));
   add("contact", contact, counted(problem.contact.obstacles.size(), "obstacle"), "no obstacle",
-      sum([](const L& l) { return bytes(l.points().force, l.points().block); }));
+      sum([](const L& l) { return l.response().bytes(); }));
   const Contact<B>* touching = (*built.hierarchy)[0].contact();
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);

@@ -75,6 +75,8 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                  std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                               [](const ObstacleOptions& o) { return moves(o.motion); });
+  if (const int obstacles = static_cast<int>(p.contact.obstacles.size()); obstacles > 0)
+    wrench = zeros<Doubles<B>>("plica::contact.wrenches", static_cast<std::size_t>(6 * obstacles));
   linear = !find_material(p.body.material.model)->rotation_invariant;
   keep();
   open_budget();
@@ -98,20 +100,20 @@ void Simulation<B>::end_at(double time) {
 /// Whether the next macro step would go beyond the end that a caller has set.
 template <class B>
 bool Simulation<B>::Inside::reaches_end() const {
-  return time<end&& static_cast<double>(steps + 1) * built.macro_step>(1 + rounding) * end;
+  return time < end && origin + static_cast<double>(steps + 1) * built.macro_step > (1 + rounding) * end;
 }
 
 template <class B>
 double Simulation<B>::Inside::next_span() const {
   if (reaches_end()) return end - time;
-  const double whole = static_cast<double>(steps) * built.macro_step;
+  const double whole = origin + static_cast<double>(steps) * built.macro_step;
   return built.macro_step - (time - whole);  // which is 0 but after a step that was shorter
 }
 
 /// The time after the next macro step; a shorter one does not count.
 template <class B>
 void Simulation<B>::Inside::arrive() {
-  time = reaches_end() ? end : static_cast<double>(++steps) * built.macro_step;
+  time = reaches_end() ? end : origin + static_cast<double>(++steps) * built.macro_step;
 }
 
 /// A macro step or a part of it; the time is the caller's.
@@ -119,8 +121,16 @@ template <class B>
 void Simulation<B>::Inside::advance(double from, double span) {
   hierarchy().begin_macro_step();
   built.stepper->step(hierarchy(), from, span);
+  if (hierarchy()[0].contact()) sum_impulses(span);
   for (const auto& level : hierarchy().levels) residual = std::max(residual, level.integrator->residual());
   worst_residual = std::max(worst_residual, residual);
+}
+
+template <class B>
+void Simulation<B>::Inside::sum_impulses(double span) {
+  for (int i = 0; i < hierarchy().count(); ++i)
+    update_vertices<B>(hierarchy().exec(), "plica::contact_impulses", static_cast<int>(wrench.extent(0)),
+                       SumImpulses<B>{hierarchy()[i].response().impulse(), wrench, 1 / span, i == 0});
 }
 
 template <class B>
@@ -334,6 +344,14 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
   copy(displacement, state.u, "displacements");
   copy(velocity, state.v, "velocities");
   s.restart();
+}
+
+template <class B>
+void Simulation<B>::set_time(double time) {
+  Inside& s = *inside_;
+  s.time = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
+  s.hierarchy().forget();
+  s.keep();
 }
 
 template <class B>

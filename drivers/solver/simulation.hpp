@@ -30,19 +30,20 @@ struct StiffElement {
 
 /// What was decided for one level.
 struct LevelReport {
-  int vertices = 0;            ///< of its mesh; points of a coarse space
-  int tets = 0;                ///< of its mesh; 0: a coarse space, made of the finest mesh
-  double nonzeros = 0;         ///< of a coarse space: weights per row of its interpolation to the next finer level
-  double mean_edge = 0;        ///< [m]
-  double mass = 0;             ///< [kg]
-  double critical_step = 0;    ///< largest stable explicit step of its integrator, with contact (implicit: of
-                               ///< symplectic_euler); 0 where it is not integrated [s]
-  double element_bound = 0;    ///< the same from the worst single element: on the sure side, without contact [s]
-  double typical_element = 0;  ///< the median of that over all elements [s]
+  int vertices = 0;        ///< of its mesh; points of a coarse space
+  int tets = 0;            ///< of its mesh; 0: a coarse space, made of the finest mesh
+  double nonzeros = 0;     ///< of a coarse space: weights per row of its interpolation to the next finer level
+  double mean_edge = 0;    ///< [m]
+  double mass = 0;         ///< [kg]
+  double critical_step =
+      0;  ///< largest stable explicit step of its integrator; contact does not bound it (implicit: of
+          ///< symplectic_euler); 0 where it is not integrated [s]
+  double element_bound = 0;            ///< the same from the worst single element: on the sure side [s]
+  double typical_element = 0;          ///< the median of that over all elements [s]
   std::vector<StiffElement> stiffest;  ///< the ten worst of its elements, the worst first
   double share = 0;                 ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
   double inertia = 1;               ///< cycle him: how many times too heavy motion is that only this level represents
-  double detail_step = 0;           ///< cycle him: largest stable step of that motion by itself, without contact [s]
+  double detail_step = 0;           ///< cycle him: largest stable step of that motion by itself [s]
   int substeps = 0;                 ///< in its share
   std::string element;              ///< linear or nodal
   std::string integrator;           ///< its name
@@ -70,6 +71,13 @@ struct Energies {
   double contact = 0;    ///< of the penalties [J]
   /// Their sum [J].
   double total() const { return kinetic + elastic + potential + contact; }
+};
+
+/// What an obstacle does to the body: the mean force over the last macro step, of which an obstacle feels the opposite.
+struct Wrench {
+  std::string obstacle;          ///< its name
+  Point force = Point::Zero();   ///< on the body [N]
+  Point torque = Point::Zero();  ///< about the obstacle's origin, which moves with it [N m]
 };
 
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
@@ -146,6 +154,10 @@ class Simulation {
   std::optional<HimReport> him() const;            ///< of that cycle
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
+  std::vector<Wrench> wrenches() const;            ///< of all obstacles, of the last macro step; waits
+  /// The same as the device holds it, force and torque of one obstacle after the other, 6 numbers each; step() updates it in
+  /// place.
+  Doubles<B> wrench() const;
   std::map<std::string, double> stages()
       const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
   std::map<std::string, long> counters()
@@ -188,6 +200,9 @@ class Simulation {
 
   /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts it to the others.
   void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
+
+  /// From now on it is this time [s]: obstacles, loads and given motions are where they are then. The state stays.
+  void set_time(double time);
 
   /// Everything to continue from here: all levels' states and histories, time, energy budget, counters. Waits. To be called
   /// after a step that passed check(); what a caller's own forces remember is the caller's.

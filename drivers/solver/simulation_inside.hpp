@@ -26,8 +26,11 @@ struct Simulation<B>::Inside {
   // Now
   double time = 0;
   long steps = 0;
+  double origin = 0;                                     // of the time: macro step n ends at origin + n macro_step
   double end = std::numeric_limits<double>::infinity();  // no step goes beyond it
   double residual = 0, worst_residual = 0;
+
+  Doubles<B> wrench;  // of each obstacle, over the last macro step or the part of it that was taken last
 
   // What checks compare with
   bool linear = false;           // the material is, in any state
@@ -53,6 +56,7 @@ struct Simulation<B>::Inside {
   bool reaches_end() const;
   double next_span() const;
   void advance(double from, double span);
+  void sum_impulses(double span);
   void arrive();
 
   // Checks; `part`: of a macro step, that the last step covered

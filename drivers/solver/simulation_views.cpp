@@ -53,6 +53,21 @@ Energies Simulation<B>::energies() const {
 }
 
 template <class B>
+Doubles<B> Simulation<B>::wrench() const {
+  return inside_->wrench;
+}
+template <class B>
+std::vector<Wrench> Simulation<B>::wrenches() const {
+  const std::vector<double> w = host_values(inside_->hierarchy().exec(), inside_->wrench);
+  std::vector<Wrench> all;
+  for (std::size_t o = 0; 6 * o < w.size(); ++o)
+    all.push_back({obstacle_name(inside_->problem.contact, o),
+                   {w[6 * o], w[6 * o + 1], w[6 * o + 2]},
+                   {w[6 * o + 3], w[6 * o + 4], w[6 * o + 5]}});
+  return all;
+}
+
+template <class B>
 std::map<std::string, double> Simulation<B>::stages() const {
   return inside_->hierarchy().clock.seconds();
 }
@@ -168,8 +183,9 @@ void persist(Inside& s, StateArchive<B>& archive) {
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.size());
-  for (double* value : {&s.time, &s.kept_time, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.kept_put_in,
-                        &s.drift[0], &s.drift[1], &s.drift[2], &s.kept_drift[0], &s.kept_drift[1], &s.kept_drift[2]})
+  for (double* value :
+       {&s.time, &s.origin, &s.kept_time, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.kept_put_in,
+        &s.drift[0], &s.drift[1], &s.drift[2], &s.kept_drift[0], &s.kept_drift[1], &s.kept_drift[2]})
     archive.number(*value);
   for (long* value : {&s.steps, &s.kept_steps, &s.halvings, &s.rejected}) archive.number(*value);
   archive.number(s.budget_opens);

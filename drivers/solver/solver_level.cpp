@@ -21,7 +21,7 @@ void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity,
                                 std::shared_ptr<const Contact<B>> contact, bool implicit) {
   elasticity_ = std::move(elasticity), contact_ = std::move(contact), implicit_ = implicit;
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
-  if (contact_) points_ = contact_->make_points(implicit);
+  if (contact_) response_ = ContactResponse<B>(contact_, this->model.vertices, implicit);
 }
 
 template <class B>
@@ -39,9 +39,22 @@ void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
 }
 
 template <class B>
-void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force) {
+void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force, const ContactStep& step,
+                              double weight) {
   evaluate_without_contact(at, time, force);
-  if (contact_) book("contact", [&] { contact_->add_forces(exec(), *this, at, time, points_, force); });
+  if (!contact_) return;
+  book("contact", [&] {
+    response_.add_forces(exec(), *this, at, time, step, force);
+    if (weight > 0) response_.add_impulse(exec(), *this, at, time, weight);
+  });
+}
+
+template <class B>
+void SolverLevel<B>::count_contact(double time, double weight) {
+  book("contact", [&] {
+    response_.add_forces(exec(), *this, this->state, time, {}, this->f);
+    response_.add_impulse(exec(), *this, this->state, time, weight);
+  });
 }
 
 template <class B>
@@ -65,7 +78,8 @@ void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWe
                                const Vectors<B>& force) {
   elastic_and_gravity(at, force);
   add_loads(time + ahead, force);
-  if (contact_) book("contact", [&] { contact_->linearise(exec(), *this, at, time, weights, ahead, points_, force); });
+  if (contact_)
+    book("contact", [&] { contact_->linearise(exec(), *this, at, time, weights, ahead, response_.points(), force); });
   if (external_) book("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
   add_correction(force);
 }
@@ -102,7 +116,7 @@ void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const Impl
   tangent(at, p, weights.b / weights.a, positive);
   update_vertices<B>(exec, "plica::system_product", this->model.vertices,
                      SystemProduct<B>{this->model, p, this->partial, q, a, b});
-  if (contact_) contact_->add_product(exec, *this, p, points_, q);
+  if (contact_) contact_->add_product(exec, *this, p, response_.points(), q);
   if (external_)
     update_vertices<B>(exec, "plica::external_product", this->model.vertices,
                        AddBlockProduct<B>{external_stiffness_, p, q, a});
@@ -118,7 +132,7 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }
-  if (contact_) contact_->add_diagonal(exec, *this, points_, blocks);
+  if (contact_) contact_->add_diagonal(exec, *this, response_.points(), blocks);
   if (external_) add<B>(exec, "plica::external_diagonal", a, external_stiffness_, blocks);
 }
 
@@ -127,7 +141,7 @@ void SolverLevel<B>::assemble(const State<B>& at, const ImplicitWeights& weights
                               const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const {
   const Exec& exec = clock_->exec();
   elasticity_->blocks(exec, this->model, pairs, at.u, weights, positive, shares, A);
-  if (contact_) contact_->add_matrix(exec, *this, points_, A);
+  if (contact_) contact_->add_matrix(exec, *this, response_.points(), A);
   if (external_)
     update_vertices<B>(exec, "plica::external_matrix", this->model.vertices,
                        AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});

@@ -3,7 +3,7 @@
 #include <memory>
 #include <plica/core/level.hpp>
 #include <plica/core/small.hpp>
-#include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/contact_response.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/external_forces.hpp>
 #include <plica/drivers/solver/stage_clock.hpp>
@@ -37,10 +37,18 @@ class SolverLevel : public Level<B> {
 
   const Exec& exec() const { return clock_->exec(); }
 
-  /// f = the forces of a state of this level at a time [s].
-  void evaluate(const State<B>& state, double time, const Vectors<B>& f);
+  /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default the bare penalty law. They act
+  /// for `weight` of the time [s], which is what the obstacles' impulse counts.
+  void evaluate(const State<B>& state, double time, const Vectors<B>& f, const ContactStep& step = {},
+                double weight = 0);
   /// The same but for contact.
   void evaluate_without_contact(const State<B>& state, double time, const Vectors<B>& f);
+  /// Counts the last evaluation's contact for `weight` more [s]; at the level's state.
+  void add_last_impulse(double time, double weight) const {
+    response_.add_impulse(exec(), *this, this->state, time, weight);
+  }
+  /// Counts the contact of the level's state by the bare penalty law, for `weight` [s]. Uses level.f.
+  void count_contact(double time, double weight);
 
   /// f = those that do not depend on the state: gravity, loads, a correction.
   void dead(double time, const Vectors<B>& f) const;
@@ -66,7 +74,8 @@ class SolverLevel : public Level<B> {
   }
   const Elasticity<B>& elasticity() const { return *elasticity_; }
   const Contact<B>* contact() const { return contact_.get(); }
-  const ContactPoints<B>& points() const { return points_; }
+  ContactResponse<B>& response() { return response_; }
+  const ContactResponse<B>& response() const { return response_; }
   bool asks_caller() const { return static_cast<bool>(external_); }
   long evaluations() const { return evaluations_; }
   /// Asks `forces` from now on, if there is any function in it; `rest`: the level's vertices at rest [m].
@@ -76,8 +85,11 @@ class SolverLevel : public Level<B> {
   void add_correction(const Vectors<B>& f) const;
   /// Names what it carries from one macro step to the next, its integrator's included; `name`: "level 0's ".
   void persist(StateArchive<B>& archive, const std::string& name);
-  /// Evaluations are numbered from 1 in each macro step, for the element flags.
-  void begin_macro_step() { evaluation_ = 0; }
+  /// Evaluations are numbered from 1 in each macro step, for the element flags; impulses are counted anew.
+  void begin_macro_step() {
+    evaluation_ = 0;
+    if (contact_) response_.forget_impulse(exec());
+  }
 
  private:
   StageClock<B>* clock_;
@@ -85,7 +97,7 @@ class SolverLevel : public Level<B> {
   std::shared_ptr<const Elasticity<B>> elasticity_;
   Vec3<typename B::Real> gravity_;
   std::shared_ptr<const Contact<B>> contact_;
-  ContactPoints<B> points_;
+  ContactResponse<B> response_;
   bool implicit_ = false;
   ExternalForces<B> external_;
   Vectors<B> rest_;

@@ -11,6 +11,7 @@
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/solver/steppers.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
+#include <plica/meshes/embedding.hpp>
 
 namespace plica {
 
@@ -21,11 +22,19 @@ constexpr int trial_quarters = 4;                   // at whose ends states are 
 constexpr int trial_factors[] = {32, 16, 8, 4, 2};  // macro step over critical step
 constexpr int usual_factor = 8;                     // where nothing moves
 constexpr double no_motion = 1e-12;                 // of the body's size
+constexpr double before_touching = 0.125;           // of a trial: where it starts
+constexpr double most_looking = 400;                // forces of level 0 that the look ahead may cost
 
 // A step of him at the shortest macro step costs less than level 0 alone over the same time
 static_assert(him_step_cost / 2 < 1 / 0.9);
 
 using Quarters = std::vector<std::vector<Point>>;  // [quarter][vertex], displacements [m]
+
+// Where trials start: from the scene's own start, or from a state of level 0
+struct TrialStart {
+  double time = 0;  // [s]
+  std::vector<Point> u, v;
+};
 
 struct TrialRun {
   Quarters u;
@@ -33,15 +42,19 @@ struct TrialRun {
 };
 
 template <class B>
-TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps, const typename B::Exec& exec) {
+TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps, const TrialStart& start,
+                   const typename B::Exec& exec) {
   const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: a trial of " + integration.cycle);
   TrialRun run;
   problem.integration = integration;
   try {
     Simulation<B> simulation(problem, exec);
+    if (start.time > 0) simulation.set_state(start.u, start.v), simulation.set_time(start.time);
     for (int n = 1; n <= steps; ++n) {
       if (const auto diagnosis = simulation.step_checked()) return {{}, "diverges: " + diagnosis->text()};
-      if (n % (steps / trial_quarters) == 0) run.u.push_back(to_host<B>(exec, simulation.displacement()));
+      if (n % (steps / trial_quarters) != 0) continue;
+      std::vector<Point>& u = run.u.emplace_back(to_host<B>(exec, simulation.displacement()));
+      for (std::size_t a = 0; a < start.u.size(); ++a) u[a] -= start.u[a];
     }
     const auto counters = simulation.counters();
     if (const auto refits = counters.find("inertia_refits"); refits != counters.end() && refits->second > 0)
@@ -75,6 +88,19 @@ IntegrationOptions alone(IntegrationOptions o, const char* integrator, std::opti
   return o;
 }
 
+/// One of its levels alone.
+Problem only(Problem problem, std::size_t level) {
+  Body& body = problem.body;
+  body.levels = {body.levels[level]};
+  if (body.element.size() > 1) body.element = {body.element[level]};
+  return problem;
+}
+
+template <class B>
+bool touches(const Simulation<B>& simulation) {
+  return std::ranges::any_of(simulation.wrenches(), [](const Wrench& w) { return w.force.norm() > 0; });
+}
+
 std::string as_percent(double part) { return number(100 * part, 2) + " %"; }
 
 template <class B>
@@ -86,9 +112,8 @@ class CycleTrials {
     choice_.error_class = problem.integration.error_class;
     ErrorClasses::visit(choice_.error_class, [&](auto chosen) { choice_.allowed = decltype(chosen)::error; });
     const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: level 0 alone");
-    Problem finest = problem;
+    Problem finest = only(problem, 0);
     finest.integration = alone(problem.integration, SymplecticEuler::name, {});
-    finest.body.levels.resize(1);
     const Simulation<B> simulation(finest, exec);
     critical_ = simulation.levels().front().critical_step;
     take("single", simulation.macro_step(), "there is no coarser level");
@@ -97,6 +122,7 @@ class CycleTrials {
   CycleChoice all() {
     if (!has_coarse_levels(problem_.integration.cycle, problem_.body)) return std::move(choice_);
     choice_.duration = trial_steps * critical_;
+    if (!problem_.contact.obstacles.empty()) look_ahead();
     const TrialRun reference = run_reference();
     if (!reference.reason.empty()) {
       choice_.reason = "level 0 alone, which is what errors are measured against, " + reference.reason;
@@ -116,14 +142,53 @@ class CycleTrials {
     choice_.macro_step = macro_step, choice_.over_critical = macro_step / critical_;
   }
 
+  // Contact decides which step will do, so trials begin shortly before it. The coarsest level alone, in explicit steps, says when
+  // something first touches; its state there is level 0's. Where it sees nothing, or fails, trials begin at the start
+  void look_ahead() {
+    const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: the coarsest level looks ahead");
+    const std::size_t last = problem_.body.levels.size() - 1;
+    Problem coarsest = only(problem_, last);
+    coarsest.integration = alone(problem_.integration, SymplecticEuler::name, {});
+    const TetMesh &fine = problem_.body.levels.front(), &coarse = problem_.body.levels[last];
+    const double least = before_touching * choice_.duration;
+    const auto most = static_cast<long>(most_looking * static_cast<double>(fine.tets.size()) /
+                                        static_cast<double>(coarse.tets.size()));
+    try {
+      Simulation<B> simulation(coarsest, exec_);
+      TrialStart before, now;
+      for (long n = 0; n < most; ++n) {
+        if (simulation.step_checked()) return;
+        if (touches(simulation)) {
+          if (before.time > 0) start_ = {before.time, on_level_0(before.u), on_level_0(before.v)};
+          choice_.start = start_.time;
+          return;
+        }
+        if (simulation.time() < now.time + least) continue;
+        before = std::move(now);
+        now = {simulation.time(), to_host<B>(exec_, simulation.displacement()),
+               to_host<B>(exec_, simulation.velocity())};
+      }
+    } catch (const InputError&) {  // of the coarsest mesh alone: what is wrong there is told by whoever uses it
+    }
+  }
+
+  std::vector<Point> on_level_0(const std::vector<Point>& field) const {
+    const Embedding rows = embed(problem_.body.levels.front().vertices, problem_.body.levels.back(), Outside::clamp);
+    std::vector<Point> values(rows.vertices.size(), Point::Zero());
+    for (std::size_t a = 0; a < values.size(); ++a)
+      for (std::size_t c = 0; c < 4; ++c)
+        values[a] += rows.weights[a][c] * field[static_cast<std::size_t>(rows.vertices[a][c])];
+    return values;
+  }
+
   // Level 0 in steps of at most this length that hit the quarters; their length
   std::pair<TrialRun, double> run_alone(const char* integrator, double longest) const {
     const double quarter = choice_.duration / trial_quarters;
     const int steps = static_cast<int>(std::ceil(quarter / longest));
-    Problem finest = problem_;
-    finest.body.levels.resize(1);
     const double step = quarter / steps;
-    return {run_trial<B>(finest, alone(problem_.integration, integrator, step), trial_quarters * steps, exec_), step};
+    return {run_trial<B>(only(problem_, 0), alone(problem_.integration, integrator, step), trial_quarters * steps,
+                         start_, exec_),
+            step};
   }
 
   TrialRun run_reference() const {
@@ -142,7 +207,7 @@ class CycleTrials {
   TrialRun run_him(int factor) {
     IntegrationOptions o = problem_.integration;
     o.cycle = "him", o.macro_step = factor * critical_;
-    const TrialRun run = run_trial<B>(problem_, o, trial_steps / factor, exec_);
+    const TrialRun run = run_trial<B>(problem_, o, trial_steps / factor, start_, exec_);
     choice_.trials.push_back({"him", *o.macro_step, static_cast<double>(factor), {}, run.reason});
     return run;
   }
@@ -170,6 +235,7 @@ class CycleTrials {
   const Problem& problem_;
   const Exec& exec_;
   double critical_ = 0;
+  TrialStart start_;
   CycleChoice choice_;
 };
 

@@ -9,11 +9,12 @@ namespace plica {
 
 /// A cycle at a macro step that was tried out.
 struct CycleTrial {
-  std::string cycle;            ///< its name
-  double macro_step = 0;        ///< [s]
-  double over_critical = 0;     ///< the same over the finest level's critical step
-  std::optional<double> error;  ///< of level 0's displacements in the trial, relative (L2); none: there is no number
-  std::string reason;           ///< why it cannot be used, or was taken without an error; empty otherwise
+  std::string cycle;         ///< its name
+  double macro_step = 0;     ///< [s]
+  double over_critical = 0;  ///< the same over the finest level's critical step
+  std::optional<double>
+      error;           ///< of what level 0 is displaced by in the trial, relative (L2); none: there is no number
+  std::string reason;  ///< why it cannot be used, or was taken without an error; empty otherwise
 };
 
 /// What `integration.cycle: auto` has chosen.
@@ -24,6 +25,7 @@ struct CycleChoice {
   std::string error_class;   ///< that was asked for
   double allowed = 0;        ///< the error it allows
   double duration = 0;       ///< of the trials [s]; 0: there was nothing to try
+  double start = 0;          ///< of the trials [s]: above 0 shortly before the body first touches an obstacle
   std::vector<CycleTrial>
       trials;          ///< the longest step first, up to the one within the class; level 0 alone last where none is
   std::string reason;  ///< one sentence
@@ -33,8 +35,9 @@ inline constexpr double him_step_cost = 1.8;      ///< of one force evaluation o
 inline constexpr double trial_evaluations = 800;  ///< of level 0, by the trials of cycle auto that end at 8, about
 
 /// Chooses for `integration.cycle: auto`; none for any other cycle. Call it before a Simulation is constructed, and construct that
-/// of with_choice(). Short runs of the problem from its own start decide: level 0's displacements in cycle `him` at 32, 16, 8, 4 and 2 times the finest level's critical step against
-/// level 0 alone (rk4 at half its limit), over 128 critical steps, at their quarters. The longest step whose error is within the
+/// of with_choice(). Short runs decide: level 0's displacements in cycle `him` at 32, 16, 8, 4 and 2 times the finest level's critical step against
+/// level 0 alone (rk4 at half its limit), over 128 critical steps, at their quarters. They begin at the problem's own
+/// start; with obstacles shortly before the body first touches one, as the coarsest level alone finds it. The longest step whose error is within the
 /// class is taken; where there is none, or no coarser level, level 0 alone at 0.9 of its limit. A run that is refused, diverges
 /// or needs its inertia fitted again is not taken. Run times do not matter, so the choice is the same on any number of threads. The
 /// trials do not include what a caller changes later (forces, states). Throws InputError for a problem that is not

@@ -19,10 +19,37 @@ struct DepthWatch {
   }
 };
 
-/// Forces of one obstacle on the surface points [N], set (`first` obstacle) or added. With Tangent also each point's symmetric
-/// 3x3 block (a k + b d) n n + b drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz, see ImplicitWeights: the coupling of
-/// friction to the normal force is left out, which keeps the matrix symmetric.
-template <class B, class Shape, bool Tangent>
+/// Contact of a level's surface points with the obstacles, on the device: a record for every obstacle and point.
+template <class B>
+struct TouchingPoints {
+  using Real = typename B::Real;
+  int points = 0, obstacles = 0;
+  Real reach = 0;  ///< a point further than that outside an obstacle is not looked at [m]
+  Kokkos::View<PenaltyLaw<Real>*, typename B::Memory> law;  ///< of each obstacle
+  Vectors<B> normal;                                        ///< [records][3] out of the obstacle
+  Vectors<B> velocity;                                      ///< of the point relative to it [m/s]
+  Scalars<B> depth;                                         ///< > 0 inside [m]
+  Scalars<B> mobility;                                      ///< rho [1/kg]; 0: it does not touch
+  Vectors<B> force;                                         ///< on the point [N]
+  Blocks<B> block;   ///< [points][6] kg, of all obstacles, on implicit levels only
+  Doubles<B> count;  ///< [1] records that touch
+
+  KOKKOS_INLINE_FUNCTION int record(int obstacle, int p) const { return obstacle * points + p; }
+  KOKKOS_INLINE_FUNCTION bool near(int r) const { return depth(r) > -reach; }
+  /// On the i-th touched vertex of the surface, its points in order.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> force_on(const EmbeddedSurface<B>& surface, int i) const {
+    Vec3<Real> sum;
+    for (int s = surface.first(i); s < surface.first(i + 1); ++s)
+      for (int o = 0; o < obstacles; ++o)
+        for (int k = 0; k < 3; ++k) sum[k] += surface.weight(s) * force(record(o, surface.point(s)), k);
+    return sum;
+  }
+};
+
+/// Forces of one obstacle on the surface points [N], and each point's symmetric
+/// 3x3 block (a k + b d) n n + b drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz, set by the first obstacle and added to by the
+/// others, see ImplicitWeights: the coupling of friction to the normal force is left out, which keeps the matrix symmetric.
+template <class B, class Shape>
 struct ObstacleContact {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
@@ -32,9 +59,8 @@ struct ObstacleContact {
   PenaltyLaw<Real> law;
   DepthWatch<B> watch;
   Real ahead, a, b;
-  bool first;
-  Vectors<B> force;
-  Blocks<B> block;
+  int obstacle;
+  TouchingPoints<B> points;
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<Real> x, speed;
@@ -42,18 +68,24 @@ struct ObstacleContact {
     const Gap<Real> gap = shape(x - offset);
     watch.look(p, gap.distance);
     const PointContact<Real> c = penalty_contact(law, gap, speed - velocity, ahead);
-    for (int k = 0; k < 3; ++k) force(p, k) = (first ? Real(0) : force(p, k)) + c.force[k];
-    if constexpr (Tangent) {
-      const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
-                 across = c.active ? b * c.drag : Real(0);
-      constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
-      for (int k = 0; k < 6; ++k) {
-        const int i = row[k], j = column[k];
-        const Real nn = c.normal[i] * c.normal[j], ss = c.slip[i] * c.slip[j];
-        block(p, k) = (first ? Real(0) : block(p, k)) + along * nn + across * ((i == j ? Real(1) : Real(0)) - nn - ss);
-      }
+    set_vector<B>(points.force, points.record(obstacle, p), c.force);
+    const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
+               across = c.active ? b * c.drag : Real(0);
+    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
+    for (int k = 0; k < 6; ++k) {
+      const int i = row[k], j = column[k];
+      const Real nn = c.normal[i] * c.normal[j], ss = c.slip[i] * c.slip[j];
+      points.block(p, k) = (obstacle == 0 ? Real(0) : points.block(p, k)) + along * nn +
+                           across * ((i == j ? Real(1) : Real(0)) - nn - ss);
     }
   }
+};
+
+/// x = 0
+template <class B>
+struct ZeroVectors {
+  Vectors<B> x;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(x, a, {}); }
 };
 
 /// f += transpose of the embedding times the point forces, each vertex adding its points in order.
@@ -69,6 +101,19 @@ struct ScatterToVertices {
     for (int s = surface.first(i); s < surface.first(i + 1); ++s)
       for (int k = 0; k < 3; ++k) sum[k] += surface.weight(s) * force(surface.point(s), k);
     set_vector<B>(f, a, vector_at<B>(f, a) + sum);
+  }
+};
+
+/// The same of all obstacles' forces.
+template <class B>
+struct ScatterContact {
+  EmbeddedSurface<B> surface;
+  TouchingPoints<B> points;
+  Vectors<B> f;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const int a = surface.vertex(i);
+    set_vector<B>(f, a, vector_at<B>(f, a) + points.force_on(surface, i));
   }
 };
 

@@ -6,36 +6,30 @@
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Penalty contact and friction of a step t of the hierarchical inverse mass, implicit in the step's own acceleration: what an
-// explicit penalty force is far too stiff when it acts through A. Per point, with the depth d and the velocity v at the state, N out
-// of the obstacle, e the point's acceleration without contact, r that by contact:
-//   normal      n = k (d - t^2/2 N.(e + r)) - c N.(v + t/2 (e + r)), never pulling
-//   tangential  q = -c_t (v + t/2 (e + r)) across N, at most friction times n
-// solved by two sweeps of projected Jacobi, preconditioned by rho = N . (acceleration by a unit force on every touching point).
-// Points are coupled only by A, the inverse mass of the whole body, which is applied three times.
+// Penalty contact and friction, implicit in the acceleration of the step h that they act in, so that their stiffness does not bound
+// that step. Per point and obstacle, with the depth d and the velocity v against the obstacle at the state, N out of the obstacle, e
+// the point's acceleration without contact, r that by contact:
+//   normal      n = k (d - ahead N.v - h^2/2 N.(e + r)) - c N.(v + h/2 (e + r)), never pulling
+//   tangential  q = -c_t (v + h (e + r)) across N, at most friction times n
+// solved by sweeps of projected Jacobi from 0. Points are coupled by A, the inverse mass: r = W A W^T n. The relaxation of a point
+// is that of rho, the sum of its row of W A W^T over the touching points: exact for an even pressure, and never too much.
 //
 //   points                                    vertices
 //   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
-//   2. first forces, from e alone       --W^T-->  f  --A-->  a  --W-->  r
-//   3. forces corrected by r            --W^T-->  f  --A-->  a: the accelerations by contact
+//   2. forces from e and the last r     --W^T-->  f  --A-->  a  --W-->  r      once for every sweep
 //
-// W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices).
+// W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices). Why no number
+// of sweeps takes stability away is in cmake/docs/contact.md.
 namespace plica {
 
-/// The nearest obstacle of every surface point, and the contact with it.
-template <class B>
-struct TouchingPoints {
-  Vectors<B> normal;      ///< [points][3] out of the obstacle
-  Vectors<B> velocity;    ///< relative to it [m/s]
-  Scalars<B> depth;       ///< > 0 inside [m]
-  Scalars<B> tangential;  ///< its c_t [N s/m]
-  Scalars<B> friction;    ///< its coefficient
-  Scalars<B> mobility;    ///< rho [1/kg]
-  Vectors<B> force;       ///< on the point [N]
-  Doubles<B> count;       ///< [1] that touch
+/// How a step takes its contact: what of its own acceleration contact sees. A default one: nothing, the bare penalty law.
+struct ContactStep {
+  double span = 0;    ///< h [s]
+  double ahead = 0;   ///< how far ahead of the state the depth is taken, with the velocity there [s]
+  double damped = 0;  ///< of mass damping c: e = (a - c v) / (1 + damped c), A likewise [s]
 };
 
-/// Depth, normal and velocity where this obstacle is nearer than those before it.
+/// Depth, normal and velocity of every point near this obstacle.
 template <class B, class Shape>
 struct FindTouching {
   using Real = typename B::Real;
@@ -43,18 +37,18 @@ struct FindTouching {
   State<B> state;
   Shape shape;
   Vec3<Real> offset, velocity;  ///< of the obstacle
-  PenaltyLaw<Real> law;
   DepthWatch<B> watch;
-  bool first;
+  int first;  ///< its first record
   TouchingPoints<B> points;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    Vec3<Real> x, speed;
-    surface_point(surface, state.u, state.v, p, x, speed);
+    const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
     const Gap<Real> gap = shape(x - offset);
     watch.look(p, gap.distance);
-    if (!first && -gap.distance <= points.depth(p)) return;
-    points.depth(p) = -gap.distance, points.tangential(p) = law.tangential, points.friction(p) = law.friction;
-    for (int k = 0; k < 3; ++k) points.normal(p, k) = gap.normal[k], points.velocity(p, k) = speed[k] - velocity[k];
+    const int r = first + p;
+    points.depth(r) = -gap.distance;
+    if (!points.near(r)) return;
+    set_vector<B>(points.normal, r, gap.normal);
+    set_vector<B>(points.velocity, r, value_at<B>(surface.embedding, state.v, p) - velocity);
   }
 };
 
@@ -65,37 +59,55 @@ struct TouchLaw {
   EmbeddedSurface<B> surface;
   TouchingPoints<B> points;
   Vectors<B> smooth, answer;  ///< accelerations without contact, and by the last contact forces [m/s^2]
-  Real t, stiffness, damping;
+  Real h, ahead;
+  bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int p) const {
     return value_at<B>(surface.embedding, x, p);
   }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int p) const { return vector_at<B>(points.normal, p); }
-  /// n for an acceleration at the point
-  KOKKOS_INLINE_FUNCTION Real pressure(int p, const Vec3<Real>& e) const {
-    const Vec3<Real> N = normal(p), v = vector_at<B>(points.velocity, p);
-    return stiffness * (points.depth(p) - Real(0.5) * t * t * dot(N, e)) - damping * dot(N, v + Real(0.5) * t * e);
+  KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(points.normal, r); }
+  /// The depth that the law goes by, for an acceleration at the point.
+  KOKKOS_INLINE_FUNCTION Real depth(int r, const Vec3<Real>& e) const {
+    const Vec3<Real> N = normal(r), v = vector_at<B>(points.velocity, r);
+    return points.depth(r) - ahead * dot(N, v) - Real(0.5) * h * h * dot(N, e);
   }
-  /// q for an acceleration, before its bound
-  KOKKOS_INLINE_FUNCTION Vec3<Real> drag(int p, const Vec3<Real>& e) const {
-    const Vec3<Real> N = normal(p);
-    Vec3<Real> v = vector_at<B>(points.velocity, p);
-    v += Real(0.5) * t * e;
-    return -points.tangential(p) * (v - dot(v, N) * N);
+  /// n for that acceleration
+  KOKKOS_INLINE_FUNCTION Real pressure(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
+    const Vec3<Real> v = vector_at<B>(points.velocity, r);
+    return law.stiffness * depth(r, e) - law.damping * dot(normal(r), v + Real(0.5) * h * e);
+  }
+  /// q for that acceleration, before its bound
+  KOKKOS_INLINE_FUNCTION Vec3<Real> drag(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
+    const Vec3<Real> N = normal(r), v = vector_at<B>(points.velocity, r) + h * e;
+    return -law.tangential * (v - dot(v, N) * N);
   }
 };
 
-/// A unit force out of the obstacle on every point that would be inside it; counts them.
+/// A unit force on every point that would be inside an obstacle; counts them.
 template <class B>
 struct StartTouching {
+  using Real = typename B::Real;
   TouchLaw<B> law;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
-    const auto e = law.at(law.smooth, p), N = law.normal(p);
-    const typename B::Real depth = law.points.depth(p) - typename B::Real(0.5) * law.t * law.t * dot(N, e);
-    const bool touches = depth > 0 && law.pressure(p, e) > 0;
-    set_vector<B>(law.points.force, p, touches ? N : Vec3<typename B::Real>{});
-    law.points.mobility(p) = 0;
-    return {{touches ? 1.0 : 0.0}};
+    const TouchingPoints<B>& points = law.points;
+    Vec3<Real> e;
+    bool known = false;
+    double count = 0;
+    for (int o = 0; o < points.obstacles; ++o) {
+      const int r = points.record(o, p);
+      points.mobility(r) = 0;
+      Vec3<Real> unit;
+      if (points.near(r)) {
+        if (!known) e = law.at(law.smooth, p);
+        known = true;
+        if (law.depth(r, e) > 0 && law.pressure(points.law(o), r, e) > 0) {
+          unit = law.isotropic ? Vec3<Real>{Real(1), Real(0), Real(0)} : law.normal(r);
+          count += 1;
+        }
+      }
+      set_vector<B>(points.force, r, unit);
+    }
+    return {{count}};
   }
 };
 
@@ -107,25 +119,117 @@ struct SweepTouching {
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const TouchingPoints<B>& points = law.points;
-    Vec3<Real> force = vector_at<B>(points.force, p);
-    const Vec3<Real> N = law.normal(p), r = law.at(law.answer, p);
-    if (first) {
-      if (!(dot(force, force) > 0)) return;
-      points.mobility(p) = Kokkos::max(dot(N, r), Real(0));
-      force = {};
-    } else if (!(points.mobility(p) > 0)) {
-      return;
+    Vec3<Real> answer, e;
+    bool known = false;
+    for (int o = 0; o < points.obstacles; ++o) {
+      const int r = points.record(o, p);
+      const Vec3<Real> force = vector_at<B>(points.force, r);
+      if (!(first ? dot(force, force) > 0 : points.mobility(r) > 0)) continue;
+      if (!known) {
+        answer = law.at(law.answer, p), e = law.at(law.smooth, p);
+        if (!first) e += answer;
+        known = true;
+      }
+      if (first) {
+        const Real least = law.isotropic ? Kokkos::Experimental::norm_min_v<Real> : Real(0);
+        points.mobility(r) = Kokkos::max(dot(force, answer), least);
+      }
+      sweep(points.law(o), r, first ? Vec3<Real>{} : force, e);
     }
-    const Vec3<Real> e = first ? law.at(law.smooth, p) : law.at(law.smooth, p) + r;
-    const Real rho = points.mobility(p), half = Real(0.5) * law.t, before = dot(force, N);
-    const Real stiff = half * (law.t * law.stiffness + law.damping);
-    const Real pressure = Kokkos::max(Real(0), before + (law.pressure(p, e) - before) / (1 + stiff * rho));
-    Vec3<Real> across = force - before * N;
-    across += (1 / (1 + half * points.tangential(p) * rho)) * (law.drag(p, e) - across);
-    const Real size = Kokkos::sqrt(dot(across, across)), most = points.friction(p) * pressure;
-    if (size > most) across = (most / size) * across;
-    set_vector<B>(law.points.force, p, pressure * N + across);
   }
+
+  KOKKOS_INLINE_FUNCTION void sweep(const PenaltyLaw<Real>& of, int r, const Vec3<Real>& force,
+                                    const Vec3<Real>& e) const {
+    const Vec3<Real> N = law.normal(r);
+    const Real rho = law.points.mobility(r), h = law.h, before = dot(force, N);
+    const Real stiff = Real(0.5) * h * (h * of.stiffness + of.damping);
+    const Real pressure = Kokkos::max(Real(0), before + (law.pressure(of, r, e) - before) / (1 + stiff * rho));
+    Vec3<Real> across = force - before * N;
+    across += (1 / (1 + h * of.tangential * rho)) * (law.drag(of, r, e) - across);
+    const Real size = Kokkos::sqrt(dot(across, across)), most = of.friction * pressure;
+    if (size > most) across = (most / size) * across;
+    set_vector<B>(law.points.force, r, pressure * N + across);
+  }
+};
+
+// Where A is the lumped masses' inverse. Contact acts on the vertices whose tetrahedra hold a point, and on no other.
+
+/// What mass damping leaves of an acceleration; see ContactStep.
+template <class B>
+KOKKOS_INLINE_FUNCTION typename B::Real kept(const Model<B>& model, int a, typename B::Real damped) {
+  return 1 / (1 + damped * model.damping(a));
+}
+
+/// e = (f/m - c v) / (1 + damped c); 0 where the motion is given.
+template <class B>
+struct FreeAcceleration {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Model<B> model;
+  Vectors<B> f, v, e;
+  Real damped;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const int a = surface.vertex(i);
+    const Real w = model.inverse_mass(a), c = model.damping(a), part = w > 0 ? kept<B>(model, a, damped) : Real(0);
+    for (int k = 0; k < 3; ++k) e(a, k) = part * (w * f(a, k) - c * v(a, k));
+  }
+};
+
+/// answer = m^-1 W^T force / (1 + damped c)
+template <class B>
+struct AnswerByMass {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Model<B> model;
+  TouchingPoints<B> points;
+  Vectors<B> answer;
+  Real damped;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const int a = surface.vertex(i);
+    set_vector<B>(answer, a, (model.inverse_mass(a) * kept<B>(model, a, damped)) * points.force_on(surface, i));
+  }
+};
+
+// What obstacles do to the body.
+
+/// Force of one obstacle, and its torque about a point; 0 where nothing touches.
+template <class B>
+struct ObstacleWrench {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> u;
+  TouchingPoints<B> points;
+  int first;  ///< the obstacle's first record
+  Vec3<double> about;
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
+    if (!(points.count(0) > 0) || !(points.mobility(first + p) > 0)) return {};
+    const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+    Vec3<double> arm, force;
+    for (int k = 0; k < 3; ++k) {
+      arm[k] = static_cast<double>(x[k]) - about[k];
+      force[k] = static_cast<double>(points.force(first + p, k));
+    }
+    const Vec3<double> torque = cross(arm, force);
+    return {{force[0], force[1], force[2], torque[0], torque[1], torque[2]}};
+  }
+};
+
+/// impulse += weight sums, of one obstacle
+template <class B>
+struct AddImpulse {
+  Doubles<B> sums, impulse;
+  int first;  ///< the obstacle's first number
+  double weight;
+  KOKKOS_INLINE_FUNCTION void operator()(int k) const { impulse(first + k) += weight * sums(k); }
+};
+
+/// wrench = what levels' impulses sum up to over the time that they took, `per_time` its inverse.
+template <class B>
+struct SumImpulses {
+  Doubles<B> impulse, wrench;
+  double per_time;
+  bool first;  ///< of the levels
+  KOKKOS_INLINE_FUNCTION void operator()(int k) const { wrench(k) = (first ? 0.0 : wrench(k)) + per_time * impulse(k); }
 };
 
 }  // namespace plica

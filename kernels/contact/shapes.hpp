@@ -16,6 +16,7 @@
 ///   * `Shape<Real>`, the pointwise signed distance for kernels: Gap operator()(x), with x relative to the obstacle, which
 ///     may move;
 ///   * `shape<Real>(options)`, which makes one of them;
+///   * `origin(options)`, what torques on it are about at t = 0: its centre, of a surface the file's own origin;
 ///   * where it takes them, `check(path, options)`, InputError for values that do not fit each other, and
 ///     `complete(options)`, which puts values where the options leave them open.
 namespace plica {

@@ -3,7 +3,7 @@
 #include <plica/core/surface.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Vertex kernels of the Lanczos iteration on M^-1/2 (K + contact) M^-1/2, whose largest eigenvalue is w_max^2 [1/s^2]. A zero
+// Vertex kernels of the Lanczos iteration on M^-1/2 K M^-1/2, whose largest eigenvalue is w_max^2 [1/s^2]. A zero
 // inverse mass takes the vertex out.
 namespace plica {
 
@@ -20,32 +20,19 @@ struct ScaleByMass {
   }
 };
 
-/// y_p = stiffness * sum of weight * x: contact at every point, in every direction.
-template <class B>
-struct PointStiffness {
-  using Real = typename B::Real;
-  EmbeddedSurface<B> surface;
-  Vectors<B> x, y;
-  Real stiffness;
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    set_vector<B>(y, p, stiffness * value_at<B>(surface.embedding, x, p));
-  }
-};
-
-/// w = M^-1/2 (force - elastic) - beta v_before, and v.w: force holds the contact part, the copies of -K p the elastic one.
+/// w = M^-1/2 K p - beta v_before, and v.w; partial: the shares of -K p.
 template <class B>
 struct LanczosProduct {
   using Real = typename B::Real;
   Model<B> model;
-  Vectors<B> partial, contact, v, before, w;
+  Vectors<B> partial, v, before, w;
   Real beta;
-  bool with_contact;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     const Real s = Kokkos::sqrt(model.inverse_mass(a));
     const Vec3<Real> sum = sum_of_shares<B>(model.shares, partial, a);
     double dot = 0;
     for (int k = 0; k < 3; ++k) {
-      w(a, k) = s * ((with_contact ? contact(a, k) : Real(0)) - sum[k]) - beta * before(a, k);
+      w(a, k) = -s * sum[k] - beta * before(a, k);
       dot += static_cast<double>(w(a, k)) * static_cast<double>(v(a, k));
     }
     return {{dot}};

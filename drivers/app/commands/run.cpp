@@ -55,6 +55,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.last_good_time = output.files().last_time();
   summary.counters = simulation.counters();
   summary.residual = simulation.worst_residual();
+  summary.wrenches = simulation.wrenches();
   summary.diagnosis = end.diagnosis;
   return summary;
 }

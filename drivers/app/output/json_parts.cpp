@@ -86,10 +86,11 @@ struct AddMotion {
 
 }  // namespace
 
-Json obstacles_json(const std::vector<ObstacleOptions>& obstacles) {
+Json obstacles_json(const ContactOptions& contact) {
   Json list = Json::array();
-  for (const ObstacleOptions& obstacle : obstacles) {
-    Json entry;
+  for (std::size_t i = 0; i < contact.obstacles.size(); ++i) {
+    const ObstacleOptions& obstacle = contact.obstacles[i];
+    Json entry = {{"name", obstacle_name(contact, i)}};
     visit_shape(obstacle.shape, [&](auto shape, const auto& o) { entry[decltype(shape)::name] = shape_json(o); });
     entry["friction"] = obstacle.friction.value_or(0);
     std::visit(AddMotion{entry}, obstacle.motion);

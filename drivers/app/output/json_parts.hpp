@@ -61,7 +61,7 @@ std::string material_text(const MaterialInfo& info, const MaterialOptions& mater
 nlohmann::ordered_json material_json(const MaterialInfo& info, const MaterialOptions& material);
 
 /// The obstacles, so that a picture can show what was hit. Of a surface its box and counts.
-nlohmann::ordered_json obstacles_json(const std::vector<ObstacleOptions>& obstacles);
+nlohmann::ordered_json obstacles_json(const ContactOptions& contact);
 
 /// What measurements were made on.
 struct StudyMachine {

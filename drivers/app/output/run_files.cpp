@@ -22,11 +22,19 @@ constexpr const char* head =
     "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
     "com_x,com_y,com_z,max_speed,rms_speed";
 
+std::string history_head(bool retries, const ContactOptions& contact) {
+  std::string all = std::string(head) + (retries ? ",halvings" : "");
+  for (std::size_t i = 0; i < contact.obstacles.size(); ++i)
+    for (const char* column : {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"})
+      all += fmt::format(",{}.{}", obstacle_name(contact, i), column);
+  return all + "\n";
+}
+
 }  // namespace
 
 History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
-                 std::optional<std::uint64_t> kept)
-    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, std::string(head) + (retries ? ",halvings\n" : "\n"))),
+                 const ContactOptions& contact, std::optional<std::uint64_t> kept)
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, contact))),
       masses_(std::move(masses)),
       retries_(retries) {}
 
@@ -42,10 +50,13 @@ void History::write(const Snapshot& s) {
   }
   centre /= mass;
   const Energies& e = s.energies;
-  file_.add(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}{}\n", s.time,
-                        e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(), centre.z(),
-                        std::sqrt(max_square), std::sqrt(sum_square / mass),
-                        retries_ ? fmt::format(",{}", s.halvings) : std::string{}));
+  std::string row = fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", s.time,
+                                e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(),
+                                centre.z(), std::sqrt(max_square), std::sqrt(sum_square / mass));
+  if (retries_) row += fmt::format(",{}", s.halvings);
+  for (const Wrench& w : s.wrenches)
+    for (const Point* p : {&w.force, &w.torque}) row += fmt::format(",{:.9g},{:.9g},{:.9g}", p->x(), p->y(), p->z());
+  file_.add(row + "\n");
 }
 
 namespace {
@@ -116,7 +127,7 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
       frame_times_(from ? from->frame_times : std::vector<double>{}),
       surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
       history_(folder / "history.csv", vertex_masses(body_), scene.problem.integration.retry.halvings > 0,
-               from ? std::optional(from->history_bytes) : std::nullopt) {
+               scene.problem.contact, from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
   for (const int level : volume_levels_) {

@@ -26,7 +26,8 @@ struct Snapshot {
   std::vector<Point> surface, surface_velocities;  ///< of the embedded surface's; empty without one
   std::vector<VolumeSnapshot> volumes;             ///< of the levels that are written
   Energies energies;
-  long halvings = 0;  ///< of macro steps so far
+  long halvings = 0;             ///< of macro steps so far
+  std::vector<Wrench> wrenches;  ///< of the obstacles, of the macro step that ends here
 };
 
 /// Of macro steps so far; 0 where bad ones are not retried.
@@ -46,7 +47,8 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.surface_velocities(),
                     {},
                     simulation.energies(),
-                    halvings_of(simulation)};
+                    halvings_of(simulation),
+                    simulation.wrenches()};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
@@ -57,11 +59,11 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
-/// one was halved so far.
+/// one was halved so far; and the force and torque of each obstacle on the body, over the macro step that ends there.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
-  History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
+  History(const std::filesystem::path& file, std::vector<double> masses, bool retries, const ContactOptions& contact,
           std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
   const GrowingFile& file() const { return file_; }

@@ -34,7 +34,10 @@ std::string choice_text(const CycleChoice& choice) {
       out += wrapped(fmt::format("{} at {:.3g} x: {}", trial.cycle, trial.over_critical, trial.reason), 98, "  ");
   }
   return text + text_table(rows, "<>>>") + out +
-         fmt::format("  in trials of {} against level 0 alone\n", in_units(choice.duration, "s"));
+         fmt::format("  in trials of {} against level 0 alone{}\n", in_units(choice.duration, "s"),
+                     choice.start > 0
+                         ? fmt::format(", from {} on, shortly before something touches", in_units(choice.start, "s"))
+                         : std::string{});
 }
 
 Json choice_json(const std::optional<CycleChoice>& choice) {
@@ -52,6 +55,7 @@ Json choice_json(const std::optional<CycleChoice>& choice) {
           {"error_class", choice->error_class},
           {"allowed", choice->allowed},
           {"duration", choice->duration},
+          {"start", choice->start},
           {"reason", choice->reason},
           {"trials", trials}};
 }
@@ -243,6 +247,13 @@ Json diagnosis_json(const std::optional<Diagnosis>& diagnosis) {
           {"remedy", diagnosis->remedy}};
 }
 
+Json wrenches_json(const std::vector<Wrench>& wrenches) {
+  Json all = Json::object();
+  const auto three = [](const Point& p) { return Json{p[0], p[1], p[2]}; };
+  for (const Wrench& w : wrenches) all[w.obstacle] = {{"force", three(w.force)}, {"torque", three(w.torque)}};
+  return all;
+}
+
 }  // namespace
 
 Json levels_json(const std::vector<LevelReport>& levels) {
@@ -300,7 +311,8 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"residual", s.residual},
                      {"last_good_time", s.last_good_time},
                      {"diagnosis", diagnosis_json(s.diagnosis)},
-                     {"obstacles", obstacles_json(scene.problem.contact.obstacles)}};
+                     {"obstacles", obstacles_json(scene.problem.contact)},
+                     {"wrenches", wrenches_json(s.wrenches)}};
   return json_text(json);
 }
 

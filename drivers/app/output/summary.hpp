@@ -32,6 +32,7 @@ struct Summary {
   std::map<std::string, long> counters;
   double residual = 0;  ///< the worst an implicit solve ended with
   std::optional<Diagnosis> diagnosis;
+  std::vector<Wrench> wrenches;  ///< of the last macro step
 };
 
 /// summary.json; `words` is the command line.

@@ -80,7 +80,11 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
   parts.fitter =
       std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, *parts.inverse_mass, std::move(modes));
-  if (setup.contact) parts.contact = std::make_unique<ContactResponse<B>>(setup.contact, finest.model.vertices);
+  if (setup.contact) {
+    const auto n = static_cast<std::size_t>(finest.model.vertices);
+    parts.contact_force = zeros<Vectors<B>>("plica::him.contact_force", n);
+    parts.contact_answer = zeros<Vectors<B>>("plica::him.contact_answer", n);
+  }
   const bool free = std::ranges::count(constants.constrained, 1) == 0;
   if (free && !spaces.empty()) {
     const Box box = bounding_box(meshes.front().vertices);

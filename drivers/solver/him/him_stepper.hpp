@@ -2,7 +2,6 @@
 #pragma once
 #include <functional>
 #include <plica/core/level.hpp>
-#include <plica/drivers/solver/him/contact_response.hpp>
 #include <plica/drivers/solver/him/inertia.hpp>
 #include <plica/drivers/solver/stepper.hpp>
 #include <plica/kernels/him/leapfrog.hpp>
@@ -91,8 +90,8 @@ struct HimParts {
   HimOptions options;
   std::unique_ptr<InverseMass<B>> inverse_mass;
   std::unique_ptr<InertiaFitter<B>> fitter;
-  std::optional<FreeMotion<B>> free;            ///< of a body that nothing holds
-  std::unique_ptr<ContactResponse<B>> contact;  ///< of a body with obstacles
+  std::optional<FreeMotion<B>> free;         ///< of a body that nothing holds
+  Vectors<B> contact_force, contact_answer;  ///< of the vertices, with obstacles [N], [m/s^2]
   InertiaFit fit;
   std::size_t detail =
       0;  ///< the level by whose critical step an automatic one goes: the one below a space for slivers
@@ -173,7 +172,7 @@ class HimStepper final : public Stepper<B> {
 
   std::size_t bytes() const override {
     return parts_.inverse_mass->bytes() + 5 * g_.span() * sizeof(Real) + (parts_.free ? g_.span() * sizeof(Real) : 0) +
-           (parts_.contact ? parts_.contact->bytes() : 0);
+           2 * parts_.contact_force.span() * sizeof(Real);
   }
 
   void persist(StateArchive<B>& archive) override {
@@ -248,8 +247,23 @@ class HimStepper final : public Stepper<B> {
     parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
   }
 
+  /// Contact's forces on the vertices, and A's answer to them.
+  void touch(SolverLevel<B>& level, double time, double t) const {
+    const auto& exec = level.exec();
+    const TouchingPoints<B>& points = level.response().points();
+    const auto respond = [&] {
+      where_touching<B>(exec, points.count, "plica::contact_zero", n_, ZeroVectors<B>{parts_.contact_force});
+      where_touching<B>(exec, points.count, "plica::contact_scatter", level.surface.touched,
+                        ScatterContact<B>{level.surface, points, parts_.contact_force});
+      answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
+    };
+    level.response().resolve(exec, level, level.state, time, {.span = t}, a_, parts_.contact_answer, respond);
+    respond();
+    level.response().add_impulse(exec, level, level.state, time, t);
+  }
+
   void one(Hierarchy<B>& h, double time, double t) {
-    const Level<B>& level = h[0];
+    const SolverLevel<B>& level = h[0];
     const auto& exec = h.exec();
     const Scalars<B>& inverse_mass = level.model.inverse_mass;
     const State<B>& x = level.state;
@@ -260,12 +274,7 @@ class HimStepper final : public Stepper<B> {
     h.clock.time("answer", 0, [&] { answer(exec, level.model, p_, a_); });
     update_vertices<B>(exec, "plica::him_acceleration", n_,
                        MeanAcceleration<B>{level.state.v, a_, static_cast<Real>(1 / t)});
-    if (parts_.contact)
-      h.clock.time("contact", 0, [&] {
-        parts_.contact->resolve(exec, level, time + t / 2, t, a_, [&](const auto& f, const auto& a, const auto& count) {
-          answer(exec, level.model, f, a, count);
-        });
-      });
+    if (level.contact()) h.clock.time("contact", 0, [&] { touch(h[0], time + t / 2, t); });
     const KickAndDrift<B> finish{.inverse_mass = inverse_mass,
                                  .state = level.state,
                                  .p = p_,
@@ -273,9 +282,9 @@ class HimStepper final : public Stepper<B> {
                                  .a = a_,
                                  .f_before = f_before_,
                                  .a_before = a_before_,
-                                 .contact = parts_.contact ? parts_.contact->answer() : Vectors<B>{},
-                                 .contact_force = parts_.contact ? parts_.contact->force() : Vectors<B>{},
-                                 .touching = parts_.contact ? parts_.contact->count() : Count{},
+                                 .contact = parts_.contact_answer,
+                                 .contact_force = parts_.contact_force,
+                                 .touching = level.response().points().count,
                                  .t = static_cast<Real>(t)};
     reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_);
     update_vertices<B>(exec, "plica::him_watch", 1,

@@ -58,6 +58,11 @@ class ImplicitStep : public Integrator<B> {
   long halvings_ = 0;
   bool failed_ = false;
 
+  static bool accept(SolverLevel<B>& level, double time, double h) {
+    if (level.contact()) level.count_contact(time + h, h);
+    return true;
+  }
+
   /// `before`: what was left unsolved of the step that this is a half of. A half that leaves no less is not halved again: it and
   /// one that is too short to halve are taken as they are, like any step with `accept`. False with `stop` alone.
   bool attempt(SolverLevel<B>& level, double time, double h, int depth, double before) {
@@ -68,10 +73,10 @@ class ImplicitStep : public Integrator<B> {
     prescribe(exec, level, level.state, time, h);
     const bool solved = step(level, time, h);
     prescribe(exec, level, level.state, time + h);
-    if (solved || unfinished_ == "accept") return true;
+    if (solved || unfinished_ == "accept") return accept(level, time, h);
     if (unfinished_ == "stop") return false;
     const double left = stages_.unsolved();
-    if (!halves || !(left < before)) return true;
+    if (!halves || !(left < before)) return accept(level, time, h);
     ++halvings_;
     stages_.set_misses(misses);
     level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);

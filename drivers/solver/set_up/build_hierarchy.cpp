@@ -260,14 +260,12 @@ class HierarchyBuilder {
   void add_dynamics(std::size_t i) {
     LevelReport& report = built_.reports[i];
     SolverLevel<B>& level = built_.hierarchy->levels[i];
-    const PointContactLimit touching =
-        contact_ ? PointContactLimit{contact_->stiffness(), contact_->damping()} : PointContactLimit{};
     Integrators::visit(report.integrator, [&](auto integrator) {
       using Kind = decltype(integrator);
       report.explicit_integrator = Kind::is_explicit;
-      report.critical_step = critical_step<B>(level.exec(), level, *elasticity_[i], level.state.u,
-                                              Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, touching,
-                                              damping_limit(constants_[i]));
+      report.critical_step =
+          critical_step<B>(level.exec(), level, *elasticity_[i], level.state.u,
+                           Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, damping_limit(constants_[i]));
       ImplicitOptions implicit = problem_.integration.implicit;
       implicit.newton_iterations = newton_iterations(implicit, report.integrator);
       const auto make_solver = [&] {

@@ -179,6 +179,18 @@ void check_contact(const Problem& problem) {
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
   if (!obstacles.empty() && problem.body.surface->triangles.empty())
     throw InputError("body.surface has no triangle; contact needs its area");
+  std::map<std::string, std::size_t> named;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const std::string name = obstacle_name(problem.contact, i),
+                      path = "contact.obstacles." + std::to_string(i) + ".name";
+    if (name.find_first_of(",\"\n\r") != std::string::npos)
+      throw InputError(path + " is '" + name +
+                       "', which would break the columns of history.csv; expected no comma, "
+                       "quotation mark or line break");
+    if (const auto [other, first] = named.emplace(name, i); !first)
+      throw InputError(path + " is '" + name + "', as is that of obstacle " + std::to_string(other->second) +
+                       "; expected names that differ");
+  }
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
       check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);

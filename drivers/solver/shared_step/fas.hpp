@@ -24,11 +24,11 @@ class FasCycle final : public SharedStep<B> {
   void step(Hierarchy<B>& h, double time, double t) override {
     if (h.count() > 1) {
       Base::prescribe_levels(h, time);
-      h[0].evaluate(h[0].state, time, h[0].f);
+      h[0].evaluate(h[0].state, time, h[0].f, contact_of(h[0], t));
     }
     for (int i = 1; i < h.count(); ++i) {
       restrict_state(h, i);
-      correct(h, i, time);
+      correct(h, i, time, t);
     }
     for (int i = h.count() - 1; i >= 0; --i) {
       if (i + 1 < h.count()) interpolate_variation(h, i);
@@ -57,13 +57,18 @@ class FasCycle final : public SharedStep<B> {
     });
   }
 
+  /// As the level's own sub-steps take it: a stiff penalty by itself is no force to hold for a macro step.
+  static ContactStep contact_of(const SolverLevel<B>& level, double t) {
+    return {.span = level.share * t / level.substeps};
+  }
+
   /// Leaves in level.f the level's corrected force at this state, for the next coarser level.
-  void correct(Hierarchy<B>& h, int i, double time) {
+  void correct(Hierarchy<B>& h, int i, double time, double t) {
     const Level<B>& fine = h[i - 1];
     SolverLevel<B>& coarse = h[i];
     const Vectors<B>& tau = correction_[static_cast<std::size_t>(i)];
     coarse.set_correction({});
-    coarse.evaluate(coarse.state, time, coarse.f);
+    coarse.evaluate(coarse.state, time, coarse.f, contact_of(coarse, t));
     h.clock.time("correct", i, [&] {
       update_vertices<B>(h.exec(), "plica::correction", coarse.model.vertices,
                          DefectCorrection<B>{coarse.adjoint, fine.f, fine.model.inverse_mass, coarse.model.inverse_mass,

@@ -49,6 +49,8 @@ VerifyRows tapered_membrane(const VerifyContext&);
 VerifyRows twisting_column(const VerifyContext&);
 VerifyRows manufactured_solution(const VerifyContext&);
 VerifyRows time_order(const VerifyContext&);
+VerifyRows friction_on_a_slope(const VerifyContext&);
+VerifyRows indentation(const VerifyContext&);
 
 /// A problem with a known answer.
 struct VerifyProblem {
@@ -78,6 +80,8 @@ inline constexpr VerifyProblem verify_list[] = {
     {"twisting_column", "a twisting column against its own finest mesh, and its energy", twisting_column},
     {"manufactured_solution", "a chosen motion and the body force that it takes: order in space",
      manufactured_solution},
-    {"time_order", "the order in time of every integrator on a nonlinear problem", time_order}};
+    {"time_order", "the order in time of every integrator on a nonlinear problem", time_order},
+    {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope},
+    {"indentation", "a rigid sphere pressed into an elastic half-space (Hertz)", indentation}};
 
 }  // namespace plica

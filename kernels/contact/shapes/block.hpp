@@ -25,6 +25,7 @@ void describe(V& v, BlockOptions& o) {
 struct Block {
   static constexpr const char* name = "box";
   static constexpr const char* summary = "a solid box";
+  static Point origin(const BlockOptions& o) { return o.centre; }
   using Options = BlockOptions;
   template <class Real>
   struct Shape {

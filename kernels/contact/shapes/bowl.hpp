@@ -27,6 +27,7 @@ void describe(V& v, BowlOptions& o) {
 struct Bowl {
   static constexpr const char* name = "bowl";
   static constexpr const char* summary = "the inside of a spherical shell, up to a rim";
+  static Point origin(const BowlOptions& o) { return o.centre; }
   using Options = BowlOptions;
   template <class Real>
   struct Shape {

@@ -25,6 +25,7 @@ void describe(V& v, CapsuleOptions& o) {
 struct Capsule {
   static constexpr const char* name = "capsule";
   static constexpr const char* summary = "a cylinder with round ends";
+  static Point origin(const CapsuleOptions& o) { return (o.from + o.to) / 2; }
   using Options = CapsuleOptions;
   template <class Real>
   struct Shape {

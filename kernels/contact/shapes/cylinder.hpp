@@ -25,6 +25,7 @@ void describe(V& v, CylinderOptions& o) {
 struct Cylinder {
   static constexpr const char* name = "cylinder";
   static constexpr const char* summary = "a cylinder with flat ends";
+  static Point origin(const CylinderOptions& o) { return (o.from + o.to) / 2; }
   using Options = CylinderOptions;
   template <class Real>
   struct Shape {

@@ -23,6 +23,7 @@ void describe(V& v, PlaneOptions& o) {
 struct Plane {
   static constexpr const char* name = "plane";
   static constexpr const char* summary = "the half-space below a plane";
+  static Point origin(const PlaneOptions& o) { return o.point; }
   using Options = PlaneOptions;
   template <class Real>
   struct Shape {

@@ -25,6 +25,7 @@ void describe(V& v, SurfaceOptions& o) {
 struct SampledSurface {
   static constexpr const char* name = "surface";
   static constexpr const char* summary = "the inside of a closed triangulated surface";
+  static Point origin(const SurfaceOptions&) { return Point::Zero(); }
   using Options = SurfaceOptions;
   template <class Real>
   struct Shape {

@@ -23,6 +23,7 @@ void describe(V& v, SphereOptions& o) {
 struct Sphere {
   static constexpr const char* name = "sphere";
   static constexpr const char* summary = "a solid sphere";
+  static Point origin(const SphereOptions& o) { return o.centre; }
   using Options = SphereOptions;
   template <class Real>
   struct Shape {

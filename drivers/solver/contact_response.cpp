@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+#include <plica/drivers/solver/contact_response.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr int sweeps = 3;
+
+}  // namespace
+
+template <class B>
+ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices, bool implicit)
+    : contact_(std::move(contact)),
+      points_(contact_->make_points(implicit)),
+      blocks_(contact_->points()),
+      smooth_(zeros<Vectors<B>>("plica::contact.smooth", static_cast<std::size_t>(vertices))),
+      answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(vertices))),
+      sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
+      impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->obstacles()))) {}
+
+template <class B>
+void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                               const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
+  const int n = level.surface.points;
+  law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
+  contact_->find(exec, level, state, time, law.points);
+  reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
+  for (int sweep = 0; sweep <= sweeps; ++sweep) {  // the first for rho and the forces by e alone
+    if (sweep == 0 || step.span > 0) respond();
+    where_touching<B>(exec, points_.count, "plica::contact_sweep", n, SweepTouching<B>{law, sweep == 0});
+    if (!(step.span > 0)) break;
+  }
+}
+
+template <class B>
+void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                                    const ContactStep& step, const Vectors<B>& f) {
+  const int touched = level.surface.touched;
+  const Real damped = static_cast<Real>(step.damped);
+  update_vertices<B>(exec, "plica::contact_smooth", touched,
+                     FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
+  const AnswerByMass<B> answer{level.surface, level.model, points_, answer_, damped};
+  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, true},
+        [&] { where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer); });
+  where_touching<B>(exec, points_.count, "plica::contact_scatter", touched,
+                    ScatterContact<B>{level.surface, points_, f});
+}
+
+template <class B>
+void ContactResponse<B>::forget_impulse(const Exec& exec) const {
+  fill(exec, impulse_, 0);
+}
+
+template <class B>
+void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                                     double weight) const {
+  for (int o = 0; o < contact_->obstacles(); ++o) {
+    const Point about = contact_->origin(o, time);
+    reduce<B, 6>(
+        exec, "plica::contact_wrench", level.surface.points,
+        ObstacleWrench<B>{level.surface, state.u, points_, points_.record(o, 0), {about[0], about[1], about[2]}},
+        blocks_, sums_);
+    update_vertices<B>(exec, "plica::contact_impulse", 6, AddImpulse<B>{sums_, impulse_, 6 * o, weight});
+  }
+}
+
+template <class B>
+std::size_t ContactResponse<B>::bytes() const {
+  const std::size_t reals =
+      3 * points_.normal.span() + 2 * points_.depth.span() + points_.block.span() + smooth_.span() + answer_.span();
+  return reals * sizeof(Real);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class ContactResponse<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <memory>
+#include <plica/drivers/solver/contact.hpp>
+
+namespace plica {
+
+/// Contact of one level in steps that take it implicitly: the forces on its surface points, and what obstacles do to it. Kernels
+/// alone, which the device leaves out where nothing touches.
+template <class B>
+class ContactResponse {
+ public:
+  using Exec = typename B::Exec;
+  using Real = typename B::Real;
+  /// Answers the points' forces by accelerations of the vertices, where `count` is above 0.
+  using Respond = std::function<void()>;
+
+  ContactResponse() = default;
+  ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices, bool implicit);
+
+  /// f += contact's forces on a state at `time`, which f are all other forces on; A is the inverse of the lumped masses.
+  void add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
+                  const Vectors<B>& f);
+  /// The forces on the points, for any other A: `smooth` are the accelerations without contact, respond() makes those by the points'
+  /// last forces, in `answer`.
+  void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
+               const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) {
+    TouchingPoints<B> points = points_;
+    points.reach = std::numeric_limits<Real>::max();
+    solve(exec, level, state, time, step, {level.surface, points, smooth, answer, 0, 0, false}, respond);
+  }
+
+  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.
+  void forget_impulse(const Exec& exec) const;
+  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
+  const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles] N s and N m s
+
+  const TouchingPoints<B>& points() const { return points_; }
+  std::size_t bytes() const;
+
+ private:
+  std::shared_ptr<const Contact<B>> contact_;
+  TouchingPoints<B> points_;
+  BlockSums<B> blocks_;
+  Vectors<B> smooth_, answer_;  ///< of the vertices, on explicit levels
+  Doubles<B> sums_, impulse_;
+
+  void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
+             TouchLaw<B> law, const Respond& respond) const;
+};
+
+}  // namespace plica

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+#include "support/watch.hpp"
+
+// Contact that is implicit in explicit steps: it bounds no step, keeps what it must, and says what obstacles do.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+const std::vector<std::string> explicit_integrators = {"symplectic_euler", "central_difference", "euler", "rk2", "rk4"};
+
+Point mean(const std::vector<Point>& field) {
+  Point sum = Point::Zero();
+  for (const Point& x : field) sum += x;
+  return sum / static_cast<double>(field.size());
+}
+
+/// A block over the plane z = 0, its boundary as surface.
+Problem block(double gap, int cells = 4) {
+  Problem p = body_of({box_mesh({{0, 0, gap}, {0.1, 0.1, 0.1 + gap}}, {cells, cells, cells})}, "corotational");
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.contact.obstacles.push_back({PlaneOptions{}, {}, {}});
+  return p;
+}
+
+double deepest(const std::vector<Point>& surface) {
+  double lowest = 0;
+  for (const Point& x : surface) lowest = std::min(lowest, x[2]);
+  return -lowest;
+}
+
+double momentum(const Simulation<Host>& s, int axis) { return mean(s.velocities())[axis]; }
+
+// --- Steps ------------------------------------------------------------------------------------------------------------------
+
+TEST(ContactInSteps, BoundsNoStep) {
+  for (const std::string& integrator : explicit_integrators) {
+    Problem p = block(0);
+    p.integration.integrator = {integrator};
+    p.body.damping.mass = 5;  // euler and rk2 have no step without
+    Problem free = p;
+    free.contact.obstacles.clear();
+    const double alone = Simulation<Host>(free).levels()[0].critical_step;
+    for (const double scale : {1.0, 1e4}) {
+      p.contact.stiffness_scale = scale;
+      EXPECT_EQ(Simulation<Host>(p).levels()[0].critical_step, alone) << integrator;
+    }
+  }
+}
+
+TEST(ContactInSteps, TheCriticalStepDoesNotDependOnThePoints) {
+  std::vector<double> steps;
+  for (const int subdivisions : {1, 3, 4}) {
+    Problem p = body_of({box_mesh(decimetre, {6, 6, 6})}, "neo_hookean");
+    p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, subdivisions);
+    p.contact.obstacles.push_back({PlaneOptions{}, 0.3, {}});
+    steps.push_back(Simulation<Host>(p).levels()[0].critical_step);
+  }
+  EXPECT_EQ(steps[0], steps[1]);
+  EXPECT_EQ(steps[0], steps[2]);
+}
+
+// A block thrown at the floor at 0.95 of the limit of its elements, with contact from soft to all but rigid: the energy stays what
+// was put in.
+TEST(ContactInSteps, StayStableAtTheLimitOfTheElements) {
+  for (const std::string& integrator : explicit_integrators)
+    for (const double scale : {0.1, 1.0, 100.0, 1e6})
+      for (const double damping : {0.0, 1.0}) {
+        Problem p = block(0.005);
+        p.body.material.model = "linear";  // the limit is that of any state
+        p.body.initial.velocity = {0.1, 0, -0.5};
+        p.gravity = {0, 0, -9.81};
+        p.contact.obstacles[0].friction = 0.3;
+        p.contact.stiffness_scale = scale, p.contact.damping_scale = damping;
+        p.integration.integrator = {integrator};
+        p.body.damping.mass = integrator == "euler" || integrator == "rk2" ? 100 : 0;
+        p.integration.macro_step = 0.95 * Simulation<Host>(p).levels()[0].critical_step;
+        Simulation<Host> simulation(p);
+        const double start = simulation.energies().total();
+        const int steps = static_cast<int>(std::min(1500.0, 0.15 / simulation.macro_step()));
+        for (int n = 0; n < steps; ++n) simulation.step();
+        const Energies e = simulation.energies();
+        EXPECT_LE(e.kinetic + e.elastic, 1.1 * (start - e.potential) + 1e-6)
+            << integrator << ", stiffness " << scale << ", damping " << damping;
+      }
+}
+
+TEST(ContactInSteps, OfFloatAndDoubleAgree) {
+  const auto height = [](auto backend) {
+    using B = decltype(backend);
+    Problem p = block(0.005);
+    p.body.initial.velocity = {0, 0, -0.5};
+    p.gravity = {0, 0, -9.81};
+    Simulation<B> simulation(p);
+    advance(simulation, static_cast<int>(0.1 / simulation.macro_step()));
+    return mean(simulation.positions())[2];
+  };
+  EXPECT_NEAR(height(Backend<float, Host::Exec>{}), height(Host{}), 1e-4);
+}
+
+// --- Depths -----------------------------------------------------------------------------------------------------------------
+
+Problem ball(int cells, int subdivisions) {
+  Problem p =
+      body_of({box_mesh({{-0.055, -0.055, -0.055}, {0.055, 0.055, 0.055}}, {cells, cells, cells})}, "neo_hookean");
+  p.body.material = {"neo_hookean", 50e3, 0.4, 1000};
+  p.body.damping.mass = 5;
+  p.body.surface = sphere_surface({0, 0, 0}, 0.05, subdivisions);
+  p.body.initial.position = Point{0.01, 0, 0.0754};
+  p.gravity = {0, 0, -9.81};
+  p.contact.obstacles.push_back({BowlOptions{{0, 0, 0.13}, 0.13, 0.08}, 0.3, {}});
+  return p;
+}
+
+double depth_in_bowl(const std::vector<Point>& surface) {
+  double most = 0;
+  for (const Point& x : surface) most = std::max(most, (x - Point(0, 0, 0.13)).norm() - 0.13);
+  return most;
+}
+
+TEST(ContactDepth, OfABallInABowlIsBelowTwoPercentOfAnEdge) {
+  for (const int subdivisions : {2, 3}) {
+    Simulation<Host> simulation(ball(10, subdivisions));
+    double most = 0;
+    while (simulation.time() < 0.25) {
+      advance(simulation, 5);
+      most = std::max(most, depth_in_bowl(simulation.surface_positions()));
+    }
+    EXPECT_GT(most, 0);
+    EXPECT_LT(most, 0.02 * simulation.levels()[0].mean_edge) << subdivisions;
+  }
+}
+
+TEST(ContactDepth, UnderAToolPressedInByAnEdgeIsBelowFivePercentOfIt) {
+  Problem p = body_of({box_mesh({{0, 0, 0}, {0.08, 0.08, 0.04}}, {12, 12, 6})}, "neo_hookean");
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
+  p.body.damping.mass = 40;
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  const double edge = mean_edge_length(p.body.levels[0]), radius = 0.012;
+  const Point start{0.04, 0.04, 0.04 + radius};
+  p.contact.obstacles.push_back(
+      {SphereOptions{start, radius}, 0.2, PathMotion{{{0, {0, 0, 0}}, {0.1, {0, 0, -edge}}}}});
+  Simulation<Host> simulation(p);
+  advance(simulation, static_cast<int>(0.2 / simulation.macro_step()));
+  double most = 0;
+  for (const Point& x : simulation.surface_positions())
+    most = std::max(most, radius - (x - start + Point(0, 0, edge)).norm());
+  EXPECT_GT(most, 0);
+  EXPECT_LT(most, 0.05 * edge);
+}
+
+// --- Motion -----------------------------------------------------------------------------------------------------------------
+
+// Where a bounce is in the end: the shorter the step, the nearer to that of very short ones.
+TEST(ContactInSteps, ABounceConverges) {
+  for (const char* integrator : {"symplectic_euler", "central_difference", "rk4"}) {
+    Problem p = ball(6, 2);
+    p.integration.integrator = {integrator};
+    p.contact.obstacles[0].friction = 0.0;
+    const double limit = Simulation<Host>(p).levels()[0].critical_step;
+    const auto end = [&](int parts) {
+      Problem q = p;
+      const double steps = std::ceil(0.15 / (0.9 * limit));
+      q.integration.macro_step = 0.15 / steps / parts;
+      Simulation<Host> simulation(q);
+      advance(simulation, static_cast<int>(steps) * parts);
+      return simulation.positions();
+    };
+    const auto exact = end(16), rough = end(1), finer = end(4);
+    const double way = 0.03, first = largest_difference(rough, exact), second = largest_difference(finer, exact);
+    EXPECT_LT(first, 0.1 * way) << integrator;
+    EXPECT_LT(second, 0.4 * first + 1e-5) << integrator;
+  }
+}
+
+// On a slope of angle a a block slips where tan a is above mu: its mean velocity after a time grows with g (sin a - mu cos a), or
+// it stays, but for the slow creep of friction's viscous branch.
+TEST(ContactInSteps, SlipOnASlopeAboveTheFrictionAngleOnly) {
+  for (const char* integrator : {"symplectic_euler", "central_difference", "rk4"}) {
+    const auto speed = [&](double slope) {
+      Problem p = block(0);
+      p.body.material.young_modulus = 2e5;
+      p.contact.obstacles[0].friction = 0.3;
+      p.gravity = 10 * Point(std::sin(slope), 0, -std::cos(slope));
+      p.integration.integrator = {integrator};
+      p.body.damping.mass = 2;
+      Simulation<Host> simulation(p);
+      advance(simulation, static_cast<int>(0.3 / simulation.macro_step()));
+      return momentum(simulation, 0);
+    };
+    const double angle = std::atan(0.3);
+    EXPECT_LT(speed(0.95 * angle), 2e-3) << integrator;
+    const double steep = 1.2 * angle, pull = 10 * (std::sin(steep) - 0.3 * std::cos(steep));
+    EXPECT_NEAR(speed(steep), pull * (1 - std::exp(-2 * 0.3)) / 2, 0.05 * pull * 0.3) << integrator;
+  }
+}
+
+// A point that two obstacles touch is held by both.
+TEST(ContactInSteps, HoldACornerBetweenTwoPlanes) {
+  Problem p = block(0);
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0}, {1, 0, 0}}, {}, {}});
+  p.gravity = {-7, 0, -7};
+  p.body.damping.mass = 50;
+  Simulation<Host> simulation(p);
+  advance(simulation, static_cast<int>(0.4 / simulation.macro_step()));
+  Point lowest(1, 1, 1);
+  for (const Point& x : simulation.positions()) lowest = lowest.cwiseMin(x);
+  const double edge = simulation.levels()[0].mean_edge;
+  EXPECT_GT(lowest[0], -0.02 * edge);
+  EXPECT_GT(lowest[2], -0.02 * edge);
+}
+
+// --- Wrenches ---------------------------------------------------------------------------------------------------------------
+
+// What obstacles and weight do to a body is the change of its momentum, in every macro step, to rounding.
+template <class B>
+class Wrenches : public testing::Test {};
+TYPED_TEST_SUITE(Wrenches, EachBackend);
+
+TYPED_TEST(Wrenches, AreTheChangeOfMomentum) {
+  using Real = typename TypeParam::Real;
+  for (const char* cycle : {"single", "him"})
+    for (const char* integrator : {"symplectic_euler", "central_difference", "rk4"}) {
+      if (cycle == std::string("him") && integrator != std::string("symplectic_euler")) continue;
+      Problem p = body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {3, 3, 3})}, "neo_hookean");
+      p.integration.cycle = cycle, p.integration.integrator = {integrator};
+      p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.05, 2);
+      p.gravity = {0, 0, -9.81};
+      p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.002}, {0, 0, 1}}, 0.3, {}});
+      p.contact.obstacles.push_back({SphereOptions{{-0.048, 0.05, 0.05}, 0.05}, 0.1, Point(0.1, 0, 0), "ball"});
+      Simulation<TypeParam> simulation(p);
+      const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
+      const auto now = [&] {
+        Point sum = Point::Zero();
+        const auto v = simulation.velocities();
+        for (std::size_t a = 0; a < v.size(); ++a) sum += mass[a] * v[a];
+        return sum;
+      };
+      Point before = now();
+      double pushed = 0;
+      for (int n = 0; n < 60; ++n) {
+        advance(simulation, 1);
+        const Point after = now(), gained = (after - before) / simulation.macro_step();
+        const auto wrenches = simulation.wrenches();
+        ASSERT_EQ(wrenches.size(), 2u);
+        EXPECT_EQ(wrenches[0].obstacle, "obstacle_0");
+        EXPECT_EQ(wrenches[1].obstacle, "ball");
+        const Point by = wrenches[0].force + wrenches[1].force;
+        // in float, what is left of the vertices' momenta in their sum
+        const double rounding = round_off<Real>(400, 1.0) / simulation.macro_step();
+        EXPECT_LE((gained - by - 1.0 * p.gravity).norm(), rounding + round_off<Real>(100, by.norm()))
+            << cycle << ", " << integrator << ", step " << n;
+        pushed = std::max(pushed, by.norm());
+        before = after;
+      }
+      EXPECT_GT(pushed, 1);
+    }
+}
+
+}  // namespace
