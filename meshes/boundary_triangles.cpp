@@ -99,6 +99,9 @@ void count_edges(const TriangleSurface& surface, SurfaceReport& report) {
   std::sort(edges.begin(), edges.end());
   for (std::size_t e = 0, end = 0; e < edges.size(); e = end) {
     while (end < edges.size() && edges[end].first == edges[e].first) ++end;
+    const bool sound = end == e + 2 && edges[e].second != edges[e + 1].second;
+    if (!sound && report.closed())
+      report.open_at = (vertex(surface, edges[e].first[0]) + vertex(surface, edges[e].first[1])) / 2;
     if (end == e + 1) ++report.open_edges;
     if (end > e + 2) ++report.crowded_edges;
     if (end == e + 2 && edges[e].second == edges[e + 1].second) ++report.inconsistent_edges;

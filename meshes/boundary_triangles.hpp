@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <map>
 #include <plica/core/mesh.hpp>
 #include <string>
 #include <vector>
@@ -27,15 +28,18 @@ double enclosed_volume(const TriangleSurface& surface);
 
 /// What a reader of surfaces found, repaired and left out.
 struct SurfaceReport {
-  std::string format;          ///< like "STL binary"
-  int unreferenced = 0;        ///< vertices of no triangle, dropped
-  int collapsed = 0;           ///< triangles with a vertex twice, dropped
-  int repeated = 0;            ///< triangles with the vertices of another one in the same turn, dropped
-  int open_edges = 0;          ///< of one triangle only
-  int crowded_edges = 0;       ///< of more than two: the surface is no manifold there
-  int inconsistent_edges = 0;  ///< of two triangles that look to different sides
+  std::string format;                     ///< like "STL binary"
+  int unreferenced = 0;                   ///< vertices of no triangle, dropped
+  int collapsed = 0;                      ///< triangles with a vertex twice, dropped
+  int repeated = 0;                       ///< triangles with the vertices of another one in the same turn, dropped
+  int left_out = 0;                       ///< faces that are none, at most one of a hundred
+  std::map<std::string, int> linearised;  ///< faces of higher order, of which the corners were taken: kind -> how many
+  int open_edges = 0;                     ///< of one triangle only
+  int crowded_edges = 0;                  ///< of more than two: the surface is no manifold there
+  int inconsistent_edges = 0;             ///< of two triangles that look to different sides
   int parts = 0;               ///< that share no vertex
-  bool turned = false;         ///< closed, but inside out: all triangles were turned
+  Point open_at = Point::Zero();  ///< the middle of the first edge that keeps it from being closed [m]
+  bool turned = false;                    ///< closed, but inside out: all triangles were turned
 
   /// Whether it has an inside.
   bool closed() const { return open_edges == 0 && crowded_edges == 0 && inconsistent_edges == 0; }

@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/reading.hpp>
+#include <system_error>
 
 namespace plica {
 
+namespace {
+
+// The end of a name that no message has room for
+std::string path_shown(const std::string& name) {
+  constexpr std::size_t longest = 300;
+  return name.size() > longest ? "..." + name.substr(name.size() - longest) : name;
+}
+
+}  // namespace
+
 MemoryFile load_file(const std::filesystem::path& path) {
   MemoryFile file{path.string(), {}};
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) refuse(file.name, {}, "is a folder, not a file");
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) refuse(file.name, {}, "is a folder, not a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    refuse(file.name, {}, "is a pipe or a device, not a file");
+  errno = error.value();
   std::ifstream in(path, std::ios::binary);
-  if (!in) refuse(file.name, {}, "cannot be opened");
+  if (!in) refuse(path_shown(file.name), {}, "cannot be opened: " + std::generic_category().message(errno));
   file.bytes.assign(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) refuse(file.name, {}, "cannot be read");
+  if (in.bad()) refuse(file.name, {}, "cannot be read: " + std::generic_category().message(errno));
   return file;
 }
 

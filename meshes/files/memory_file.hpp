@@ -15,7 +15,7 @@ struct MemoryFile {
   std::string bytes;
 };
 
-/// Reads all of it; InputError when there is none, or a folder.
+/// Reads all of it; InputError with the system's reason when that cannot be, and for folders, pipes and devices.
 MemoryFile load_file(const std::filesystem::path& path);
 
 /// Where in a file something stands: on a line, or, where a file is binary, at a byte.

@@ -7,15 +7,15 @@
 
 namespace plica {
 
-TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report) {
+TetMesh read_mesh(const std::filesystem::path& path, MeshReport* report, Flaws flaws) {
   format_of(path, mesh_formats, "mesh");  // a wrong extension is told before the file is looked for
-  return read_mesh(load_file(path), report);
+  return read_mesh(load_file(path), report, flaws);
 }
 
-TetMesh read_mesh(const MemoryFile& file, MeshReport* report) {
+TetMesh read_mesh(const MemoryFile& file, MeshReport* report, Flaws flaws) {
   MeshReport found;
   const RawMesh raw = format_of(file.name, mesh_formats, "mesh").parse(file, found);
-  TetMesh mesh = sound_mesh(raw, found);
+  TetMesh mesh = sound_mesh(raw, found, flaws);
   if (report) *report = std::move(found);
   return mesh;
 }
@@ -46,7 +46,7 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) 
   const RawMesh raw = format.parse(load_file(path), report);
   const bool may_be_mesh = holds(mesh_formats, format.extension),
              may_be_surface = holds(surface_formats, format.extension);
-  if (!may_be_mesh || (may_be_surface && raw.tets.empty() && !raw.triangles.empty())) {
+  if (!may_be_mesh || (may_be_surface && raw.tets.empty() && raw.triangles.size() + raw.polygons.size() > 0)) {
     ReadSurface read;
     read.surface = sound_surface(raw, report, read.report);
     return read;
@@ -76,8 +76,9 @@ const auto& writer_of(const std::filesystem::path& path, const Writers& writers,
 
 }  // namespace
 
-WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh, const std::string& format, bool binary) {
-  return writer_of(path, mesh_writers, "mesh", format, binary).write(path, mesh);
+WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh, const std::string& format, bool binary,
+                       const MeshGroups& groups) {
+  return writer_of(path, mesh_writers, "mesh", format, binary).write(path, mesh, groups);
 }
 
 WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface, const std::string& format,

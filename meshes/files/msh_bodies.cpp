@@ -36,23 +36,14 @@ void MshGather::add_node(std::int64_t tag, Numbers& numbers, const Place& place)
 
 void MshGather::add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> groups,
                             NumberType node_type, Numbers& numbers, const Place& place) {
-  std::array<std::int64_t, 4> nodes = {};
-  const std::size_t corners = static_cast<std::size_t>(kind.vertices);
-  for (std::size_t k = 0; k < corners; ++k) nodes[k] = numbers.integer(node_type, "a node of an element");
+  nodes_.clear();
+  for (int k = 0; k < kind.vertices; ++k) nodes_.push_back(numbers.integer(node_type, "a node of an element"));
   numbers.end(kind.name);
-  const std::int64_t group = groups.empty() ? 0 : groups.front();
-  if (kind.dimension == 3) {
-    raw_.tets.push_back({tag, nodes, 0, place});
-    tet_groups_.push_back(group);
-    return;
-  }
-  ++report_.other_elements[kind.name];
-  if (corners == 3) raw_.triangles.push_back({tag, {nodes[0], nodes[1], nodes[2]}, 0, place});
-  for (std::size_t k = 0; k < corners; ++k) {
-    if (group == 0 && corners != 3) raw_.others.push_back({nodes[k], place});
-    for (const std::int64_t g : groups)
-      if (g != 0) groups_[{kind.dimension, g}].push_back({nodes[k], place});
-  }
+  const std::size_t tets = plica::add_element(kind, tag, nodes_, place, raw_, report_);
+  tet_groups_.insert(tet_groups_.end(), tets, groups.empty() ? 0 : groups.front());
+  if (kind.dimension == 3) return;
+  for (const std::int64_t g : groups)
+    if (g != 0) add_to_group(kind, tag, nodes_, place, groups_[{kind.dimension, g}]);
 }
 
 std::string MshGather::name_of(const Group& group) const {
@@ -62,9 +53,9 @@ std::string MshGather::name_of(const Group& group) const {
 
 RawMesh MshGather::take() {
   name_regions(raw_, tet_groups_, [this](std::int64_t tag) { return name_of({3, tag}); });
-  for (const auto& [group, mentions] : groups_) {
-    auto& set = raw_.vertex_sets[name_of(group)];
-    set.insert(set.end(), mentions.begin(), mentions.end());
+  for (auto& [key, group] : groups_) {
+    group.name = name_of(key), group.dimension = key.first, group.tag = key.second;
+    raw_.groups.push_back(std::move(group));
   }
   return std::move(raw_);
 }
@@ -107,6 +98,23 @@ void msh2_nodes(std::int64_t count, Numbers& numbers, MshGather& gather) {
     const std::int64_t tag = msh_tag(NumberType::int32, "the tag of a node", numbers);
     gather.add_node(tag, numbers, numbers.place());
     numbers.end("a node: its tag and three coordinates");
+  }
+}
+
+void msh1_elements(std::int64_t count, Numbers& numbers, MshGather& gather) {
+  constexpr NumberType type = NumberType::int32;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    numbers.begin("element", i, count);
+    const std::int64_t tag = numbers.integer(type, "the tag of an element");
+    const Place place = numbers.place();
+    const auto who = [&] { return "element " + std::to_string(tag); };
+    const ElementKind& kind = taken_element(numbers.integer(type, "the type of an element"), who, numbers);
+    const std::int64_t group = physical_tag(numbers);
+    numbers.integer(type, "the elementary group of an element");
+    if (const std::int64_t nodes = numbers.integer(type, "the number of nodes of an element"); nodes != kind.vertices)
+      numbers.fail(who() + ", a " + kind.name + ", has " + std::to_string(nodes) + " nodes; expected " +
+                   std::to_string(kind.vertices));
+    gather.add_element(kind, tag, {&group, 1}, type, numbers, place);
   }
 }
 

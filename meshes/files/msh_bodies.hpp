@@ -13,31 +13,31 @@ namespace plica {
 
 /// Of the MSH formats (Gmsh reference manual, "MSH file format").
 inline constexpr ElementKind msh_elements[] = {
-    {15, "point", 0, 1, true},
-    {1, "line", 1, 2, true},
-    {2, "triangle", 2, 3, true},
-    {3, "quadrangle", 2, 4, true},
-    {4, "tetrahedron", 3, 4, true},
-    {5, "hexahedron", 3, 8, false},
-    {6, "prism", 3, 6, false},
-    {7, "pyramid", 3, 5, false},
-    {8, "second-order line", 1, 3, false},
-    {9, "second-order triangle", 2, 6, false},
-    {10, "second-order quadrangle", 2, 9, false},
-    {11, "second-order tetrahedron", 3, 10, false},
-    {12, "second-order hexahedron", 3, 27, false},
-    {13, "second-order prism", 3, 18, false},
-    {14, "second-order pyramid", 3, 14, false},
-    {16, "second-order quadrangle", 2, 8, false},
-    {17, "second-order hexahedron", 3, 20, false},
-    {18, "second-order prism", 3, 15, false},
-    {19, "second-order pyramid", 3, 13, false},
-    {20, "third-order triangle", 2, 9, false},
-    {21, "third-order triangle", 2, 10, false},
-    {26, "third-order line", 1, 4, false},
-    {29, "third-order tetrahedron", 3, 20, false},
-    {30, "fourth-order tetrahedron", 3, 35, false},
-    {92, "third-order hexahedron", 3, 64, false},
+    {15, "point", 0, 1, 1},
+    {1, "line", 1, 2, 2},
+    {2, "triangle", 2, 3, 3},
+    {3, "quadrangle", 2, 4, 4},
+    {4, "tetrahedron", 3, 4, 4},
+    {5, "hexahedron", 3, 8, 8},
+    {6, "prism", 3, 6, 6},
+    {7, "pyramid", 3, 5, 5},
+    {8, "second-order line", 1, 3, 2},
+    {9, "second-order triangle", 2, 6, 3},
+    {10, "second-order quadrangle", 2, 9, 4},
+    {11, "second-order tetrahedron", 3, 10, 4},
+    {12, "second-order hexahedron", 3, 27, 8},
+    {13, "second-order prism", 3, 18, 6},
+    {14, "second-order pyramid", 3, 14, 5},
+    {16, "second-order quadrangle", 2, 8, 4},
+    {17, "second-order hexahedron", 3, 20, 8},
+    {18, "second-order prism", 3, 15, 6},
+    {19, "second-order pyramid", 3, 13, 5},
+    {20, "third-order triangle", 2, 9, 3},
+    {21, "third-order triangle", 2, 10, 3},
+    {26, "third-order line", 1, 4, 2},
+    {29, "third-order tetrahedron", 3, 20, 4},
+    {30, "fourth-order tetrahedron", 3, 35, 4},
+    {92, "third-order hexahedron", 3, 64, 8},
 };
 
 /// What the MSH formats have in common: nodes, elements, and groups of elements that may have a name.
@@ -62,9 +62,10 @@ class MshGather {
   RawMesh raw_;
   MeshReport& report_;
   std::map<Group, std::string> names_;
-  std::map<std::string, Group> regions_;             // names of volumes, which are unique
-  std::vector<std::int64_t> tet_groups_;             // per tetrahedron its physical tag
-  std::map<Group, std::vector<RawMention>> groups_;  // of lower dimension
+  std::map<std::string, Group> regions_;  // names of volumes, which are unique
+  std::vector<std::int64_t> nodes_;       // of an element
+  std::vector<std::int64_t> tet_groups_;  // per tetrahedron its physical tag
+  std::map<Group, RawGroup> groups_;      // of lower dimension
 };
 
 /// A kind of element that we take, else an InputError; `who` has that type.
@@ -76,9 +77,11 @@ std::int64_t msh_tag(NumberType type, std::string_view what, Numbers& numbers);
 /// The tag of a physical group. A minus sign says that the element is turned round against the group, and is left out.
 std::int64_t physical_tag(Numbers& numbers);
 
-/// The nodes of MSH 2.2, the same in text and in binary: `count` times tag, x, y, z.
+/// The nodes of MSH 1 and 2, the same in text and in binary: `count` times tag, x, y, z.
 void msh2_nodes(std::int64_t count, Numbers& numbers, MshGather& gather);
-/// The elements of MSH 2.2: in text each with its type and number of tags, in binary in blocks of one type.
+/// The elements of MSH 1: each with its type, physical and elementary group, and number of nodes.
+void msh1_elements(std::int64_t count, Numbers& numbers, MshGather& gather);
+/// The elements of MSH 2: in text each with its type and number of tags, in binary in blocks of one type.
 void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather& gather);
 
 /// The sections of MSH 4.1, the same in text and in binary. Entities are parts of the geometry, or of one partition of

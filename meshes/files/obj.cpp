@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/reading.hpp>
 
@@ -10,18 +11,12 @@ namespace {
 
 constexpr std::string_view left_out[] = {"vn", "vt", "g", "o", "s", "usemtl", "mtllib", "l", "p"};
 
-struct Face {
-  std::vector<std::int64_t> corners;
-  Place place;
-};
-
 class ObjParser {
  public:
   explicit ObjParser(const MemoryFile& file) : lines_(file, '#') { raw_.file = file.name; }
 
   RawMesh parse() {
     while (lines_.next()) line();
-    for (const Face& face : faces_) cut(face);
     return std::move(raw_);
   }
 
@@ -29,12 +24,10 @@ class ObjParser {
   void line();
   void vertex();
   void face();
-  std::int64_t corner(std::size_t word) const;
-  void cut(const Face& face);
+  std::optional<std::int64_t> corner(std::size_t word);
 
   TextLines lines_;
   RawMesh raw_;
-  std::vector<Face> faces_;
 };
 
 void ObjParser::line() {
@@ -60,47 +53,33 @@ void ObjParser::vertex() {
 }
 
 // A vertex, and perhaps a texture and a normal: 3, 3/1, 3//2 or 3/1/2
-std::int64_t ObjParser::corner(std::size_t word) const {
+std::optional<std::int64_t> ObjParser::corner(std::size_t word) {
   const std::string_view text = lines_.words()[word];
   const std::string_view number = text.substr(0, text.find('/'));
   std::int64_t corner = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), corner);
-  if (error != std::errc() || end != number.data() + number.size() || corner == 0)
-    lines_.fail("a corner of a face is " + shown(text) + "; it must be the number of a vertex, from 1 or to -1");
   const std::int64_t vertices = static_cast<std::int64_t>(raw_.vertices.size());
-  if (corner < -vertices)
-    lines_.fail("a corner of a face is " + shown(text) + ", but there are only " + std::to_string(vertices) +
-                " vertices before it");
+  const auto bad = [&](const std::string& rest) -> std::optional<std::int64_t> {
+    raw_.bad_faces.add(lines_.place(), "a corner of a face is " + shown(text) + rest);
+    return {};
+  };
+  if (error != std::errc() || end != number.data() + number.size() || corner == 0)
+    return bad("; it must be the number of a vertex, from 1 or to -1");
+  if (corner < -vertices) return bad(", but there are only " + std::to_string(vertices) + " vertices before it");
   return corner < 0 ? vertices + 1 + corner : corner;
 }
 
 void ObjParser::face() {
-  if (lines_.words().size() < 4) lines_.expected("a face with three corners or more");
-  Face face{{}, lines_.place()};
-  for (std::size_t w = 1; w < lines_.words().size(); ++w) face.corners.push_back(corner(w));
-  faces_.push_back(std::move(face));
-}
-
-void ObjParser::cut(const Face& face) {
-  std::vector<Point> at;
-  for (const std::int64_t corner : face.corners) {
-    if (corner > static_cast<std::int64_t>(raw_.vertices.size()))
-      refuse(
-          raw_.file, face.place,
-          "a face names vertex " + std::to_string(corner) + ", but there are " + std::to_string(raw_.vertices.size()));
-    at.push_back(raw_.vertices[static_cast<std::size_t>(corner) - 1].position);
+  std::vector<std::int64_t> corners;
+  for (std::size_t w = 1; w < lines_.words().size(); ++w) {
+    const auto one = corner(w);
+    if (!one) return;
+    corners.push_back(*one);
   }
-  const auto area = [&](std::size_t k) -> Point { return (at[k] - at[0]).cross(at[k + 1] - at[0]); };
-  Point sum = Point::Zero();
-  for (std::size_t k = 1; k + 1 < at.size(); ++k) sum += area(k);
-  for (std::size_t k = 1; k + 1 < at.size(); ++k) {
-    if (at.size() > 3 && !(area(k).dot(sum) > 0.0))
-      refuse(
-          raw_.file, face.place,
-          "a face with " + std::to_string(at.size()) + " corners cannot be cut into triangles from its first corner");
-    const std::int64_t tag = static_cast<std::int64_t>(raw_.triangles.size() + 1);
-    raw_.triangles.push_back({tag, {face.corners[0], face.corners[k], face.corners[k + 1]}, 0, face.place});
-  }
+  if (corners.size() < 3)
+    return raw_.bad_faces.add(lines_.place(),
+                              "expected a face with three corners or more, found " + shown(lines_.text()));
+  add_face(static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size() + 1), corners, lines_.place(), raw_);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/msh_bodies.hpp>
 #include <set>
@@ -36,20 +37,27 @@ class MshParser {
   MeshReport& report_;
   MshGather gather_;
   Msh4Bodies bodies4_;
-  bool version4_ = false;
+  int version_ = 2;
   NumberForm form_;
   std::set<std::string> seen_;
 };
 
+// Version 1 has no heading
 void MshParser::format() {
-  if (!lines_.next() || lines_.text() != "$MeshFormat") lines_.expected("$MeshFormat, the start of a Gmsh file");
+  if (!lines_.next() || (lines_.text() != "$MeshFormat" && lines_.text() != "$NOD"))
+    lines_.expected("$MeshFormat, the start of a Gmsh file");
+  if (lines_.text() == "$NOD") {
+    version_ = 1, report_.format = "Gmsh MSH 1 ASCII";
+    return section();
+  }
   if (!lines_.next() || lines_.words().size() != 3)
     lines_.expected("the version, file type and data size, like 4.1 0 8");
   const std::string_view version = lines_.words()[0], type = lines_.words()[1], size = lines_.words()[2];
-  version4_ = version == "4.1";
-  if (!version4_ && version != "2.2")
+  constexpr std::string_view versions_2[] = {"2", "2.0", "2.1", "2.2"};
+  version_ = version == "4.1" ? 4 : 2;
+  if (version_ == 2 && std::ranges::find(versions_2, version) == std::end(versions_2))
     lines_.fail("the MSH version is " + shown(version) +
-                "; supported are 2.2 and 4.1: gmsh IN -save -format msh41 -o OUT.msh");
+                "; supported are 1, 2.0 to 2.2 and 4.1: gmsh IN -save -format msh41 -o OUT.msh");
   form_.binary = type == "1";
   if (!form_.binary && type != "0")
     lines_.fail("the file type is " + shown(type) + "; expected 0 (text) or 1 (binary)");
@@ -75,8 +83,8 @@ void MshParser::check_byte_order() {
 }
 
 void MshParser::end_of(const std::string& section, const std::string& after) {
-  if (!lines_.next() || lines_.text() != "$End" + section)
-    lines_.expected("$End" + section + (after.empty() ? "" : " after " + after));
+  const std::string end = (version_ == 1 ? "$END" : "$End") + section;
+  if (!lines_.next() || lines_.text() != end) lines_.expected(end + (after.empty() ? "" : " after " + after));
 }
 
 void MshParser::section() {
@@ -84,9 +92,12 @@ void MshParser::section() {
                                                        {"$Entities", &MshParser::entities},
                                                        {"$PartitionedEntities", &MshParser::partitioned_entities},
                                                        {"$Nodes", &MshParser::nodes},
+                                                       {"$NOD", &MshParser::nodes},
+                                                       {"$ELM", &MshParser::elements},
                                                        {"$Elements", &MshParser::elements}};
   const std::string name(lines_.text());
-  if (name.front() != '$' || name.starts_with("$End")) lines_.expected("the start of a section, like $Nodes");
+  if (name.front() != '$' || name.starts_with("$End") || name.starts_with("$END"))
+    lines_.expected("the start of a section, like $Nodes");
   if (name == "$ParametricNodes") lines_.fail("$ParametricNodes is not supported: save without parametric coordinates");
   const auto found = known.find(name);
   if (found == known.end()) return skip(name);
@@ -94,11 +105,11 @@ void MshParser::section() {
   (this->*found->second)();
 }
 
-// Binary data may hold line feeds, but hardly a whole line with the name of its section
+// Binary data may hold line feeds, but hardly the name of its section. Some writers end their data without a line feed.
 void MshParser::skip(const std::string& name) {
   report_.skipped_sections.push_back(name.substr(0, 60));
-  const std::string end = "$End" + name.substr(1);
-  if (form_.binary) lines_.resume_at(file().bytes.find("\n" + end, lines_.next_byte() - 1));
+  const std::string end = (version_ == 1 ? "$END" : "$End") + name.substr(1);
+  if (form_.binary) lines_.resume_at(file().bytes.find(end, lines_.next_byte() - 1));
   while (lines_.next())
     if (lines_.text() == end) return;
   lines_.expected(shown(end));
@@ -125,37 +136,40 @@ void MshParser::physical_names() {
 }
 
 void MshParser::entities() {
-  if (!version4_) return skip("$Entities");
+  if (version_ != 4) return skip("$Entities");
   if (seen_.contains("$Elements")) lines_.fail("$Entities must come before $Elements");
   body([&](Numbers& numbers) { return bodies4_.entities(numbers), 0; });
   end_of("Entities");
 }
 
 void MshParser::partitioned_entities() {
-  if (!version4_) return skip("$PartitionedEntities");
+  if (version_ != 4) return skip("$PartitionedEntities");
   if (seen_.contains("$Elements")) lines_.fail("$PartitionedEntities must come before $Elements");
   body([&](Numbers& numbers) { return bodies4_.partitioned_entities(numbers), 0; });
   end_of("PartitionedEntities");
 }
 
 void MshParser::nodes() {
-  const std::int64_t count = version4_ ? 0 : count_of("nodes", 4);
+  const std::int64_t count = version_ == 4 ? 0 : count_of("nodes", 4);
   const std::string what = body([&](Numbers& numbers) {
-    if (version4_) return bodies4_.nodes(numbers, gather_);
+    if (version_ == 4) return bodies4_.nodes(numbers, gather_);
     msh2_nodes(count, numbers, gather_);
     return std::to_string(count) + " nodes";
   });
-  end_of("Nodes", what);
+  end_of(version_ == 1 ? "NOD" : "Nodes", what);
 }
 
 void MshParser::elements() {
-  const std::int64_t count = version4_ ? 0 : count_of("elements", 2);
+  const std::int64_t count = version_ == 4 ? 0 : count_of("elements", 2);
   const std::string what = body([&](Numbers& numbers) {
-    if (version4_) return bodies4_.elements(numbers, gather_);
-    msh2_elements(count, form_.binary, numbers, gather_);
+    if (version_ == 4) return bodies4_.elements(numbers, gather_);
+    if (version_ == 1)
+      msh1_elements(count, numbers, gather_);
+    else
+      msh2_elements(count, form_.binary, numbers, gather_);
     return std::to_string(count) + " elements";
   });
-  end_of("Elements", what);
+  end_of(version_ == 1 ? "ELM" : "Elements", what);
 }
 
 RawMesh MshParser::parse() {
@@ -163,7 +177,7 @@ RawMesh MshParser::parse() {
   while (lines_.next()) section();
   std::string skipped;
   for (const std::string& name : report_.skipped_sections) skipped += (skipped.empty() ? " besides " : ", ") + name;
-  for (const char* name : {"$Nodes", "$Elements"})
+  for (const char* name : {version_ == 1 ? "$NOD" : "$Nodes", version_ == 1 ? "$ELM" : "$Elements"})
     if (!seen_.contains(name)) lines_.expected(std::string("a section ") + name + skipped);
   return gather_.take();
 }

@@ -148,10 +148,16 @@ class VtkParser {
   void dataset();
   void points();
   void cells();
+  void cells_of(int type);
+  void read_cells(const char* line);
   void cells_before_5(std::int64_t count, std::int64_t size);
   void cells_of_5(std::int64_t ends, std::int64_t size);
   std::vector<PlacedInteger> integers(const char* heading, std::int64_t count, const char* what);
   void cell_types();
+  void vertices() { cells_of(2); }
+  void lines() { cells_of(4); }
+  void polygons() { cells_of(7); }
+  void strips() { cells_of(6); }
   void cell_data() { data(grid_.ends.size(), true); }
   void point_data() { data(grid_.points.size(), false); }
   void data(std::size_t count, bool of_cells);
@@ -162,9 +168,12 @@ class VtkParser {
   MeshReport& report_;
   VtkGrid grid_;
   LegacyArrays arrays_{grid_};
-  bool version5_ = false;
+  bool version5_ = false, polygonal_ = false;
+  std::vector<PlacedInteger> corners_, ends_;  // of the last section of cells
   std::set<std::string> seen_;
 };
+
+constexpr const char* dataset_line = "DATASET UNSTRUCTURED_GRID, or POLYDATA";
 
 void VtkParser::header() {
   constexpr std::string_view start = "# vtk DataFile Version ";
@@ -187,22 +196,25 @@ void VtkParser::section() {
       {"dataset", &VtkParser::dataset},     {"points", &VtkParser::points},
       {"cells", &VtkParser::cells},         {"cell_types", &VtkParser::cell_types},
       {"cell_data", &VtkParser::cell_data}, {"point_data", &VtkParser::point_data},
+      {"vertices", &VtkParser::vertices},   {"lines", &VtkParser::lines},
+      {"polygons", &VtkParser::polygons},   {"triangle_strips", &VtkParser::strips},
       {"field", &VtkParser::field},         {"metadata", &VtkParser::metadata}};
   const std::string name = lower_case(lines_.words().front());
   const auto found = known.find(name);
   if (found == known.end()) {
-    if (!arrays_.attribute(name, lines_)) lines_.expected("a keyword of an unstructured grid, like POINTS");
+    if (!arrays_.attribute(name, lines_)) lines_.expected("a keyword of a grid, like POINTS");
     return;
   }
   if (name != "field" && name != "metadata" && !seen_.insert(name).second)
     lines_.fail("a second section " + shown(lines_.words().front()));
-  if (!seen_.contains("dataset") && name != "field" && name != "metadata") lines_.expected("DATASET UNSTRUCTURED_GRID");
+  if (!seen_.contains("dataset") && name != "field" && name != "metadata") lines_.expected(dataset_line);
   (this->*found->second)();
 }
 
 void VtkParser::dataset() {
-  if (lines_.words().size() != 2 || lower_case(lines_.words()[1]) != "unstructured_grid")
-    lines_.expected("DATASET UNSTRUCTURED_GRID");
+  const std::string kind = lines_.words().size() == 2 ? lower_case(lines_.words()[1]) : "";
+  polygonal_ = kind == "polydata";
+  if (!polygonal_ && kind != "unstructured_grid") lines_.expected(dataset_line);
 }
 
 void VtkParser::points() {
@@ -216,7 +228,21 @@ void VtkParser::points() {
 }
 
 void VtkParser::cells() {
-  if (lines_.words().size() != 3) lines_.expected("a line like CELLS 2 10");
+  if (polygonal_) lines_.expected("POLYGONS or another keyword of POLYDATA");
+  read_cells("a line like CELLS 2 10");
+  grid_.connectivity = std::move(corners_), grid_.ends = std::move(ends_);
+}
+
+// Of polygonal data: one kind
+void VtkParser::cells_of(int type) {
+  if (!polygonal_) lines_.expected("CELLS or another keyword of UNSTRUCTURED_GRID");
+  read_cells("a line like POLYGONS 2 10");
+  grid_.add_cells(type, corners_, ends_);
+}
+
+void VtkParser::read_cells(const char* line) {
+  if (lines_.words().size() != 3) lines_.expected(line);
+  corners_.clear(), ends_.clear();
   const std::int64_t count = lines_.integer(1, "the number of cells"),
                      size = lines_.integer(2, "the size of the cells");
   version5_ ? cells_of_5(count, size) : cells_before_5(count, size);
@@ -237,9 +263,9 @@ void VtkParser::cells_before_5(std::int64_t count, std::int64_t size) {
       left -= points + 1;
       for (std::int64_t k = 0; k < points; ++k) {
         const std::int64_t point = numbers.integer(type, "a point of a cell");
-        grid_.connectivity.push_back({point, numbers.place()});
+        corners_.push_back({point, numbers.place()});
       }
-      grid_.ends.push_back({static_cast<std::int64_t>(grid_.connectivity.size()), numbers.place()});
+      ends_.push_back({static_cast<std::int64_t>(corners_.size()), numbers.place()});
     }
     if (left != 0)
       numbers.fail("the cells take " + std::to_string(size - left) + " numbers and not " + std::to_string(size));
@@ -262,14 +288,14 @@ std::vector<PlacedInteger> VtkParser::integers(const char* heading, std::int64_t
 
 // Where each cell starts, with the end of the last one, and the points of all
 void VtkParser::cells_of_5(std::int64_t offsets, std::int64_t size) {
-  grid_.ends = integers("OFFSETS", offsets, "an offset");
-  if (!grid_.ends.empty()) {
-    if (grid_.ends.front().value != 0)
-      refuse(grid_.file, grid_.ends.front().place,
-             "the first offset is " + std::to_string(grid_.ends.front().value) + "; it must be 0");
-    grid_.ends.erase(grid_.ends.begin());
+  ends_ = integers("OFFSETS", offsets, "an offset");
+  if (!ends_.empty()) {
+    if (ends_.front().value != 0)
+      refuse(grid_.file, ends_.front().place,
+             "the first offset is " + std::to_string(ends_.front().value) + "; it must be 0");
+    ends_.erase(ends_.begin());
   }
-  grid_.connectivity = integers("CONNECTIVITY", size, "a point of a cell");
+  corners_ = integers("CONNECTIVITY", size, "a point of a cell");
 }
 
 void VtkParser::cell_types() {
@@ -285,7 +311,8 @@ void VtkParser::cell_types() {
 
 void VtkParser::data(std::size_t count, bool of_cells) {
   for (const char* name : {"points", "cells"})
-    if (!seen_.contains(name)) lines_.fail(shown(lines_.text()) + " must come after the points and cells");
+    if (!polygonal_ && !seen_.contains(name))
+      lines_.fail(shown(lines_.text()) + " must come after the points and cells");
   const std::int64_t tuples = lines_.integer(1, "the number of values");
   if (tuples != static_cast<std::int64_t>(count))
     lines_.fail("the number of values is " + std::to_string(tuples) + " for " + std::to_string(count) +
@@ -297,7 +324,7 @@ RawMesh VtkParser::parse() {
   header();
   while (lines_.next()) section();
   for (const char* name : {"DATASET", "POINTS", "CELLS", "CELL_TYPES"})
-    if (!seen_.contains(lower_case(name))) lines_.expected(name);
+    if (!(polygonal_ && name[0] == 'C') && !seen_.contains(lower_case(name))) lines_.expected(name);
   return grid_.mesh(report_);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/vtk_grid.hpp>
@@ -19,26 +20,42 @@ class VtuParser {
  private:
   void take(const XmlElement& element);
   void data_array(const XmlElement& array, const std::string& section);
-  const XmlElement& needed(const std::optional<XmlElement>& array, const char* what) const;
+  const XmlElement& needed(const std::string& section, const std::string& name) const;
   void read_points();
   void read_cells();
+  void read_polygons();
   void read_regions();
-  std::vector<PlacedInteger> integers(const XmlElement& array, std::int64_t count, const char* what);
+  std::vector<PlacedInteger> integers(const std::string& section, const char* name, std::int64_t count);
+  std::vector<PlacedInteger> corners(const std::string& section, const std::vector<PlacedInteger>& ends);
   [[noreturn]] void fail(const Place& place, const std::string& message) const { refuse(file_.name, place, message); }
 
   const MemoryFile& file_;
   MeshReport& report_;
   VtuArrays arrays_;
   VtkGrid grid_;
-  std::optional<XmlElement> root_, piece_, points_, connectivity_, offsets_, types_;
+  bool polygonal_ = false;
+  std::optional<XmlElement> root_, piece_;
+  std::map<std::pair<std::string, std::string>, XmlElement> used_;  // arrays by section and name
   std::vector<XmlElement> cell_data_;
 };
+
+// What cells there are besides those of <Cells>, each with a number in VTK
+struct Section {
+  const char *name, *count;
+  int type;
+};
+constexpr Section polygonal_sections[] = {{"Verts", "NumberOfVerts", 2},
+                                          {"Lines", "NumberOfLines", 4},
+                                          {"Polys", "NumberOfPolys", 7},
+                                          {"Strips", "NumberOfStrips", 6}};
 
 void VtuParser::take(const XmlElement& element) {
   if (element.parent.empty()) {
     if (element.name != "VTKFile") fail(element.place, "expected <VTKFile>, found <" + element.name + ">");
-    if (const std::string& type = attribute(element, "type", file_); type != "UnstructuredGrid")
-      fail(element.place, "the type of the file is " + shown(type) + "; it must be UnstructuredGrid");
+    const std::string& type = attribute(element, "type", file_);
+    polygonal_ = type == "PolyData";
+    if (!polygonal_ && type != "UnstructuredGrid")
+      fail(element.place, "the type of the file is " + shown(type) + "; it must be UnstructuredGrid or PolyData");
     arrays_.header(element);
     root_ = element;
   } else if (element.name == "Piece") {
@@ -52,28 +69,27 @@ void VtuParser::take(const XmlElement& element) {
 }
 
 void VtuParser::data_array(const XmlElement& array, const std::string& section) {
-  const auto name = array.attributes.find("Name");
-  std::optional<XmlElement>* slot = nullptr;
-  if (section == "Points") slot = &points_;
-  if (section == "Cells" && name != array.attributes.end()) {
-    if (name->second == "connectivity") slot = &connectivity_;
-    if (name->second == "offsets") slot = &offsets_;
-    if (name->second == "types") slot = &types_;
-  }
-  if (slot) {
-    if (*slot) fail(array.place, "a second array of <" + section + "> of this name");
-    *slot = array;
-  }
   if (section == "CellData") cell_data_.push_back(array);
+  const bool of_cells = section == "Cells" ||
+                        std::ranges::any_of(polygonal_sections, [&](const Section& s) { return section == s.name; });
+  if (section != "Points" && !of_cells) return;
+  const auto named = array.attributes.find("Name");
+  const std::string name = section == "Points" || named == array.attributes.end() ? "" : named->second;
+  const bool used = section == "Points" || name == "connectivity" || name == "offsets" || name == "types";
+  if (used && !used_.try_emplace({section, name}, array).second)
+    fail(array.place, "a second array of <" + section + "> of this name");
 }
 
-const XmlElement& VtuParser::needed(const std::optional<XmlElement>& array, const char* what) const {
-  if (!array) fail(piece_ ? piece_->place : root_->place, std::string("there is no ") + what);
-  return *array;
+const XmlElement& VtuParser::needed(const std::string& section, const std::string& name) const {
+  const auto found = used_.find({section, name});
+  if (found == used_.end())
+    fail(piece_->place,
+         "there is no " + (name.empty() ? "<DataArray>" : "array '" + name + "'") + " in <" + section + ">");
+  return found->second;
 }
 
 void VtuParser::read_points() {
-  const XmlElement& array = needed(points_, "<DataArray> in <Points>");
+  const XmlElement& array = needed("Points", "");
   const std::int64_t count = attribute_count(*piece_, "NumberOfPoints", file_);
   if (attribute_count(array, "NumberOfComponents", file_) != 3)
     fail(array.place, "NumberOfComponents is " + shown(array.attributes.at("NumberOfComponents")) + "; it must be 3");
@@ -82,24 +98,38 @@ void VtuParser::read_points() {
   });
 }
 
-std::vector<PlacedInteger> VtuParser::integers(const XmlElement& array, std::int64_t count, const char* what) {
-  std::vector<PlacedInteger> values;
+std::vector<PlacedInteger> VtuParser::integers(const std::string& section, const char* name, std::int64_t count) {
+  const XmlElement& array = needed(section, name);
   if (!is_integer(vtu_type(array, file_)))
-    fail(array.place, "the type of " + std::string(what) + " is " + shown(array.attributes.at("type")) +
+    fail(array.place, "the type of " + std::string(name) + " is " + shown(array.attributes.at("type")) +
                           "; it must be one of integers");
+  std::vector<PlacedInteger> values;
   arrays_.read(array, [&](Numbers& numbers, NumberType type) {
     values =
-        read_integers(numbers.checked_count(count, "the number of " + std::string(what), type, 1), type, what, numbers);
+        read_integers(numbers.checked_count(count, "the number of " + std::string(name), type, 1), type, name, numbers);
   });
   return values;
 }
 
+std::vector<PlacedInteger> VtuParser::corners(const std::string& section, const std::vector<PlacedInteger>& ends) {
+  return integers(section, "connectivity", ends.empty() ? 0 : ends.back().value);
+}
+
 void VtuParser::read_cells() {
   const std::int64_t count = attribute_count(*piece_, "NumberOfCells", file_);
-  grid_.ends = integers(needed(offsets_, "array 'offsets' in <Cells>"), count, "offsets");
-  grid_.types = integers(needed(types_, "array 'types' in <Cells>"), count, "types");
-  const std::int64_t corners = grid_.ends.empty() ? 0 : grid_.ends.back().value;
-  grid_.connectivity = integers(needed(connectivity_, "array 'connectivity' in <Cells>"), corners, "points of cells");
+  grid_.ends = integers("Cells", "offsets", count);
+  grid_.types = integers("Cells", "types", count);
+  grid_.connectivity = corners("Cells", grid_.ends);
+}
+
+void VtuParser::read_polygons() {
+  for (const Section& section : polygonal_sections) {
+    if (!piece_->attributes.contains(section.count)) continue;
+    const std::int64_t count = attribute_count(*piece_, section.count, file_);
+    if (count == 0) continue;
+    const auto ends = integers(section.name, "offsets", count);
+    grid_.add_cells(section.type, corners(section.name, ends), ends);
+  }
 }
 
 void VtuParser::read_regions() {
@@ -120,11 +150,14 @@ void VtuParser::read_regions() {
 RawMesh VtuParser::parse() {
   for (const XmlElement& element : vtu_elements(file_)) take(element);
   if (!piece_) fail(root_->place, "there is no <Piece>");
-  report_.format = "VTU";
   read_points();
-  read_cells();
-  read_regions();
-  report_.format += ", " + points_->attributes.at("format");
+  if (polygonal_) {
+    read_polygons();
+  } else {
+    read_cells();
+    read_regions();
+  }
+  report_.format = (polygonal_ ? "VTP, " : "VTU, ") + needed("Points", "").attributes.at("format");
   return grid_.mesh(report_);
 }
 

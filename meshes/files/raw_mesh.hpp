@@ -6,6 +6,7 @@
 #include <map>
 #include <plica/core/mesh.hpp>
 #include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/mesh_groups.hpp>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -15,13 +16,18 @@ namespace plica {
 
 /// What a reader found, repaired and left out.
 struct MeshReport {
-  std::string format;                         ///< like "Gmsh MSH 2.2 ASCII"
-  int flipped = 0;                            ///< tetrahedra that were inside out
-  int unreferenced = 0;                       ///< vertices of no tetrahedron, dropped
+  std::string format;    ///< like "Gmsh MSH 2.2 ASCII"
+  int flipped = 0;       ///< tetrahedra that were inside out
+  int unreferenced = 0;  ///< vertices of no tetrahedron, dropped
+  int repeated = 0;      ///< tetrahedra with the vertices of another one, dropped where that is allowed
+  int collapsed = 0;     ///< tetrahedra that name a vertex twice, likewise
   std::map<std::string, int> other_elements;  ///< what else the file holds: kind of element -> how many
+  std::map<std::string, int> cut;             ///< cells cut into tetrahedra, likewise
+  std::map<std::string, int> linearised;      ///< elements of higher order, of which the corners were taken, likewise
   std::vector<std::string> skipped_sections;  ///< that the reader does not know
   std::vector<std::int64_t> vertex_tags;      ///< per vertex of the mesh its number in the file
   std::vector<std::int64_t> tet_tags;         ///< per tetrahedron of the mesh its number in the file
+  MeshGroups groups;                          ///< as the file has them
 };
 
 /// A vertex as it is in a file, under the file's own number.
@@ -48,16 +54,46 @@ struct RawMention {
   Place place;
 };
 
+/// A face with any number of corners.
+struct RawPolygon {
+  std::int64_t tag = 0;
+  std::vector<std::int64_t> corners;  ///< tags of vertices
+  Place place;
+};
+
+/// Faces that are none.
+struct BadFaces {
+  int count = 0;
+  Place place;          ///< of the first one
+  std::string message;  ///< what is wrong with it
+
+  /// One more.
+  void add(const Place& where, const std::string& what);
+};
+
+/// A group of points, lines or triangles.
+struct RawGroup {
+  std::string name;
+  int dimension = 0;
+  std::int64_t tag = 0;
+  std::vector<RawTriangle> elements;  ///< of which the first dimension + 1 vertices count
+};
+
 /// What a parser of any format gathers, before anything of it is believed.
 struct RawMesh {
   std::string file;
   std::string vertex_file;  ///< when the vertices come from another one
   std::vector<RawVertex> vertices;
   std::vector<RawTet> tets;
-  std::vector<RawTriangle> triangles;                          ///< of a surface; for a mesh they are only checked
-  std::vector<std::string> region_names;                       ///< unique; empty: one nameless region
-  std::map<std::string, std::vector<RawMention>> vertex_sets;  ///< in any order, repeats welcome
-  std::vector<RawMention> others;                              ///< of elements that are not kept: only checked
+  std::vector<std::size_t> cut;        ///< where in `tets` each cell begins that was cut, and where it ends, in turns
+  std::vector<RawTriangle> triangles;  ///< of a surface; for a mesh they are only checked
+  std::vector<RawPolygon> polygons;    ///< likewise
+  BadFaces bad_faces;                  ///< left out
+  std::vector<std::string> region_names;  ///< unique; empty: one nameless region
+  std::vector<std::int64_t> region_tags;  ///< their numbers in the file
+  std::vector<RawGroup> groups;           ///< their vertices become the vertex set of their name
+  std::vector<RawMention> others;         ///< of elements that are not kept: only checked
+  std::vector<RawMention> middles;        ///< vertices of elements of higher order that are no corners
 };
 
 /// Regions from a number per tetrahedron, in ascending order; numbers of the same name are one region. Where all are 0
@@ -73,6 +109,8 @@ class VertexNumbers {
 
   /// InputError "WHO names node TAG, ..." for a number that the file does not define.
   int at(std::int64_t tag, const Place& place, const std::function<std::string()>& who) const;
+  /// -1 for a number that the file does not define.
+  int find(std::int64_t tag) const;
 
  private:
   const RawMesh& raw_;
@@ -85,11 +123,28 @@ struct ElementKind {
   const char* name;
   int dimension;
   int vertices;  ///< 0: any number
-  bool taken;    ///< first order, and a tetrahedron or of lower dimension
+  int corners;   ///< its first vertices; 0: all of them; not_taken
 };
+inline constexpr int not_taken = -1;
 
 /// The kind with a number if we take it; else an InputError "WHO has type TYPE, a NAME; supported are ...".
 const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t type,
                               const std::function<std::string()>& who, const std::string& file, const Place& place);
+
+/// Adds a face, as a triangle or a polygon.
+void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw);
+
+/// Adds an element of any kind: a tetrahedron as it is, other cells cut into tetrahedra, faces as triangles or polygons; what is of
+/// lower dimension is only checked. Elements of higher order are taken by their corners.
+///
+/// A cell is cut from its vertex with the lowest number, and each quadrangle across from it from the lowest of its own: two cells
+/// that share a quadrangle cut it alike, whatever they are.
+/// @return how many tetrahedra
+std::size_t add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices,
+                        const Place& place, RawMesh& raw, MeshReport& report);
+
+/// Adds an element of lower dimension to a group; a quadrangle as two triangles, cut as a cell's.
+void add_to_group(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices, const Place& place,
+                  RawGroup& group);
 
 }  // namespace plica

@@ -29,7 +29,9 @@ std::string lower_case(std::string_view word) {
   return text;
 }
 
-TextLines::TextLines(const MemoryFile& file, char comment) : file_(file), comment_(comment), end_(file.bytes.size()) {}
+// Some programs end a text with zero bytes, or with that of CP/M
+TextLines::TextLines(const MemoryFile& file, char comment)
+    : file_(file), comment_(comment), end_(file.bytes.find_last_not_of(std::string_view("\0\x1a", 2)) + 1) {}
 
 TextLines::TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line)
     : file_(file), next_(begin), end_(end), next_line_(first_line), place_{first_line}, part_(true) {}

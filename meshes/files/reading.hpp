@@ -16,7 +16,7 @@ std::string lower_case(std::string_view word);
 /// the data says where the lines go on; from there, lines are named by their bytes.
 class TextLines {
  public:
-  /// All of a file, which must outlive this. What follows `comment` on a line is left out, 0: nothing does.
+  /// All of a file but zero bytes at its end; it must outlive this. What follows `comment` on a line is left out, 0: nothing does.
   explicit TextLines(const MemoryFile& file, char comment = 0);
   /// The part of a file that begins with line `first_line` at the byte `begin` and ends before `end`.
   TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line);
@@ -97,6 +97,9 @@ class TextNumbers final : public Numbers {
  public:
   /// What follows the current line. `free`: a number may be on any of the following lines, as the formats of VTK have it.
   explicit TextNumbers(TextLines& lines, bool free = false) : lines_(lines), free_(free), word_(lines.words().size()) {}
+
+  /// From a word of the current line on, wherever they are.
+  TextNumbers(TextLines& lines, std::size_t word) : lines_(lines), free_(true), word_(word) {}
 
   void begin(std::string_view what, std::int64_t number, std::int64_t of) override;
   void end(std::string_view what) override;

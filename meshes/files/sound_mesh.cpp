@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <plica/core/error.hpp>
 #include <plica/core/valid_utf8.hpp>
-#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/raw_mesh.hpp>
 #include <plica/meshes/files/sound_mesh.hpp>
-#include <plica/meshes/mesh_quality.hpp>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -48,23 +46,58 @@ void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 
 }
 
 // All vertices as yet, with their positions in the file as indices; the tetrahedra turned right side out
-void add_tets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
+void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, TetMesh& mesh, MeshReport& report) {
   mesh.tets.reserve(raw.tets.size());
   for (const RawTet& tet : raw.tets) {
     std::array<int, 4> v;
     for (std::size_t k = 0; k < 4; ++k)
       v[k] = numbering.at(tet.vertices[k], tet.place, [&] { return "tetrahedron " + std::to_string(tet.tag); });
     const auto ascending = sorted(v);
-    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end())
-      refuse(raw, tet.place, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
+    if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) {
+      if (flaws == Flaws::refused) refuse(raw, tet.place, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
+      ++report.collapsed;
+      continue;
+    }
     mesh.tets.push_back(v);
     const auto corners = corners_of(mesh, static_cast<int>(mesh.tets.size()) - 1);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
-    refuse_flat(raw, tet, corners, volume);
+    if (flaws == Flaws::refused) refuse_flat(raw, tet, corners, volume);
     if (volume < 0.0) std::swap(mesh.tets.back()[2], mesh.tets.back()[3]), ++report.flipped;
     if (!raw.region_names.empty()) mesh.region.push_back(tet.region);
     report.tet_tags.push_back(tet.tag);
   }
+}
+
+// The pieces of a cell that is no more than turned inside out all have one sign
+void refuse_folded(const RawMesh& raw, const VertexNumbers& numbering) {
+  const auto nobody = [] { return std::string(); };
+  for (std::size_t c = 0; c < raw.cut.size(); c += 2) {
+    bool above = false, below = false;
+    for (std::size_t t = raw.cut[c]; t < raw.cut[c + 1]; ++t) {
+      const RawTet& tet = raw.tets[t];
+      const auto at = [&](std::size_t k) -> const Point& {
+        return raw.vertices[static_cast<std::size_t>(numbering.at(tet.vertices[k], tet.place, nobody))].position;
+      };
+      (tet_volume(at(0), at(1), at(2), at(3)) < 0 ? below : above) = true;
+    }
+    const RawTet& first = raw.tets[raw.cut[c]];
+    if (above && below)
+      refuse(raw, first.place, "element ", first.tag, " is folded: cut into tetrahedra, some would be inside out");
+  }
+}
+
+void drop_repeats(TetMesh& mesh, MeshReport& report) {
+  std::set<std::array<int, 4>> seen;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (!seen.insert(sorted(mesh.tets[t])).second) continue;
+    mesh.tets[kept] = mesh.tets[t];
+    if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
+    report.tet_tags[kept++] = report.tet_tags[t];
+  }
+  report.repeated = static_cast<int>(mesh.tets.size() - kept);
+  mesh.tets.resize(kept), report.tet_tags.resize(kept);
+  if (!mesh.region.empty()) mesh.region.resize(kept);
 }
 
 void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
@@ -82,20 +115,40 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
          " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
 }
 
-void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh) {
+void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
   const auto element = [] { return "an element"; };
   for (const RawTriangle& triangle : raw.triangles)
     for (const std::int64_t v : triangle.vertices) numbering.at(v, triangle.place, element);
+  for (const RawPolygon& polygon : raw.polygons)
+    for (const std::int64_t v : polygon.corners) numbering.at(v, polygon.place, element);
   for (const RawMention& mention : raw.others) numbering.at(mention.vertex, mention.place, element);
-  for (const auto& [name, mentions] : raw.vertex_sets) {
-    std::vector<int>& set = mesh.vertex_sets[name];
-    for (const RawMention& mention : mentions) set.push_back(numbering.at(mention.vertex, mention.place, element));
+  for (const RawGroup& raw_group : raw.groups) {
+    ElementGroup& group =
+        report.groups.sets.emplace_back(ElementGroup{raw_group.name, raw_group.dimension, raw_group.tag, {}});
+    std::vector<int>& set = mesh.vertex_sets[group.name];
+    for (const RawTriangle& raw_element : raw_group.elements) {
+      std::array<int, 3>& v = group.elements.emplace_back(std::array<int, 3>{-1, -1, -1});
+      for (std::size_t k = 0; k <= static_cast<std::size_t>(group.dimension); ++k)
+        set.push_back(v[k] = numbering.at(raw_element.vertices[k], raw_element.place, element));
+    }
+  }
+  for (auto& [name, set] : mesh.vertex_sets) {
     std::sort(set.begin(), set.end());
     set.erase(std::unique(set.begin(), set.end()), set.end());
   }
 }
 
-void drop_unreferenced(const RawMesh& raw, TetMesh& mesh, MeshReport& report) {
+// Middles of edges and faces are used by elements, but not by ours
+int count_middles(const RawMesh& raw, const VertexNumbers& numbering, const std::vector<int>& number) {
+  std::set<int> middles;
+  for (const RawMention& mention : raw.middles) {
+    const int v = numbering.at(mention.vertex, mention.place, [] { return std::string("an element"); });
+    if (number[static_cast<std::size_t>(v)] < 0) middles.insert(v);
+  }
+  return static_cast<int>(middles.size());
+}
+
+void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
   std::vector<int> number(mesh.vertices.size(), -1);
   for (const auto& tet : mesh.tets)
     for (const int v : tet) number[static_cast<std::size_t>(v)] = 0;
@@ -106,7 +159,8 @@ void drop_unreferenced(const RawMesh& raw, TetMesh& mesh, MeshReport& report) {
     mesh.vertices[kept++] = mesh.vertices[v];
     report.vertex_tags.push_back(raw.vertices[v].tag);
   }
-  report.unreferenced = static_cast<int>(mesh.vertices.size() - kept);
+  report.unreferenced = static_cast<int>(mesh.vertices.size() - kept) - count_middles(raw, numbering, number);
+  report.groups = renumbered(report.groups, number);
   mesh.vertices.resize(kept);
   for (auto& tet : mesh.tets)
     for (int& v : tet) v = number[static_cast<std::size_t>(v)];
@@ -117,7 +171,7 @@ void drop_unreferenced(const RawMesh& raw, TetMesh& mesh, MeshReport& report) {
 }
 
 // Files name groups in any encoding; from here on names are UTF-8. A name of a region and of a set stays one name.
-void name_in_utf8(TetMesh& mesh) {
+void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
   std::vector<std::string> names = mesh.region_names;
   for (const auto& [name, set] : mesh.vertex_sets) names.push_back(name);
   const std::map<std::string, std::string> valid = valid_names(names);
@@ -125,11 +179,12 @@ void name_in_utf8(TetMesh& mesh) {
   std::map<std::string, std::vector<int>> sets;
   for (auto& [name, set] : mesh.vertex_sets) sets[valid.at(name)] = std::move(set);
   mesh.vertex_sets = std::move(sets);
+  for (ElementGroup& group : groups.sets) group.name = valid.at(group.name);
 }
 
 }  // namespace
 
-TetMesh sound_mesh(const RawMesh& raw, MeshReport& report) {
+TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws) {
   if (raw.tets.empty()) refuse(raw, {}, "the file holds no tetrahedron");
   checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
   checked_count("the number of tetrahedra", static_cast<double>(raw.tets.size()));
@@ -139,152 +194,14 @@ TetMesh sound_mesh(const RawMesh& raw, MeshReport& report) {
   mesh.region_names = raw.region_names;
   mesh.vertices.reserve(raw.vertices.size());
   for (const RawVertex& vertex : raw.vertices) mesh.vertices.push_back(vertex.position);
-  add_tets(raw, numbering, mesh, report);
-  refuse_repeats(raw, mesh);
-  add_sets(raw, numbering, mesh);
-  drop_unreferenced(raw, mesh, report);
-  name_in_utf8(mesh);
+  report.groups.region_tags = raw.region_tags;
+  add_tets(raw, numbering, flaws, mesh, report);
+  refuse_folded(raw, numbering);
+  flaws == Flaws::refused ? refuse_repeats(raw, mesh) : drop_repeats(mesh, report);
+  add_sets(raw, numbering, mesh, report);
+  drop_unreferenced(raw, numbering, mesh, report);
+  name_in_utf8(mesh, report.groups);
   return mesh;
-}
-
-namespace {
-
-constexpr double flat_triangle = 1e-12;  // twice the area over the longest edge squared
-
-using Triangle = std::array<int, 3>;
-
-void refuse_flat(const RawMesh& raw, const RawTriangle& triangle, const Point& a, const Point& b, const Point& c) {
-  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  if (!((b - a).cross(c - a).norm() > flat_triangle * longest * longest))
-    refuse(raw.file, triangle.place,
-           "triangle " + std::to_string(triangle.tag) + " has no area: its vertices lie on a line");
-}
-
-// All vertices as yet, with their positions in the file as indices
-void add_triangles(const RawMesh& raw, TriangleSurface& surface, SurfaceReport& report) {
-  const VertexNumbers numbering(raw);
-  for (const RawMention& mention : raw.others)
-    numbering.at(mention.vertex, mention.place, [] { return std::string("an element"); });
-  for (const RawTriangle& triangle : raw.triangles) {
-    Triangle v;
-    for (std::size_t k = 0; k < 3; ++k)
-      v[k] = numbering.at(triangle.vertices[k], triangle.place,
-                          [&] { return "triangle " + std::to_string(triangle.tag); });
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-      ++report.collapsed;
-      continue;
-    }
-    const auto at = [&](int k) -> const Point& { return surface.vertices[static_cast<std::size_t>(k)]; };
-    refuse_flat(raw, triangle, at(v[0]), at(v[1]), at(v[2]));
-    surface.triangles.push_back(v);
-  }
-  if (surface.triangles.empty()) refuse(raw.file, Place{}, "all triangles of the file name a vertex twice");
-}
-
-// With the smallest vertex first, in the same turn
-Triangle turned(Triangle t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-// The first of each is kept, in its order
-void drop_repeats(TriangleSurface& surface, SurfaceReport& report) {
-  std::vector<std::size_t> order(surface.triangles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t t) { return turned(surface.triangles[t]); };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  std::vector<bool> again(order.size(), false);
-  for (std::size_t k = 1; k < order.size(); ++k) again[order[k]] = key(order[k]) == key(order[k - 1]);
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < again.size(); ++t)
-    if (!again[t]) surface.triangles[kept++] = surface.triangles[t];
-  report.repeated = static_cast<int>(surface.triangles.size() - kept);
-  surface.triangles.resize(kept);
-}
-
-void drop_unreferenced(TriangleSurface& surface, SurfaceReport& report) {
-  std::vector<int> number(surface.vertices.size(), -1);
-  for (const Triangle& triangle : surface.triangles)
-    for (const int v : triangle) number[static_cast<std::size_t>(v)] = 0;
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    number[v] = static_cast<int>(kept);
-    surface.vertices[kept++] = surface.vertices[v];
-  }
-  report.unreferenced = static_cast<int>(surface.vertices.size() - kept);
-  surface.vertices.resize(kept);
-  for (Triangle& triangle : surface.triangles)
-    for (int& v : triangle) v = number[static_cast<std::size_t>(v)];
-}
-
-}  // namespace
-
-TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report) {
-  if (raw.triangles.empty()) refuse(raw.file, Place{}, "the file holds no triangle");
-  if (const auto quads = found.other_elements.find("quadrangle"); quads != found.other_elements.end())
-    refuse(raw.file, Place{},
-           "the file holds " + std::to_string(quads->second) + " quadrangles; supported are triangles");
-  checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
-  checked_count("the number of triangles", static_cast<double>(raw.triangles.size()));
-  report.format = found.format;
-  TriangleSurface surface;
-  for (const RawVertex& vertex : raw.vertices) surface.vertices.push_back(vertex.position);
-  add_triangles(raw, surface, report);
-  drop_repeats(surface, report);
-  drop_unreferenced(surface, report);
-  count_edges(surface, report);
-  report.parts = count_parts(surface);
-  report.turned = report.closed() && enclosed_volume(surface) < 0.0;
-  if (report.turned)
-    for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
-  return surface;
-}
-
-namespace {
-
-// Per vertex the one that stands for it
-std::vector<std::int64_t> representatives(const TetMesh& mesh, double tolerance) {
-  std::vector<std::int64_t> stands_for;
-  for (const int twin : lower_twins(mesh.vertices, tolerance)) {
-    const auto self = static_cast<std::int64_t>(stands_for.size());
-    stands_for.push_back(twin < 0 ? self : stands_for[static_cast<std::size_t>(twin)]);
-  }
-  return stands_for;
-}
-
-}  // namespace
-
-MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
-  if (!std::isfinite(tolerance) || tolerance < 0.0)
-    throw InputError("the tolerance for duplicate vertices is " + std::to_string(tolerance) +
-                     "; it must be finite and not below zero");
-  const std::vector<std::int64_t> stands_for = representatives(mesh, tolerance);
-  const auto of = [&](int v) { return stands_for[static_cast<std::size_t>(v)]; };
-  RawMesh raw;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (stands_for[v] == static_cast<std::int64_t>(v)) raw.vertices.push_back({stands_for[v], mesh.vertices[v], {}});
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto& [a, b, c, d] = mesh.tets[t];
-    raw.tets.push_back(
-        {static_cast<std::int64_t>(t), {of(a), of(b), of(c), of(d)}, mesh.region.empty() ? 0 : mesh.region[t], {}});
-  }
-  raw.region_names = mesh.region_names;
-  for (const auto& [name, vertices] : mesh.vertex_sets)
-    for (auto& mentions = raw.vertex_sets[name]; const int v : vertices) mentions.push_back({of(v), {}});
-
-  MergedMesh result;
-  MeshReport report;
-  try {
-    result.mesh = sound_mesh(raw, report);
-  } catch (const InputError& error) {
-    std::ostringstream text;
-    text << "vertices at most " << tolerance << " m apart cannot be merged: " << error.what();
-    throw InputError(text.str());
-  }
-  result.merged = static_cast<int>(mesh.vertices.size() - raw.vertices.size());
-  result.original_vertex.assign(report.vertex_tags.begin(), report.vertex_tags.end());
-  return result;
 }
 
 }  // namespace plica

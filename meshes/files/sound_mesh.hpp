@@ -7,13 +7,20 @@
 
 namespace plica {
 
+/// What becomes of tetrahedra that cannot be simulated.
+enum class Flaws { refused, kept };
+
 /// The one way from a file to a mesh. Turns tetrahedra that are inside out, drops vertices of no tetrahedron (also from
 /// the sets), and writes both and the original numbers into `report`.
 ///
 /// InputError with the place and the numbers in the file: no tetrahedron; a coordinate that is not finite; a vertex
 /// defined twice, or not at all; a tetrahedron that names a vertex twice, repeats another, or has no volume (six times
 /// the volume is at most 1e-9 of the longest edge cubed).
-TetMesh sound_mesh(const RawMesh& raw, MeshReport& report);
+/// The pieces of one cell must not be inside out in part.
+///
+/// @param flaws  kept: tetrahedra without volume are kept, those that repeat another or name a vertex twice are dropped and counted,
+///               for repair_mesh() to go on with
+TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws = Flaws::refused);
 
 /// The one way from a file to a surface: its triangles, whatever else it holds. Open surfaces and those that are no
 /// manifold are taken and counted: whether they will do is for the caller to say.
@@ -28,6 +35,7 @@ struct MergedMesh {
   TetMesh mesh;                      ///< glued together
   int merged = 0;                    ///< vertices that became one with another
   std::vector<int> original_vertex;  ///< per vertex of the mesh its number before
+  std::vector<int> vertex;           ///< per vertex before its number in the mesh
 };
 
 /// Glues a mesh together where vertices lie within `tolerance` [m], from zero, of another one: each becomes one with such

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <map>
 #include <plica/meshes/files/list.hpp>
 #include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/reading.hpp>
@@ -32,6 +33,7 @@ void read_nodes(const MemoryFile& file, RawMesh& raw) {
   const std::int64_t markers =
       between(numbers.integer(integer, "the number of markers"), 0, 1, "the number of boundary markers", numbers);
   numbers.end(heading);
+  std::map<std::int64_t, RawGroup> groups;
   for (std::int64_t i = 1; i <= count; ++i) {
     numbers.begin("node", i, count);
     RawVertex vertex{numbers.integer(integer, "the number of a node"), {}, numbers.place()};
@@ -39,33 +41,40 @@ void read_nodes(const MemoryFile& file, RawMesh& raw) {
     for (int a = 0; a < 3; ++a) vertex.position[a] = numbers.number(real, what[a]);
     numbers.skip(attributes, real, "an attribute of a node");
     if (const std::int64_t marker = markers > 0 ? numbers.integer(integer, "the boundary marker of a node") : 0)
-      raw.vertex_sets["marker_" + std::to_string(marker)].push_back({vertex.tag, vertex.place});
+      groups[marker].elements.push_back({vertex.tag, {vertex.tag, 0, 0}, 0, vertex.place});
     numbers.end("a node");
     raw.vertices.push_back(vertex);
   }
   check_end(lines, count, "nodes");
+  for (auto& [marker, group] : groups) {
+    group.name = "marker_" + std::to_string(marker), group.tag = marker;
+    raw.groups.push_back(std::move(group));
+  }
 }
 
-void read_tets(const MemoryFile& file, RawMesh& raw) {
+void read_tets(const MemoryFile& file, RawMesh& raw, MeshReport& report) {
   TextLines lines(file, '#');
   TextNumbers numbers(lines);
   constexpr const char* heading = "the number of tetrahedra, of nodes of each (4), and of their attributes";
   numbers.begin(heading, 0, 0);
   const std::int64_t count = numbers.count(integer, "the number of tetrahedra", integer, 5);
   const std::int64_t corners = numbers.integer(integer, "the number of nodes of a tetrahedron");
-  if (corners == 10) numbers.fail("the tetrahedra are of second order, with 10 nodes; supported are those with 4");
-  between(corners, 4, 4, "the number of nodes of a tetrahedron", numbers);
+  if (corners != 10) between(corners, 4, 4, "the number of nodes of a tetrahedron", numbers);
+  const ElementKind kind = {0, corners == 4 ? "tetrahedron" : "second-order tetrahedron", 3, static_cast<int>(corners),
+                            4};
   const std::int64_t attributes = numbers.count(integer, "the number of attributes", integer, 1);
   numbers.end(heading);
   std::vector<std::int64_t> regions;
   for (std::int64_t i = 1; i <= count; ++i) {
     numbers.begin("tetrahedron", i, count);
-    RawTet tet{numbers.integer(integer, "the number of a tetrahedron"), {}, 0, numbers.place()};
-    for (std::int64_t& v : tet.vertices) v = numbers.integer(integer, "a node of a tetrahedron");
+    const std::int64_t tag = numbers.integer(integer, "the number of a tetrahedron");
+    const Place place = numbers.place();
+    std::vector<std::int64_t> vertices(static_cast<std::size_t>(corners));
+    for (std::int64_t& v : vertices) v = numbers.integer(integer, "a node of a tetrahedron");
     regions.push_back(attributes > 0 ? numbers.integer(integer, "the attribute of a tetrahedron, its region") : 0);
     numbers.skip(attributes - 1, real, "an attribute of a tetrahedron");
     numbers.end("a tetrahedron");
-    raw.tets.push_back(tet);
+    add_element(kind, tag, vertices, place, raw, report);
   }
   check_end(lines, count, "tetrahedra");
   name_regions(raw, regions, [](std::int64_t number) { return "attribute_" + std::to_string(number); });
@@ -78,7 +87,7 @@ RawMesh parse_tetgen(const MemoryFile& elements, const MemoryFile& nodes, MeshRe
   RawMesh raw;
   raw.file = elements.name, raw.vertex_file = nodes.name;
   read_nodes(nodes, raw);
-  read_tets(elements, raw);
+  read_tets(elements, raw, report);
   return raw;
 }
 
@@ -116,10 +125,10 @@ std::vector<std::int64_t> markers_of(const TetMesh& mesh, WrittenMesh& written) 
 
 }  // namespace
 
-WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh) {
+WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
   WrittenMesh written;
-  leave_out_region_names(mesh, "attribute_", written);
-  const std::vector<std::int64_t> markers = markers_of(mesh, written), regions = region_numbers(mesh);
+  leave_out_region_names(mesh, groups, "attribute_", written);
+  const std::vector<std::int64_t> markers = markers_of(mesh, written), regions = region_numbers(mesh, groups);
   const bool marked = !mesh.vertex_sets.empty();
   TextOut nodes, tets;
   nodes << mesh.vertices.size() << " 3 0 " << (marked ? "1\n" : "0\n");

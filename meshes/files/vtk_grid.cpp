@@ -67,34 +67,60 @@ void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::
   regions = read_integers(tuples, type, "a region", numbers);
 }
 
+void VtkGrid::add_cells(int type, const std::vector<PlacedInteger>& points_of_cells,
+                        const std::vector<PlacedInteger>& cell_ends) {
+  const auto base = static_cast<std::int64_t>(connectivity.size());
+  connectivity.insert(connectivity.end(), points_of_cells.begin(), points_of_cells.end());
+  for (const PlacedInteger& end : cell_ends) {
+    if (end.value < 0 || end.value > static_cast<std::int64_t>(points_of_cells.size()))
+      refuse(file, end.place,
+             "a cell ends after " + std::to_string(end.value) + " of " + std::to_string(points_of_cells.size()) +
+                 " points of cells");
+    ends.push_back({base + end.value, end.place});
+    types.push_back({type, end.place});
+  }
+}
+
+// Every second triangle of a strip turns the other way
+void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw,
+                        MeshReport& report) const {
+  ++report.other_elements["strip of triangles"];
+  for (std::size_t k = 0; k + 2 < corners.size(); ++k) {
+    const bool odd = k % 2 == 1;
+    add_face(tag, std::array{corners[k], corners[k + (odd ? 2 : 1)], corners[k + (odd ? 1 : 2)]}, place, raw);
+  }
+}
+
 RawMesh VtkGrid::mesh(MeshReport& report) const {
+  constexpr std::int64_t strip = 6, pixel = 8, voxel = 11;
   check_ends(*this);
   check_count(*this, types, "types");
   if (!region_array.empty()) check_count(*this, regions, "values of the array " + shown(region_array));
   RawMesh raw;
   raw.file = file;
   raw.vertices = points;
-  std::vector<std::int64_t> numbers;
+  std::vector<std::int64_t> numbers, corners;
   for (std::size_t c = 0; c < ends.size(); ++c) {
     const std::size_t begin = c == 0 ? 0 : static_cast<std::size_t>(ends[c - 1].value);
     const std::size_t size = static_cast<std::size_t>(ends[c].value) - begin;
-    const std::int64_t tag = static_cast<std::int64_t>(c);
+    const std::int64_t tag = static_cast<std::int64_t>(c), type = types[c].value;
     const auto who = [&] { return "cell " + std::to_string(c); };
     const Place place = size > 0 ? connectivity[begin].place : types[c].place;
-    const ElementKind& kind = taken_kind(vtk_cells, types[c].value, who, file, types[c].place);
-    if (kind.vertices > 0 && size != static_cast<std::size_t>(kind.vertices))
+    const ElementKind& kind = taken_kind(vtk_cells, type, who, file, types[c].place);
+    if (kind.vertices > 0 ? size != static_cast<std::size_t>(kind.vertices)
+                          : size < static_cast<std::size_t>(kind.corners))
       refuse(file, place,
              who() + ", a " + kind.name + ", has " + std::to_string(size) + " points; expected " +
-                 std::to_string(kind.vertices));
-    if (kind.dimension == 3) {
-      RawTet tet{tag, {}, 0, place};
-      for (std::size_t k = 0; k < 4; ++k) tet.vertices[k] = connectivity[begin + k].value;
-      raw.tets.push_back(tet);
-      numbers.push_back(regions.empty() ? 0 : regions[c].value);
-      continue;
-    }
-    ++report.other_elements[kind.name];
-    for (std::size_t k = begin; k < begin + size; ++k) raw.others.push_back({connectivity[k].value, place});
+                 (kind.vertices > 0 ? std::to_string(kind.vertices) : std::to_string(kind.corners) + " or more"));
+    corners.clear();
+    for (std::size_t k = begin; k < begin + size; ++k) corners.push_back(connectivity[k].value);
+    if (type == pixel || type == voxel) std::swap(corners[2], corners[3]);
+    if (type == voxel) std::swap(corners[6], corners[7]);
+    if (type == strip)
+      add_strip(tag, corners, place, raw, report);
+    else
+      numbers.insert(numbers.end(), add_element(kind, tag, corners, place, raw, report),
+                     regions.empty() ? 0 : regions[c].value);
   }
   name_regions(raw, numbers, [this](std::int64_t number) { return region_array + "_" + std::to_string(number); });
   return raw;

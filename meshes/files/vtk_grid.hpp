@@ -9,32 +9,45 @@ namespace plica {
 
 /// Of VTK (its header vtkCellType.h).
 inline constexpr ElementKind vtk_cells[] = {
-    {1, "point", 0, 1, true},
-    {2, "set of points", 0, 0, true},
-    {3, "line", 1, 2, true},
-    {4, "polyline", 1, 0, true},
-    {5, "triangle", 2, 3, true},
-    {6, "strip of triangles", 2, 0, true},
-    {7, "polygon", 2, 0, true},
-    {8, "pixel", 2, 4, true},
-    {9, "quadrangle", 2, 4, true},
-    {10, "tetrahedron", 3, 4, true},
-    {11, "voxel", 3, 8, false},
-    {12, "hexahedron", 3, 8, false},
-    {13, "prism", 3, 6, false},
-    {14, "pyramid", 3, 5, false},
-    {15, "pentagonal prism", 3, 10, false},
-    {16, "hexagonal prism", 3, 12, false},
-    {21, "second-order line", 1, 3, false},
-    {22, "second-order triangle", 2, 6, false},
-    {23, "second-order quadrangle", 2, 8, false},
-    {24, "second-order tetrahedron", 3, 10, false},
-    {25, "second-order hexahedron", 3, 20, false},
-    {26, "second-order prism", 3, 15, false},
-    {27, "second-order pyramid", 3, 13, false},
-    {42, "polyhedron", 3, 0, false},
-    {71, "Lagrange tetrahedron", 3, 0, false},
-    {78, "Bezier tetrahedron", 3, 0, false},
+    {1, "point", 0, 1, 1},
+    {2, "set of points", 0, 0, 0},
+    {3, "line", 1, 2, 2},
+    {4, "polyline", 1, 0, 0},
+    {5, "triangle", 2, 3, 3},
+    {6, "strip of triangles", 2, 0, 0},
+    {7, "polygon", 2, 0, 0},
+    {8, "pixel", 2, 4, 4},
+    {9, "quadrangle", 2, 4, 4},
+    {10, "tetrahedron", 3, 4, 4},
+    {11, "voxel", 3, 8, 8},
+    {12, "hexahedron", 3, 8, 8},
+    {13, "prism", 3, 6, 6},
+    {14, "pyramid", 3, 5, 5},
+    {15, "pentagonal prism", 3, 10, not_taken},
+    {16, "hexagonal prism", 3, 12, not_taken},
+    {21, "second-order line", 1, 3, 2},
+    {22, "second-order triangle", 2, 6, 3},
+    {23, "second-order quadrangle", 2, 8, 4},
+    {24, "second-order tetrahedron", 3, 10, 4},
+    {25, "second-order hexahedron", 3, 20, 8},
+    {26, "second-order prism", 3, 15, 6},
+    {27, "second-order pyramid", 3, 13, 5},
+    {28, "second-order quadrangle", 2, 9, 4},
+    {29, "second-order hexahedron", 3, 27, 8},
+    {32, "second-order prism", 3, 18, 6},
+    {42, "polyhedron", 3, 0, not_taken},
+    {68, "Lagrange line", 1, 0, 2},
+    {69, "Lagrange triangle", 2, 0, 3},
+    {70, "Lagrange quadrangle", 2, 0, 4},
+    {71, "Lagrange tetrahedron", 3, 0, 4},
+    {72, "Lagrange hexahedron", 3, 0, 8},
+    {73, "Lagrange prism", 3, 0, 6},
+    {74, "Lagrange pyramid", 3, 0, 5},
+    {76, "Bezier triangle", 2, 0, 3},
+    {77, "Bezier quadrangle", 2, 0, 4},
+    {78, "Bezier tetrahedron", 3, 0, 4},
+    {79, "Bezier hexahedron", 3, 0, 8},
+    {80, "Bezier prism", 3, 0, 6},
 };
 
 /// A number of a file and where it is.
@@ -44,7 +57,7 @@ struct PlacedInteger {
 };
 std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what, Numbers& numbers);
 
-/// An unstructured grid, as both formats of VTK hold it. Points and cells count from 0.
+/// An unstructured grid or the cells of polygonal data, as both formats of VTK hold them. Points and cells count from 0.
 struct VtkGrid {
   std::string file;
   std::vector<RawVertex> points;
@@ -59,9 +72,16 @@ struct VtkGrid {
   /// one of an integer per cell.
   void read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
                       Numbers& numbers);
-  /// Checks that the parts fit each other. Tetrahedra are kept, what is of lower dimension counted and checked; region
+  /// Adds cells of one kind, whose ends count from their own first point.
+  void add_cells(int type, const std::vector<PlacedInteger>& points_of_cells,
+                 const std::vector<PlacedInteger>& cell_ends);
+  /// Checks that the parts fit each other. Cells become tetrahedra and faces; what is of lower dimension is counted and checked; region
   /// 3 of the array "region" is named "region_3", and where all are 0 there is one nameless region.
   RawMesh mesh(MeshReport& report) const;
+
+ private:
+  void add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw,
+                 MeshReport& report) const;
 };
 
 }  // namespace plica

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <plica/meshes/files/decompress.hpp>
 #include <plica/meshes/files/vtu_arrays.hpp>
 #include <pugixml.hpp>
 
@@ -195,9 +196,7 @@ std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
 
 void VtuArrays::header(const XmlElement& element) {
   if (const auto found = element.attributes.find("compressor"); found != element.attributes.end())
-    refuse(file_.name, element.place,
-           "the arrays are compressed by " + shown(found->second) +
-               "; supported are ascii, base64 and raw arrays without compression");
+    compressor_ = found->second;
   const std::string& order = attribute(element, "byte_order", file_);
   if (order != "LittleEndian" && order != "BigEndian")
     refuse(file_.name, element.place, "byte_order is " + shown(order) + "; it must be LittleEndian or BigEndian");
@@ -233,12 +232,16 @@ void VtuArrays::read(const XmlElement& array, const Take& take) const {
   if (format == "binary") {
     const std::string_view text =
         std::string_view(file_.bytes).substr(array.text_begin, array.text_end - array.text_begin);
+    if (!compressor_.empty()) return read_compressed(trimmed(text), true, array, array.place, type, take);
     return read_bytes(decoded(trimmed(text), true, array.place), array.place, type, take);
   }
   if (format != "appended")
     refuse(file_.name, array.place,
            "the format of " + place_of(array) + " is " + shown(format) + "; it must be ascii, binary or appended");
   const std::string_view bytes = appended_at(array);
+  if (!compressor_.empty())
+    return read_compressed(bytes, !raw_, array, raw_ ? Place{0, bytes.data() - file_.bytes.data()} : array.place, type,
+                           take);
   if (!raw_) return read_bytes(decoded(bytes, false, array.place), array.place, type, take);
   const Place place{0, bytes.data() - file_.bytes.data()};
   const std::uint64_t size = length(bytes, place), head = bytes_of(length_type_);
@@ -267,6 +270,47 @@ void VtuArrays::read_bytes(std::string_view bytes, const Place& place, NumberTyp
                ", as it says");
   const Place first = place.line > 0 ? place : Place{0, place.byte + static_cast<std::int64_t>(head)};
   ByteNumbers numbers(file_.name, bytes.substr(head), order_, first);
+  take(numbers, type);
+  if (numbers.left() > 0) numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
+}
+
+// The number of blocks, their size, that of the last one (0: as the others), the compressed size of each; then the blocks. In
+// base64 the numbers are encoded apart.
+void VtuArrays::read_compressed(std::string_view text, bool base64, const XmlElement& array, const Place& place,
+                                NumberType type, const Take& take) const {
+  const auto bad = [&](const std::string& what) { refuse(file_.name, place, place_of(array) + " " + what); };
+  const Compressor* compressor = find_compressor(compressor_);
+  if (!compressor)
+    bad("is compressed by " + shown(compressor_) + "; supported are " + compressor_names() + ", or none");
+  const std::size_t word = bytes_of(length_type_);
+  const auto take_part = [&](std::size_t bytes) {
+    const std::size_t size = base64 ? base64_size(bytes) : bytes;
+    if (bytes > text.size() || size > text.size()) bad("is cut short");
+    const std::string_view part = text.substr(0, size);
+    std::optional<std::string> decoded = base64 ? decode_base64(part) : std::string(part);
+    if (!decoded || decoded->size() < bytes) bad("is no whole base64 text");
+    return *decoded;
+  };
+  const std::size_t blocks = length(take_part(word), place);
+  if (blocks > text.size() / word) bad("has " + std::to_string(blocks) + " blocks, for which there is no room");
+  const std::string head = take_part(blocks == 0 ? word : (3 + blocks) * word);
+  const auto head_at = [&](std::size_t i) { return length(std::string_view(head).substr(i * word), place); };
+  text.remove_prefix(base64 ? base64_size(blocks == 0 ? word : head.size()) : head.size());
+  std::size_t compressed = 0;
+  for (std::size_t b = 0; b < blocks; ++b)
+    if ((compressed += std::min(head_at(3 + b), text.size() + 1)) > text.size()) bad("is cut short");
+  const std::string data = take_part(compressed);
+  std::string bytes;
+  for (std::size_t b = 0, at = 0; b < blocks; ++b) {
+    const std::size_t whole = head_at(1), last = head_at(2), packed = head_at(3 + b);
+    const std::size_t size = b + 1 == blocks && last > 0 ? last : whole;
+    if (size / compressor->largest_ratio > packed) bad("tells an absurd size of a block: " + std::to_string(size));
+    const auto block = compressor->decompress(std::string_view(data).substr(at, packed), size);
+    if (!block) bad("has a block that cannot be decompressed");
+    bytes += *block, at += packed;
+  }
+  const Place nowhere = array.place;
+  ByteNumbers numbers(file_.name, bytes, order_, nowhere);
   take(numbers, type);
   if (numbers.left() > 0) numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
 }

@@ -38,7 +38,7 @@ class VtuArrays {
  public:
   explicit VtuArrays(const MemoryFile& file) : file_(file) {}
 
-  /// From <VTKFile>: order of bytes, type of the lengths; InputError if the arrays are compressed.
+  /// From <VTKFile>: order of bytes, type of the lengths, and how arrays that are not text are compressed.
   void header(const XmlElement& element);
   /// <AppendedData>: the rest of the file is checked, and kept for arrays that are in it.
   void appended(const XmlElement& element);
@@ -50,6 +50,8 @@ class VtuArrays {
   using Take = std::function<void(Numbers& numbers, NumberType type)>;
   void read_ascii(const XmlElement& array, NumberType type, const Take& take) const;
   void read_bytes(std::string_view bytes, const Place& place, NumberType type, const Take& take) const;
+  void read_compressed(std::string_view text, bool base64, const XmlElement& array, const Place& place, NumberType type,
+                       const Take& take) const;
   std::string decoded(std::string_view text, bool exactly, const Place& place) const;
   std::string_view appended_at(const XmlElement& array) const;
   std::uint64_t length(std::string_view bytes, const Place& place) const;
@@ -57,6 +59,7 @@ class VtuArrays {
   const MemoryFile& file_;
   std::endian order_ = std::endian::little;
   NumberType length_type_ = NumberType::uint32;
+  std::string compressor_;  // its name; empty: none
   bool has_appended_ = false, raw_ = false;
   std::size_t begin_ = 0, end_ = 0;  // of the appended data
 };

@@ -9,9 +9,9 @@ namespace {
 
 constexpr int tet_type = 10;
 
-WrittenMesh noted(const TetMesh& mesh) {
+WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
   WrittenMesh written;
-  leave_out_region_names(mesh, "region_", written);
+  leave_out_region_names(mesh, groups, "region_", written);
   leave_out_vertex_sets(mesh, written);
   return written;
 }
@@ -36,8 +36,9 @@ class Appended {
 };
 
 // Each array ends its line, in binary too
-WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh, bool binary) {
-  WrittenMesh written = noted(mesh);
+WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups,
+                         bool binary) {
+  WrittenMesh written = noted(mesh, groups);
   const std::string cells = std::to_string(mesh.tets.size()), end = binary ? "\n" : "";
   NumbersOut out(binary, std::endian::big);
   out.text("# vtk DataFile Version 3.0\nmesh\n").text(binary ? "BINARY" : "ASCII");
@@ -50,7 +51,7 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
   out.text(end);
   if (!mesh.region.empty()) {
     out.text("CELL_DATA " + cells + "\nSCALARS region int 1\nLOOKUP_TABLE default\n");
-    for (const std::int64_t region : region_numbers(mesh)) out.int32(region).end();
+    for (const std::int64_t region : region_numbers(mesh, groups)) out.int32(region).end();
     out.text(end);
   }
   written.files = {{path.string(), out.take()}};
@@ -59,15 +60,15 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
 
 }  // namespace
 
-WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh) {
-  return write_legacy(path, mesh, false);
+WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+  return write_legacy(path, mesh, groups, false);
 }
-WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh) {
-  return write_legacy(path, mesh, true);
+WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+  return write_legacy(path, mesh, groups, true);
 }
 
-WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh) {
-  WrittenMesh written = noted(mesh);
+WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+  WrittenMesh written = noted(mesh, groups);
   std::vector<double> points;
   for (const Point& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), p.z()});
   std::vector<std::int64_t> corners, ends;
@@ -86,7 +87,7 @@ WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh) {
       << appended.array("Int64", "connectivity", 1, corners) << appended.array("Int64", "offsets", 1, ends)
       << appended.array("UInt8", "types", 1, types) << "</Cells>\n";
   if (!mesh.region.empty())
-    out << "<CellData>\n" << appended.array("Int64", "region", 1, region_numbers(mesh)) << "</CellData>\n";
+    out << "<CellData>\n" << appended.array("Int64", "region", 1, region_numbers(mesh, groups)) << "</CellData>\n";
   out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << appended.bytes()
       << "\n</AppendedData>\n</VTKFile>\n";
   written.files = {{path.string(), out.take()}};

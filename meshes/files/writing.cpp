@@ -10,6 +10,8 @@ namespace plica {
 
 namespace {
 
+constexpr std::int64_t tags_end = 1'000'000'000;
+
 // The number after the last underscore, from 1; 0: there is none
 std::int64_t number_at_end(const std::string& name) {
   const std::size_t at = name.rfind('_');
@@ -17,7 +19,17 @@ std::int64_t number_at_end(const std::string& name) {
   if (at == std::string::npos) return 0;
   const char *begin = name.data() + at + 1, *end = name.data() + name.size();
   const auto [stop, error] = std::from_chars(begin, end, number);
-  return error == std::errc() && stop == end && *begin != '0' && number > 0 && number < 1'000'000'000 ? number : 0;
+  return error == std::errc() && stop == end && *begin != '0' && number > 0 && number < tags_end ? number : 0;
+}
+
+// Numbers that no group can have, such as 0 for none, become free ones
+void make_positive(std::vector<std::int64_t>& tags) {
+  const auto usable = [](std::int64_t tag) { return tag > 0 && tag < tags_end; };
+  std::int64_t last = 0;
+  for (const std::int64_t tag : tags)
+    if (usable(tag)) last = std::max(last, tag);
+  for (std::int64_t& tag : tags)
+    if (!usable(tag)) tag = ++last;
 }
 
 template <typename Number>
@@ -41,15 +53,40 @@ std::vector<std::int64_t> numbers_of(const std::vector<std::string>& names) {
   return numbers;
 }
 
-std::vector<std::int64_t> region_numbers(const TetMesh& mesh) {
-  const std::vector<std::int64_t> numbers = numbers_of(mesh.region_names);
+std::vector<std::int64_t> region_tags(const TetMesh& mesh, const MeshGroups& groups) {
+  std::vector<std::int64_t> tags = groups.region_tags;
+  return tags.size() == mesh.region_names.size() ? (make_positive(tags), tags) : numbers_of(mesh.region_names);
+}
+
+std::vector<std::int64_t> region_numbers(const TetMesh& mesh, const MeshGroups& groups) {
+  const std::vector<std::int64_t> numbers = region_tags(mesh, groups);
   std::vector<std::int64_t> regions;
   for (const int region : mesh.region) regions.push_back(numbers[static_cast<std::size_t>(region)]);
   return regions;
 }
 
-void leave_out_region_names(const TetMesh& mesh, const std::string& prefix, WrittenMesh& written) {
-  const std::vector<std::int64_t> numbers = numbers_of(mesh.region_names);
+std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& groups) {
+  std::vector<ElementGroup> all = groups.sets;
+  for (const auto& [name, vertices] : mesh.vertex_sets) {
+    if (std::ranges::any_of(groups.sets, [&](const ElementGroup& group) { return group.name == name; })) continue;
+    ElementGroup& group = all.emplace_back(ElementGroup{name, 0, 0, {}});
+    for (const int v : vertices) group.elements.push_back({v, -1, -1});
+  }
+  for (int dimension = 0; dimension < 3; ++dimension) {
+    std::vector<std::int64_t> tags;
+    for (const ElementGroup& group : all)
+      if (group.dimension == dimension) tags.push_back(group.tag);
+    make_positive(tags);
+    auto next = tags.begin();
+    for (ElementGroup& group : all)
+      if (group.dimension == dimension) group.tag = *next++;
+  }
+  return all;
+}
+
+void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups, const std::string& prefix,
+                            WrittenMesh& written) {
+  const std::vector<std::int64_t> numbers = region_tags(mesh, groups);
   for (std::size_t i = 0; i < numbers.size(); ++i)
     if (const std::string now = prefix + std::to_string(numbers[i]); mesh.region_names[i] != now)
       written.left_out.push_back("the region '" + mesh.region_names[i] + "' is now '" + now +

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <plica/core/mesh.hpp>
 #include <plica/meshes/files/memory_file.hpp>
+#include <plica/meshes/files/mesh_groups.hpp>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,18 @@ class TextOut {
 /// from what was read has the same; else from 1.
 std::vector<std::int64_t> numbers_of(const std::vector<std::string>& names);
 
+/// The numbers of the regions: their file's, where it has them, else those at the ends of their names or from 1.
+std::vector<std::int64_t> region_tags(const TetMesh& mesh, const MeshGroups& groups);
+
 /// Per tetrahedron the number of its region; empty without regions.
-std::vector<std::int64_t> region_numbers(const TetMesh& mesh);
+std::vector<std::int64_t> region_numbers(const TetMesh& mesh, const MeshGroups& groups);
+
+/// The groups to write: those of the file, and each other vertex set as a group of points. Tags are unique within a dimension.
+std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& groups);
 
 /// Notes which names of regions a format cannot hold that will read their numbers as "PREFIXnumber".
-void leave_out_region_names(const TetMesh& mesh, const std::string& prefix, WrittenMesh& written);
+void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups, const std::string& prefix,
+                            WrittenMesh& written);
 /// Notes all vertex sets.
 void leave_out_vertex_sets(const TetMesh& mesh, WrittenMesh& written);
 

@@ -13,12 +13,12 @@
 namespace plica::fuzz {
 
 // Written and read again a mesh is the same, unless its names cannot be written
-inline void check_written(const TetMesh& mesh) {
-  for (const Writer<TetMesh>& writer : mesh_writers) {
+inline void check_written(const TetMesh& mesh, const MeshGroups& groups) {
+  for (const MeshWriter& writer : mesh_writers) {
     if (std::string_view(writer.name) == "tetgen") continue;  // two files
     WrittenMesh written;
     try {
-      written = writer.write(std::string("m.") + writer.extension, mesh);
+      written = writer.write(std::string("m.") + writer.extension, mesh, groups);
     } catch (const InputError&) {
       continue;
     }
@@ -30,9 +30,10 @@ inline void check_written(const TetMesh& mesh) {
 
 inline void mesh(const char* name, std::string_view bytes) {
   try {
-    const TetMesh mesh = read_mesh(MemoryFile{name, std::string(bytes)});
+    MeshReport report;
+    const TetMesh mesh = read_mesh(MemoryFile{name, std::string(bytes)}, &report);
     check(mesh);
-    check_written(mesh);
+    check_written(mesh, report.groups);
   } catch (const InputError&) {
   }
 }
@@ -62,10 +63,13 @@ inline void tetgen(std::string_view bytes) {
 
 inline constexpr Target mesh_targets[] = {
     {"msh", [](std::string_view bytes) { mesh("m.msh", bytes), surface("m.msh", bytes); }},
-    {"vtk", [](std::string_view bytes) { mesh("m.vtk", bytes); }},
-    {"vtu", [](std::string_view bytes) { mesh("m.vtu", bytes); }},
+    {"medit", [](std::string_view bytes) { mesh("m.mesh", bytes), surface("m.mesh", bytes); }},
+    {"vtk", [](std::string_view bytes) { mesh("m.vtk", bytes), surface("m.vtk", bytes); }},
+    {"vtu", [](std::string_view bytes) { mesh("m.vtu", bytes), surface("m.vtp", bytes); }},
     {"tetgen", tetgen},
     {"obj", [](std::string_view bytes) { surface("m.obj", bytes); }},
+    {"ply", [](std::string_view bytes) { surface("m.ply", bytes); }},
+    {"off", [](std::string_view bytes) { surface("m.off", bytes); }},
     {"stl", [](std::string_view bytes) { surface("m.stl", bytes); }},
 };
 

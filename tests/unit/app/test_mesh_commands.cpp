@@ -125,11 +125,11 @@ TEST_F(MeshCommands, ConvertLeavesTheOldFileWhereItFails) {
 
 TEST_F(MeshCommands, WrongArgumentsAreRefused) {
   const std::string mesh = sample("blocks_41.msh");
-  expect_refused({"convert", mesh, at("a.mesh")}, "did you mean 'msh'? (choices: msh, vtk, vtu, ele, node, obj, stl)");
+  expect_refused({"convert", mesh, at("a.msch")}, "did you mean 'msh'? (choices: msh, mesh, vtk, vtu, ele, node, obj, ply, off, stl)");
   expect_refused({"convert", mesh, at("a.msh"), "--format", "msh40"}, "unknown format 'msh40'; did you mean 'msh41'?");
   expect_refused({"convert", mesh, at("a.ele"), "--binary"}, "no binary form");
   expect_refused({"convert", sample("blocks.obj"), at("a.vtk")}, "unknown surface file extension 'vtk'");
-  expect_refused({"convert", at("none.msh"), at("a.msh")}, "none.msh: cannot be opened");
+  expect_refused({"convert", at("none.msh"), at("a.msh")}, "none.msh: cannot be opened: No such file or directory");
   expect_refused({"convert", mesh, at("a.msh"), "--scale", "0"}, "--scale: expected a number > 0, got '0'");
   expect_refused({"convert", mesh, at("a.msh"), "--merge-duplicates", "1 m"}, "at most 1 m apart cannot be merged");
   expect_refused({"convert", sample("blocks.obj"), at("a.obj"), "--merge-duplicates", "1 mm"}, "for meshes");

@@ -43,7 +43,7 @@ TEST(Surfaces, ObjWithEveryFormOfCorner) {
 TEST(Surfaces, ObjPolygonsAreCutOrRefused) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.8 0.8 0\nf 1 2 3 4\n";
   EXPECT_EQ(read({"m.obj", square}).triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
-  expect_surface_refused({"m.obj", with(square, "f 1 2 3 4", "f 2 3 4 5")}, "m.obj:6", {"4 corners", "cut"});
+  expect_surface_refused({"m.obj", with(square, "f 1 2 3 4", "f 1 3 2 4")}, "m.obj:6", {"4 corners", "cut"});
 }
 
 TEST(Surfaces, TurnsAClosedSurfaceThatIsInsideOut) {
@@ -124,7 +124,7 @@ TEST(MalformedSurfaces, Obj) {
   refused("v 0 0 0", "v 0 inf 0", 1, {"coordinate y is 'inf'"});
   refused("0 1 0 1.0", "0 1 0 0.5", 3, {"weight", "'0.5'"});
   refused("f 1 3 2", "f 1 3", 5, {"three corners"});
-  refused("f 1 3 2", "f 1 3 9", 5, {"vertex 9", "there are 4"});
+  refused("f 1 3 2", "f 1 3 9", 5, {"triangle 1 names node 9"});
   refused("f 1 3 2", "f 1 3 0", 5, {"'0'", "from 1"});
   refused("f 1 3 2", "f 1 3 -5", 5, {"'-5'", "only 4 vertices"});
   refused("f 1 3 2", "f 1 3 x", 5, {"'x'"});
@@ -233,7 +233,8 @@ TEST(MalformedTetGen, Nodes) {
 }
 
 TEST(MalformedTetGen, Tetrahedra) {
-  expect_refused_ele("2 4 1\n", "2 10 1\n", 1, {"second order", "supported are those with 4"});
+  expect_refused_ele("2 4 1\n", "2 10 1\n", 2, {"line ends", "a node of a tetrahedron"});
+  expect_refused_ele("2 4 1\n", "2 5 1\n", 1, {"nodes of a tetrahedron is 5", "must be 4"});
   expect_refused_ele("1 1 2 3 4 2", "# 1 1 2 3 4 2", 3, {"tetrahedron 2 of 2", "the file ends"});
   expect_refused_ele("2 4 1\n", "1 4 1\n", 3, {"end of the file after 1 tetrahedra"});
   expect_refused_ele("2 4 1\n", "2 4 0\n", 2, {"'5' is too much"});

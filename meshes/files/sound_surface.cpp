@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/checked.hpp>
+#include <plica/meshes/files/raw_mesh.hpp>
+#include <plica/meshes/files/sound_mesh.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+#include <utility>
+
+namespace plica {
+
+namespace {
+
+constexpr double flat_triangle = 1e-12;       // twice the area over the longest edge squared
+constexpr std::int64_t most_bad_faces = 100;  // one of so many may be bad
+
+using Triangle = std::array<int, 3>;
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(const RawMesh& raw, TriangleSurface& surface, SurfaceReport& report)
+      : raw_(raw), numbering_(raw), surface_(surface), report_(report), bad_(raw.bad_faces) {
+    for (const RawVertex& vertex : raw.vertices) surface.vertices.push_back(vertex.position);
+  }
+
+  // All vertices as yet, with their positions in the file as indices
+  void make() {
+    for (const RawMention& mention : raw_.others)
+      numbering_.at(mention.vertex, mention.place, [] { return std::string("an element"); });
+    for (const RawTriangle& t : raw_.triangles)
+      if (const auto v = corners(t.tag, t.vertices, t.place)) triangle((*v)[0], (*v)[1], (*v)[2], t.tag, t.place);
+    for (const RawPolygon& p : raw_.polygons)
+      if (const auto v = corners(p.tag, p.corners, p.place)) polygon(*v, p);
+    const auto faces = static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size()) + raw_.bad_faces.count;
+    if (bad_.count * most_bad_faces > faces || (surface_.triangles.empty() && bad_.count > 0))
+      refuse(raw_.file, bad_.place,
+             bad_.message + (bad_.count == 1 ? ""
+                                             : "; " + std::to_string(bad_.count) + " of " + std::to_string(faces) +
+                                                   " faces are bad, and more than 1 % is too much"));
+    report_.left_out = bad_.count;
+    if (surface_.triangles.empty()) refuse(raw_.file, Place{}, "all triangles of the file name a vertex twice");
+  }
+
+ private:
+  std::optional<std::vector<int>> corners(std::int64_t tag, std::span<const std::int64_t> tags, const Place& place) {
+    const auto who = [&] { return (tags.size() == 3 ? "triangle " : "face ") + std::to_string(tag); };
+    std::vector<int> v;
+    for (const std::int64_t one : tags) {
+      v.push_back(numbering_.find(one));
+      if (v.back() >= 0) continue;
+      bad_.add(place, who() + " names node " + std::to_string(one) + ", which the file does not define");
+      return {};
+    }
+    return v;
+  }
+
+  const Point& at(int v) const { return surface_.vertices[static_cast<std::size_t>(v)]; }
+
+  void triangle(int a, int b, int c, std::int64_t tag, const Place& place) {
+    if (a == b || b == c || c == a) {
+      ++report_.collapsed;
+      return;
+    }
+    const Point ab = at(b) - at(a), ac = at(c) - at(a);
+    const double longest = std::max({ab.norm(), ac.norm(), (at(c) - at(b)).norm()});
+    if (ab.cross(ac).norm() > flat_triangle * longest * longest)
+      surface_.triangles.push_back({a, b, c});
+    else
+      bad_.add(place, "triangle " + std::to_string(tag) + " has no area: its vertices lie on a line");
+  }
+
+  // Twice the area of the triangle of corners `first`, k and k + 1 after it
+  Point area(const std::vector<int>& v, std::size_t first, std::size_t k) const {
+    const auto corner = [&](std::size_t i) -> const Point& { return at(v[(first + i) % v.size()]); };
+    return (corner(k) - corner(0)).cross(corner(k + 1) - corner(0));
+  }
+
+  // Into triangles that all look to one side, from the first corner from which that can be done
+  void polygon(std::vector<int> v, const RawPolygon& face) {
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+    while (v.size() > 1 && v.front() == v.back()) v.pop_back();
+    if (v.size() < 3) {
+      ++report_.collapsed;
+      return;
+    }
+    Point sum = Point::Zero();
+    for (std::size_t k = 1; k + 1 < v.size(); ++k) sum += area(v, 0, k);
+    for (std::size_t first = 0; first < v.size(); ++first) {
+      bool one_side = true;
+      for (std::size_t k = 1; k + 1 < v.size(); ++k) one_side = one_side && area(v, first, k).dot(sum) > 0.0;
+      if (!one_side) continue;
+      for (std::size_t k = 1; k + 1 < v.size(); ++k)
+        triangle(v[first], v[(first + k) % v.size()], v[(first + k + 1) % v.size()], face.tag, face.place);
+      return;
+    }
+    bad_.add(face.place,
+             "a face with " + std::to_string(v.size()) + " corners cannot be cut into triangles from one of them");
+  }
+
+  const RawMesh& raw_;
+  const VertexNumbers numbering_;
+  TriangleSurface& surface_;
+  SurfaceReport& report_;
+  BadFaces bad_;
+};
+
+// With the smallest vertex first, in the same turn
+Triangle turned(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+// The first of each is kept, in its order
+void drop_repeats(TriangleSurface& surface, SurfaceReport& report) {
+  std::vector<std::size_t> order(surface.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t t) { return turned(surface.triangles[t]); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<bool> again(order.size(), false);
+  for (std::size_t k = 1; k < order.size(); ++k) again[order[k]] = key(order[k]) == key(order[k - 1]);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < again.size(); ++t)
+    if (!again[t]) surface.triangles[kept++] = surface.triangles[t];
+  report.repeated = static_cast<int>(surface.triangles.size() - kept);
+  surface.triangles.resize(kept);
+}
+
+void drop_unreferenced(TriangleSurface& surface, SurfaceReport& report) {
+  std::vector<int> number(surface.vertices.size(), -1);
+  for (const Triangle& triangle : surface.triangles)
+    for (const int v : triangle) number[static_cast<std::size_t>(v)] = 0;
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(kept);
+    surface.vertices[kept++] = surface.vertices[v];
+  }
+  report.unreferenced = static_cast<int>(surface.vertices.size() - kept);
+  surface.vertices.resize(kept);
+  for (Triangle& triangle : surface.triangles)
+    for (int& v : triangle) v = number[static_cast<std::size_t>(v)];
+}
+
+}  // namespace
+
+TriangleSurface sound_surface(const RawMesh& raw, const MeshReport& found, SurfaceReport& report) {
+  if (raw.triangles.empty() && raw.polygons.empty() && raw.bad_faces.count == 0)
+    refuse(raw.file, Place{}, "the file holds no triangle");
+  checked_count("the number of vertices", static_cast<double>(raw.vertices.size()));
+  checked_count("the number of triangles", static_cast<double>(raw.triangles.size()));
+  report.format = found.format;
+  report.linearised = found.linearised;
+  TriangleSurface surface;
+  SurfaceMaker(raw, surface, report).make();
+  drop_repeats(surface, report);
+  drop_unreferenced(surface, report);
+  count_edges(surface, report);
+  report.parts = count_parts(surface);
+  report.turned = report.closed() && enclosed_volume(surface) < 0.0;
+  if (report.turned)
+    for (Triangle& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);
+  return surface;
+}
+
+}  // namespace plica
