@@ -91,7 +91,7 @@ int root(std::vector<int>& parent, int v) {
 }
 
 template <std::size_t corners>
-int count_parts(std::size_t vertices, const std::vector<std::array<int, corners>>& elements) {
+std::vector<int> parts_of(std::size_t vertices, const std::vector<std::array<int, corners>>& elements) {
   std::vector<int> parent(vertices);
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& element : elements)
@@ -99,8 +99,15 @@ int count_parts(std::size_t vertices, const std::vector<std::array<int, corners>
       const int a = root(parent, element[0]), b = root(parent, element[k]);
       parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
+  for (std::size_t v = 0; v < vertices; ++v) parent[v] = root(parent, static_cast<int>(v));
+  return parent;
+}
+
+template <std::size_t corners>
+int count_parts(std::size_t vertices, const std::vector<std::array<int, corners>>& elements) {
+  const std::vector<int> part = parts_of(vertices, elements);
   std::vector<int> roots;
-  for (const auto& element : elements) roots.push_back(root(parent, element[0]));
+  for (const auto& element : elements) roots.push_back(part[static_cast<std::size_t>(element[0])]);
   std::sort(roots.begin(), roots.end());
   return static_cast<int>(std::unique(roots.begin(), roots.end()) - roots.begin());
 }
@@ -123,6 +130,8 @@ struct LowerTwin {
 };
 
 }  // namespace
+
+std::vector<int> parts_of(const TetMesh& mesh) { return parts_of(mesh.vertices.size(), mesh.tets); }
 
 int count_parts(const TetMesh& mesh) { return count_parts(mesh.vertices.size(), mesh.tets); }
 

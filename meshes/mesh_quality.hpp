@@ -20,6 +20,9 @@ double mean_edge_length(const TetMesh& mesh);
 /// The mean over the six edges of one tetrahedron. [m]
 double mean_edge_length(const TetMesh& mesh, int tet);
 
+/// Per vertex the lowest vertex of its part: parts share no vertex.
+std::vector<int> parts_of(const TetMesh& mesh);
+
 /// The number of parts of a mesh that share no vertex; vertices of no tetrahedron do not count.
 int count_parts(const TetMesh& mesh);
 int count_parts(const TriangleSurface& surface);  ///< the same of a surface

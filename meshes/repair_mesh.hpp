@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/mesh.hpp>
+#include <vector>
+
+namespace plica {
+
+/// What repair_mesh() changed, and what came out.
+struct MeshRepair {
+  TetMesh mesh;                      ///< sound
+  std::vector<int> vertex;           ///< per vertex before its number now; -1: dropped
+  std::vector<int> original_vertex;  ///< per vertex its number before
+  std::vector<int> original_tet;     ///< likewise of tetrahedra
+  int merged = 0;                    ///< vertices that became one with another at their place
+  int parts = 0;                     ///< loose parts, dropped
+  int loose_tets = 0;                ///< tetrahedra of these
+  int moved = 0;                     ///< vertices, to shape the elements around them better
+  int collapsed = 0;                 ///< edges
+  int flat = 0;                      ///< tetrahedra without volume that nothing helped, dropped
+  double worst_before = 0;           ///< the largest height ratio (see TetShape); infinite without volume
+  double worst_after = 0;            ///< likewise
+
+  /// Whether anything is other than before.
+  bool changed() const { return merged + parts + moved + collapsed + flat > 0; }
+};
+
+/// Makes a mesh fit to be simulated. Vertices within 1e-6 of the mean edge of another one become one with it; parts that share no
+/// vertex with the rest and hold less than a hundredth of the volume are dropped. Then slivers, elements with a height ratio above 8,
+/// are shaped better: a vertex goes towards the mean of its neighbours, or away from the face across the sliver, or, where that does
+/// not help, into a neighbour. A step is taken only if the worst element around it becomes better: the worst of the mesh never becomes
+/// worse. Vertices of the boundary, of faces between regions and of vertex sets stay where they are.
+///
+/// @param mesh  of positive volumes, or of none where it was read with Flaws::kept
+/// @throw InputError when nothing is left
+MeshRepair repair_mesh(const TetMesh& mesh);
+
+}  // namespace plica
