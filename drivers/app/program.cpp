@@ -30,6 +30,7 @@ class CommandLine {
     add_study();
     add_stability();
     add_verify();
+    add_report();
     add_mesh();
     add_list();
     add_schema();
@@ -166,6 +167,15 @@ class CommandLine {
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }
 
+  void add_report() {
+    CLI::App* command = add("report", "write a page that shows a run or a study", [this] { return report(report_); });
+    command->add_option("FOLDER", report_.folder, "the folder of the run or study")->required();
+    command->add_option("--frames", report_.frames, "show at most so many frames, evenly (200)")
+        ->type_name("N")
+        ->check(CLI::Range(2, 100000));
+    command->add_flag("--quiet", report_.quiet, "say nothing unless something is wrong");
+  }
+
   void add_mesh() {
     CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files and convert them");
     mesh->require_subcommand(1);
@@ -232,6 +242,7 @@ class CommandLine {
   StudyArguments study_;
   StabilityArguments stability_;
   VerifyArguments verify_;
+  ReportArguments report_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;

@@ -68,6 +68,12 @@ struct VerifyArguments {
   bool small = false;
 };
 
+struct ReportArguments {
+  std::filesystem::path folder;  ///< of a run or a study
+  int frames = 200;              ///< at most
+  bool quiet = false;
+};
+
 struct MeshInfoArguments {
   std::filesystem::path file;
   bool json = false;
@@ -110,6 +116,9 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more);
 
 /// The problems' names, each with what it is, for the manual.
 std::string verify_problems_text();
+
+/// plica report: writes report.html, a page that shows what a run or a study left in its folder.
+ExitStatus report(const ReportArguments& arguments);
 
 /// plica mesh info: what a mesh or surface file holds, what was repaired in it, how well its tetrahedra are shaped, and which
 /// explicit step they allow.

@@ -111,6 +111,24 @@ Examples:
 
 Exit status: 0 all rows came out as they must, 1 one did not, or a file cannot be written, 2 bad input, 130 interrupted)";
 
+constexpr const char* report_manual =
+    R"(Writes FOLDER/report.html: one file that opens in a browser by double click, without a network, and can be sent to
+others as it is. Of what `plica run` wrote it shows
+  the body in time    the embedded surface, or level 0's; with output.volume also the boundaries of the levels. Coloured by
+                      displacement, deformation, speed, von Mises stress, volume ratio J and what else the frames hold;
+                      with the obstacles, up against gravity
+  charts              energies, contact forces on obstacles, probes, wall time by stage; a click goes to that time
+  the diagnosis       of a run that diverged, with its element marked in the last frame
+and of what `plica study` wrote the errors against run times, with the front; point at a mark for its numbers. A run that goes
+on, or was killed, is shown as far as it has come. Numbers of frames are kept in 16 bits, so a page takes about 8 bytes for each
+vertex and frame, and 3 for each value that colours it.
+
+Examples:
+  plica report out/ball
+  plica report out/ball --frames 40     # a smaller file
+
+Exit status: 0 done, 1 the page cannot be written, 2 the folder holds no run and no study, or a damaged one)";
+
 constexpr const char* explain_manual =
     R"(Prints levels with critical steps [s], shares and sub-steps, and each part that is in or out, why, and its bytes.
 
@@ -150,6 +168,7 @@ std::string manual_of(const std::string& command) {
   if (command == "study") return study_manual;
   if (command == "stability") return stability_manual;
   if (command == "verify") return fmt::format(fmt::runtime(verify_manual), verify_problems_text());
+  if (command == "report") return report_manual;
   if (command == "explain") return explain_manual;
   if (command == "check") return check_manual;
   if (command == "schema") return schema_manual;

@@ -68,6 +68,19 @@ Diagnosis in_input_numbers(Diagnosis diagnosis, const Scene& scene) {
   return diagnosis;
 }
 
+// Of its element, or its vertex; numbered as the library numbers them
+template <class B>
+std::vector<Point> corners_of(const Diagnosis& diagnosis, const Scene& scene, const Simulation<B>& simulation) {
+  if (diagnosis.level < 0 || (diagnosis.element < 0 && diagnosis.vertex < 0)) return {};
+  const std::vector<Point> positions = simulation.positions(diagnosis.level);
+  if (diagnosis.element < 0) return {positions.at(static_cast<std::size_t>(diagnosis.vertex))};
+  std::vector<Point> corners;
+  const TetMesh& mesh = scene.problem.body.levels[static_cast<std::size_t>(diagnosis.level)];
+  for (const int v : mesh.tets[static_cast<std::size_t>(diagnosis.element)])
+    corners.push_back(positions[static_cast<std::size_t>(v)]);
+  return corners;
+}
+
 ExitStatus status_of(const RunEnd& end) {
   if (end.diagnosis) return ExitStatus::diverged;
   return end.status == "interrupted" ? ExitStatus::interrupted : ExitStatus::done;
@@ -168,8 +181,13 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
     return run_loop(simulation, scene, start, output, progress, watch,
                     [&](const RunEnd& now) { latest = summary_at(now); });
   }();
-  if (end.diagnosis) end.diagnosis = in_input_numbers(*end.diagnosis, scene);
-  const Summary summary = summary_at(end);
+  std::vector<Point> diagnosed;
+  if (end.diagnosis) {
+    diagnosed = corners_of(*end.diagnosis, scene, simulation);
+    end.diagnosis = in_input_numbers(*end.diagnosis, scene);
+  }
+  Summary summary = summary_at(end);
+  summary.diagnosed = diagnosed;
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
   if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
   if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());

@@ -232,14 +232,17 @@ long steps_to_cover(double duration, double macro_step) {
 
 namespace {
 
-Json diagnosis_json(const std::optional<Diagnosis>& diagnosis) {
+Json diagnosis_json(const std::optional<Diagnosis>& diagnosis, const std::vector<Point>& corners) {
   if (!diagnosis) return nullptr;
+  Json places = Json::array();
+  for (const Point& p : corners) places.push_back({p.x(), p.y(), p.z()});
   const auto index = [](int i) { return i < 0 ? Json(nullptr) : Json(i); };
   return {{"kind", diagnosis->kind},
           {"level", index(diagnosis->level)},
           {"element", index(diagnosis->element)},
           {"vertex", index(diagnosis->vertex)},
           {"region", diagnosis->region},
+          {"corners", places},
           {"J", diagnosis->J},
           {"substep_over_critical", diagnosis->substep_over_critical},
           {"motion_over_edge", diagnosis->motion_over_edge},
@@ -286,8 +289,10 @@ Json levels_json(const std::vector<LevelReport>& levels) {
 }
 
 std::string summary_json(const Scene& scene, const Summary& s, const std::vector<std::string>& words) {
+  const Point& gravity = scene.problem.gravity;
   const Json json = {{"name", scene.name},
                      {"scene", scene.file},
+                     {"gravity", {gravity.x(), gravity.y(), gravity.z()}},
                      {"arguments", words},
                      {"version", version()},
                      {"git_revision", git_revision()},
@@ -310,7 +315,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"counters", s.counters},
                      {"residual", s.residual},
                      {"last_good_time", s.last_good_time},
-                     {"diagnosis", diagnosis_json(s.diagnosis)},
+                     {"diagnosis", diagnosis_json(s.diagnosis, s.diagnosed)},
                      {"obstacles", obstacles_json(scene.problem.contact)},
                      {"wrenches", wrenches_json(s.wrenches)}};
   return json_text(json);

@@ -33,6 +33,7 @@ struct Summary {
   double residual = 0;  ///< the worst an implicit solve ended with
   std::optional<Diagnosis> diagnosis;
   std::vector<Wrench> wrenches;  ///< of the last macro step
+  std::vector<Point> diagnosed;  ///< where its element's corners, or its vertex, are in the last good state [m]
 };
 
 /// summary.json; `words` is the command line.

@@ -150,7 +150,7 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
 }
 
 TEST_F(Program, HelpAndVersionAreResults) {
-  for (const char* command : {"run", "explain", "check", "mesh", "list", "schema", "completion"}) {
+  for (const char* command : {"run", "explain", "check", "report", "mesh", "list", "schema", "completion"}) {
     const Child help = plica({command, "--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_NE(help.output.find("Usage"), std::string::npos);
@@ -240,12 +240,14 @@ TEST_F(Program, CompletesCommandLines) {
                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _plica; echo \"${COMPREPLY[*]}\"";
     return run_child({"bash", "-c", body}, folder).output;
   };
-  EXPECT_EQ(completed("plica r"), "run\n");
+  EXPECT_EQ(completed("plica ru"), "run\n");
   EXPECT_EQ(completed("plica run a.yaml --ch"), "--checkpoint\n");
   EXPECT_EQ(completed("plica run --precision f"), "float\n");
   EXPECT_EQ(completed("plica list ma"), "materials\n");
   EXPECT_EQ(completed("plica list --j"), "--json\n");
   EXPECT_EQ(completed("plica mesh i"), "info\n");
+  EXPECT_EQ(completed("plica rep"), "report\n");
+  EXPECT_EQ(completed("plica report --f"), "--frames\n");
   EXPECT_EQ(completed("plica stab"), "stability\n");
   EXPECT_EQ(completed("plica stability --m"), "--matrix\n");
   EXPECT_EQ(completed("plica verify cook"), "cook_membrane cook_incompressible\n");

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The page of `plica report`, from the files of drivers/app/report into a source file: sets report_source.
+set(folder ${PROJECT_SOURCE_DIR}/drivers/app/report)
+set(report_source ${PROJECT_BINARY_DIR}/report_page.cpp)
+set(scripts units.js surfaces.js view.js obstacles.js charts.js study.js page.js run_charts.js)
+file(READ ${folder}/page.html page_html)
+file(READ ${folder}/page.css page_style)
+set(page_script)
+foreach(script IN LISTS scripts)
+  file(READ ${folder}/${script} text)
+  string(APPEND page_script "${text}\n")
+endforeach()
+configure_file(${folder}/page.cpp.in ${report_source} @ONLY)
+list(TRANSFORM scripts PREPEND ${folder}/)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/page.html ${folder}/page.css ${scripts})

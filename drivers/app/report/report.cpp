@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <plica/core/error.hpp>
+#include <plica/drivers/app/report/film.hpp>
+#include <plica/drivers/app/report/page.hpp>
+#include <plica/drivers/app/report/report.hpp>
+#include <plica/drivers/app/report/tables.hpp>
+
+namespace plica::app {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t most_rows = 2000;  // of a table on the page
+
+bool holds_run(const std::filesystem::path& folder) {
+  return std::ranges::any_of(std::array{"frames.pvd", "summary.json", "history.csv"},
+                             [&](const char* file) { return std::filesystem::exists(folder / file); });
+}
+bool holds_study(const std::filesystem::path& folder) { return std::filesystem::exists(folder / "study.json"); }
+
+// Folders in a folder that hold something to report, by name
+std::vector<std::string> reportable_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (holds_run(entry.path()) || holds_study(entry.path())) names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+void check_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) {
+    const auto parent = folder.parent_path().empty() ? std::filesystem::path(".") : folder.parent_path();
+    const std::string near = nearest_name(folder.filename().string(), reportable_in(parent));
+    throw InputError("there is no folder " + folder.string() + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(folder.string() + " is a file; expected the folder of a run or a study");
+  if (holds_run(folder) || holds_study(folder)) return;
+  std::vector<std::string> inside = reportable_in(folder);
+  constexpr std::size_t shown = 10;
+  if (inside.size() > shown) inside.resize(shown), inside.emplace_back("...");
+  throw InputError(folder.string() +
+                   " holds no run and no study; expected frames.pvd, summary.json or history.csv of `plica run`, or "
+                   "study.json of `plica study`" +
+                   (inside.empty() ? "" : fmt::format(" (folders in it that do: {})", fmt::join(inside, ", "))));
+}
+
+// A film that the run wrote: its level, -1 for the surface, and what is listed
+struct Listed {
+  int level = -1;
+  std::vector<FilmEntry> entries;
+};
+
+std::vector<Listed> listed_films(const std::filesystem::path& folder) {
+  std::vector<Listed> films;
+  const auto add = [&](const std::string& file, int level) {
+    if (std::filesystem::exists(folder / file)) films.push_back({level, read_collection(folder / file)});
+  };
+  add("frames.pvd", -1);
+  add("volume.pvd", 0);
+  for (int level = 1; level < 100; ++level) add(fmt::format("volume_level{}.pvd", level), level);
+  return films;
+}
+
+class Maker {
+ public:
+  explicit Maker(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  Report make(std::size_t frames) {
+    data_ = {{"title", folder_.filename().string()},
+             {"status", nullptr},
+             {"summary", nullptr},
+             {"up", {0, 0, 1}},
+             {"times", Json::array()},
+             {"frames_there", 0},
+             {"films", Json::array()},
+             {"history", nullptr},
+             {"probes", nullptr},
+             {"study", nullptr},
+             {"warnings", Json::array()}};
+    if (holds_study(folder_)) add_study();
+    if (holds_run(folder_)) add_run(frames);
+    data_["warnings"] = report_.warnings;
+    report_.html = page();
+    return std::move(report_);
+  }
+
+ private:
+  void add_study() {
+    data_["study"] = read_json(folder_ / "study.json");
+    data_["title"] = data_["study"].value("name", data_["title"]);
+    data_["status"] = "study " + data_["study"].value("status", "");
+  }
+
+  void add_run(std::size_t frames) {
+    if (std::filesystem::exists(folder_ / "summary.json")) {
+      const Json& summary = data_["summary"] = read_json(folder_ / "summary.json");
+      data_["title"] = summary.value("name", data_["title"]);
+      data_["status"] = summary.value("status", "");
+      if (summary.contains("gravity")) take_up(summary["gravity"]);
+    } else {
+      data_["status"] = "unfinished";
+      report_.warnings.emplace_back(
+          "There is no summary.json: the run goes on, or was killed. Shown is what it has written so far.");
+    }
+    if (std::filesystem::exists(folder_ / "history.csv"))
+      data_["history"] = read_columns(folder_ / "history.csv", most_rows);
+    if (std::filesystem::exists(folder_ / "probes.csv"))
+      data_["probes"] = read_columns(folder_ / "probes.csv", most_rows);
+    add_films(frames);
+    if (report_.frames == 0) report_.warnings.emplace_back("There are no frames: the body is not shown.");
+  }
+
+  void take_up(const std::vector<double>& gravity) {
+    if (gravity.size() == 3 && (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0))
+      data_["up"] = {-gravity[0], -gravity[1], -gravity[2]};
+  }
+
+  void add_films(std::size_t frames) {
+    const std::vector<Listed> listed = listed_films(folder_);
+    if (listed.empty()) return;
+    std::size_t there = listed.front().entries.size();
+    for (const Listed& film : listed) there = std::min(there, film.entries.size());
+    report_.frames_there = there, data_["frames_there"] = there;
+    std::vector<std::optional<Film>> films(listed.size());
+    const std::size_t taken = std::min(there, std::max<std::size_t>(frames, 2));
+    for (std::size_t i = 0; i < taken; ++i) {
+      const std::size_t frame = taken == 1 ? 0 : i * (there - 1) / (taken - 1);
+      if (add_frame(listed, frame, films)) data_["times"].push_back(listed.front().entries[frame].time);
+    }
+    report_.frames = data_["times"].size();
+    if (report_.frames == 0) return;
+    const bool skin_of_level_0 = films.size() > 1 && listed[1].level == 0 && films[0]->same_surface(*films[1]);
+    for (std::size_t i = skin_of_level_0 ? 1 : 0; i < films.size(); ++i) data_["films"].push_back(films[i]->json());
+  }
+
+  // The frame of all films, or of none
+  bool add_frame(const std::vector<Listed>& listed, std::size_t frame, std::vector<std::optional<Film>>& films) {
+    std::vector<FrameFile> files;
+    for (const Listed& film : listed) try {
+        files.push_back(read_frame(film.entries[frame].file));
+        std::optional<Film>& made = films[files.size() - 1];
+        if (!made) made.emplace(film.level, files.back());
+        made->check(files.back());
+      } catch (const InputError& error) {
+        report_.warnings.push_back(
+            fmt::format("The frame at {:g} s is left out: {}", film.entries[frame].time, error.what()));
+        return false;
+      }
+    for (std::size_t i = 0; i < films.size(); ++i) films[i]->add(files[i]);
+    return true;
+  }
+
+  // A '<' in the data might end the script
+  std::string page() const {
+    const std::string json = data_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string data, title;
+    for (const char letter : json) letter == '<' ? data += "\\u003c" : data += letter;
+    for (const char letter : data_["title"].get<std::string>())
+      letter == '<' ? title += "&lt;" : letter == '&' ? title += "&amp;" : title += letter;
+    const std::map<std::string_view, std::string_view> parts = {
+        {"title", title}, {"style", page_style()}, {"data", data}, {"script", page_script()}};
+    std::string html;
+    std::string_view rest = page_html();
+    for (std::size_t at = 0; (at = rest.find("{{")) != std::string_view::npos;) {
+      html += rest.substr(0, at);
+      const std::size_t end = rest.find("}}", at);
+      html += parts.at(rest.substr(at + 2, end - at - 2));
+      rest.remove_prefix(end + 2);
+    }
+    return html.append(rest);
+  }
+
+  std::filesystem::path folder_;
+  Json data_;
+  Report report_;
+};
+
+}  // namespace
+
+Report make_report(const std::filesystem::path& folder, std::size_t frames) {
+  check_folder(folder);
+  return Maker(folder.has_filename() ? folder : folder.parent_path()).make(frames);
+}
+
+}  // namespace plica::app
