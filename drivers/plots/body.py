@@ -6,7 +6,7 @@ import sys
 import numpy
 from matplotlib.colors import LinearSegmentedColormap, to_rgb, to_rgba
 
-from obstacles import BACK, FORWARD, FRONT, obstacles
+from obstacles import BACK, FRONT, directions, obstacles
 
 try:
     import vtk
@@ -18,18 +18,12 @@ except ImportError:
 
 BODY_MAP = LinearSegmentedColormap.from_list("deformation", ["#3d8fb3", "#8fcfb0", "#f6d365", "#f08a4b", "#b5233b"])
 OBSTACLE = "#6f8296"
-RIGHT = numpy.cross(FORWARD, [0, 0, 1]) / numpy.linalg.norm(numpy.cross(FORWARD, [0, 0, 1]))
-UP = numpy.cross(RIGHT, FORWARD)
 
 
 def normals(points, triangles):
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     normal = numpy.cross(b - a, c - a)
     return normal / numpy.maximum(numpy.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
-
-
-def cells_facing(points, triangles):
-    return normals(points, triangles) @ FORWARD < 0
 
 
 def vtk_renders():
@@ -67,15 +61,16 @@ class View:
 
     def __init__(self, run):
         self.shapes = obstacles(run)
+        self.forward, self.right, self.up = directions(run.up)
         body = run.points.reshape(-1, 3)
         extent = numpy.ptp(body, axis=0).max()
         moved = [points + shift(time) for time in run.times for points, _, _, shift in self.shapes]
         seen = [body] + [points for points in moved if numpy.ptp(points, axis=0).max() < 8 * extent]
         points = numpy.concatenate(seen)
-        across, height, depth = points @ RIGHT, points @ UP, points @ FORWARD
+        across, height, depth = points @ self.right, points @ self.up, points @ self.forward
         self.half_width, self.half_height = 0.52 * numpy.ptp(across), 0.52 * numpy.ptp(height)
         middles = [(values.min() + values.max()) / 2 for values in (across, height, depth)]
-        self.focus = middles[0] * RIGHT + middles[1] * UP + middles[2] * FORWARD
+        self.focus = middles[0] * self.right + middles[1] * self.up + middles[2] * self.forward
         self.depth = numpy.ptp(depth) + extent
 
         self.draw = self._by_vtk if vtk_renders() else self._by_matplotlib
@@ -103,8 +98,8 @@ class View:
         camera = renderer.GetActiveCamera()
         camera.ParallelProjectionOn()
         camera.SetFocalPoint(*self.focus)
-        camera.SetPosition(*(self.focus - 2 * self.depth * FORWARD))
-        camera.SetViewUp(*UP)
+        camera.SetPosition(*(self.focus - 2 * self.depth * self.forward))
+        camera.SetViewUp(*self.up)
         camera.SetParallelScale(self.half_height)
         camera.SetClippingRange(0.5 * self.depth, 4 * self.depth)
         window = vtk.vtkRenderWindow()
@@ -133,7 +128,7 @@ class View:
         for vertices, cells, opacity in shapes:
             if opacity == BACK:
                 self._add_triangles(axes, vertices, cells, to_rgba(OBSTACLE, opacity))
-        facing = cells_facing(points, triangles)  # the others are hidden behind them
+        facing = normals(points, triangles) @ self.forward < 0  # the others are hidden behind them
         self._add_triangles(axes, points, triangles[facing], BODY_MAP(values[triangles[facing]].mean(axis=1) / largest))
         for vertices, cells, opacity in shapes:
             if opacity == FRONT:
@@ -146,12 +141,12 @@ class View:
         from matplotlib.collections import PolyCollection
 
         corners = points[triangles]
-        light = normals(points, triangles) @ (0.8 * UP - 0.6 * FORWARD)
+        light = normals(points, triangles) @ (0.8 * self.up - 0.6 * self.forward)
         shaded = numpy.broadcast_to(colours, (len(triangles), 4)).copy()
         solid = (shaded[:, 3] == 1).all()
         shaded[:, :3] *= 0.5 + 0.5 * (0.5 + 0.5 * light if solid else numpy.abs(light))[:, None]
-        order = numpy.argsort(-(corners.mean(axis=1) @ FORWARD))
-        flat = (corners - self.focus) @ numpy.stack([RIGHT, UP], axis=1)
+        order = numpy.argsort(-(corners.mean(axis=1) @ self.forward))
+        flat = (corners - self.focus) @ numpy.stack([self.right, self.up], axis=1)
         # edges close the seams between triangles; on transparent surfaces they would be drawn twice
         axes.add_collection(PolyCollection(flat[order], facecolors=shaded[order],
                                            edgecolors=shaded[order] if solid else "none", linewidths=0.4))

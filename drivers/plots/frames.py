@@ -29,12 +29,14 @@ def read_vtu(path):
 
 
 class Run:
-    """summary: the JSON; history: its columns; times and points [frame, vertex, axis]; triangles."""
+    """summary: the JSON; history: its columns; times and points [frame, vertex, axis]; triangles; up: against gravity."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         summary = self.folder / "summary.json"
         self.summary = json.loads(summary.read_text()) if summary.exists() else {}
+        gravity = numpy.array(self.summary.get("gravity", [0, 0, 0]), float)
+        self.up = -gravity if gravity.any() else numpy.array([0.0, 0, 1])
         with open(self.folder / "history.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         self.history = {key: numpy.array([float(row[key]) for row in rows]) for key in rows[0]}

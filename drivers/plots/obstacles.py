@@ -3,8 +3,17 @@
 import numpy
 
 BACK, FRONT = 0.45, 0.10  # opacity behind the body, and in front of it
-# seen from the front, a little from the right and above
-FORWARD = numpy.array([-0.28, 0.88, -0.38]) / numpy.linalg.norm([-0.28, 0.88, -0.38])
+
+
+def directions(up):
+    """Forward, to the right and upwards on a picture, on which `up` is up: seen from the front, a little from the right and above."""
+    up = numpy.array(up) / numpy.linalg.norm(up)
+    east = numpy.array([1.0, 0, 0] if abs(up[0]) < 0.9 else [0, 1.0, 0])
+    east = (east - east @ up * up) / numpy.linalg.norm(east - east @ up * up)
+    forward = -0.28 * east + 0.88 * numpy.cross(up, east) - 0.38 * up
+    forward /= numpy.linalg.norm(forward)
+    right = numpy.cross(forward, up) / numpy.linalg.norm(numpy.cross(forward, up))
+    return forward, right, numpy.cross(right, forward)
 
 
 def patch(function, u, v):
@@ -24,10 +33,10 @@ def on_sphere(centre, radius):
     )
 
 
-def bowl(shape):
+def bowl(shape, forward):
     """The half behind its centre, and the transparent half in front of it."""
     steepest = numpy.arccos(1 - shape["rim"] / shape["radius"])
-    polar, facing = numpy.linspace(0, steepest, 40), numpy.arctan2(FORWARD[1], FORWARD[0])
+    polar, facing = numpy.linspace(0, steepest, 40), numpy.arctan2(forward[1], forward[0])
     half = numpy.linspace(-numpy.pi / 2, numpy.pi / 2, 80)
     surface = on_sphere(shape["centre"], shape["radius"])
     return [(*patch(surface, polar, facing + half), BACK), (*patch(surface, polar, facing + half + numpy.pi), FRONT)]
@@ -102,7 +111,7 @@ def surface(shape):
     return box({"centre": (low + high) / 2, "size": high - low, "rotation": [0, 0, 0]})
 
 
-SHAPES = {"bowl": bowl, "sphere": sphere, "capsule": capsule, "cylinder": cylinder, "box": box, "surface": surface}
+SHAPES = {"sphere": sphere, "capsule": capsule, "cylinder": cylinder, "box": box, "surface": surface}
 
 
 def motion(entry):
@@ -121,9 +130,10 @@ def motion(entry):
 def obstacles(run):
     """Those of the run, as (points at rest, triangles, opacity, displacement of a time)."""
     low, high = run.points.min(axis=(0, 1)), run.points.max(axis=(0, 1))
+    known = {**SHAPES, "bowl": lambda shape: bowl(shape, directions(run.up)[0]), "plane": lambda shape: plane(shape, low, high)}
     shapes = []
     for entry in run.summary.get("obstacles", []):
-        for name, draw in {**SHAPES, "plane": lambda shape: plane(shape, low, high)}.items():
+        for name, draw in known.items():
             if name in entry:
                 shapes += [(*part, motion(entry)) for part in draw(entry[name])]
     return shapes

@@ -5,6 +5,7 @@
     study.py FOLDER          writes FOLDER/study.png
 """
 import json
+import math
 import pathlib
 import sys
 
@@ -117,21 +118,29 @@ def draw_failed(axes, rows, look, left):
     axes.text(1.01, 1.01 + 0.01 * len(methods), text, transform=axes.transAxes, fontsize=9, va="center", color=GREY)
 
 
+def lines_in_space(reference):
+    """What a mesh alone makes wrong: error, colour, line and words."""
+    lines = [(mesh["error_space"], RIMS.get(mesh["element"], GREY), ":", f"level {mesh['level']}, {mesh['element']}: error in space")
+             for mesh in reference.get("meshes", [])]
+    if reference["space_error"]:
+        lines.append((reference["space_error"], GREY, "--", "the finest mesh's own error in space"))
+    return sorted(lines)
+
+
 def draw_limits(axes, reference):
-    """Errors below ten times the error of the reference mean nothing."""
+    """Errors below ten times the error of the reference mean nothing. Lines have their words at the left, moved apart."""
     told = 10 * reference["own_error"]
     if told > axes.get_ylim()[0]:
         axes.axhspan(0, told, color="#000000", alpha=0.07, zorder=0, linewidth=0)
-        axes.text(0.995, told, "below: not to be told by this reference ", ha="right", va="top", fontsize=8, color=GREY,
-                  transform=axes.get_yaxis_transform())
-    for mesh in reference.get("meshes", []):
-        axes.axhline(mesh["error_space"], color=RIMS.get(mesh["element"], GREY), linestyle=":", linewidth=0.8, zorder=1)
-        axes.text(0.005, mesh["error_space"], f"level {mesh['level']}, {mesh['element']}: error in space", va="bottom", fontsize=8,
-                  color=GREY, transform=axes.get_yaxis_transform())
-    if reference["space_error"]:
-        axes.axhline(reference["space_error"], color=GREY, linestyle="--", linewidth=1, zorder=1)
-        axes.text(0.005, reference["space_error"], "the finest mesh's own error in space", va="bottom", fontsize=8,
-                  color=GREY, transform=axes.get_yaxis_transform())
+        axes.text(0.995, 0.01, "grey: not to be told by this reference", ha="right", va="bottom", fontsize=8, color=GREY,
+                  transform=axes.transAxes)
+    last = -math.inf  # where the words before stand [points]
+    for error, colour, style, words in lines_in_space(reference):
+        axes.axhline(error, color=colour, linestyle=style, linewidth=0.8, zorder=1)
+        line = axes.transData.transform((1, error))[1] * 72 / axes.figure.dpi
+        last = max(line + 2, last + 10)
+        axes.annotate(words, (0.005, error), xycoords=axes.get_yaxis_transform(), textcoords="offset points", xytext=(0, last - line),
+                      va="bottom", fontsize=8, color=GREY, annotation_clip=True)
 
 
 def draw(folder):
@@ -151,7 +160,8 @@ def draw(folder):
         rate = seconds_per_work(rows)
         times += [row["work"] * rate for row in rows if row["status"] == "diverged" and row["work"]]
         axes.set_ylim(min(errors) / 3, min(max(errors) * 2, 100))
-        axes.set_xlim(min(times) / 1.6, max(times) * 1.6)
+        room = (max(times) / min(times)) ** 0.3 if lines_in_space(reference) else 1  # for words at the left
+        axes.set_xlim(min(times) / 1.6 / room, max(times) * 1.6)
     front = draw_front(axes, rows)
     draw_parts(axes, rows)
     draw_limits(axes, reference)
