@@ -136,7 +136,7 @@ class View {
       if (!canvas.hasPointerCapture(event.pointerId)) return;
       if (event.shiftKey || event.buttons !== 1) this.shift = [this.shift[0] + event.movementX, this.shift[1] + event.movementY];
       else {
-        this.azimuth -= 0.4 * event.movementX;
+        this.azimuth += 0.4 * event.movementX;
         this.elevation = Math.max(-90, Math.min(90, this.elevation + 0.4 * event.movementY));
       }
       this.moved();

@@ -107,6 +107,17 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
   return name;
 });
 
+// The scene in README.md is drivers/scenes/press.yaml but for its comments at the top.
+TEST(Readme, ShowsAShippedScene) {
+  const std::string readme = content_of(PLICA_SOURCE_DIR "/README.md"), start = "```yaml\n";
+  const std::size_t from = readme.find(start);
+  if (from == std::string::npos) GTEST_SKIP() << "README.md shows no scene";
+  const std::string shown =
+      readme.substr(from + start.size(), readme.find("```", from + start.size()) - from - start.size());
+  const std::string shipped = content_of(PLICA_SOURCE_DIR "/drivers/scenes/press.yaml");
+  EXPECT_EQ(shown, shipped.substr(shipped.find("name: ")));
+}
+
 TEST(StudyScenes, AreSoundOnAllTheirLevels) {
   int count = 0;
   for (const auto& file : std::filesystem::directory_iterator(scenes / "study")) {
