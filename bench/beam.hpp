@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/core/backend.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/meshes/generators.hpp>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ inline Problem beam_problem(const std::vector<Cells>& levels, const std::string&
   Problem p;
   p.body.element = {element};
   for (const Cells& cells : levels) p.body.levels.push_back(beam_mesh(cells));
-  p.body.material = {material, 1e5, 0.45, 1000};
+  p.body.material = complete({material, 1e5, 0.45, 1000});
   p.body.fixed.push_back(Box{Point::Zero(), Point(0.1, 0.1, 0)});
   p.gravity = Point(0, 0, -9.81);
   return p;

@@ -8,7 +8,7 @@
 namespace plica::bench {
 
 /// A number that counts the operations done on it. Pointwise physics is templated on its number type: run once on this, it
-/// says what it costs. Each of + - * / sqrt and log counts as one, comparisons as none.
+/// says what it costs. Each of + - * / sqrt, exp and log counts as one, comparisons as none.
 struct Counted {
   double value = 0;
   static inline long operations = 0;
@@ -48,6 +48,8 @@ bool operator>(A a, C b) { return double(a) > double(b); }
 
 // found by their argument where physics calls them
 inline Counted sqrt(Counted a) { return Counted::done(std::sqrt(a.value)); }
+inline Counted exp(Counted a) { return Counted::done(std::exp(a.value)); }
+inline Counted where_positive(Counted a, Counted b) { return a.value > 0 ? b : Counted(0); }
 inline Counted log(Counted a) { return Counted::done(std::log(a.value)); }
 inline Counted max(Counted a, Counted b) { return a.value < b.value ? b : a; }
 inline void set_lane(Counted& a, int, double value) { a = Counted(value); }

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The kernels of each material of kernels/materials/list.hpp, in sources of its own, one for each kind of elements: sets material_sources. A material NeoHookean
+# The kernels of OwnMaterials of kernels/materials/list.hpp and of TissueLaws, in sources of its own, one for each kind of elements: sets material_sources. A material NeoHookean
 # is in neo_hookean.hpp.
 set(list ${PROJECT_SOURCE_DIR}/kernels/materials/list.hpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
 file(READ ${list} text)
-if(NOT text MATCHES "using Materials = TypeList<([^>]*)>")
-  message(FATAL_ERROR "${list}: no line 'using Materials = TypeList<...>;' found")
+if(NOT text MATCHES "using OwnMaterials = TypeList<([^>]*)>")
+  message(FATAL_ERROR "${list}: no line 'using OwnMaterials = TypeList<...>;' found")
 endif()
 string(REGEX MATCHALL "[A-Za-z0-9_]+" materials "${CMAKE_MATCH_1}")
+list(APPEND materials TissueLaws) # those of tissue_laws.hpp share theirs
 set(material_sources)
 foreach(Material IN LISTS materials)
   string(REGEX REPLACE "([a-z0-9])([A-Z])" "\\1_\\2" file ${Material})

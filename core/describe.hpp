@@ -59,9 +59,25 @@ void describe_constants(V& v, Options& o) {
 }
 
 template <class V>
+void describe(V& v, FibreOptions& o) {
+  v.required("axis", o.axis, Direction{}, "along the fibres; its length does not matter");
+  v("sheet", o.sheet, Direction{}, "across them: in the plane of their sheets, or of two families");
+}
+
+template <class V>
+void describe(V& v, OgdenTerm& o) {
+  v.required("mu", o.mu, Quantity{pressure}, "its coefficient, in the convention that is named");
+  v.required("alpha", o.alpha, Quantity{plain, {.min = -50, .max = 50}}, "its exponent, not 0");
+}
+
+template <class V>
 void describe(V& v, MaterialOptions& o) {
+  v("tissue", o, TissueName{}, "a material with all its values, which the other keys override: plica list tissues");
   v("model", o.model, Name{"material", materials}, "constitutive law");
   describe_constants(v, o);
+  v("terms", o.terms, List{}, "of ogden: 1 to 6");
+  v("convention", o.convention, Name{"convention", ogden_conventions}, "of ogden, which has no standard one");
+  v("volume", o.volume, Name{"volume", volumes}, "of laws of tissue, U(J); left out: simo_hughes");
   v("allow_inversion", o.allow_inversion, Flag{}, "false: inverted elements end the run; left out: by the material");
 }
 
@@ -85,6 +101,8 @@ template <class V>
 void describe(V& v, RegionOptions& o) {
   v("where", o.where, Group{}, "its elements, by their centroids; left out: the mesh file's volume of that name");
   describe_constants(v, o);
+  v("terms", o.terms, List{}, "of ogden: 1 to 6");
+  v("fibres", o.fibres, Group{}, "instead of the body's");
   v("damping", o.damping, Group{}, "instead of the body's");
 }
 
@@ -137,6 +155,8 @@ void describe(V& v, LoadOptions& o) {
                 "force per area, on the boundary triangles at rest with all their vertices chosen");
   v.alternative("force", o.load, As<&TotalForce::value, Vector>(Vector{force}),
                 "of all chosen vertices together, each in proportion to its mass; on a face, traction is more even");
+  v.alternative("follower_pressure", o.load, As<&FollowerPressure::value, Quantity>(Quantity{pressure}),
+                "on the same triangles, always against their sides; above 0 into the body");
   v.at_most_one();
   v.alternative("ramp", o.course, As<&RampCourse::duration, Quantity>(Quantity{duration, positive}),
                 "rises smoothly from zero within this time");
@@ -178,10 +198,11 @@ void describe(V& v, Body& o) {
     "beta of nodal elements: smaller for thin bending (0.3), larger for clean high modes (0.6)");
   v("pressure", o.pressure, Name{"pressure", pressures}, "of nodal elements");
   v("material", o.material, Group{}, "what the body is made of");
+  v("fibres", o.material.fibres, Group{}, "of laws with fibres: their directions at rest");
   v("regions", o.regions, Map{}, "parts with options of their own: volumes of the mesh file, or selections");
   v("fixed", o.fixed, List{}, "vertices that stay where they are");
   v("prescribed", o.prescribed, List{}, "vertices whose motion is given");
-  v("loads", o.loads, List{}, "forces from outside, of fixed direction");
+  v("loads", o.loads, List{}, "forces from outside");
   v("damping", o.damping, Group{}, "damping");
   v("initial", o.initial, Group{}, "state at the start");
 }

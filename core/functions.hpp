@@ -35,6 +35,27 @@ KOKKOS_INLINE_FUNCTION Pack<T, N> log(const Pack<T, N>& a) {
 KOKKOS_INLINE_FUNCTION double log(double x) { return Kokkos::log(x); }
 KOKKOS_INLINE_FUNCTION float log(float x) { return Kokkos::log(x); }
 
+template <class T, int N>
+KOKKOS_INLINE_FUNCTION Pack<T, N> exp(const Pack<T, N>& a) {
+  return Pack<T, N>::map(a, [](T x) { return Kokkos::exp(x); });
+}
+KOKKOS_INLINE_FUNCTION double exp(double x) { return Kokkos::exp(x); }
+KOKKOS_INLINE_FUNCTION float exp(float x) { return Kokkos::exp(x); }
+
+/// b where a > 0, else 0
+template <class T, int N>
+KOKKOS_INLINE_FUNCTION Pack<T, N> where_positive(const Pack<T, N>& a, const Pack<T, N>& b) {
+  Pack<T, N> r;
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  r.v = a.v > 0 ? b.v : r.v;
+#else
+  for (int i = 0; i < N; ++i) r.set(i, a[i] > 0 ? b[i] : T(0));
+#endif
+  return r;
+}
+KOKKOS_INLINE_FUNCTION double where_positive(double a, double b) { return a > 0 ? b : 0; }
+KOKKOS_INLINE_FUNCTION float where_positive(float a, float b) { return a > 0 ? b : 0; }
+
 /// lane by lane the larger; a NaN in `a` stays
 template <class T, int N>
 KOKKOS_INLINE_FUNCTION Pack<T, N> max(const Pack<T, N>& a, const Pack<T, N>& b) {

@@ -21,6 +21,9 @@ std::vector<std::string> names(const std::vector<Choice>& choices);
 
 /// The families that names come from. Each walks its own list (drivers/solver/registry.cpp).
 std::vector<Choice> materials();               ///< constitutive laws
+std::vector<Choice> volumes();                 ///< what laws of tissue have for the volume
+std::vector<Choice> ogden_conventions();       ///< of the mu in Ogden's terms
+std::vector<Choice> tissues();                 ///< materials by the name of a tissue
 std::vector<Choice> elements();                ///< how strains follow from the vertices, and auto
 std::vector<Choice> pressures();               ///< of nodal elements, and auto
 std::vector<Choice> integrators();             ///< one-level ODE solvers
@@ -161,6 +164,18 @@ struct Name {
   std::string expects() const;
   std::string shown(const std::string& value) const { return value; }
   void check(const std::string& path, const std::string& value) const;
+};
+
+/// A name of tissues(), which stands for a whole material.
+struct TissueName {
+  Name name{"tissue", tissues};
+  std::string expects() const { return name.expects(); }
+  template <class Material>
+  std::string shown(const Material& of) const {
+    return of.tissue;
+  }
+  template <class Material>
+  void check(const std::string&, const Material&) const {}
 };
 
 /// One name for all levels, or one for each.

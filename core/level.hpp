@@ -28,6 +28,18 @@ struct Load {
   LoadCourse course;
 };
 
+/// A pressure on triangles of the boundary, wherever they are.
+template <class B>
+struct FollowerLoad {
+  int count = 0;             ///< of vertices
+  Indices<B> vertex;         ///< [count]
+  Vectors<B> rest;           ///< [count][3] m
+  Indices<B> first;          ///< [count + 1] of the corners of triangles at each
+  Indices<B> second, third;  ///< [corners] the other two, counterclockwise from outside, as places in `vertex`
+  double pressure = 0;       ///< [Pa]
+  LoadCourse course;
+};
+
 /// One resolution of the body: what is constant, its state, what is needed to integrate it, and how it exchanges states with
 /// its neighbours. Members that a scene does not need stay empty.
 template <class B>
@@ -36,6 +48,7 @@ struct Level {
   State<B> state;
   PrescribedVertices<B> prescribed;
   std::vector<Load<B>> loads;
+  std::vector<FollowerLoad<B>> followers;
   EmbeddedSurface<B> surface;  ///< only with contact; on level 0 also for looking at
 
   Vectors<B> f;           ///< [vertices][3] force at the state about to be integrated [N]

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-/// Forces from outside that keep their size and direction whatever the body does (dead loads).
+/// Forces from outside: those that keep their size and direction whatever the body does (dead loads), and pressures that follow it.
 namespace plica {
 
 /// On the boundary triangles at rest all of whose vertices are chosen.
@@ -15,6 +15,11 @@ struct Traction {
 /// On the chosen vertices together, each in proportion to its mass.
 struct TotalForce {
   Point value = Point::Zero();  ///< [N]
+};
+
+/// On the boundary triangles all of whose vertices are chosen, against their sides as they are now: it turns and grows with them.
+struct FollowerPressure {
+  double value = 0;  ///< [Pa]; above 0 it pushes into the body
 };
 
 /// 1 at all times.
@@ -46,9 +51,9 @@ using LoadCourse = std::variant<ConstantCourse, RampCourse, PolygonCourse, SineC
 
 /// A load on a part of the body.
 struct LoadOptions {
-  Selection where;                          ///< of vertices
-  std::variant<Traction, TotalForce> load;  ///< what acts on them
-  LoadCourse course;                        ///< times this factor
+  Selection where;                                            ///< of vertices
+  std::variant<Traction, TotalForce, FollowerPressure> load;  ///< what acts on them
+  LoadCourse course;                                          ///< times this factor
 };
 
 }  // namespace plica

@@ -13,6 +13,18 @@
 /// are checked where the simulation is set up.
 namespace plica {
 
+/// The directions of a body's fibres at rest, the same everywhere in it.
+struct FibreOptions {
+  Point axis = Point::UnitX();  ///< along them; its length does not matter
+  std::optional<Point> sheet;   ///< across them, in the plane of their sheets or families
+};
+
+/// One of the sum that Ogden's law is.
+struct OgdenTerm {
+  double mu = 0;     ///< [Pa]
+  double alpha = 0;  ///< exponent, not 0
+};
+
 /// What a body is made of.
 struct MaterialOptions {
   std::string model = "st_venant_kirchhoff";  ///< of materials()
@@ -21,6 +33,11 @@ struct MaterialOptions {
   double density = 1000;                      ///< [kg/m^3]
   std::optional<bool> allow_inversion = {};   ///< whether elements may turn inside out; none: as the material has it
   std::map<std::string, double> parameters = {};  ///< what else this material declares, by name, in SI
+  std::optional<std::string> volume = {};         ///< of volumes(): U(J) of laws of tissue; none: simo_hughes
+  std::optional<std::string> convention = {};     ///< of ogden_conventions(), for mu in `terms`
+  std::vector<OgdenTerm> terms = {};              ///< of Ogden's law, 1 to 6
+  std::optional<FibreOptions> fibres = {};        ///< of laws with fibres; a scene has it as body.fibres
+  std::string tissue = {};                        ///< whose values these were, see tissue_material()
 };
 
 /// What of DampingOptions a region has of its own.
@@ -37,6 +54,8 @@ struct RegionOptions {
   std::optional<double> density;                  ///< [kg/m^3]
   RegionDamping damping;                          ///< likewise
   std::map<std::string, double> parameters = {};  ///< of the material, likewise
+  std::vector<OgdenTerm> terms = {};              ///< instead of the body's, where there are any
+  std::optional<FibreOptions> fibres = {};        ///< instead of the body's
 };
 
 /// Vertices whose motion is given.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <string_view>
+#include <type_traits>
 
 namespace plica {
 
@@ -18,6 +19,24 @@ struct TypeList {
   static bool visit(std::string_view name, const F& f) {
     return ((name == Types::name ? (f(Types{}), true) : false) || ...);
   }
+
+  /// The place of T, or the number of members.
+  template <class T>
+  static constexpr int place_of() {
+    int place = 0;
+    (void)((std::is_same_v<T, Types> ? true : (++place, false)) || ...);
+    return place;
+  }
+  template <class T>
+  static constexpr bool has = (std::is_same_v<T, Types> || ...);
+};
+
+/// The members of two families.
+template <class First, class Second>
+struct JoinedLists;
+template <class... First, class... Second>
+struct JoinedLists<TypeList<First...>, TypeList<Second...>> {
+  using type = TypeList<First..., Second...>;
 };
 
 }  // namespace plica

@@ -7,7 +7,7 @@
 
 namespace plica {
 
-// Each in a source of its own for each material.
+// Each in a source of its own for each material, and for all laws of tissue.
 template <class B, class Material>
 std::unique_ptr<Elasticity<B>> make_linear_elasticity();
 template <class B, class Material>
@@ -17,7 +17,7 @@ template <class B>
 std::unique_ptr<Elasticity<B>> make_elasticity(std::string_view material, Element element) {
   std::unique_ptr<Elasticity<B>> made;
   Materials::visit(material, [&](auto m) {
-    using Material = decltype(m);
+    using Material = KernelsOf<decltype(m)>;
     made = element == Element::nodal ? make_nodal_elasticity<B, Material>() : make_linear_elasticity<B, Material>();
   });
   if (!made) throw InputError(unknown_name("material", material, names(materials())));

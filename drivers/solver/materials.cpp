@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/materials.hpp>
@@ -9,6 +10,14 @@
 namespace plica {
 
 namespace {
+
+/// What its kernels get.
+template <class M>
+auto constants_of(const std::vector<double>& values) {
+  auto c = M::kernel_constants(values.data());
+  if constexpr (IsochoricLaws::has<M>) c.law = IsochoricLaws::place_of<M>();
+  return c;
+}
 
 template <class M>
 MaterialInfo describe_material() {
@@ -22,14 +31,17 @@ MaterialInfo describe_material() {
                     nullptr,
                     nullptr,
                     nullptr};
-  info.kernel_constants = [](const std::vector<double>& values) { return as_list(M::kernel_constants(values.data())); };
+  info.kernel_constants = [](const std::vector<double>& values) { return as_list(constants_of<M>(values)); };
   info.small_strains = [](const std::vector<double>& values) {
     return M::small_strains(M::kernel_constants(values.data()));
   };
   if constexpr (requires(typename M::template Constants<double> c) { M::with_lambda(c, 0.0); })
     info.with_lambda = [](const std::vector<double>& values, double lambda) {
-      return as_list(M::with_lambda(M::kernel_constants(values.data()), lambda));
+      return as_list(M::with_lambda(constants_of<M>(values), lambda));
     };
+  info.of_tissue = IsochoricLaws::has<M>;
+  info.has_fibres = requires { M::has_fibres; };
+  info.has_terms = requires { M::has_terms; };
   return info;
 }
 
@@ -53,13 +65,110 @@ void check_names(const MaterialInfo& info, const std::string& path, const std::m
   }
 }
 
+/// c of mu in the three conventions: mu/alpha^2, mu/alpha, 2 mu/alpha^2.
+double ogden_coefficient(const OgdenTerm& term, const std::string& convention) {
+  if (convention == "mu_over_alpha") return term.mu / term.alpha;
+  return (convention == "mu_over_alpha2" ? 1 : 2) * term.mu / (term.alpha * term.alpha);
+}
+
+TissueSettings settings_of(const MaterialOptions& body, const RegionOptions& region) {
+  TissueSettings s;
+  const std::vector<std::string> known = names(volumes());
+  if (body.volume) s.volume = static_cast<double>(std::ranges::find(known, *body.volume) - known.begin());
+  if (const auto& fibres = region.fibres ? region.fibres : body.fibres) {
+    const Point axis = fibres->axis.normalized();
+    Point sheet = fibres->sheet.value_or(axis.unitOrthogonal());
+    sheet = (sheet - axis.dot(sheet) * axis).normalized();
+    for (int k = 0; k < 3; ++k) s.axis[k] = axis[k], s.sheet[k] = sheet[k];
+  }
+  const std::vector<OgdenTerm>& terms = region.terms.empty() ? body.terms : region.terms;
+  for (std::size_t i = 0; !terms.empty() && i < TissueSettings::most_terms; ++i) {
+    s.coefficient[i] = i < terms.size() ? ogden_coefficient(terms[i], body.convention.value_or("")) : 0;
+    s.exponent[i] = i < terms.size() ? terms[i].alpha : 1;
+  }
+  return s;
+}
+
+/// What the body, or a region of it, must have beside numbers. `path`: "body." or "body.regions.NAME.".
+void check_structure(const MaterialInfo& info, const std::string& path, const std::vector<OgdenTerm>& terms,
+                     const std::optional<FibreOptions>& fibres) {
+  const std::string material = path == "body." ? "body.material." : path, name(info.name);
+  if (!info.has_terms && !terms.empty()) throw InputError(material + "terms: " + name + " has none; only ogden has");
+  if (terms.size() > TissueSettings::most_terms)
+    throw InputError(material + "terms: " + std::to_string(terms.size()) + " terms; expected 1 to " +
+                     std::to_string(TissueSettings::most_terms));
+  for (std::size_t i = 0; i < terms.size(); ++i)
+    if (terms[i].alpha == 0)
+      throw InputError(material + "terms." + std::to_string(i) + ".alpha is 0; expected a number other than 0");
+  if (!info.has_fibres && fibres) throw InputError(path + "fibres: " + name + " has none");
+  if (fibres && fibres->sheet && fibres->axis.normalized().cross(fibres->sheet->normalized()).norm() < 1e-6)
+    throw InputError(path + "fibres.sheet is along the axis; expected a direction across it");
+}
+
+/// Whether the directions across the fibres matter.
+bool needs_sheet(const MaterialInfo& info, const std::vector<double>& p) {
+  if (info.name == "holzapfel_gasser_ogden") return std::sin(2 * p[4]) != 0;
+  return info.name == "costa" && (p[2] != p[3] || p[2] != p[6] || p[4] != p[5]);
+}
+
+/// What `where`, "body.material" or "body.regions.NAME", is to be at rest.
+void check_at_rest(const MaterialInfo& info, const std::string& where, const MaterialOptions& body,
+                   const RegionOptions& region) {
+  const std::vector<double> values = parameter_values(info, body, region);
+  const keys::Quantity shear{keys::pressure, keys::positive};
+  const Lame<double> rest = info.small_strains(values);
+  shear.check(where + ", as the shear stiffness of " + std::string(info.name) + " at rest,", rest.mu);
+  const auto& fibres = region.fibres ? region.fibres : body.fibres;
+  if (info.has_fibres && !fibres)
+    throw InputError("body.fibres is missing; expected the direction of the fibres of " + std::string(info.name) +
+                     ", such as {axis: [0, 0, 1]}, of the body or of every region");
+  if (fibres && !fibres->sheet && needs_sheet(info, values))
+    throw InputError((region.fibres ? where : "body") + ".fibres.sheet is missing; " + std::string(info.name) +
+                     " differs across its fibres: expected a direction across them");
+}
+
+void check_tissue(const MaterialInfo& info, const Body& body) {
+  const MaterialOptions& m = body.material;
+  const std::string name(info.name);
+  if (m.volume && !info.of_tissue)
+    throw InputError("body.material.volume is " + *m.volume + "; " + name + " has its own, expected none");
+  if (m.convention && !info.has_terms)
+    throw InputError("body.material.convention is " + *m.convention + "; only ogden has one");
+  check_structure(info, "body.", m.terms, m.fibres);
+  for (const auto& [region, o] : body.regions) check_structure(info, "body.regions." + region + ".", o.terms, o.fibres);
+  if (!info.of_tissue) return;
+  if (info.has_terms && m.terms.empty())
+    throw InputError("body.material.terms is missing; expected those of ogden, such as [{mu: 1 kPa, alpha: 2}]");
+  if (info.has_terms && !m.convention)
+    throw InputError("body.material.convention is missing; ogden has no standard one, expected " +
+                     keys::Name{"convention", ogden_conventions}.expects());
+  if (!info.has_fibres || m.fibres) check_at_rest(info, "body.material", m, {});
+  bool all = !body.regions.empty();
+  for (const auto& [region, o] : body.regions) {
+    check_at_rest(info, "body.regions." + region, m, o);
+    all = all && o.fibres;
+  }
+  if (info.has_fibres && !m.fibres && !all) check_at_rest(info, "body.material", m, {});
+}
+
 }  // namespace
 
 std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOptions& body,
                                      const RegionOptions& region) {
   std::vector<double> values;
   for (const MaterialParameter& p : info.parameters) values.push_back(given(p.name, body, region).value_or(p.standard));
+  if (info.of_tissue) {
+    const std::vector<double> settings = as_list(settings_of(body, region));
+    values.insert(values.end(), settings.begin(), settings.end());
+  }
   return values;
+}
+
+std::vector<std::string> materials_of_two_constants() {
+  std::vector<std::string> list;
+  for (const MaterialInfo& info : material_list())
+    if (info.parameters.front().name == std::string_view(parameter::young_modulus.name)) list.emplace_back(info.name);
+  return list;
 }
 
 void check_parameters(const MaterialInfo& info, const Body& body) {
@@ -71,6 +180,7 @@ void check_parameters(const MaterialInfo& info, const Body& body) {
   };
   check("body.material.", {});
   for (const auto& [name, region] : body.regions) check("body.regions." + name + ".", region);
+  check_tissue(info, body);
 }
 
 double stiffness_at_rest(const MaterialOptions& material) {
@@ -111,6 +221,18 @@ std::vector<Choice> materials() {
   std::vector<Choice> list;
   for (const MaterialInfo& one : material_list()) list.push_back({std::string(one.name), std::string(one.summary)});
   return list;
+}
+
+std::vector<Choice> volumes() {
+  return {{"simo_hughes", "kappa/4 (J^2 - 1 - 2 ln J)"},
+          {"logarithmic", "kappa/2 (ln J)^2; SOFA, FEBio"},
+          {"quadratic", "kappa/2 (J - 1)^2; NiftySim: weak where J is near 0"}};
+}
+
+std::vector<Choice> ogden_conventions() {
+  return {{"mu_over_alpha2", "c = mu/alpha^2: SOFA, FEBio; mu at rest is the sum of mu/2"},
+          {"mu_over_alpha", "c = mu/alpha: Ogden, Holzapfel; the sum of mu alpha/2"},
+          {"two_mu_over_alpha2", "c = 2 mu/alpha^2: Miller & Chinzei, Abaqus; the sum of mu"}};
 }
 
 bool allows_inversion(const MaterialOptions& material) {

@@ -22,6 +22,9 @@ struct MaterialInfo {
   Lame<double> (*small_strains)(const std::vector<double>& values);
   /// What its kernels get with another lambda at rest; a null pointer where the material has no stiffness for the volume alone.
   std::vector<double> (*with_lambda)(const std::vector<double>& values, double lambda);
+  bool of_tissue = false;  ///< it has TissueSettings: behind its parameters' values
+  bool has_fibres = false;
+  bool has_terms = false;
 };
 
 /// Those of kernels/materials/list.hpp, in its order.
@@ -30,12 +33,16 @@ const std::vector<MaterialInfo>& material_list();
 /// The one of that name, or a null pointer.
 const MaterialInfo* find_material(std::string_view name);
 
-/// The values of its parameters, in their order: the region's where it has one of its own, else the body's, else the standard.
+/// Those given by Young's modulus and Poisson's ratio.
+std::vector<std::string> materials_of_two_constants();
+
+/// The values of its parameters, in their order: the region's where it has one of its own, else the body's, else the standard; then the
+/// settings of laws of tissue.
 std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOptions& body,
                                      const RegionOptions& region);
 
-/// Throws InputError where a value of the body or of one of its regions is out of range, or belongs to none of the
-/// material's parameters.
+/// Throws InputError where a value of the body or of one of its regions is out of range, belongs to none of the
+/// material's parameters, is missing, or leaves the body without stiffness at rest.
 void check_parameters(const MaterialInfo& info, const Body& body);
 
 /// Young's modulus at rest [Pa]: as given, or of small strains where the material has no such parameter.

@@ -94,6 +94,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("loads", !body.loads.empty(), counted(body.loads.size(), "load"), "none asked for", sum([](const L& l) {
         std::size_t total = 0;
         for (const auto& load : l.loads) total += bytes(load.vertex, load.force);
+        for (const auto& load : l.followers)
+          total += bytes(load.vertex, load.rest, load.first, load.second, load.third);
         return total;
       }));
   add("transfers", levels > 1, "cycle " + problem.integration.cycle,

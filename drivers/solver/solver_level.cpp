@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
+#include <plica/kernels/follower_pressure.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -39,6 +40,15 @@ void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
 }
 
 template <class B>
+void SolverLevel<B>::add_followers(const State<B>& at, double time, const Vectors<B>& force) const {
+  for (const FollowerLoad<B>& load : this->followers) {
+    const double pressure = load.pressure * load_factor(load.course, time);
+    Kokkos::parallel_for("plica::follower_pressure", Kokkos::RangePolicy<Exec>(exec(), 0, load.count),
+                         AddFollowerPressure<B>{load, at.u, force, static_cast<typename B::Real>(pressure)});
+  }
+}
+
+template <class B>
 void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force, const ContactStep& step,
                               double weight) {
   evaluate_without_contact(at, time, force);
@@ -61,6 +71,7 @@ template <class B>
 void SolverLevel<B>::evaluate_without_contact(const State<B>& at, double time, const Vectors<B>& force) {
   elastic_and_gravity(at, force);
   add_loads(time, force);
+  add_followers(at, time, force);
   if (external_) book("external", [&] { ask_caller(at, time, 0, 0, force); });
   add_correction(force);
 }
@@ -78,6 +89,7 @@ void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWe
                                const Vectors<B>& force) {
   elastic_and_gravity(at, force);
   add_loads(time + ahead, force);
+  add_followers(at, time + ahead, force);
   if (contact_)
     book("contact", [&] { contact_->linearise(exec(), *this, at, time, weights, ahead, response_.points(), force); });
   if (external_) book("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });

@@ -109,6 +109,8 @@ class SolverLevel : public Level<B> {
   void elastic_and_gravity(const State<B>& state, const Vectors<B>& f);
   void ask_caller(const State<B>& state, double time, double step, double ahead, const Vectors<B>& f);
   void add_loads(double time, const Vectors<B>& f) const;
+  /// Pressures that follow the state; linear systems leave their derivative out.
+  void add_followers(const State<B>& state, double time, const Vectors<B>& f) const;
 };
 
 }  // namespace plica

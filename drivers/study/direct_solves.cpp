@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/study/direct_solves.hpp>
 #include <stdexcept>
 
@@ -47,6 +48,18 @@ std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighb
   return colours;
 }
 
+/// Laws of tissue with the nu of 1/3 at most.
+void cap_bulk_modulus(Body& body) {
+  const MaterialInfo& info = *find_material(body.material.model);
+  if (!info.of_tissue) return;
+  const auto cap = [&](std::map<std::string, double>& parameters, const RegionOptions& region) {
+    const Lame<double> rest = info.small_strains(parameter_values(info, body.material, region));
+    parameters[parameter::bulk_modulus.name] = std::min(rest.lambda, 2 * rest.mu) + 2 * rest.mu / 3;
+  };
+  for (auto& [name, region] : body.regions) cap(region.parameters, region);
+  cap(body.material.parameters, {});
+}
+
 /// With nodal elements, the same body of linear ones that do not lock.
 std::unique_ptr<LevelProbe<HostBackend>> linear_beside(const Problem& nodal) {
   if (element_of(nodal.body, 0) == Element::linear) return nullptr;
@@ -63,6 +76,7 @@ std::unique_ptr<LevelProbe<HostBackend>> linear_beside(const Problem& nodal) {
     cap(E, nu);
     region.young_modulus = E, region.poisson_ratio = nu;
   }
+  cap_bulk_modulus(p.body);
   return std::make_unique<LevelProbe<HostBackend>>(p);
 }
 

@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
@@ -365,7 +366,7 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
       body.load();
       std::string name = line.format;
       name.replace(name.find("%g"), 2, number(value));
-      for (const std::string& material : names(materials()))
+      for (const std::string& material : materials_of_two_constants())
         for (const Method& method : methods(size, line.of, body.problem.body.levels.size() > 1))
           cases.push_back(case_of(body, method, material, name));
     }

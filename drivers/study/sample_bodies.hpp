@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/problem.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/meshes/generators.hpp>
 #include <random>
 #include <string>
@@ -34,12 +35,20 @@ inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, dou
   return mesh;
 }
 
+/// With an example of what a law of tissue must be told: fibres askew, terms.
+inline MaterialOptions complete(MaterialOptions material) {
+  const MaterialInfo* info = find_material(material.model);
+  if (info && info->has_fibres) material.fibres = FibreOptions{{2, 2, 1}, Point(-2, 1, 2)};
+  if (info && info->has_terms) material.convention = "mu_over_alpha2", material.terms = {{9600, 4}, {4000, -2}};
+  return material;
+}
+
 /// One body of one level, without loads.
 inline Problem verify_body(TetMesh mesh, const MaterialOptions& material) {
   Problem p;
   p.body.levels = {std::move(mesh)};
   p.body.element = {"linear"};
-  p.body.material = material;
+  p.body.material = complete(material);
   return p;
 }
 

@@ -34,11 +34,13 @@ inline Eigen::Matrix3d eigen(const Mat3<double>& A) {
   return m;
 }
 
-/// A material's constants for young_modulus 20 kPa, poisson_ratio 0.4 and the standard of what else it declares.
+/// A material's constants for young_modulus 20 kPa, poisson_ratio 0.4 and the standard of what else it declares, with fibres askew.
 template <class M>
 typename M::template Constants<double> sample_constants() {
-  std::array<double, M::parameters.size()> values;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = M::parameters[i].standard;
+  std::vector<double> values;
+  for (const MaterialParameter& p : M::parameters) values.push_back(p.standard);
+  const std::vector<double> settings = as_list(TissueSettings{});
+  values.insert(values.end(), settings.begin(), settings.end());
   return M::kernel_constants(values.data());
 }
 

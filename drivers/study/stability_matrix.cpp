@@ -225,7 +225,7 @@ std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size) {
     });
   std::vector<std::function<MatrixRow()>> cases;
   for (const Other& other : others())
-    for (const std::string& material : small ? std::vector<std::string>{"neo_hookean"} : names(materials()))
+    for (const std::string& material : small ? std::vector<std::string>{"neo_hookean"} : materials_of_two_constants())
       for (const std::string& method : methods) cases.push_back([=] { return compared(material, method, other); });
   return cases;
 }

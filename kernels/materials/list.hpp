@@ -5,10 +5,19 @@
 #include <plica/kernels/materials/linear.hpp>
 #include <plica/kernels/materials/neo_hookean.hpp>
 #include <plica/kernels/materials/st_venant_kirchhoff.hpp>
+#include <plica/kernels/materials/tissue_laws.hpp>
 
 namespace plica {
 
-/// Every material there is. One more: its file above, its name here.
-using Materials = TypeList<StVenantKirchhoff, Corotational, NeoHookean, Linear>;
+/// Materials with kernels of their own. One more: its file above, its name here. Laws of invariants and fibres are better in
+/// tissue_laws.hpp, which costs no kernels.
+using OwnMaterials = TypeList<StVenantKirchhoff, Corotational, NeoHookean, Linear>;
+
+/// Every material there is.
+using Materials = JoinedLists<OwnMaterials, IsochoricLaws>::type;
+
+/// Whose kernels compute a material.
+template <class Material>
+using KernelsOf = std::conditional_t<IsochoricLaws::has<Material>, TissueLaws, Material>;
 
 }  // namespace plica

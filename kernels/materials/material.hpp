@@ -24,6 +24,7 @@
 // and says of itself:
 //   name, summary             what a scene calls it; one line for lists
 //   rotation_invariant        a rotated state has the same energy
+//   isotropic                 its tangent at rest is that of small_strains(), which else bounds it
 //   survives_inversion        finite with finite derivatives for det F <= 0
 //   recovers                  no stable state but rotations: inverted, flat and collapsed elements are pushed back
 //   allows_inversion          whether an element with det F <= 0 goes on where a scene does not say, or ends the run
@@ -33,10 +34,22 @@ namespace plica {
 struct TwoConstants {
   template <class T>
   using Constants = Lame<T>;
+  static constexpr bool isotropic = true;
   static constexpr std::array parameters{parameter::young_modulus, parameter::poisson_ratio};
   static Lame<double> kernel_constants(const double* p) { return lame_constants(p[0], p[1]); }
   static Lame<double> small_strains(const Lame<double>& c) { return c; }
   static Lame<double> with_lambda(const Lame<double>& c, double lambda) { return {lambda, c.mu}; }
+};
+
+/// A corner for block() where a tangent has no shorter way: dP for e_k g^T.
+template <class T>
+struct ColumnsOfCorner {
+  Vec3<T> g;
+  Mat3<T> dP[3];
+  /// That of corner p and this one.
+  KOKKOS_INLINE_FUNCTION Mat3<T> block(const ColumnsOfCorner& p) const {
+    return transpose(Mat3<T>{dP[0] * p.g, dP[1] * p.g, dP[2] * p.g});
+  }
 };
 
 /// How many constants a material's kernels get.

@@ -11,7 +11,27 @@ inline constexpr MaterialParameter young_modulus{
     "young_modulus", {keys::pressure, keys::positive}, "stiffness E", 20e3};
 inline constexpr MaterialParameter poisson_ratio{
     "poisson_ratio", {keys::plain, {.min = 0, .max = 0.5, .max_excluded = true}}, "lateral contraction nu", 0.4};
+// Those that several laws of tissue have.
+inline constexpr MaterialParameter bulk_modulus{"bulk_modulus",
+                                                {keys::pressure, keys::positive},
+                                                "of laws of tissue: kappa, stiffness of the volume at rest",
+                                                33e3};
+inline constexpr MaterialParameter mu{
+    "mu", {keys::pressure, keys::positive}, "shear stiffness; of fibrous laws that of the matrix", 5e3};
+inline constexpr MaterialParameter c10{
+    "c10", {keys::pressure}, "of mooney_rivlin and polynomial: times I1 - 3; 2 (c10 + c01) is mu at rest", 2.5e3};
+inline constexpr MaterialParameter c01{"c01", {keys::pressure}, "of mooney_rivlin and polynomial: times I2 - 3", 1e3};
 }  // namespace parameter
+
+/// What laws of tissue get beside their parameters, behind them.
+struct TissueSettings {
+  static constexpr int most_terms = 6;
+  double volume = 0;                             ///< place in volumes()
+  double axis[3] = {2 / 3., 2 / 3., 1 / 3.};     ///< of fibres: a unit vector
+  double sheet[3] = {-2 / 3., 1 / 3., 2 / 3.};   ///< orthogonal to it
+  double coefficient[most_terms] = {600, 1000};  ///< of Ogden's terms [Pa]; 0 where there is none
+  double exponent[most_terms] = {4, -2};         ///< alpha
+};
 
 /// Lame's constants [Pa]: lambda = E nu / ((1 + nu)(1 - 2 nu)), mu = E / (2 (1 + nu)).
 template <class T>

@@ -26,7 +26,7 @@ inline Problem body_of(std::vector<TetMesh> levels, const std::string& material 
   Problem p;
   p.body.levels = std::move(levels);
   p.body.element = {"linear"};
-  p.body.material = {material, 20e3, 0.35, 1000};
+  p.body.material = complete({material, 20e3, 0.35, 1000});
   return p;
 }
 

@@ -51,6 +51,9 @@ std::vector<Choice> shapes_with_keys() {
 }
 
 constexpr Family families[] = {{"materials", "constitutive laws", materials},
+                               {"tissues", "materials with values of a source, by name", tissues},
+                               {"volumes", "stiffness of the volume in laws of tissue", volumes},
+                               {"ogden_conventions", "what mu is in the terms of ogden", ogden_conventions},
                                {"elements", "how strains follow from the vertices", elements},
                                {"integrators", "how a level is stepped in time", integrators},
                                {"cycles", "how the levels take a macro step together", cycle_choices},

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 std::string material_text(const MaterialInfo& info, const MaterialOptions& material) {
   std::string text(info.name);
   const std::vector<double> values = parameter_values(info, material, {});
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
     const MaterialParameter& p = info.parameters[i];
     const std::string unit = unit_of(p.kind.dimension);
     const bool takes_prefix = !unit.empty() && unit.find_first_of("/^ ") == std::string::npos;
@@ -33,7 +33,7 @@ std::string material_text(const MaterialInfo& info, const MaterialOptions& mater
 Json material_json(const MaterialInfo& info, const MaterialOptions& material) {
   Json json = {{"model", info.name}};
   const std::vector<double> values = parameter_values(info, material, {});
-  for (std::size_t i = 0; i < values.size(); ++i) json[info.parameters[i].name] = values[i];
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) json[info.parameters[i].name] = values[i];
   json["density"] = material.density;
   return json;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cmath>
 #include <plica/core/valid_utf8.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/meshes/embedding.hpp>
@@ -82,7 +84,23 @@ void only_of_files(const std::string& file, bool given, const std::string& path,
   if (file.empty() && given) throw InputError(path + ": only a file has one", place_of(tree, path));
 }
 
+// What every body has a value of, given to a law that does not take it
+void check_given(const Scene& scene, const Tree& tree) {
+  const MaterialInfo& info = *find_material(scene.problem.body.material.model);
+  std::vector<std::string> known, sections = {"body.material"};
+  for (const MaterialParameter& p : info.parameters) known.emplace_back(p.name);
+  for (const auto& [name, region] : scene.problem.body.regions) sections.push_back("body.regions." + name);
+  for (const std::string& section : sections)
+    for (const MaterialParameter& p : {parameter::young_modulus, parameter::poisson_ratio}) {
+      const std::string path = section + "." + p.name;
+      if (std::ranges::find(known, p.name) == known.end() && tree.find(path) != nullptr)
+        throw InputError(path + ": " + unknown_name("parameter of " + std::string(info.name), p.name, known),
+                         place_of(tree, path));
+    }
+}
+
 void check_body(const Scene& scene, const Tree& tree) {
+  check_given(scene, tree);
   for (std::size_t i = 0; i < scene.levels.size(); ++i) {
     const LevelRecipe& level = scene.levels[i];
     const std::string path = fmt::format("body.levels.{}", i);

@@ -6,6 +6,7 @@
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/app/scene/units.hpp>
+#include <plica/drivers/solver/tissues.hpp>
 #include <stdexcept>
 
 namespace plica::app {
@@ -122,6 +123,12 @@ void read(const Value& value, const Name& kind, std::string& target) {
   const std::vector<std::string> known = names(kind.choices());
   if (std::ranges::find(known, text) == known.end()) value.error(unknown_name(kind.family, text, known));
   target = text;
+}
+
+void read(const Value& value, const TissueName& kind, MaterialOptions& target) {
+  std::string name;
+  read(value, kind.name, name);
+  target = tissue_material(name);
 }
 
 void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target) {

@@ -33,6 +33,7 @@ void read(const Value& value, const Counts& kind, std::array<int, 3>& target);
 void read(const Value& value, const Flag& kind, bool& target);
 void read(const Value& value, const Text& kind, std::string& target);
 void read(const Value& value, const Name& kind, std::string& target);
+void read(const Value& value, const TissueName& kind, MaterialOptions& target);
 void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target);
 void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target);
 void read(const Value& value, const Shares& kind, const Shares::Target& target);
@@ -167,8 +168,9 @@ class OptionReader {
   explicit OptionReader(const std::map<std::string, std::string>& given) : given_(given) {}
   template <class T, class Kind>
   void operator()(const char* key, T& member, const Kind& kind, const char*) const {
-    if (const auto text = given_.find(key); text != given_.end())
-      read_option(option_of(key), text->second, kind, member);
+    if constexpr (requires { kind.expects(); })
+      if (const auto text = given_.find(key); text != given_.end())
+        read_option(option_of(key), text->second, kind, member);
   }
 
  private:
@@ -182,9 +184,11 @@ class OptionList {
   explicit OptionList(const Add& add) : add_(add) {}
   template <class T, class Kind>
   void operator()(const char* key, const T& member, const Kind& kind, const char* help) const {
-    std::string expects = kind.expects();
-    if constexpr (requires { kind.shown(member); }) expects += "; default " + kind.shown(member);
-    add_(option_of(key), std::string(key), expects, std::string(help));
+    if constexpr (requires { kind.expects(); }) {
+      std::string expects = kind.expects();
+      if constexpr (requires { kind.shown(member); }) expects += "; default " + kind.shown(member);
+      add_(option_of(key), std::string(key), expects, std::string(help));
+    }
   }
 
  private:

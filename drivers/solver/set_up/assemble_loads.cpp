@@ -10,22 +10,44 @@ namespace plica {
 
 namespace {
 
+Point area_vector(const TetMesh& mesh, const std::array<int, 3>& t) {
+  const auto x = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+  return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
+}
+
+/// At rest, per vertex [N].
+std::map<int, Point> forces_of(const FollowerPressure& load, const TetMesh& mesh, const Selection& where,
+                               const Selecting& who) {
+  std::map<int, Point> force;
+  for (const auto& t : select_triangles(mesh, where, who))
+    for (const int v : t) force.try_emplace(v, Point::Zero()).first->second -= load.value / 3 * area_vector(mesh, t);
+  return force;
+}
+
 /// Per vertex its share: of a traction the area [m^2], of a force the mass over the mass of all.
 std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh, const std::vector<double>& mass,
                              const Selecting& who) {
   std::map<int, double> share;
   if (std::holds_alternative<Traction>(load.load)) {
-    for (const auto& t : select_triangles(mesh, load.where, who)) {
-      const auto x = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-      const double area = (x(1) - x(0)).cross(x(2) - x(0)).norm() / 2;
-      for (int v : t) share[v] += area / 3;
-    }
+    for (const auto& t : select_triangles(mesh, load.where, who))
+      for (int v : t) share[v] += area_vector(mesh, t).norm() / 3;
     return share;
   }
   double total = 0;
   for (int v : select_vertices(mesh, load.where, who)) total += share[v] = mass[static_cast<std::size_t>(v)];
   for (auto& [v, s] : share) s /= total;
   return share;
+}
+
+std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh, const std::vector<double>& mass,
+                               const Selecting& who) {
+  if (const auto* follower = std::get_if<FollowerPressure>(&load.load))
+    return forces_of(*follower, mesh, load.where, who);
+  const auto* traction = std::get_if<Traction>(&load.load);
+  const Point value = traction ? traction->value : std::get<TotalForce>(load.load).value;
+  std::map<int, Point> force;
+  for (const auto& [v, share] : shares(load, mesh, mass, who)) force.emplace(v, share * value);
+  return force;
 }
 
 }  // namespace
@@ -36,13 +58,12 @@ std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
   for (std::size_t i = 0; i < body.loads.size(); ++i) {
     const LoadOptions& load = body.loads[i];
     const Selecting who{"body.loads." + std::to_string(i), level};
-    const Point value = std::visit([](const auto& kind) { return kind.value; }, load.load);
     AssembledLoad made;
     bool free = false;
-    for (const auto& [v, share] : shares(load, mesh, constants.mass, who)) {
+    for (const auto& [v, force] : forces_of(load, mesh, constants.mass, who)) {
       free = free || !constants.constrained[static_cast<std::size_t>(v)];
-      made.vertex.push_back(v), made.force.emplace_back(share * value);
-      made.resultant += made.force.back();
+      made.vertex.push_back(v), made.force.push_back(force);
+      made.resultant += force;
     }
     if (!free)
       throw InputError(who.option + ": all " + std::to_string(made.vertex.size()) + " vertices it acts on, on level " +
@@ -62,15 +83,60 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
   using Real = typename B::Real;
   std::vector<Load<B>> all;
   for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (std::holds_alternative<FollowerPressure>(body.loads[i].load)) continue;
     all.push_back({static_cast<int>(loads[i].force.size()), to_device<Indices<B>>("load.vertex", loads[i].vertex),
                    to_device<Vectors<B>>("load.force", rows<Real>(loads[i].force)), body.loads[i].course});
   }
   return all;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                \
-  template std::vector<Load<Backend<Real, Exec>>> device_loads<Backend<Real, Exec>>( \
-      const Body&, const std::vector<AssembledLoad>&);
+namespace {
+
+template <class B>
+FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
+  std::map<int, std::vector<std::array<int, 2>>> at;  // of each vertex the two others of its triangles
+  for (const auto& t : triangles)
+    for (std::size_t c = 0; c < 3; ++c) at[t[c]].push_back({t[(c + 1) % 3], t[(c + 2) % 3]});
+  std::map<int, int> place;
+  for (const auto& [v, others] : at) place.emplace(v, static_cast<int>(place.size()));
+  std::vector<int> vertex, first{0}, second, third;
+  std::vector<Point> rest;
+  for (const auto& [v, others] : at) {
+    vertex.push_back(v), rest.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+    for (const auto& [b, c] : others) second.push_back(place.at(b)), third.push_back(place.at(c));
+    first.push_back(static_cast<int>(second.size()));
+  }
+  return {static_cast<int>(vertex.size()),
+          to_device<Indices<B>>("follower.vertex", vertex),
+          to_device<Vectors<B>>("follower.rest", rows<typename B::Real>(rest)),
+          to_device<Indices<B>>("follower.first", first),
+          to_device<Indices<B>>("follower.second", second),
+          to_device<Indices<B>>("follower.third", third),
+          0,
+          {}};
+}
+
+}  // namespace
+
+template <class B>
+std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, int level) {
+  std::vector<FollowerLoad<B>> all;
+  for (std::size_t i = 0; i < body.loads.size(); ++i) {
+    const LoadOptions& load = body.loads[i];
+    const auto* follower = std::get_if<FollowerPressure>(&load.load);
+    if (!follower) continue;
+    const Selecting who{"body.loads." + std::to_string(i), level};
+    all.push_back(follower_load<B>(mesh, select_triangles(mesh, load.where, who)));
+    all.back().pressure = follower->value, all.back().course = load.course;
+  }
+  return all;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                      \
+  template std::vector<Load<Backend<Real, Exec>>> device_loads<Backend<Real, Exec>>(                       \
+      const Body&, const std::vector<AssembledLoad>&);                                                     \
+  template std::vector<FollowerLoad<Backend<Real, Exec>>> follower_loads<Backend<Real, Exec>>(const Body&, \
+                                                                                              const TetMesh&, int);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

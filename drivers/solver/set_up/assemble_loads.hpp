@@ -7,7 +7,7 @@
 
 namespace plica {
 
-/// What a load is on one level, at factor 1.
+/// What a load is on one level, at factor 1, at rest.
 struct AssembledLoad {
   std::vector<int> vertex;
   std::vector<Point> force;         ///< [N]
@@ -20,7 +20,12 @@ struct AssembledLoad {
 std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
                                           int level, const std::vector<AssembledLoad>& finest);
 
+/// The dead ones among them.
 template <class B>
 std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledLoad>& loads);
+
+/// The pressures that follow the body, on a level's mesh at rest.
+template <class B>
+std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, int level);
 
 }  // namespace plica

@@ -90,7 +90,8 @@ class HierarchyBuilder {
   std::size_t meshes_, levels_;  // that are used; that are integrated
   TriangleSurface surface_;      // placed
   std::vector<LevelConstants> constants_;
-  std::vector<std::vector<AssembledLoad>> loads_;  // per level
+  std::vector<std::vector<AssembledLoad>> loads_;        // per level
+  std::vector<std::vector<FollowerLoad<B>>> followers_;  // likewise
   std::vector<std::unique_ptr<TetLocator>> locators_;
   std::vector<Embedding> down_, up_;  // [i]: level i's vertices in level i-1, and the other way; [0] empty
   std::vector<int> massless_ = {0};   // [i]: level i's vertices that inherit no mass
@@ -112,9 +113,11 @@ class HierarchyBuilder {
       const int level = static_cast<int>(i);
       add_regions(mesh, body.regions, level);
       constants_.push_back(level_constants(body, mesh, middle, level));
-      if (i < levels_)
+      if (i < levels_) {
         loads_.push_back(
             assemble_loads(body, mesh, constants_[i], level, i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
+        followers_.push_back(follower_loads<B>(body, mesh, level));
+      }
       for (Point& p : mesh.vertices) p += shift;
     }
     for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<TetLocator>(mesh));
@@ -175,6 +178,7 @@ class HierarchyBuilder {
     const TetMesh& mesh = built_.meshes[i];
     Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
     level.loads = device_loads<B>(problem_.body, loads_[i]);
+    level.followers = followers_[i];
     if (needs_.drift_limits && levels_ > 1) {
       std::vector<typename B::Real> limit;
       for (double edge : local_edge_lengths(mesh))

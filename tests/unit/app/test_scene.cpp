@@ -142,6 +142,20 @@ TEST(Scene, BallStartsWhereTheyAgreed) {
   EXPECT_NEAR(start.z() - 0.05 - below, 0.025, 1e-4);
 }
 
+TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
+  const Scene scene =
+      scene_of(damaged("{model: neo_hookean, young_modulus: 50 kPa}",
+                       "{a: 3 kPa, tissue: heart_muscle, volume: logarithmic}\n  fibres: {axis: [0, 0, 2]}"));
+  const MaterialOptions& m = scene.problem.body.material;
+  EXPECT_EQ(m.model, "costa");
+  EXPECT_EQ(m.tissue, "heart_muscle");
+  EXPECT_EQ(m.parameters.at("a"), 3000);
+  EXPECT_EQ(m.parameters.at("b_ff"), 8);
+  EXPECT_EQ(m.volume, "logarithmic");
+  ASSERT_TRUE(m.fibres);
+  EXPECT_EQ(m.fibres->axis, Point(0, 0, 2));
+}
+
 struct Damage {
   const char* name;
   const char* piece;
@@ -179,6 +193,23 @@ const Damage damages[] = {
     {"OutOfRange", "1 s", "-1 s", "a.yaml:1: duration: expected a time (s) > 0, got '-1 s'"},
     {"PoissonRatio", "young_modulus: 50 kPa", "poisson_ratio: 0.5",
      "a.yaml:7: body.material.poisson_ratio: expected a number in [0, 0.5), got '0.5'"},
+    {"StiffnessOfAnotherLaw", "neo_hookean", "mooney_rivlin",
+     "a.yaml:7: body.material.young_modulus: unknown parameter of mooney_rivlin 'young_modulus' (choices: c10, c01, "
+     "bulk_modulus)"},
+    {"NoStiffnessAtRest", "{model: neo_hookean, young_modulus: 50 kPa}", "{model: mooney_rivlin, c10: -1 kPa}",
+     "a.yaml:7: body.material, as the shear stiffness of mooney_rivlin at rest, is 0 Pa; expected a pressure (Pa) > 0"},
+    {"OgdensAlpha", "{model: neo_hookean, young_modulus: 50 kPa}",
+     "{model: ogden, convention: mu_over_alpha, terms: [{mu: 1 kPa, alpha: 0}]}",
+     "a.yaml:7: body.material.terms.0.alpha is 0; expected a number other than 0"},
+    {"NoFibres", "{model: neo_hookean, young_modulus: 50 kPa}", "{tissue: heart_muscle}",
+     "a.yaml:3: body.fibres is missing; expected the direction of the fibres of costa, such as {axis: [0, 0, 1]}, of "
+     "the body or of every region"},
+    {"FibreOfNoLength", "{model: neo_hookean, young_modulus: 50 kPa}",
+     "{tissue: heart_muscle}\n  fibres: {axis: [0, 0, 0]}", "a.yaml:8: body.fibres.axis: expected a direction, got "},
+    {"UnknownTissue", "{model: neo_hookean, young_modulus: 50 kPa}", "{tissue: heart}",
+     "a.yaml:7: body.material.tissue: unknown tissue 'heart' (choices: heart_muscle, artery_adventitia)"},
+    {"UnknownVolume", "{model: neo_hookean, young_modulus: 50 kPa}", "{model: mooney_rivlin, volume: log}",
+     "a.yaml:7: body.material.volume: unknown volume 'log' (choices: simo_hughes, logarithmic, quadratic)"},
     {"Nothing", "1 s", "", "a.yaml:1: duration: expected a time (s) > 0, got nothing"},
     {"ScalarForList", "[0, 0, -9.81]", "-9.81",
      "a.yaml:2: gravity: expected a list of 3 accelerations (m/s^2), got '-9.81'"},

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/functions.hpp>
+
+namespace plica {
+
+/// Whether what is off the diagonal is at most rounding in every lane.
+template <class T, int n>
+KOKKOS_INLINE_FUNCTION bool is_diagonal(const T (&A)[n][n]) {
+  using Real = typename LaneOf<T>::type;
+  T off = T(0), on = T(0);
+  for (int i = 0; i < n; ++i) {
+    on += A[i][i] * A[i][i];
+    for (int j = 0; j < i; ++j) off += A[i][j] * A[i][j];
+  }
+  constexpr Real tiny = Kokkos::Experimental::epsilon_v<Real>;
+  for (int l = 0; l < LaneOf<T>::count; ++l)
+    if (lane(off, l) > tiny * tiny * lane(on, l)) return false;
+  return true;
+}
+
+/// Symmetric A = V diag V^T by cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations, 4th ed., alg. 8.5.3); A becomes diag.
+template <class T, int n>
+KOKKOS_INLINE_FUNCTION void diagonalise(T (&A)[n][n], T (&V)[n][n]) {
+  using Real = typename LaneOf<T>::type;
+  const T tiny = T(Kokkos::Experimental::norm_min_v<Real>);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) V[i][j] = T(i == j ? 1 : 0);
+  for (int sweep = 0; sweep < 10 && !is_diagonal(A); ++sweep)
+    for (int p = 0; p < n - 1; ++p)
+      for (int q = p + 1; q < n; ++q) {
+        // tan t = sign(d) 2 a / (|d| + sqrt(d^2 + 4 a^2)), d = A_qq - A_pp, a = A_pq: the smaller rotation
+        const T d = A[q][q] - A[p][p], a2 = T(2) * A[p][q], size = sqrt(d * d + a2 * a2);
+        const T magnitude = max(d, -d) + size + tiny;
+        T t = a2 / magnitude;
+        for (int l = 0; l < LaneOf<T>::count; ++l)
+          if (lane(d, l) < 0) set_lane(t, l, -lane(t, l));
+        const T c = T(1) / sqrt(T(1) + t * t), s = t * c;
+        for (int k = 0; k < n; ++k) {
+          const T x = A[k][p], y = A[k][q], v = V[k][p], w = V[k][q];
+          A[k][p] = c * x - s * y, A[k][q] = s * x + c * y;
+          V[k][p] = c * v - s * w, V[k][q] = s * v + c * w;
+        }
+        for (int k = 0; k < n; ++k) {
+          const T x = A[p][k], y = A[q][k];
+          A[p][k] = c * x - s * y, A[q][k] = s * x + c * y;
+        }
+      }
+}
+
+}  // namespace plica

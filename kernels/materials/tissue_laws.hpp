@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/type_list.hpp>
+#include <plica/kernels/materials/arruda_boyce.hpp>
+#include <plica/kernels/materials/costa.hpp>
+#include <plica/kernels/materials/holzapfel_gasser_ogden.hpp>
+#include <plica/kernels/materials/mooney_rivlin.hpp>
+#include <plica/kernels/materials/ogden.hpp>
+#include <plica/kernels/materials/polynomial.hpp>
+#include <plica/kernels/materials/transversely_isotropic.hpp>
+#include <plica/kernels/materials/veronda_westmann.hpp>
+
+namespace plica {
+
+/// The laws that share the kernels of TissueLaws. One more: its file above, its name here.
+using IsochoricLaws = TypeList<MooneyRivlin, Polynomial, Ogden, VerondaWestmann, ArrudaBoyce, TransverselyIsotropic,
+                               HolzapfelGasserOgden, Costa>;
+
+/// f(law{}) for the one at a place of the list.
+template <class... Laws, class F>
+KOKKOS_INLINE_FUNCTION void with_law(TypeList<Laws...>, int place, const F& f) {
+  (void)((place-- == 0 ? (f(Laws{}), true) : false) || ...);
+}
+
+/// Any of them: which one is a number among the constants, the same in all lanes. So their kernels are compiled once, and the laws
+/// once for all kernels.
+struct TissueLaws : Isochoric<TissueLaws> {
+  template <class T>
+  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION T isochoric(const Mat3<T>& C, const IsochoricConstants<T>& c) {
+    T W = T(0);
+    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)), [&](auto law) { W = decltype(law)::isochoric(C, c); });
+    return W;
+  }
+  template <class T, class To>
+  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c,
+                                                               To& to) {
+    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)), [&](auto law) { decltype(law)::respond(C, c, to); });
+  }
+};
+
+}  // namespace plica
