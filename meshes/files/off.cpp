@@ -25,14 +25,15 @@ void read_vertex(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& 
 
 void read_face(std::int64_t i, std::int64_t count, TextLines& lines, RawMesh& raw) {
   if (!lines.next()) lines.expected("face " + std::to_string(i + 1) + " of " + std::to_string(count));
-  const std::int64_t corners = lines.integer(0, "the number of corners of a face");
-  if (corners < 3 || corners >= static_cast<std::int64_t>(lines.words().size()))
-    return raw.bad_faces.add(lines.place(), "a face has " + std::to_string(corners) +
-                                                " corners; expected 3 or more: " + shown(lines.text()));
+  const Place place = lines.place();
+  TextNumbers numbers(lines, std::size_t{0});  // corners may go on on the next line, as some programs write them
+  const std::int64_t corners =
+      numbers.count(NumberType::int32, "the number of corners of a face", NumberType::int32, 1);
+  if (corners < 3)
+    return raw.bad_faces.add(place, "a face has " + std::to_string(corners) + " corners; expected 3 or more");
   std::vector<std::int64_t> tags;
-  for (std::int64_t k = 1; k <= corners; ++k)
-    tags.push_back(lines.integer(static_cast<std::size_t>(k), "a corner of a face"));
-  add_face(i, tags, lines.place(), raw);
+  for (std::int64_t k = 0; k < corners; ++k) tags.push_back(numbers.integer(NumberType::int32, "a corner of a face"));
+  add_face(i, tags, place, raw);
 }
 
 }  // namespace

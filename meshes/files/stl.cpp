@@ -68,7 +68,8 @@ void read_text(const MemoryFile& file, StlGather& gather) {
   TextLines lines(file);
   bool open = false;
   while (lines.next()) {
-    const bool starts = is(lines, 0, "solid"), ends = is(lines, 0, "endsolid");
+    const bool starts = is(lines, 0, "solid"),
+               ends = is(lines, 0, "endsolid") || (is(lines, 0, "end") && is(lines, 1, "solid"));
     if (open ? !ends && !is(lines, 0, "facet") : !starts) lines.expected(open ? "facet or endsolid" : "solid");
     if (starts || ends)
       open = starts;

@@ -174,6 +174,15 @@ TEST(Formats, EverySurfaceOfTheBlocksIsTheSame) {
   EXPECT_EQ(report.open_edges, 4);
 }
 
+TEST(Formats, LooseOnesAreReadToo) {
+  const std::string off =
+      "COFF\n# c\n4 2 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n1 1 0 1 0 0 1\n0 1 0 1 0 0 1\n4 0\n1 2\n3\n\n3 0 2 1 9 9\n";
+  EXPECT_EQ(read_surface(MemoryFile{"m.off", off}).triangles,
+            (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 2}, {0, 2, 3}}));
+  const MemoryFile stl = sample("blocks.stl");
+  EXPECT_EQ(read_surface(MemoryFile{"m.stl", with(stl.bytes, "endsolid", "end solid")}).triangles.size(), 20u);
+}
+
 TEST(Formats, WrittenSurfacesAreTheSame) {
   const TriangleSurface surface = read_surface(sample("blocks.obj"));
   for (const char* name : {"m.ply", "m.off"}) {
