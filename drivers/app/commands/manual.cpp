@@ -19,8 +19,8 @@ Files in the folder, SI units throughout; a killed run leaves whole ones:
   probes.csv       where output.probes asks: positions [m] and velocities [m/s] of named points
   checkpoint.bin   where --checkpoint asks: at the start, at each interval, at the end, and at Ctrl-C after a macro step
 
-A folder that holds a run already is refused; --force replaces that run. Set-up that takes more than 2 s says what it
-is doing, on the standard error.
+`plica report FOLDER` makes a page of them. A folder that holds a run already is refused; --force replaces that run.
+Set-up that takes more than 2 s says what it is doing, on the standard error.
 
 --resume goes on from checkpoint.bin with the same bits as a run that never stopped. The scene, --set and
 --precision are the run's own; given again they must say the same. Only --duration may change.
@@ -55,7 +55,8 @@ Files in the folder, SI units throughout; rows are written as they finish:
   study.json       machine, reference, rows (one per method and macro step; diverged and refused ones too), what was left out
   study.csv        the rows
   reference.bin    what errors are measured against
-The same command goes on with what it finds there. drivers/plots/study.py FOLDER draws study.png.
+The same command goes on with what it finds there. `plica report FOLDER` makes a page of it,
+drivers/plots/study.py FOLDER a picture, study.png.
 
 Examples:
   plica study beam.yaml -o out/beam --budget 60s

@@ -279,8 +279,7 @@ std::string study_text(const Scene& scene, const StudyResult& result, const std:
   text += reference_text(result) + pareto_text(result);
   for (const double threshold : thresholds) text += fastest_text(result, threshold);
   text += growth_text(result) + missing_text(result);
-  return text +
-         fmt::format("Files: {0}: study.json, study.csv. The picture: python3 drivers/plots/study.py {0}\n", folder);
+  return text + fmt::format("Files: {0}: study.json, study.csv. To look at: plica report {0}\n", folder);
 }
 
 }  // namespace plica::app

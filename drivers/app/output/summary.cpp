@@ -238,6 +238,7 @@ Json diagnosis_json(const std::optional<Diagnosis>& diagnosis, const std::vector
   for (const Point& p : corners) places.push_back({p.x(), p.y(), p.z()});
   const auto index = [](int i) { return i < 0 ? Json(nullptr) : Json(i); };
   return {{"kind", diagnosis->kind},
+          {"text", diagnosis->text()},
           {"level", index(diagnosis->level)},
           {"element", index(diagnosis->element)},
           {"vertex", index(diagnosis->vertex)},
@@ -341,7 +342,8 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"stepping", in_units(wall, "s") + speed},
       {"set-up", in_units(s.setup_time, "s") + ", peak memory " + in_bytes(s.peak_memory)},
       {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
-                            counted(static_cast<long>(s.frames), "frame"), last_good)}};
+                            counted(static_cast<long>(s.frames), "frame"), last_good)},
+      {"to look at", "plica report " + folder}};
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }
 

@@ -4,6 +4,7 @@
 
 const LOOKS = ["solid", "with edges", "glass", "edges", "off"];
 const FILM_COLOURS = ["#8fa9c4", "#c99a6b", "#86b291", "#a58fc0", "#c58a9a"];
+const MARK = "#e000c0"; // unlike all colours of the ramps
 const QUANTITIES = { // that need no field: label, unit, explanation
   displacement: ["displacement", "m", "from where it rests"], shape: ["deformation", "m", "distance from the best rigid fit"]};
 const report = JSON.parse(by_id("data").textContent);
@@ -27,11 +28,8 @@ function show_head() {
 }
 
 function diagnosis_words(d) {
-  const where = [d.level !== null && `level ${d.level}`, d.element !== null && `element ${d.element}`, d.vertex !== null && `vertex ${d.vertex}`,
-    d.region && `region ${d.region}`].filter(Boolean).join(", ");
-  const marked = d.corners && d.corners.length && report.films.length ? " It is marked red in the last frame." : "";
-  const remedy = d.remedy && ` What may help: ${d.remedy}.`;
-  return `Diverged (${d.kind.replace(/_/g, " ")})${where && " at " + where}${d.reason && ": " + d.reason}.${marked}${remedy}`;
+  const marked = d.corners && d.corners.length && report.films.length ? ". It is marked in the last frame." : ".";
+  return "Diverged: " + (d.text || `${d.kind}; ${d.remedy}`) + marked;
 }
 
 // The range of a quantity over all frames and films, of a field but for its outermost 0.2 per cent; its ramp of colours.
@@ -102,7 +100,7 @@ function draw_marks() {
   if (!page.mark || page.mark.look === "off") return;
   const at = minus(page.mark.middle, view.focus), x = width / 2 + view.shift[0] + dot(rows[0], at) * view.resolution();
   const y = height / 2 + view.shift[1] - dot(rows[1], at) * view.resolution();
-  svg.append(element("circle", {cx: x, cy: y, r: 16, fill: "none", stroke: "#e0302a", "stroke-width": 2.5}),
+  svg.append(element("circle", {cx: x, cy: y, r: 16, fill: "none", stroke: MARK, "stroke-width": 2.5}),
     element("text", {class: "strong", x: x + 22, y: y - 10}, page.mark.words));
 }
 
@@ -139,7 +137,7 @@ function add_mark(diagnosis) {
   page.mark = new Surface(new Float32Array(corners.flat()), new Uint32Array(triangles));
   page.mark.move(page.mark.points);
   const words = diagnosis.element !== null ? `element ${diagnosis.element}` : `vertex ${diagnosis.vertex}`;
-  Object.assign(page.mark, {colour: "#e0302a", middle: times(corners.reduce(plus), 1 / corners.length), words: `${words}, level ${diagnosis.level}`});
+  Object.assign(page.mark, {colour: MARK, middle: times(corners.reduce(plus), 1 / corners.length), words: `${words}, level ${diagnosis.level}`});
   page.view.surfaces.push(page.mark);
 }
 

@@ -94,16 +94,18 @@ class Maker {
 
  private:
   void add_study() {
-    data_["study"] = read_json(folder_ / "study.json");
-    data_["title"] = data_["study"].value("name", data_["title"]);
-    data_["status"] = "study " + data_["study"].value("status", "");
+    data_["study"] =
+        read_json(folder_ / "study.json", {"name", "status", "duration", "tets", "machine", "reference", "rows"});
+    data_["title"] = data_["study"]["name"];
+    data_["status"] = "study " + data_["study"]["status"].get<std::string>();
   }
 
   void add_run(std::size_t frames) {
     if (std::filesystem::exists(folder_ / "summary.json")) {
-      const Json& summary = data_["summary"] = read_json(folder_ / "summary.json");
-      data_["title"] = summary.value("name", data_["title"]);
-      data_["status"] = summary.value("status", "");
+      const Json& summary = data_["summary"] = read_json(
+          folder_ / "summary.json",
+          {"name", "status", "levels", "cycle", "macro_step", "simulated_time", "wall_time", "stages", "diagnosis"});
+      data_["title"] = summary["name"], data_["status"] = summary["status"];
       if (summary.contains("gravity")) take_up(summary["gravity"]);
     } else {
       data_["status"] = "unfinished";
@@ -144,16 +146,17 @@ class Maker {
   // The frame of all films, or of none
   bool add_frame(const std::vector<Listed>& listed, std::size_t frame, std::vector<std::optional<Film>>& films) {
     std::vector<FrameFile> files;
-    for (const Listed& film : listed) try {
-        files.push_back(read_frame(film.entries[frame].file));
-        std::optional<Film>& made = films[files.size() - 1];
-        if (!made) made.emplace(film.level, files.back());
-        made->check(files.back());
-      } catch (const InputError& error) {
-        report_.warnings.push_back(
-            fmt::format("The frame at {:g} s is left out: {}", film.entries[frame].time, error.what()));
-        return false;
+    try {
+      for (std::size_t i = 0; i < films.size(); ++i) {
+        files.push_back(read_frame(listed[i].entries[frame].file));
+        if (!films[i]) films[i].emplace(listed[i].level, files[i]);
+        films[i]->check(files[i]);
       }
+    } catch (const InputError& error) {
+      const double time = listed.front().entries[frame].time;
+      report_.warnings.push_back(fmt::format("The frame at {:g} s is left out: {}", time, error.what()));
+      return false;
+    }
     for (std::size_t i = 0; i < films.size(); ++i) films[i]->add(files[i]);
     return true;
   }
@@ -185,9 +188,11 @@ class Maker {
 
 }  // namespace
 
-Report make_report(const std::filesystem::path& folder, std::size_t frames) {
+Report make_report(const std::filesystem::path& folder, std::size_t frames) try {
   check_folder(folder);
   return Maker(folder.has_filename() ? folder : folder.parent_path()).make(frames);
+} catch (const Json::exception& error) {
+  throw InputError(folder.string() + ": summary.json or study.json is not what plica wrote there: " + error.what());
 }
 
 }  // namespace plica::app

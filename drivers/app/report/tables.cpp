@@ -55,9 +55,11 @@ Json read_columns(const std::filesystem::path& csv, std::size_t rows) {
   return columns;
 }
 
-Json read_json(const std::filesystem::path& file) try {
+Json read_json(const std::filesystem::path& file, const std::vector<std::string>& keys) try {
   Json json = Json::parse(load_file(file).bytes);
-  if (!json.is_object()) throw InputError("it is not what plica wrote there", {file.string()});
+  for (const std::string& key : keys)
+    if (!json.is_object() || !json.contains(key))
+      throw InputError("it is not what plica wrote there: there is no '" + key + "'", {file.string()});
   return json;
 } catch (const Json::exception& error) {
   throw InputError(std::string("it is damaged: ") + error.what(), {file.string()});

@@ -2,6 +2,8 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 namespace plica::app {
 
@@ -9,7 +11,7 @@ namespace plica::app {
 /// file and line where it is none.
 nlohmann::ordered_json read_columns(const std::filesystem::path& csv, std::size_t rows);
 
-/// A JSON file. InputError where it is none.
-nlohmann::ordered_json read_json(const std::filesystem::path& file);
+/// A JSON file with these members. InputError where it is none.
+nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::vector<std::string>& keys);
 
 }  // namespace plica::app

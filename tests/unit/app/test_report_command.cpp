@@ -143,6 +143,8 @@ TEST_F(ReportCommand, SaysWhatIsNoRun) {
   says(out, "history.csv:3: expected a number, found 'x'");
   std::ofstream(folder / "out/summary.json") << "{";
   says(out, "summary.json: it is damaged: ");
+  std::ofstream(folder / "out/summary.json") << R"({"name": "a", "status": "completed"})";
+  says(out, "summary.json: it is not what plica wrote there: there is no 'levels'");
 }
 
 TEST_F(ReportCommand, NamesCannotBreakOutOfThePage) {
