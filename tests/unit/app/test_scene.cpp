@@ -56,6 +56,19 @@ TEST(Scene, GeneratorsAndSurfaces) {
   EXPECT_EQ(scene.problem.body.surface->triangles.size(), 6 * 16 * 2);
 }
 
+TEST(Scene, CoarseSpacesAreNoMeshes) {
+  const auto coarsened = [](const std::string& spaces) {
+    return scene_of(sound_scene, {"integration={cycle: him}",
+                                  "body.levels=[{box: {size: [1, 1, 1], cells: [4, 4, 4]}}, " + spaces + "]"});
+  };
+  const Scene automatic = coarsened("{coarsen: auto}");
+  EXPECT_EQ(automatic.problem.body.levels.size(), 1);
+  ASSERT_TRUE(automatic.problem.body.coarsen);
+  EXPECT_TRUE(automatic.problem.body.coarsen->empty());
+  EXPECT_EQ(*coarsened("{coarsen: 100}, {coarsen: 40}").problem.body.coarsen, (std::vector<int>{100, 40}));
+  EXPECT_FALSE(scene_of(sound_scene).problem.body.coarsen);
+}
+
 TEST(Override, ReplacesAndAdds) {
   const Scene scene = scene_of(
       sound_scene, {"duration=20 ms", "body.levels.0.box.cells=[3, 3, 3]", "name=a=b",
@@ -228,6 +241,14 @@ const Damage damages[] = {
      "a.yaml:6: body.levels.1: a mesh this fine makes the scene take about 1.68e+04 GB of memory; this machine has "},
     {"SubdividedTooOften", "subdivisions: 1", "subdivisions: 2000000000",
      "a.yaml:8: body.surface: a mesh this fine makes the scene take about "},
+    {"TooFewPoints", "{box: {size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2]}}", "{coarsen: 20}",
+     "a.yaml:6: body.levels.1.coarsen: expected a whole number >= 30, or auto, got '20'"},
+    {"CoarsenFirst", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{coarsen: auto}",
+     "a.yaml:5: body.levels.0: coarsen makes coarse spaces of the mesh before it; expected a mesh first"},
+    {"CoarsenWithMeshes", "  material:", "    - {coarsen: auto}\n  material:",
+     "a.yaml:7: body.levels.2: coarsen makes coarse spaces of the finest mesh, but 2 meshes stand before it"},
+    {"CoarsenInAPaperCycle", "{box: {size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2]}}", "{coarsen: auto}",
+     "a.yaml:4: body.levels: coarsen makes spaces without elements, but cycle rsv integrates its coarser levels"},
     {"NotAFlag", "macro_step: 1 ms", "allow_unstable: yes",
      "a.yaml:11: integration.allow_unstable: expected true or false, got 'yes'"},
     {"UnknownName", "neo_hookean", "neohookean",
