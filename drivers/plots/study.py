@@ -96,8 +96,10 @@ def draw_front(axes, rows):
     front = sorted((row for row in rows if row["pareto"] and row["error"] > 0), key=lambda row: row["wall_time"])
     axes.step([row["wall_time"] for row in front], [row["error"] for row in front], where="post", color="black",
               linewidth=1.4, zorder=2, label="the best for their time")
-    for number, row in enumerate(front, 1):
-        axes.annotate(str(number), (row["wall_time"], row["error"]), textcoords="offset points", xytext=(-9, -11),
+    places = [axes.transData.transform((row["wall_time"], row["error"])) for row in front]
+    for i, row in enumerate(front):
+        near = i > 0 and math.dist(places[i], places[i - 1]) < 15  # its number goes to the other side
+        axes.annotate(str(i + 1), (row["wall_time"], row["error"]), textcoords="offset points", xytext=(9, 4) if near else (-9, -11),
                       fontsize=9, weight="bold", ha="center", zorder=4)
     return "\n".join(f"{number}  {name_of(row, rows)}: {row['macro_step_over_critical']:.2g}×"
                      for number, row in enumerate(front, 1))
@@ -147,6 +149,7 @@ def draw(folder):
     study = json.loads((folder / "study.json").read_text())
     rows, reference, machine = study["rows"], study["reference"], study["machine"]
     for row in rows:  # what is drawn: against the truth, where that is the reference; beside it the part of the time step
+        row.setdefault("total_error", None), row.setdefault("element", "linear")  # earlier studies
         row["time_error"] = row["error"] if row["total_error"] is not None else None
         row["error"] = row["error"] if row["total_error"] is None else row["total_error"]
     look = families(rows)

@@ -21,7 +21,7 @@ class Browser:
     """A page, and what it complained of and asked for: `errors`, and `requests` but for the page itself."""
 
     def __init__(self, size=(1400, 1500), dark=False):
-        self._folder = tempfile.TemporaryDirectory()
+        self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)  # its helpers may write on for a moment
         read_commands, self._write = os.pipe()
         self._read, write_answers = os.pipe()
 
@@ -46,8 +46,13 @@ class Browser:
         self.call("Emulation.setEmulatedMedia", features=[scheme])
 
     def close(self):
-        self._process.terminate()
-        self._process.wait()
+        self._session = None
+        try:
+            self.call("Browser.close")
+            self._process.wait(timeout=20)
+        except (OSError, TimeoutError, subprocess.TimeoutExpired):
+            self._process.kill()
+            self._process.wait()
         for end in (self._read, self._write):
             os.close(end)
 

@@ -2,7 +2,7 @@
 // A study: each method's error against its run time, and the front of those that are best for their time.
 "use strict";
 
-const STUDY_BOX = {width: 980, height: 470, left: 70, right: 16, top: 34, bottom: 44};
+const STUDY_BOX = {width: 980, height: 470, left: 70, right: 16, top: 12, bottom: 44};
 
 function family_of(row) { return row.method.split("/").slice(0, row.method.startsWith("single") ? 1 : 2).join("/"); }
 
@@ -16,7 +16,7 @@ function name_of(row, rows) {
 function row_words(row, rows) {
   const words = [name_of(row, rows), `macro step ${with_unit(row.macro_step, "s")}, ${short(row.macro_step_over_critical)} × the critical step`];
   if (row.status !== "completed") return [...words, row.status + (row.reason ? ": " + row.reason : "")].join("\n");
-  if (row.total_error !== null) words.push(`total error ${percent(row.total_error)}; of the time step ${percent(row.error)}`);
+  if (has_total(row)) words.push(`total error ${percent(row.total_error)}; of the time step ${percent(row.error)}`);
   else words.push(`error ${percent(row.error)}`);
   return [...words, `run time ${with_unit(row.wall_time, "s")}`, row.pareto ? "the best for its time" : ""].filter(Boolean).join("\n");
 }
@@ -50,11 +50,13 @@ function front_table(parent, front, rows) {
   parent.append(element("div", {class: "scroll"}, table));
 }
 
-const error_of = (row) => (row.total_error === null || row.total_error === undefined ? row.error : row.total_error);
+// Against the truth, where the study knows it.
+const has_total = (row) => Number.isFinite(row.total_error);
+const error_of = (row) => (has_total(row) ? row.total_error : row.error);
 
 function show_study(study) {
   const rows = study.rows, done = rows.filter((row) => row.status === "completed" && error_of(row) > 0);
-  const true_errors = done.some((row) => row.total_error !== null && row.total_error !== undefined), section = by_id("study");
+  const true_errors = done.some(has_total), section = by_id("study");
   section.hidden = false;
   const made = card(section, "Error against run time", `${study.name}: ${short(study.duration)} s, ${study.tets.join(" / ")} tetrahedra; ` +
     `${study.machine.cpu}, ${study.machine.threads} thread${study.machine.threads === 1 ? "" : "s"}; study ${study.status}. ` +
@@ -68,13 +70,16 @@ function show_study(study) {
   const y = {label: (true_errors ? "total " : "") + "error of displacement: less below", low: Math.min(...errors) / 2,
     high: Math.min(Math.max(...errors) * 2, 100), logarithmic: true, shown: percent};
   for (const axis of [x, y]) axis.ticks = powers(axis.low, axis.high);
-  const plot = axes(made, x, y, STUDY_BOX), top = STUDY_BOX.top - 14;
-  const place = (row) => ({x: plot.px(time_of(row)), y: row.status === "completed" ? Math.max(plot.py(error_of(row)), STUDY_BOX.top) : top});
+  const failed = [...new Set(shown.filter((row) => row.status !== "completed").map(family_of))]; // a line for each, above the plot
+  const box = {...STUDY_BOX, top: STUDY_BOX.top + 13 * failed.length}, plot = axes(made, x, y, box);
+  const height = (row) => (row.status === "completed" ? Math.max(plot.py(error_of(row)), box.top) : box.top - 8 - 13 * failed.indexOf(family_of(row)));
+  const place = (row) => ({x: plot.px(time_of(row)), y: height(row)});
   const front = done.filter((row) => row.pareto).sort((a, b) => a.wall_time - b.wall_time);
   let path = "";
   front.forEach((row, i) => {
     const at = place(row);
-    plot.svg.append(element("text", {class: "strong", x: at.x - 12, y: at.y + 16, "text-anchor": "middle"}, String(i + 1)));
+    const before = i > 0 ? place(front[i - 1]) : {x: -1e9, y: 0}, near = Math.hypot(at.x - before.x, at.y - before.y) < 12;
+    plot.svg.append(element("text", {class: "strong", x: at.x + (near ? 13 : -12), y: at.y + (near ? -8 : 16), "text-anchor": "middle"}, String(i + 1)));
     path += i === 0 ? `M${at.x} ${at.y}` : `H${at.x}V${at.y}`;
   });
   const told = 10 * study.reference.own_error;
