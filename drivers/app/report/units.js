@@ -53,7 +53,8 @@ function round_below(number) {
 
 // The numbers behind a text in base64, of an array type such as Float32Array. Files of runs and pages are little-endian.
 function decoded(text, Type) {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = letters.charCodeAt(i);
   return new Type(bytes.buffer);
 }
 
