@@ -10,24 +10,38 @@
 
 namespace plica {
 
+namespace {
+
+// Of contact that is implicit in an explicit step, over the layer of elements under the surface: what keeps a body visibly outside.
+// The linear systems of implicit levels, which take one stiffness for both sides of the gap, take that of the layer itself.
+constexpr double stiffening = 64;
+
+}  // namespace
+
 template <class B>
 Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area,
                     double edge, double size)
     : points_(points), reach_(edge), deepest_(size), lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
-  constexpr double stiffening = 32;  // over the layer of elements under the surface: what keeps it visibly outside
   const DepthWatch<B> watch{lost_, static_cast<Real>(size)};
   const double per_point = area / points;
-  stiffness_ = options.stiffness_scale * stiffening * stiffness_at_rest(material) * per_point / edge;
-  const double critical = std::sqrt(stiffness_ * material.density * per_point * edge);  // 2 * 0.5 * sqrt(k m)
-  damping_ = options.damping_scale * critical;
-  std::vector<PenaltyLaw<Real>> laws;
+  const double soft = options.stiffness_scale * stiffness_at_rest(material) * per_point / edge;
+  stiffness_ = stiffening * soft;
+  const auto critical = [&](double k) {
+    return std::sqrt(k * material.density * per_point * edge);
+  };  // 2 * 0.5 sqrt(k m)
+  damping_ = options.damping_scale * critical(stiffness_);
+  const auto law_of = [&](const ObstacleOptions& o, double k) {
+    return PenaltyLaw<Real>{static_cast<Real>(k), static_cast<Real>(options.damping_scale * critical(k)),
+                            static_cast<Real>(o.friction ? options.tangential_damping_scale * critical(k) : 0),
+                            static_cast<Real>(o.friction.value_or(0))};
+  };
+  std::vector<PenaltyLaw<Real>> laws, implicit_laws;
   for (const ObstacleOptions& o : options.obstacles) {
-    laws.push_back({static_cast<Real>(stiffness_), static_cast<Real>(damping_),
-                    static_cast<Real>(o.friction ? options.tangential_damping_scale * critical : 0),
-                    static_cast<Real>(o.friction.value_or(0))});
-    obstacles_.push_back(make_obstacle<B>(o, laws.back(), watch));
+    laws.push_back(law_of(o, stiffness_)), implicit_laws.push_back(law_of(o, soft));
+    obstacles_.push_back(make_obstacle<B>(o, implicit_laws.back(), watch));
   }
-  laws_ = to_device<decltype(laws_)>("contact.laws", laws);
+  laws_ = to_device<Laws>("contact.laws", laws);
+  implicit_laws_ = to_device<Laws>("contact.implicit_laws", implicit_laws);
 }
 
 template <class B>
@@ -35,7 +49,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   const std::size_t n = static_cast<std::size_t>(points_), records = n * obstacles_.size();
   TouchingPoints<B> points;
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
-  points.law = laws_;
+  points.law = implicit ? implicit_laws_ : laws_;
   points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
   points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
   points.force = zeros<Vectors<B>>("plica::contact.force", records);
@@ -86,14 +100,15 @@ void Contact<B>::add_matrix(const Exec& exec, const Level<B>& level, const Touch
 }
 
 template <class B>
-double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, const BlockSums<B>& blocks) const {
+double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, bool implicit,
+                          const BlockSums<B>& blocks) const {
   const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
   double total = 0;
   for (const auto& obstacle : obstacles_) {
     obstacle->energy(exec, level.surface, level.state, time, blocks, result);
     total += host_values(exec, result)[0];
   }
-  return total;
+  return implicit ? total : stiffening * total;
 }
 
 template <class B>

@@ -65,14 +65,15 @@ class Contact {
   void add_diagonal(const Exec&, const Level<B>&, const TouchingPoints<B>&, const Blocks<B>& diagonal) const;
   /// A += W^T block W
   void add_matrix(const Exec&, const Level<B>&, const TouchingPoints<B>&, const BlockMatrix<B>& A) const;
-  double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
+  /// Of an implicit level, or of an explicit one.
+  double energy(const Exec&, const Level<B>&, double time, bool implicit, const BlockSums<B>&) const;
 
   /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
   int take_lost(const Exec&) const;
   double deepest() const { return deepest_; }  ///< [m]
 
-  double stiffness() const { return stiffness_; }  ///< of a point [N/m]
-  double damping() const { return damping_; }      ///< along the normal [N s/m]
+  double stiffness() const { return stiffness_; }  ///< of a point, on explicit levels [N/m]
+  double damping() const { return damping_; }      ///< along the normal, likewise [N s/m]
   int points() const { return points_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
   Point origin(int obstacle, double time) const { return obstacles_[static_cast<std::size_t>(obstacle)]->origin(time); }
@@ -82,7 +83,8 @@ class Contact {
   int points_;
   double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
-  Kokkos::View<PenaltyLaw<Real>*, typename B::Memory> laws_;
+  using Laws = Kokkos::View<PenaltyLaw<Real>*, typename B::Memory>;
+  Laws laws_, implicit_laws_;  ///< of the obstacles
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
 };
 

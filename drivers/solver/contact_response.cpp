@@ -25,6 +25,7 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
                                const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
   const int n = level.surface.points;
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
+  law.entry = static_cast<Real>(step.entry);
   contact_->find(exec, level, state, time, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
   for (int sweep = 0; sweep <= sweeps; ++sweep) {  // the first for rho and the forces by e alone
@@ -42,7 +43,7 @@ void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, con
   update_vertices<B>(exec, "plica::contact_smooth", touched,
                      FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
   const AnswerByMass<B> answer{level.surface, level.model, points_, answer_, damped};
-  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, true},
+  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, true},
         [&] { where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer); });
   where_touching<B>(exec, points_.count, "plica::contact_scatter", touched,
                     ScatterContact<B>{level.surface, points_, f});

@@ -51,7 +51,8 @@ Energies EnergyMeter<B>::all(double time) const {
   reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial}, blocks_,
                result_);
   e.elastic = read()[0];
-  if (level.contact()) e.contact = level.contact()->energy(exec, level, time, blocks_);
+  if (level.contact())
+    e.contact = level.contact()->energy(exec, level, time, level.response().points().block.extent(0) > 0, blocks_);
   return e;
 }
 

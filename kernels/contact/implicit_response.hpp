@@ -24,8 +24,10 @@ namespace plica {
 
 /// How a step takes its contact: what of its own acceleration contact sees. A default one: nothing, the bare penalty law.
 struct ContactStep {
-  double span = 0;    ///< h [s]
-  double ahead = 0;   ///< how far ahead of the state the depth is taken, with the velocity there [s]
+  double span = 0;   ///< h [s]
+  double ahead = 0;  ///< how far ahead of the state the depth is taken, with the velocity there [s]
+  double entry =
+      0;  ///< the same where a point is still outside, if that is more: it is stopped before it is deep inside
   double damped = 0;  ///< of mass damping c: e = (a - c v) / (1 + damped c), A likewise [s]
 };
 
@@ -59,17 +61,22 @@ struct TouchLaw {
   EmbeddedSurface<B> surface;
   TouchingPoints<B> points;
   Vectors<B> smooth, answer;  ///< accelerations without contact, and by the last contact forces [m/s^2]
-  Real h, ahead;
+  Real h, ahead, entry;
   bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int p) const {
     return value_at<B>(surface.embedding, x, p);
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(points.normal, r); }
+  KOKKOS_INLINE_FUNCTION Real looks_ahead(int r) const {
+    return points.depth(r) > 0 ? ahead : Kokkos::max(ahead, entry);
+  }
+  /// What an acceleration adds to the position that the law goes by [s^2].
+  KOKKOS_INLINE_FUNCTION Real weight(int r) const { return Real(0.5) * h * (h + looks_ahead(r)); }
   /// The depth that the law goes by, for an acceleration at the point.
   KOKKOS_INLINE_FUNCTION Real depth(int r, const Vec3<Real>& e) const {
     const Vec3<Real> N = normal(r), v = vector_at<B>(points.velocity, r);
-    return points.depth(r) - ahead * dot(N, v) - Real(0.5) * h * h * dot(N, e);
+    return points.depth(r) - looks_ahead(r) * dot(N, v) - weight(r) * dot(N, e);
   }
   /// n for that acceleration
   KOKKOS_INLINE_FUNCTION Real pressure(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
@@ -130,10 +137,8 @@ struct SweepTouching {
         if (!first) e += answer;
         known = true;
       }
-      if (first) {
-        const Real least = law.isotropic ? Kokkos::Experimental::norm_min_v<Real> : Real(0);
-        points.mobility(r) = Kokkos::max(dot(force, answer), least);
-      }
+      if (first)
+        points.mobility(r) = Kokkos::max(Kokkos::sqrt(dot(answer, answer)), Kokkos::Experimental::norm_min_v<Real>);
       sweep(points.law(o), r, first ? Vec3<Real>{} : force, e);
     }
   }
@@ -142,7 +147,7 @@ struct SweepTouching {
                                     const Vec3<Real>& e) const {
     const Vec3<Real> N = law.normal(r);
     const Real rho = law.points.mobility(r), h = law.h, before = dot(force, N);
-    const Real stiff = Real(0.5) * h * (h * of.stiffness + of.damping);
+    const Real stiff = law.weight(r) * of.stiffness + Real(0.5) * h * of.damping;
     const Real pressure = Kokkos::max(Real(0), before + (law.pressure(of, r, e) - before) / (1 + stiff * rho));
     Vec3<Real> across = force - before * N;
     across += (1 / (1 + h * of.tangential * rho)) * (law.drag(of, r, e) - across);

@@ -13,7 +13,7 @@ namespace plica {
 template <class B>
 struct SymplecticEulerUpdate {
   static constexpr const char* label = "plica::symplectic_euler";
-  static ContactStep contact(double h) { return {.span = h, .damped = h}; }
+  static ContactStep contact(double h) { return {.span = h, .entry = h, .damped = h}; }
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, u, v;
@@ -66,7 +66,7 @@ struct HalfKick {
 template <class B>
 struct ForwardEulerUpdate {
   static constexpr const char* label = "plica::euler";
-  static ContactStep contact(double h) { return {.span = h, .ahead = h}; }
+  static ContactStep contact(double h) { return {.span = h, .ahead = h, .entry = h}; }
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, u, v;

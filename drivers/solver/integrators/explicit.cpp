@@ -43,7 +43,7 @@ class CentralDifferenceStep final : public Integrator<B> {
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     const int n = level.model.vertices;
     const auto half = static_cast<Real>(h / 2);
-    const ContactStep contact{.span = h, .damped = h / 2};
+    const ContactStep contact{.span = h, .entry = h, .damped = h / 2};
     if (!current_ || level.asks_caller())
       level.evaluate(level.state, time, f_, contact, h / 2);
     else if (level.contact())
@@ -94,7 +94,7 @@ class RungeKuttaStep final : public Integrator<B> {
       for (int k = 0; k < Tableau::stages; ++k) {
         const bool last = k + 1 == Tableau::stages;
         const double ahead = last ? 0 : Tableau::ahead[k];
-        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ahead = Tableau::looks_ahead * h},
+        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ahead = Tableau::looks_ahead * h, .entry = h},
                        Tableau::weight[k] * h);
         update_vertices<B>(exec, "plica::runge_kutta", level.model.vertices,
                            RungeKuttaStage<B>{level.model, level.f, start_, stage_, sum_, static_cast<Real>(h),

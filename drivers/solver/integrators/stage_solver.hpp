@@ -229,7 +229,7 @@ class StageSolver {
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
                  blocks_, result_);
     double stored = read(level.exec())[0];
-    if (level.contact()) stored += level.contact()->energy(level.exec(), level, end, blocks_);
+    if (level.contact()) stored += level.contact()->energy(level.exec(), level, end, true, blocks_);
     return {terms[0] + stored, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(stored)};
   }
 };

@@ -94,7 +94,9 @@ double force(int n, std::string& cells) {
 }  // namespace
 
 VerifyRows friction_on_a_slope(const VerifyContext& context) {
-  VerifyRow row{.quantity = "tangent of the slope on which a block slips, friction 0.3", .unit = "1", .accepted = incline::friction};
+  VerifyRow row{.quantity = "tangent of the slope on which a block slips, friction 0.3",
+                .unit = "1",
+                .accepted = incline::friction};
   row.source = "Coulomb's law: tan(angle) = mu";
   row.judged = Judged::finest, row.tolerance = 0.02;
   row.note = "it has slipped where after 0.3 s it has 1 % of the speed of free sliding";
