@@ -31,6 +31,7 @@ class CommandLine {
     add_stability();
     add_verify();
     add_report();
+    add_doctor();
     add_mesh();
     add_list();
     add_schema();
@@ -174,6 +175,13 @@ class CommandLine {
         ->type_name("N")
         ->check(CLI::Range(2, 100000));
     command->add_flag("--quiet", report_.quiet, "say nothing unless something is wrong");
+  }
+
+  void add_doctor() {
+    CLI::App* command = add("doctor", "say what this machine can do, and check a short run",
+                            [this] { return doctor(arguments_.json, arguments_.kokkos); });
+    add_threads(command);
+    command->add_flag("--json", arguments_.json, "print JSON, in SI units");
   }
 
   void add_mesh() {

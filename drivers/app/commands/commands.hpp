@@ -114,6 +114,10 @@ ExitStatus status_of(const MatrixResult& result);
 /// plica verify: solves problems with known answers, writes the table, and says which rows are not ok.
 ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more);
 
+/// plica doctor: what this program is and runs on, what the machine can do, and whether a short run gives the stored answer;
+/// `failed` where it does not.
+ExitStatus doctor(bool json, const KokkosArguments& kokkos);
+
 /// The problems' names, each with what it is, for the manual.
 std::string verify_problems_text();
 

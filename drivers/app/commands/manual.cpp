@@ -156,6 +156,17 @@ and as the scene's first line, with the path from the scene to that file:
 
 Exit status: 0)";
 
+constexpr const char* doctor_manual =
+    R"(Says what this program is and what it runs on, measures what the machine can do (memory, cache, arithmetic: some
+seconds), then lets a soft ball fall into a bowl and compares where it is and its energies with stored values. These
+hold for every processor and number of threads. For a report of a fault, send what it prints.
+
+Examples:
+  plica doctor
+  plica doctor --json
+
+Exit status: 0 all as stored, 1 another answer)";
+
 constexpr const char* completion_manual = R"(Examples:
   source <(plica completion bash)       # in ~/.bashrc
   source <(plica completion zsh)        # in ~/.zshrc, after compinit
@@ -173,6 +184,7 @@ std::string manual_of(const std::string& command) {
   if (command == "explain") return explain_manual;
   if (command == "check") return check_manual;
   if (command == "schema") return schema_manual;
+  if (command == "doctor") return doctor_manual;
   if (command == "completion") return completion_manual;
   if (command == "list")
     return "FAMILY is one of\n" + families_text() +
