@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/python/any_simulation.hpp>
+#include <plica/drivers/python/kokkos_session.hpp>
+
+namespace plica::python {
+
+std::shared_ptr<Values> AnySimulation::live(Field field, int level) {
+  for (const Live& one : lives_)
+    if (one.field == field && one.level == level)
+      if (auto values = one.values.lock()) return values;
+  auto values = std::make_shared<Values>();
+  read(field, level, *values);
+  std::erase_if(lives_, [](const Live& one) { return one.values.expired(); });
+  lives_.push_back({field, level, values});
+  return values;
+}
+
+void AnySimulation::refresh() {
+  for (const Live& one : lives_)
+    if (const auto values = one.values.lock()) read(one.field, one.level, *values);
+}
+
+namespace {
+
+template <class B>
+class SimulationOf final : public AnySimulation {
+ public:
+  SimulationOf(std::shared_ptr<const app::Scene> scene, const Problem& problem)
+      : scene_(std::move(scene)), simulation_(problem), surface_points_(simulation_.surface_positions().size()) {}
+
+  std::optional<Diagnosis> advance(double until, long at_most, const std::function<void()>& between) override {
+    const double rounding = 1e-9 * simulation_.macro_step();
+    std::optional<Diagnosis> bad;
+    try {
+      for (; at_most > 0 && !bad && simulation_.time() < until - rounding; --at_most) {
+        bad = step();
+        between();
+      }
+    } catch (...) {
+      refresh();
+      throw;
+    }
+    if (bad) simulation_.return_to_last_good();
+    refresh();
+    return bad;
+  }
+  void end_at(double time) override { simulation_.end_at(time); }
+
+  ElementFields element_fields(int level) const override {
+    ElementFields fields = simulation_.element_fields(level);
+    const Reordering& order = numbering(level).input;
+    const auto& rows = fields.per_vertex ? order.vertices : order.tets;
+    return {fields.per_vertex, app::in_input_order(fields.von_mises, rows), app::in_input_order(fields.J, rows)};
+  }
+
+  double time() const override { return simulation_.time(); }
+  double macro_step() const override { return simulation_.macro_step(); }
+  long macro_steps() const override { return simulation_.macro_steps(); }
+  Energies energies() const override { return simulation_.energies(); }
+  std::vector<LevelReport> levels() const override { return app::in_input_numbers(simulation_.levels(), *scene_); }
+  std::map<std::string, long> counters() const override { return simulation_.counters(); }
+  std::string precision() const override { return std::is_same_v<typename B::Real, float> ? "float" : "double"; }
+
+  void set_state(const Values& positions, const Values& velocities) override {
+    const std::vector<int> order = numbering(0).input.vertices;
+    const Rows x = on_device(positions, order), v = on_device(velocities, order);
+    simulation_.write_state(DeviceInput<B>(x), DeviceInput<B>(v));
+    Kokkos::fence("plica::set_state");
+    refresh();
+  }
+
+  void set_forces(HostForces forces) override {
+    if constexpr (!B::on_host) throw InputError("forces of one's own need a back end on the host");
+    if (!forces) return simulation_.set_external_forces({});
+    simulation_.set_external_forces(
+        [this, forces = std::move(forces)](const ForceRequest<B>& request) { add_forces(request, forces); });
+  }
+
+  SavedState save() const override { return simulation_.save(); }
+  void restore(const SavedState& saved) override {
+    simulation_.restore(saved);
+    refresh();
+  }
+
+ private:
+  using Rows = Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory>;
+  using HostRows =
+      Kokkos::View<double* [3], Kokkos::LayoutRight, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+
+  std::optional<Diagnosis> step() {
+    try {
+      auto bad = simulation_.step_checked();
+      if (bad) {
+        const app::Numbering& numbers = numbering(std::max(bad->level, 0));
+        bad->element = app::input_number(numbers.tet_ids, bad->element);
+        bad->vertex = app::input_number(numbers.vertex_ids, bad->vertex);
+      }
+      return bad;
+    } catch (...) {  // a caller's force: the step is half done
+      simulation_.return_to_last_good();
+      throw;
+    }
+  }
+
+  const app::Numbering& numbering(int level) const {
+    if (level < 0 || static_cast<std::size_t>(level) >= simulation_.levels().size())
+      throw InputError("level: there is no level " + std::to_string(level) + "; the simulation has " +
+                       std::to_string(simulation_.levels().size()) + ", counted from 0, the finest");
+    return scene_->numbering[static_cast<std::size_t>(level)];
+  }
+
+  void read(Field field, int level, Values& to) const override {
+    const bool of_surface = field == Field::surface_positions || field == Field::surface_velocities;
+    const std::vector<int>& order = numbering(level).input.vertices;
+    const std::size_t rows =
+        of_surface ? surface_points_
+                   : static_cast<std::size_t>(simulation_.levels()[static_cast<std::size_t>(level)].vertices);
+    to.resize(3 * rows);
+    if (of_surface || order.empty()) return read_rows(field, level, to);
+    Values here(to.size());
+    read_rows(field, level, here);
+    for (std::size_t i = 0; i < rows; ++i) std::copy_n(&here[3 * static_cast<std::size_t>(order[i])], 3, &to[3 * i]);
+  }
+
+  /// In the simulation's own order
+  void read_rows(Field field, int level, Values& to) const {
+    if (to.empty()) return;
+    const HostRows host(to.data(), to.size() / 3);
+    const auto rows = Kokkos::create_mirror_view(Kokkos::WithoutInitializing, typename B::Memory(), host);
+    const DeviceOutput<B> output(rows);
+    if (field == Field::positions) simulation_.read_positions(output, level);
+    if (field == Field::velocities) simulation_.read_velocities(output, level);
+    if (field == Field::surface_positions) simulation_.read_surface_positions(output);
+    if (field == Field::surface_velocities) simulation_.read_surface_velocities(output);
+    Kokkos::fence("plica::read");
+    Kokkos::deep_copy(host, rows);  // nothing where they are the same
+  }
+
+  /// From the order of the input
+  Rows on_device(const Values& values, const std::vector<int>& order) const {
+    const Rows rows("plica::rows", values.size() / 3);
+    const auto host = Kokkos::create_mirror_view(rows);
+    for (std::size_t i = 0; i < rows.extent(0); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        host(order.empty() ? i : static_cast<std::size_t>(order[i]), k) = values[3 * i + k];
+    Kokkos::deep_copy(rows, host);
+    return rows;
+  }
+
+  void add_forces(const ForceRequest<B>& request, const HostForces& forces) const {
+    using Real = typename B::Real;
+    request.exec.fence("plica::forces");
+    const std::vector<int>& order = numbering(request.level).input.vertices;
+    const auto here = [&](std::size_t i) { return order.empty() ? i : static_cast<std::size_t>(order[i]); };
+    const std::size_t n = request.rest.extent(0);
+    Values x(3 * n), v(3 * n), f(3 * n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        x[3 * i + k] =
+            static_cast<double>(request.rest(here(i), k)) + static_cast<double>(request.displacement(here(i), k));
+        v[3 * i + k] = static_cast<double>(request.velocity(here(i), k));
+      }
+    forces(request.level, request.time, x, v, f);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < 3; ++k) request.force(here(i), k) += static_cast<Real>(f[3 * i + k]);
+  }
+
+  std::shared_ptr<const app::Scene> scene_;
+  Simulation<B> simulation_;
+  std::size_t surface_points_;
+};
+
+template <class B>
+std::unique_ptr<AnySimulation> make(std::shared_ptr<const app::Scene> scene) {
+  try {
+    const Problem& problem = scene->problem;
+    const auto choice = choose_cycle<B>(problem);
+    return std::make_unique<SimulationOf<B>>(scene, choice ? with_choice(problem, choice) : problem);
+  } catch (const SubstepRefused& error) {
+    throw app::located(app::in_input_numbers(error, *scene), scene->source);
+  } catch (const InputError& error) {
+    throw app::located(error, scene->source);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene, const std::string& precision) {
+  if (precision != "float" && precision != "double")
+    throw InputError(unknown_name("precision", precision, {"float", "double"}));
+  start_kokkos();
+  using Exec = Kokkos::DefaultExecutionSpace;
+  return precision == "float" ? make<Backend<float, Exec>>(std::move(scene))
+                              : make<Backend<double, Exec>>(std::move(scene));
+}
+
+}  // namespace plica::python

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <link.h>
+
+#include <Kokkos_Core.hpp>
+#include <cstdlib>
+#include <plica/core/error.hpp>
+#include <plica/drivers/python/kokkos_session.hpp>
+#include <set>
+
+namespace plica::python {
+namespace {
+
+using Exec = Kokkos::DefaultExecutionSpace;
+bool ours = false;
+
+// The files in this process that hold Kokkos
+std::set<std::string> copies() {
+  std::set<std::string> found;
+  dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t, void* names) {
+        const std::string file = info->dlpi_name;
+        if (file.find("libkokkoscore") != std::string::npos) static_cast<std::set<std::string>*>(names)->insert(file);
+        return 0;
+      },
+      &found);
+  return found;
+}
+
+}  // namespace
+
+void start_kokkos(int threads) {
+  if (Kokkos::is_finalized()) throw InputError("Kokkos has come to its end in this process and cannot start again");
+  if (Kokkos::is_initialized()) {
+    if (threads > 0 && threads != Exec().concurrency())
+      throw InputError(
+          fmt::format("threads: {} asked for, but Kokkos already runs with {}; call plica.init(threads={}) "
+                      "before anything else",
+                      threads, Exec().concurrency(), threads));
+    return;
+  }
+  if (const auto files = copies(); files.size() > 1)
+    throw InputError(fmt::format("two copies of Kokkos are in this process: {}", fmt::join(files, " and ")));
+  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too late from here.
+  setenv("OMP_PROC_BIND", "false", 0);
+  Kokkos::InitializationSettings settings;
+  if (threads > 0) settings.set_num_threads(threads);
+  Kokkos::initialize(settings);
+  ours = true;
+}
+
+void finalize_kokkos() {
+  if (ours && Kokkos::is_initialized()) Kokkos::finalize();
+  ours = false;
+}
+
+KokkosInfo kokkos_info() {
+  start_kokkos();
+  return {fmt::format("{}.{}.{}", KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100, KOKKOS_VERSION % 100),
+          Exec::name(), Exec().concurrency()};
+}
+
+}  // namespace plica::python

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The module plica._plica: what C++ has, as it is. The package plica around it, in Python, is what users see.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/study_table.hpp>
+#include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/scene/key_list.hpp>
+#include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/python/any_simulation.hpp>
+#include <plica/drivers/python/kokkos_session.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/version.hpp>
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace plica::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+template <class T>
+using Table = nb::ndarray<const T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using ScenePtr = std::shared_ptr<app::Scene>;
+
+/// Memory of ours as an array of numpy that keeps it alive.
+template <class T>
+nb::object array(std::shared_ptr<std::vector<T>> values, std::size_t columns = 0) {
+  T* data = values->data();
+  const std::size_t size = values->size(), shape[] = {columns > 0 ? size / columns : size, columns};
+  const nb::capsule owner(new std::shared_ptr<std::vector<T>>(std::move(values)),
+                          [](void* p) noexcept { delete static_cast<std::shared_ptr<std::vector<T>>*>(p); });
+  return nb::cast(nb::ndarray<nb::numpy, T>(data, columns > 0 ? 2 : 1, shape, owner));
+}
+template <class T>
+nb::object array(std::vector<T> values, std::size_t columns = 0) {
+  return array(std::make_shared<std::vector<T>>(std::move(values)), columns);
+}
+nb::object array(const std::vector<Point>& points) {
+  Values values;
+  for (const Point& p : points) values.insert(values.end(), p.data(), p.data() + 3);
+  return array(std::move(values), 3);
+}
+template <std::size_t corners>
+nb::object array(const std::vector<std::array<int, corners>>& cells) {
+  std::vector<int> values;
+  for (const auto& cell : cells) values.insert(values.end(), cell.begin(), cell.end());
+  return array(std::move(values), corners);
+}
+
+Values values_of(const Table<double>& table) { return {table.data(), table.data() + table.size()}; }
+std::vector<Point> points_of(const Table<double>& table) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < table.shape(0); ++i) points.emplace_back(table(i, 0), table(i, 1), table(i, 2));
+  return points;
+}
+
+/// Looks for Ctrl-C twenty times a second, while the caller does not hold the GIL.
+class Signals {
+ public:
+  void operator()() {
+    if (Clock::now() - last_ < std::chrono::milliseconds(50)) return;
+    const nb::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    last_ = Clock::now();
+  }
+
+ private:
+  Clock::time_point last_ = Clock::now();
+};
+
+// A mesh with its regions and groups: points, tets, region of each, names of these, vertex sets
+nb::tuple parts_of(const TetMesh& mesh) {
+  nb::dict sets;
+  for (const auto& [name, vertices] : mesh.vertex_sets) sets[name.c_str()] = array(vertices);
+  return nb::make_tuple(array(mesh.vertices), array(mesh.tets), array(mesh.region), mesh.region_names, sets);
+}
+
+void write_mesh_file(const std::string& file, const Table<double>& points, const Table<int>& tets,
+                     const std::vector<int>& region, const std::vector<std::string>& region_names,
+                     const std::map<std::string, std::vector<int>>& vertex_sets) {
+  TetMesh mesh{points_of(points), {}, region, region_names, vertex_sets};
+  for (std::size_t i = 0; i < tets.shape(0); ++i) mesh.tets.push_back({tets(i, 0), tets(i, 1), tets(i, 2), tets(i, 3)});
+  app::write_files(write_mesh(file, mesh).files);
+}
+
+ScenePtr load(const std::string& file, const std::string& json, const std::string& name,
+              const std::vector<std::pair<std::string, std::string>>& overrides) {
+  app::Tree tree = file.empty() ? app::tree_of(nlohmann::ordered_json::parse(json), name) : app::read_tree(file);
+  for (const auto& [path, value] : overrides) app::override_value(tree, path + "=" + value, path + "=" + value);
+  return std::make_shared<app::Scene>(app::load_scene(tree));
+}
+
+// study.csv
+std::string study_of(const ScenePtr& scene, std::optional<double> budget) {
+  start_kokkos();
+  StudyOptions options = scene->study;
+  options.duration = scene->duration, options.probes = scene->output.probes, options.budget = budget;
+  Signals signals;
+  const nb::gil_scoped_release release;
+  try {
+    const StudyResult result = study(scene->problem, options, [&](const StudyProgress&) { return signals(), true; });
+    return app::study_csv(result.rows);
+  } catch (const InputError& error) {
+    throw app::located(error, scene->source);
+  }
+}
+
+void bind_results(nb::module_& m) {
+  nb::class_<Diagnosis>(m, "Diagnosis",
+                        "Why a run cannot go on. Indices count as the mesh's file does; -1: does not apply.")
+      .def_ro("kind", &Diagnosis::kind, "non_finite, inverted, energy, speed, contact, solver or stability")
+      .def_ro("level", &Diagnosis::level, "0: the finest")
+      .def_ro("element", &Diagnosis::element, "tetrahedron of that level")
+      .def_ro("vertex", &Diagnosis::vertex, "vertex of that level")
+      .def_ro("region", &Diagnosis::region, "of the element")
+      .def_ro("J", &Diagnosis::J, "volume ratio of the element")
+      .def_ro("substep_over_critical", &Diagnosis::substep_over_critical, "of that level")
+      .def_ro("remedy", &Diagnosis::remedy, "most likely to help")
+      .def("__str__", &Diagnosis::text)
+      .def("__repr__", [](const Diagnosis& d) { return "<plica.Diagnosis: " + d.text() + ">"; });
+  nb::class_<Energies>(m, "Energies", "Energies of level 0 [J].")
+      .def_ro("kinetic", &Energies::kinetic, "of motion [J]")
+      .def_ro("elastic", &Energies::elastic, "of deformation [J]")
+      .def_ro("potential", &Energies::potential, "gravity's, zero at the start [J]")
+      .def_ro("contact", &Energies::contact, "of the penalties [J]")
+      .def_prop_ro("total", &Energies::total, "their sum [J]")
+      .def("__repr__", [](const Energies& e) {
+        return "Energies(kinetic=" + std::to_string(e.kinetic) + ", elastic=" + std::to_string(e.elastic) +
+               ", potential=" + std::to_string(e.potential) + ", contact=" + std::to_string(e.contact) + ")";
+      });
+}
+
+void bind_scene(nb::module_& m) {
+  nb::class_<app::Scene>(m, "Scene")
+      .def_ro("file", &app::Scene::file)
+      .def_ro("name", &app::Scene::name)
+      .def_ro("duration", &app::Scene::duration)
+      .def_ro("warnings", &app::Scene::warnings)
+      .def_prop_ro("automatic_step", [](const app::Scene& s) { return !s.problem.integration.macro_step; })
+      .def_prop_ro("levels", [](const app::Scene& s) { return s.problem.body.levels.size(); })
+      .def_prop_ro("placement",
+                   [](const app::Scene& s) {
+                     const Point shift = app::placement_of(s.problem.body);
+                     return nb::make_tuple(shift.x(), shift.y(), shift.z());
+                   })
+      .def("mesh",
+           [](const app::Scene& s, std::size_t level) {
+             if (level >= s.problem.body.levels.size())
+               throw InputError("level: there is no level " + std::to_string(level) + "; the scene has " +
+                                std::to_string(s.problem.body.levels.size()) + ", counted from 0, the finest");
+             return parts_of(app::in_input_order(s.problem.body.levels[level], s.numbering[level]));
+           })
+      .def("surface", [](const app::Scene& s) {
+        const auto& surface = s.problem.body.surface;
+        return surface ? array(surface->triangles) : nb::none();
+      });
+  m.def("load", &load, "file"_a, "json"_a, "name"_a, "overrides"_a);
+  m.def("study", &study_of, "scene"_a, "budget"_a.none());
+}
+
+/// A simulation that can be closed while Python still refers to it: in a traceback, say, when the interpreter ends.
+class Handle {
+ public:
+  explicit Handle(std::shared_ptr<AnySimulation> simulation) : simulation_(std::move(simulation)) {}
+  void close() { simulation_.reset(); }
+  /// Whoever holds it can go on.
+  std::shared_ptr<AnySimulation> operator->() const {
+    if (!simulation_) throw std::runtime_error("this simulation is closed");
+    return simulation_;
+  }
+
+ private:
+  std::shared_ptr<AnySimulation> simulation_;
+};
+
+nb::object live(const Handle& simulation, Field field, int level) { return array(simulation->live(field, level), 3); }
+
+void set_forces(const Handle& simulation, const nb::object& callback) {
+  if (callback.is_none()) return simulation->set_forces({});
+  const auto held = std::shared_ptr<nb::object>(new nb::object(callback), [](nb::object* object) {
+    const nb::gil_scoped_acquire gil;  // of whichever thread drops it
+    delete object;
+  });
+  simulation->set_forces([held](int level, double time, const Values& x, const Values& v, Values& f) {
+    const nb::gil_scoped_acquire gil;
+    const auto forces = std::make_shared<Values>(f);
+    (*held)(level, time, array(Values(x), 3), array(Values(v), 3), array(forces, 3));
+    f = *forces;
+  });
+}
+
+void bind_simulation(nb::module_& m) {
+  using H = Handle;
+  nb::class_<H>(m, "Simulation")
+      .def("close", &H::close)
+      .def("advance",
+           [](const H& s, double until, long at_most) {
+             Signals signals;
+             const nb::gil_scoped_release release;
+             return s->advance(until, at_most, [&] { signals(); });
+           })
+      .def("end_at", [](const H& s, double time) { s->end_at(time); })
+      .def("positions", [](const H& s, int level) { return live(s, Field::positions, level); })
+      .def("velocities", [](const H& s, int level) { return live(s, Field::velocities, level); })
+      .def("surface_positions", [](const H& s) { return live(s, Field::surface_positions, 0); })
+      .def("surface_velocities", [](const H& s) { return live(s, Field::surface_velocities, 0); })
+      .def("element_fields",
+           [](const H& s, int level) {
+             ElementFields fields = s->element_fields(level);
+             return nb::make_tuple(fields.per_vertex, array(std::move(fields.von_mises)), array(std::move(fields.J)));
+           })
+      .def("set_state",
+           [](const H& s, const Table<double>& x, const Table<double>& v) { s->set_state(values_of(x), values_of(v)); })
+      .def("set_forces", &set_forces, nb::arg("callback").none())
+      .def("save",
+           [](const H& s) {
+             const SavedState saved = s->save();
+             return nb::bytes(saved.bytes.data(), saved.bytes.size());
+           })
+      .def("restore",
+           [](const H& s, const nb::bytes& saved) {
+             const auto* bytes = static_cast<const unsigned char*>(saved.data());
+             s->restore({{bytes, bytes + saved.size()}});
+           })
+      .def_prop_ro("time", [](const H& s) { return s->time(); })
+      .def_prop_ro("macro_step", [](const H& s) { return s->macro_step(); })
+      .def_prop_ro("macro_steps", [](const H& s) { return s->macro_steps(); })
+      .def_prop_ro("precision", [](const H& s) { return s->precision(); })
+      .def_prop_ro("energies", [](const H& s) { return s->energies(); })
+      .def_prop_ro("counters", [](const H& s) { return s->counters(); })
+      .def_prop_ro("levels", [](const H& s) { return app::levels_json(s->levels()).dump(); });
+  m.def("simulate", [](const ScenePtr& scene, const std::string& precision) {
+    const nb::gil_scoped_release release;
+    return Handle(make_simulation(scene, precision));
+  });
+}
+
+nb::dict info() {
+  const KokkosInfo kokkos = kokkos_info();
+  nb::dict all;
+  all["version"] = version(), all["revision"] = git_revision(), all["compiler"] = compiler();
+  all["kokkos"] = kokkos.version, all["backend"] = kokkos.backend, all["threads"] = kokkos.threads;
+  return all;
+}
+
+}  // namespace
+
+NB_MODULE(_plica, m) {
+  nb::set_leak_warnings(false);  // a simulation in a global variable lives longer than the module
+  nb::exception<InputError>(m, "InputError", PyExc_ValueError).attr("__module__") = "plica";
+  nb::exception<app::FileError>(m, "FileError", PyExc_OSError).attr("__module__") = "plica";
+  m.def("start", &start_kokkos, "threads"_a);
+  m.def("finalize", &finalize_kokkos);
+  m.def("info", &info);
+  m.def("version", [] { return std::string(version()); });
+  m.def("keys", [] {
+    std::vector<std::vector<std::string>> rows;
+    for (const app::KeyInfo& key : app::scene_keys()) rows.push_back({key.path, key.expects, key.otherwise, key.help});
+    return rows;
+  });
+  m.def("parse_every", [](const std::string& text) {
+    try {
+      const app::Interval interval = app::parse_interval(text);
+      return std::pair(interval.time, interval.steps);
+    } catch (const std::invalid_argument& problem) {
+      throw InputError("every: expected a time such as '20 ms' or macro steps such as '10 steps', got '" + text +
+                       "', " + problem.what());
+    }
+  });
+  m.def("read_mesh", [](const std::string& file) { return parts_of(read_mesh(file)); });
+  m.def("write_mesh", &write_mesh_file, "file"_a, "points"_a, "tets"_a, "region"_a, "region_names"_a, "vertex_sets"_a);
+  bind_results(m);
+  bind_scene(m);
+  bind_simulation(m);
+}
+
+}  // namespace plica::python

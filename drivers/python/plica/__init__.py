@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Plica: soft tissue in time, on several meshes at once.
+
+    import plica
+    sim = plica.Simulation("ball.yaml", duration="0.5 s")
+    for frame in sim.run(0.5, every=0.01):
+        print(frame.time, frame.positions().mean(axis=0))
+
+SI units; where a number is expected, text with a unit will do ("20 kPa"). Arrays are numpy's, in double precision, rows in the
+order of the meshes' files.
+"""
+
+import atexit
+
+from . import _plica
+from ._plica import Diagnosis, Energies, FileError, InputError
+from .mesh import Mesh
+from .scene import Scene, keys
+from .simulation import Diverged, Simulation, close_all
+from .study import study
+
+__version__ = _plica.version()
+__all__ = ["Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Scene", "Simulation", "info", "init", "keys",
+           "study"]
+
+
+def init(threads: int = 0) -> None:
+    """Start Kokkos with so many threads (0: as many as there are), before anything else does.
+
+    Without it Kokkos starts when a simulation first needs it. InputError where it runs already with another number.
+    """
+    _plica.start(threads)
+
+
+def info() -> dict:
+    """What runs here: version, revision, compiler, kokkos, backend, threads. Starts Kokkos."""
+    return _plica.info()
+
+
+def _end() -> None:
+    close_all()
+    _plica.finalize()
+
+
+atexit.register(_end)

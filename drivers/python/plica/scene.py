@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is simulated."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from . import _plica
+from ._plica import InputError
+from .mesh import Mesh
+
+
+def keys() -> list[dict]:
+    """Every key that a scene may have: its path, what it expects (unit, range, names), what holds otherwise, and its meaning."""
+    return [dict(zip(("path", "expects", "otherwise", "help"), row)) for row in _plica.keys()]
+
+
+class _Plain:
+    """Values of Python as the words of a scene; meshes become files that live as long as this does."""
+
+    def __init__(self, folder: str):
+        self.folder = Path(folder)
+
+    def __call__(self, value):
+        if isinstance(value, Mesh):
+            file = self.folder / f"mesh_{len(list(self.folder.iterdir()))}.msh"
+            value.write(file)
+            return {"file": str(file)}
+        if isinstance(value, dict):
+            return {str(key): self(one) for key, one in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [self(one) for one in value]
+        if isinstance(value, (np.ndarray, np.generic)):
+            return value.tolist()
+        if value is None or isinstance(value, (bool, int, float, str)):
+            return value
+        if isinstance(value, os.PathLike):
+            return os.path.abspath(value)
+        raise InputError(f"a scene's values are numbers, text, lists, dicts, arrays and meshes, got {type(value).__name__}")
+
+
+def _flat(values: dict, path: str = ""):
+    """Paths and values: {"body": {"jitter": 0.1}} is body.jitter = 0.1."""
+    for key, value in values.items():
+        if isinstance(value, dict) and value:
+            yield from _flat(value, f"{path}{key}.")
+        else:
+            yield f"{path}{key}", value
+
+
+def _words(value) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+class Scene:
+    """A scene, read and checked, with its meshes.
+
+    source: a YAML file, or a dict that says the same; left out, the keyword arguments are all of it.
+    set: values put over it, by path: {"body.material.young_modulus": "20 kPa", "body.levels.0.box.cells": [8, 8, 8]}.
+    Keyword arguments do the same for the keys of the top level, and dicts reach further down:
+    Scene("ball.yaml", duration="0.5 s", integration={"macro_step": "1 ms"}).
+
+    A plica.Mesh may stand for a level of the body. File names in a dict are relative to the working directory. `plica.keys()`
+    lists all keys with units, ranges and defaults. InputError names the place, the value, what was expected and the nearest name.
+    """
+
+    def __init__(self, source=None, *, set: dict | None = None, **overrides):
+        values, file, text = dict(overrides), "", ""
+        with tempfile.TemporaryDirectory(prefix="plica_") as folder:
+            plain = _Plain(folder)
+            if source is None:
+                source, values = values, {}
+            if isinstance(source, dict):
+                text = _words(_text(plain(source)))
+            elif isinstance(source, (str, os.PathLike)):
+                file = os.fspath(source)
+            else:
+                raise InputError(f"Scene: expected the name of a YAML file or a dict, got {type(source).__name__}")
+            changes = [*_flat(plain(values)), *((path, plain(value)) for path, value in (set or {}).items())]
+            self._scene = _plica.load(file, text, "scene", [(path, _words(value)) for path, value in changes])
+        for warning in self._scene.warnings:
+            warnings.warn(warning, stacklevel=2)
+
+    @property
+    def name(self) -> str:
+        """Its title; without one, its file's name."""
+        return self._scene.name
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of a whole run [s]."""
+        return self._scene.duration
+
+    @property
+    def levels(self) -> int:
+        """Number of the body's meshes."""
+        return self._scene.levels
+
+    def mesh(self, level: int = 0) -> Mesh:
+        """A level's mesh at rest, as its file has it; 0 is the finest."""
+        return Mesh(*self._scene.mesh(level))
+
+    def surface_triangles(self) -> np.ndarray | None:
+        """[triangles, 3] points of the embedded surface, counter-clockwise seen from outside; None: the body has no surface."""
+        return self._scene.surface()
+
+    def __repr__(self):
+        return f"<plica.Scene {self.name!r}: {self.duration:g} s, {self.levels} level{'s' * (self.levels != 1)}>"
+
+
+def _text(value):
+    """All scalars as words, as they stand in a file."""
+    if isinstance(value, dict):
+        return {key: _text(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_text(one) for one in value]
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return value if value is None or isinstance(value, str) else repr(value)

@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A scene in motion."""
+
+from __future__ import annotations
+
+import json
+import math
+import weakref
+from collections.abc import Callable
+
+import numpy as np
+
+from . import _plica
+from ._plica import Diagnosis, Energies, InputError
+from .mesh import checked
+from .scene import Scene
+
+_all: weakref.WeakSet = weakref.WeakSet()
+_rounding = 1e-9  # of a macro step
+_forever = 2**62
+
+
+def close_all() -> None:
+    """Closes every simulation: none may outlive Kokkos."""
+    for simulation in list(_all):
+        simulation.close()
+
+
+class Diverged(RuntimeError):
+    """A run that cannot go on. `diagnosis` says why and where; the simulation is at its last good state."""
+
+    def __init__(self, diagnosis: Diagnosis):
+        super().__init__(str(diagnosis))
+        self.diagnosis = diagnosis
+
+
+class Run:
+    """The frames of a run, one after the other. len() is how many there are at most; each is the simulation itself."""
+
+    def __init__(self, simulation: Simulation, end: float, every: float, steps: int):
+        self._simulation, self._start, self._end, self._every, self._steps = simulation, simulation.time, end, every, steps
+        macro_steps = self._count((end - simulation.time) / simulation.macro_step)
+        self._length = macro_steps
+        if steps:
+            self._length = math.ceil(macro_steps / steps)
+        elif every > simulation.macro_step:
+            self._length = self._count((end - simulation.time) / every)
+
+    @staticmethod
+    def _count(quotient: float) -> int:
+        return max(0, math.ceil(quotient - _rounding))
+
+    def __len__(self) -> int:
+        return self._length
+
+    def __iter__(self) -> Run:
+        return self
+
+    def __next__(self) -> Simulation:
+        simulation = self._simulation
+        slack = _rounding * simulation.macro_step
+        if simulation.time >= self._end - slack:
+            raise StopIteration
+        if self._steps:
+            simulation._advance(self._end, self._steps)
+        else:
+            frame = math.floor((simulation.time - self._start + slack) / self._every) + 1
+            simulation._advance(min(self._start + frame * self._every, self._end))
+        return simulation
+
+
+class Simulation:
+    """A scene in motion.
+
+    scene: a plica.Scene, or what makes one: the name of a YAML file or a dict, with `set` and keyword arguments as for Scene.
+    precision: "double" or "float", of the computation; arrays are in double anyway.
+
+    positions(), velocities(), surface_positions() and surface_velocities() return arrays that follow the simulation: they lie in
+    memory that C++ writes after every frame for as long as somebody holds them. Copy what is to stay as it is. They outlive the
+    simulation, and hand themselves to other libraries by DLPack. A simulation is for one thread at a time; while it steps, other
+    threads of Python run. Use it in a `with` statement, or close() it, to free its memory at once.
+    """
+
+    def __init__(self, scene, *, precision: str = "double", set: dict | None = None, **overrides):
+        if isinstance(scene, Scene):
+            if set or overrides:
+                raise InputError("Simulation: the scene is made already; give `set` and keyword arguments to plica.Scene")
+            self.scene = scene
+        else:
+            self.scene = Scene(scene, set=set, **overrides)
+        self._simulation = None
+        self._simulation = _plica.simulate(self.scene._scene, precision)
+        _all.add(self)
+
+    # -- stepping
+
+    def run(self, duration: float | str | None = None, *, every: float | str | None = None):
+        """Goes on for so long [s]; left out, for the scene's duration.
+
+        Without `every` it runs at once and returns the simulation. With it, it returns the frames to go through: after each of
+        these intervals (seconds, "10 ms" or "5 steps") the simulation itself, at the first macro step that reaches it.
+
+            for frame in tqdm(sim.run(0.5, every="10 ms")): ...
+
+        Where the scene leaves the macro step open, the last one ends exactly then; macro steps of a given size are whole. The
+        states are those of `plica run`, bit for bit. Diverged where the run cannot go on. Ctrl-C ends it after the macro step.
+        """
+        simulation = self._open()
+        seconds = self.scene.duration if duration is None else _interval(duration, "duration")[0]
+        end = self.time + seconds
+        if self.scene._scene.automatic_step:
+            simulation.end_at(end)
+        if every is None:
+            self._advance(end)
+            return self
+        interval, steps = _interval(every, "every")
+        return Run(self, end, interval, steps)
+
+    def step(self, macro_steps: int = 1) -> Simulation:
+        """So many macro steps."""
+        if macro_steps < 0:
+            raise InputError(f"macro_steps: expected 0 or more, got {macro_steps}")
+        self._open().end_at(math.inf)
+        return self._advance(math.inf, macro_steps)
+
+    def _advance(self, until: float, at_most: int = _forever) -> Simulation:
+        diagnosis = self._open().advance(until, at_most)
+        if diagnosis is not None:
+            raise Diverged(diagnosis)
+        return self
+
+    # -- what there is
+
+    @property
+    def time(self) -> float:
+        """Simulated [s]."""
+        return self._open().time
+
+    @property
+    def macro_step(self) -> float:
+        """Of every level together [s]."""
+        return self._open().macro_step
+
+    @property
+    def macro_steps(self) -> int:
+        """Done so far; one that was cut short to end in time does not count."""
+        return self._open().macro_steps
+
+    @property
+    def precision(self) -> str:
+        """double or float."""
+        return self._open().precision
+
+    @property
+    def levels(self) -> list[dict]:
+        """Of each level in use, the finest first: vertices, tets, critical_step [s], share, substeps, integrator ..."""
+        return json.loads(self._open().levels)
+
+    @property
+    def counters(self) -> dict:
+        """Force evaluations, solver iterations and the like."""
+        return self._open().counters
+
+    def positions(self, level: int = 0) -> np.ndarray:
+        """[vertices, 3] m, of a level; follows the simulation."""
+        return self._open().positions(level)
+
+    def velocities(self, level: int = 0) -> np.ndarray:
+        """[vertices, 3] m/s, of a level; follows the simulation."""
+        return self._open().velocities(level)
+
+    def surface_positions(self) -> np.ndarray:
+        """[points, 3] m, of the embedded surface; no rows without one; follows the simulation."""
+        return self._open().surface_positions()
+
+    def surface_velocities(self) -> np.ndarray:
+        """[points, 3] m/s, likewise."""
+        return self._open().surface_velocities()
+
+    def von_mises(self, level: int = 0) -> np.ndarray:
+        """Equivalent stress now [Pa]: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
+        return self._open().element_fields(level)[1]
+
+    def J(self, level: int = 0) -> np.ndarray:
+        """Volume ratio now: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
+        return self._open().element_fields(level)[2]
+
+    def energies(self) -> Energies:
+        """Of level 0 now [J]: kinetic, elastic, potential, contact, total."""
+        return self._open().energies
+
+    def to_pyvista(self, level: int = 0):
+        """A pyvista.UnstructuredGrid of a level as it is now, with displacement [m], velocity [m/s], von_mises [Pa] and J."""
+        import pyvista
+
+        mesh = self.scene.mesh(level)
+        cells = np.hstack([np.full((len(mesh.tets), 1), 4), mesh.tets])
+        grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), pyvista.CellType.TETRA), self.positions(level).copy())
+        grid.point_data["displacement"] = self.positions(level) - (mesh.points + self.scene._scene.placement)
+        grid.point_data["velocity"] = self.velocities(level).copy()
+        per_vertex, von_mises, J = self._open().element_fields(level)
+        for name, values in (("von_mises", von_mises), ("J", J)):
+            (grid.point_data if per_vertex else grid.cell_data)[name] = values
+        return grid
+
+    # -- what may be changed
+
+    def set_state(self, positions, velocities=None) -> None:
+        """Replaces level 0's state: [vertices, 3] m and m/s (left out: at rest). The next cycle takes it to the other levels."""
+        shape = (self.levels[0]["vertices"], 3)
+        x = checked("positions", positions, shape)
+        v = np.zeros(shape) if velocities is None else checked("velocities", velocities, shape)
+        self._open().set_state(x, v)
+
+    def set_forces(self, forces: Callable | None) -> None:
+        """Asks forces(level, time, positions, velocities, out) for more forces at every state about to be integrated, on each
+        level; None ends that.
+
+        Add to `out`, [vertices, 3] N; positions [m] and velocities [m/s] are alike. All three are for the call alone. On explicit
+        levels such forces are stable up to a stiffness of about 4 m/h^2 of the vertices they act on. What it raises ends the step,
+        which is taken back.
+        """
+        self._open().set_forces(forces)
+
+    def save(self) -> bytes:
+        """All that is needed to go on from here with the same bits; for restore() of the same scene."""
+        return self._open().save()
+
+    def restore(self, saved: bytes) -> None:
+        """Goes back to what save() has returned. InputError for a state of another simulation."""
+        self._open().restore(saved)
+
+    # -- life
+
+    def close(self) -> None:
+        """Frees it. Arrays that were handed out stay."""
+        if self._simulation is not None:
+            self._simulation.close()
+        self._simulation = None
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+
+    def _open(self):
+        if self._simulation is None:
+            raise RuntimeError("this simulation is closed")
+        return self._simulation
+
+    def __repr__(self):
+        if self._simulation is None:
+            return f"<plica.Simulation of {self.scene.name!r}: closed>"
+        return f"<plica.Simulation of {self.scene.name!r}: at {self.time:g} s, macro step {self.macro_step:g} s>"
+
+
+def _interval(value, name: str) -> tuple[float, int]:
+    """Seconds, or else macro steps, from a number or text with a unit."""
+    if isinstance(value, str):
+        seconds, steps = _plica.parse_every(value)
+        if steps and name != "every":
+            raise InputError(f"{name}: expected a time, got {value!r}; step() takes macro steps")
+    else:
+        try:
+            seconds, steps = float(value), 0
+        except (TypeError, ValueError):
+            raise InputError(f"{name}: expected a number of seconds or text such as '10 ms', got {value!r}") from None
+    if not steps and not (0 < seconds < math.inf):
+        raise InputError(f"{name}: expected a time (s) > 0, got {value!r}")
+    return seconds, steps

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Methods compared."""
+
+from __future__ import annotations
+
+import io
+
+from . import _plica
+from .scene import Scene
+from .simulation import _interval
+
+
+def study(scene, *, budget: float | str | None = None, set: dict | None = None, **overrides):
+    """Measures methods' errors against their run times, as `plica study` does: a pandas.DataFrame, a row per method and macro step.
+
+    scene: a plica.Scene, or what makes one; its section `study` says what is compared.
+    budget: wall time of all of it, seconds or "60 s"; what does not fit is left out.
+    Columns are those of study.csv: method, macro_step [s], error, wall_time [s], status, pareto ... Ctrl-C stops it.
+    """
+    import pandas
+
+    scene = scene if isinstance(scene, Scene) else Scene(scene, set=set, **overrides)
+    seconds = None if budget is None else _interval(budget, "budget")[0]
+    return pandas.read_csv(io.StringIO(_plica.study(scene._scene, seconds)))

@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package against the program and against itself. PLICA_EXECUTABLE names the program, PLICA_SOURCE_DIR its sources."""
+import gc
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import plica
+import pytest
+
+SOURCES = Path(os.environ["PLICA_SOURCE_DIR"])
+SCENES = SOURCES / "drivers" / "scenes"
+sys.path.insert(0, str(SOURCES / "drivers" / "plots"))
+
+CUBE = {
+    "duration": "1 s",
+    "gravity": [0, 0, -9.81],
+    "body": {
+        "levels": [{"box": {"size": [0.1, 0.1, 0.1], "cells": [3, 3, 3]}}],
+        "fixed": [{"box": {"min": [0, 0, 0], "max": [0, 0.1, 0.1]}}],
+    },
+}
+
+
+@pytest.fixture
+def cube():
+    with plica.Simulation(CUBE) as simulation:
+        yield simulation
+
+
+def program(*arguments):
+    return subprocess.run([os.environ["PLICA_EXECUTABLE"], *map(str, arguments)], check=True, capture_output=True, text=True)
+
+
+# -- the same as the program
+
+
+@pytest.mark.parametrize("scene, duration, overrides", [
+    ("smallest", "0.05s", {}),
+    ("study/liver", "5ms", {}),
+    ("ball_in_bowl_coarse", "0.02s", {"integration.macro_step": "0.5 ms"}),
+])
+def test_runs_are_the_programs_bit_for_bit(scene, duration, overrides, tmp_path):
+    from frames import read_vtu
+
+    file = SCENES / f"{scene}.yaml"
+    words = [word for path, value in overrides.items() for word in ("--set", f"{path}={value}")]
+    program("run", file, "-o", tmp_path, "--quiet", "--duration", duration, "--set", "output.volume=true", *words)
+    sim = plica.Simulation(file, duration=duration, set=overrides)
+    sim.run()
+    frame = read_vtu(sorted(tmp_path.glob("frames/volume_*.vtu"))[-1])
+    assert np.array_equal(frame["Points"], sim.positions())
+    assert np.array_equal(frame["velocity"], sim.velocities())
+    assert np.array_equal(frame["connectivity"].reshape(-1, 4), sim.scene.mesh().tets)
+    assert np.array_equal(frame["von_mises"], sim.von_mises())
+    assert np.array_equal(frame["J"], sim.J())
+
+
+def test_frames_do_not_change_a_run():
+    at_once, in_frames = plica.Simulation(CUBE), plica.Simulation(CUBE)
+    at_once.run(0.1)
+    run = in_frames.run("100 ms", every="30 ms")
+    times = [frame.time for frame in run]
+    assert len(times) == len(run) == 4
+    assert all(at <= t < at + in_frames.macro_step for at, t in zip((0.03, 0.06, 0.09), times))
+    assert times[-1] == at_once.time == pytest.approx(0.1, abs=1e-15)
+    assert np.array_equal(at_once.positions(), in_frames.positions())
+
+
+def test_frames_by_macro_steps(cube):
+    run = cube.run(10 * cube.macro_step, every="4 steps")
+    assert [frame.macro_steps for frame in run] == [4, 8, 10] and len(run) == 3
+
+
+# -- arrays
+
+
+def test_arrays_follow_the_simulation_without_a_copy(cube):
+    x, v = cube.positions(), cube.velocities()
+    assert x.shape == (64, 3) and x.dtype == np.float64
+    address, before = x.ctypes.data, x.copy()
+    cube.step(20)
+    assert cube.positions().ctypes.data == x.ctypes.data == address
+    assert np.abs(x - before).max() > 1e-5 and np.abs(v).max() > 0
+    assert np.from_dlpack(x).ctypes.data == address
+
+
+def test_arrays_outlive_the_simulation():
+    sim = plica.Simulation(CUBE)
+    sim.step(5)
+    x = sim.positions()
+    copy = x.copy()
+    sim.close()
+    del sim
+    gc.collect()
+    assert np.array_equal(x, copy)
+
+
+def resident():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE")
+
+
+def test_memory_does_not_grow():
+    sim = plica.Simulation(CUBE, set={"body.levels.0.box.cells": [2, 2, 2]})
+
+    def some_steps(count):
+        for _ in range(count):
+            sim.step()
+            sim.positions(), sim.von_mises(), sim.energies()
+
+    some_steps(1000)
+    before = resident()
+    some_steps(10000)
+    assert resident() - before < 2e6
+
+
+def test_simulations_that_are_gone_leave_nothing():
+    def some(count):
+        for _ in range(count):
+            plica.Simulation(CUBE).step()
+        gc.collect()
+
+    some(10)
+    before = resident()
+    some(40)
+    assert resident() - before < 4e6
+
+
+def test_in_float():
+    in_float, in_double = plica.Simulation(CUBE, precision="float"), plica.Simulation(CUBE)
+    for sim in (in_float, in_double):
+        sim.run(0.02)
+    assert in_float.precision == "float" and in_float.positions().dtype == np.float64
+    difference = np.abs(in_float.positions() - in_double.positions()).max()
+    assert 0 < difference < 1e-6
+
+
+# -- scenes and meshes
+
+
+def test_a_scene_in_keywords_with_units():
+    by_keywords = plica.Scene(duration=0.5, body={"levels": [{"box": {"size": ["10 cm", 0.1, np.float64(0.1)], "cells": np.array([2, 2, 2])}}]})
+    assert by_keywords.duration == 0.5 and by_keywords.levels == 1
+    assert by_keywords.mesh().points.max() == pytest.approx(0.1)
+    changed = plica.Scene(SCENES / "smallest.yaml", duration="20 ms", body={"material": {"young_modulus": "50 kPa"}},
+                          set={"body.levels.0.box.cells": [2, 2, 2]})
+    assert changed.duration == 0.02 and len(changed.mesh().points) == 27
+    assert any(key["path"] == "body.material.young_modulus" and "Pa" in key["expects"] for key in plica.keys())
+
+
+def shuffled_cube():
+    mesh = plica.Scene(CUBE).mesh()
+    order = np.random.default_rng(1).permutation(len(mesh.points))
+    number = np.argsort(order)
+    return mesh, plica.Mesh(mesh.points[order], number[mesh.tets][::-1]), order
+
+
+def test_a_mesh_in_memory_keeps_its_order():
+    mesh, shuffled, order = shuffled_cube()
+    ours, same = plica.Simulation(CUBE, body={"levels": [shuffled]}), plica.Simulation(CUBE)
+    assert np.array_equal(ours.positions(), shuffled.points)
+    assert np.array_equal(ours.scene.mesh().tets, shuffled.tets)
+    for sim in (ours, same):
+        sim.run(0.05)
+    assert np.abs(ours.positions() - same.positions()[order]).max() < 1e-9
+    assert np.abs(ours.von_mises() - same.von_mises()[order]).max() < 1e-4 * same.von_mises().max()
+
+
+def test_states_in_the_order_of_the_mesh():
+    _, shuffled, _ = shuffled_cube()
+    sim = plica.Simulation({**CUBE, "gravity": [0, 0, 0]}, body={"levels": [shuffled]})
+    x, v = shuffled.points.copy(), np.random.default_rng(2).normal(size=shuffled.points.shape)
+    v[x[:, 0] == 0] = 0
+    sim.set_state(x, v)
+    assert np.allclose(sim.positions(), x, atol=1e-15) and np.array_equal(sim.velocities(), v)
+    saved = sim.save()
+    sim.step(3)
+    after = sim.positions().copy()
+    sim.restore(saved)
+    assert np.array_equal(sim.velocities(), v)
+    sim.step(3)
+    assert np.array_equal(sim.positions(), after)
+
+
+def test_meshes_from_meshio(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    mesh = plica.Scene(CUBE).mesh()
+    region = (np.arange(len(mesh.tets)) % 2 + 7).astype(np.int32)
+    theirs = meshio.Mesh(mesh.points * 1000, [("triangle", mesh.tets[:2, :3]), ("tetra", mesh.tets)],
+                         cell_data={"gmsh:physical": [np.zeros(2, np.int32), region]},
+                         field_data={"hard": np.array([8, 3])}, point_sets={"base": np.array([0, 1, 2])})
+    ours = plica.Mesh.from_meshio(theirs, scale=0.001)
+    assert np.allclose(ours.points, mesh.points) and np.array_equal(ours.tets, mesh.tets)
+    assert ours.region_names == ["region_7", "hard"]
+    ours.write(tmp_path / "cube.msh")
+    again = plica.Mesh.read(tmp_path / "cube.msh")
+    assert np.array_equal(again.points, ours.points) and again.region_names == ours.region_names
+    scene = plica.Scene(duration=1, body={"levels": [ours], "fixed": [{"group": "base"}], "regions": {"hard": {"young_modulus": "1 MPa"}}})
+    assert scene.levels == 1
+    with pytest.raises(plica.InputError, match="type tetra, got triangle"):
+        plica.Mesh.from_meshio(meshio.Mesh(mesh.points, [("triangle", mesh.tets[:, :3])]))
+
+
+def test_to_pyvista(cube):
+    pytest.importorskip("pyvista")
+    cube.run(0.02)
+    grid = cube.to_pyvista()
+    assert grid.n_points == 64 and grid.n_cells == 162
+    assert np.array_equal(grid.points, cube.positions())
+    assert np.array_equal(grid["von_mises"], cube.von_mises())
+
+
+# -- forces of one's own
+
+
+def lumped_masses(mesh, density):
+    corners = mesh.points[mesh.tets]
+    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+    return np.bincount(mesh.tets.ravel(), np.repeat(volumes * density / 4, 4))
+
+
+def test_a_force_is_gravity_where_it_says_the_same():
+    _, shuffled, _ = shuffled_cube()
+    by_key = plica.Simulation(CUBE, body={"levels": [shuffled]})
+    by_force = plica.Simulation({**CUBE, "gravity": [0, 0, 0]}, body={"levels": [shuffled]})
+    weight = np.outer(lumped_masses(shuffled, 1000), [0, 0, -9.81])
+    seen = []
+
+    def forces(level, at, positions, velocities, out):
+        seen.append((level, at, positions.shape, velocities.shape))
+        out += weight
+
+    by_force.set_forces(forces)
+    for sim in (by_key, by_force):
+        sim.run(0.02)
+    assert seen[0] == (0, 0.0, (64, 3), (64, 3)) and len(seen) >= by_force.macro_steps
+    assert np.abs(by_key.positions() - by_force.positions()).max() < 1e-12
+    by_force.set_forces(None)
+    count = len(seen)
+    by_force.step()
+    assert len(seen) == count
+
+
+def test_what_a_force_raises_comes_out(cube):
+    def forces(level, at, positions, velocities, out):
+        raise KeyError("mine")
+
+    cube.step(3)
+    before = cube.time
+    cube.set_forces(forces)
+    with pytest.raises(KeyError, match="mine"):
+        cube.step()
+    cube.set_forces(None)
+    assert cube.time <= before
+    cube.step(3)
+
+
+# -- errors
+
+
+@pytest.mark.parametrize("make, message", [
+    (lambda s: plica.Scene("nowhere.yaml"), "nowhere.yaml: there is no such file"),
+    (lambda s: plica.Scene(CUBE, integration={"cycle": "rvs"}), "did you mean 'rsv'"),
+    (lambda s: plica.Scene(CUBE, integration={"cicle": "rsv"}), "did you mean 'cycle'"),
+    (lambda s: plica.Scene(CUBE, gravity=[0, 0]), "gravity"),
+    (lambda s: plica.Scene(CUBE, gravity=object()), "got object"),
+    (lambda s: plica.Scene(3), "expected the name of a YAML file or a dict, got int"),
+    (lambda s: plica.Simulation(CUBE, precision="half"), "unknown precision 'half'"),
+    (lambda s: plica.Simulation(s.scene, duration=1), "made already"),
+    (lambda s: s.positions(1), "there is no level 1; the simulation has 1"),
+    (lambda s: s.run(-1), "duration: expected a time"),
+    (lambda s: s.run("10 steps"), "step\\(\\) takes macro steps"),
+    (lambda s: s.run(1, every="10 m"), "every: expected"),
+    (lambda s: s.run(1, every=[1]), "every: expected"),
+    (lambda s: s.set_state(np.zeros((63, 3))), r"expected an array \[64, 3\] of floating-point numbers, got \[63, 3\] of float64"),
+    (lambda s: s.set_state(np.zeros((64, 3), complex)), r"got \[64, 3\] of complex128"),
+    (lambda s: s.set_state(np.zeros((64, 3)), np.zeros(64)), r"velocities: expected .* got \[64\]"),
+    (lambda s: s.restore(b"nothing"), "state"),
+    (lambda s: plica.Mesh(np.zeros((4, 2)), [[0, 1, 2, 3]]), r"points: expected an array \[n, 3\]"),
+    (lambda s: plica.Mesh(np.zeros((4, 3)), [[0, 1, 2, 4]]), "from 0 to 3, got 0 to 4"),
+    (lambda s: plica.init(threads=plica.info()["threads"] + 1), "already runs with"),
+])
+def test_bad_input_says_what_was_expected(cube, make, message):
+    with pytest.raises(plica.InputError, match=message):
+        make(cube)
+    assert issubclass(plica.InputError, ValueError)
+
+
+def test_a_closed_simulation_says_so(cube):
+    cube.close()
+    with pytest.raises(RuntimeError, match="closed"):
+        cube.step()
+    assert "closed" in repr(cube)
+
+
+def test_divergence_has_a_diagnosis():
+    sim = plica.Simulation(CUBE, integration={"macro_step": "20 ms", "substeps": 1, "allow_unstable": True})
+    with pytest.raises(plica.Diverged) as caught:
+        sim.run()
+    assert caught.value.diagnosis.kind in ("non_finite", "inverted", "energy", "speed")
+    assert caught.value.diagnosis.remedy and str(caught.value.diagnosis) == str(caught.value)
+    assert sim.time < 1 and np.isfinite(sim.positions()).all()
+
+
+# -- the interpreter around it
+
+
+def test_other_threads_run_while_it_steps(cube):
+    thread = threading.Thread(target=cube.step, args=(20000,))
+    beats = 0
+    thread.start()
+    while thread.is_alive():
+        time.sleep(0.001)
+        beats += 1
+    assert beats > 20
+
+
+def test_ctrl_c_ends_a_run():
+    code = f"import plica; sim = plica.Simulation({CUBE!r}); print('on', flush=True); sim.run(1e6)"
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "on\n"
+    time.sleep(0.3)
+    child.send_signal(signal.SIGINT)
+    _, errors = child.communicate(timeout=20)
+    assert errors.rstrip().endswith("KeyboardInterrupt") and child.returncode != 0
+
+
+def test_threads_are_chosen_first_and_the_end_is_quiet():
+    code = textwrap.dedent(f"""
+        import plica
+        plica.init(threads=1)
+        assert plica.info()["threads"] == 1
+        kept = plica.Simulation({CUBE!r}).step()
+    """)
+    child = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (child.returncode, child.stdout, child.stderr) == (0, "", "")
+
+
+def test_a_study_is_a_table():
+    pandas = pytest.importorskip("pandas")
+    table = plica.study(CUBE, duration="5 ms", study={"methods": ["single/symplectic_euler"], "samples": 3, "timed_runs": 1})
+    assert isinstance(table, pandas.DataFrame) and {"method", "macro_step", "error", "wall_time", "pareto"} <= set(table.columns)
+    assert (table.status == "completed").any()
+
+
+def test_stubs_are_there():
+    package = Path(plica.__file__).parent if not Path(plica.__file__).is_symlink() else Path(plica._plica.__file__).parent
+    assert (package / "py.typed").exists()
+    assert "class Diagnosis" in (package / "_plica.pyi").read_text()
