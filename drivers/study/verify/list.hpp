@@ -46,6 +46,8 @@ VerifyRows stopped_bar(const VerifyContext&);
 VerifyRows cook_membrane(const VerifyContext&);
 VerifyRows free_cube(const VerifyContext&);
 VerifyRows tapered_membrane(const VerifyContext&);
+VerifyRows laws_of_tissue(const VerifyContext&);
+VerifyRows bending_heart_muscle(const VerifyContext&);
 VerifyRows twisting_column(const VerifyContext&);
 VerifyRows manufactured_solution(const VerifyContext&);
 VerifyRows time_order(const VerifyContext&);
@@ -77,6 +79,11 @@ inline constexpr VerifyProblem verify_list[] = {
     {"punch", "a punched block, nearly incompressible, squeezed to a third, of nodal elements", punch},
     {"free_cube", "first frequency of a nearly incompressible free cube: locks", free_cube},
     {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)", tapered_membrane},
+    {"laws_of_tissue", "stretched and sheared boxes of every law of tissue, in closed form, of both elements",
+     laws_of_tissue},
+    {"bending_heart_muscle",
+     "a beam bent by a pressure that follows it (Land et al. 2015, problem 1), of nodal elements",
+     bending_heart_muscle},
     {"twisting_column", "a twisting column against its own finest mesh, and its energy", twisting_column},
     {"manufactured_solution", "a chosen motion and the body force that it takes: order in space",
      manufactured_solution},
