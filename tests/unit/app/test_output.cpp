@@ -10,6 +10,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <sstream>
 
 #include "support/three_constants.hpp"
@@ -131,6 +132,21 @@ TEST(RunFiles, HistoryHasItsColumns) {
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_NEAR(numbers[i], expected[i], 1e-9) << i;
 }
 
+TEST(RunFiles, HistoryHasTheObstaclesWrenches) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of(block);
+  scene.problem.contact.obstacles.push_back({PlaneOptions{}, {}, {}, "floor"});
+  RunFiles files(scene, folder.path());
+  Snapshot now = moved(scene, 0.25, {0, 0, 0.5});
+  now.wrenches.assign(scene.problem.contact.obstacles.size(), {"", {1, 2, 3}, {4, 5, 6}});
+  files.write(now);
+  const std::string text = content_of(folder / "history.csv");
+  EXPECT_NE(text.find(",floor.force_x,floor.force_y,floor.force_z,floor.torque_x,floor.torque_y,floor.torque_z\n"),
+            std::string::npos)
+      << text;
+  EXPECT_TRUE(text.ends_with(",1,2,3,4,5,6\n")) << text;
+}
+
 // A column more, and only where bad macro steps are retried
 TEST(RunFiles, HistoryCountsHalvings) {
   const TemporaryFolder folder;
@@ -218,7 +234,7 @@ TEST(Summary, IsJsonWithItsFields) {
   const auto json = nlohmann::json::parse(summary_json(scene, summary, {"plica", "run", "a.yaml"}));
   for (const char* key :
        {"status", "simulated_time", "macro_step", "macro_steps", "wall_time", "setup_time", "peak_memory", "precision",
-        "backend", "threads", "cycle", "levels", "stages", "counters", "last_good_time", "diagnosis"})
+        "backend", "threads", "cycle", "levels", "stages", "counters", "last_good_time", "diagnosis", "wrenches"})
     EXPECT_TRUE(json.contains(key)) << key;
   for (const char* key : {"vertices", "tets", "critical_step", "share", "substeps", "integrator"})
     EXPECT_TRUE(json["levels"][0].contains(key)) << key;

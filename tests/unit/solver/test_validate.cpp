@@ -213,6 +213,21 @@ TEST(Validate, ASurfaceObstacleIsClosedAndLooksOutwards) {
       << with(wild);
 }
 
+TEST(Validate, ObstaclesHaveNamesThatDiffer) {
+  const auto with = [](const std::string& first, const std::string& second) {
+    Problem p = small_cube();
+    p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.04, 1);
+    p.contact.obstacles = {{PlaneOptions{}, {}, {}, first}, {PlaneOptions{}, {}, {}, second}};
+    return refusal([&] { validate(p); });
+  };
+  EXPECT_EQ(with("", ""), "");
+  EXPECT_EQ(with("tool", "floor"), "");
+  EXPECT_NE(with("tool", "tool").find("contact.obstacles.1.name is 'tool', as is that of obstacle 0"),
+            std::string::npos);
+  EXPECT_NE(with("", "obstacle_0").find("expected names that differ"), std::string::npos);
+  EXPECT_NE(with("a,b", "").find("expected no comma"), std::string::npos);
+}
+
 TEST(Validate, ChecksObstacles) {
   const auto with = [](ObstacleOptions o) {
     Problem p = small_cube();
