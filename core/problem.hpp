@@ -174,7 +174,7 @@ struct IntegrationOptions {
 };
 
 /// Penalty contact of the embedded surface's vertices, see cmake/docs/contact.md. The scales multiply, per surface point, the
-/// stiffness k = 64 E A / h (E A / h on implicit levels) and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest
+/// stiffness k = 64 E A / h (E A / h where a level is implicit) and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest
 /// level's mean edge.
 struct ContactOptions {
   std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch

@@ -13,19 +13,24 @@ namespace plica {
 namespace {
 
 // Of contact that is implicit in an explicit step, over the layer of elements under the surface: what keeps a body visibly outside.
-// The linear systems of implicit levels, which take one stiffness for both sides of the gap, take that of the layer itself.
-constexpr double stiffening = 64;
+// The linear systems of implicit levels take that of the layer itself, and then the other levels as well: what one level leaves
+// inside an obstacle, the next must not throw out.
+constexpr double most_stiffening = 64;
 
 }  // namespace
 
 template <class B>
 Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area,
-                    double edge, double size)
-    : points_(points), reach_(edge), deepest_(size), lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
+                    double edge, double size, bool stiff)
+    : points_(points),
+      reach_(edge),
+      deepest_(size),
+      lost_(zeros<Indices<B>>("plica::contact.lost", 1)),
+      stiffening_(stiff ? most_stiffening : 1) {
   const DepthWatch<B> watch{lost_, static_cast<Real>(size)};
   const double per_point = area / points;
   const double soft = options.stiffness_scale * stiffness_at_rest(material) * per_point / edge;
-  stiffness_ = stiffening * soft;
+  stiffness_ = stiffening_ * soft;
   const auto critical = [&](double k) {
     return std::sqrt(k * material.density * per_point * edge);
   };  // 2 * 0.5 sqrt(k m)
@@ -108,7 +113,7 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
     obstacle->energy(exec, level.surface, level.state, time, blocks, result);
     total += host_values(exec, result)[0];
   }
-  return implicit ? total : stiffening * total;
+  return implicit ? total : stiffening_ * total;
 }
 
 template <class B>

@@ -48,9 +48,9 @@ class Contact {
   using Real = typename B::Real;
 
   /// `area` of the whole surface [m^2], `edge` the finest level's mean edge [m]: see ContactOptions for the law. `size` of the
-  /// body [m]: a point deeper than that is lost.
+  /// body [m]: a point deeper than that is lost. `stiff`: no level is implicit.
   Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area, double edge,
-          double size);
+          double size, bool stiff);
 
   /// Work arrays of one level; blocks on an implicit one only.
   TouchingPoints<B> make_points(bool implicit) const;
@@ -86,6 +86,7 @@ class Contact {
   using Laws = Kokkos::View<PenaltyLaw<Real>*, typename B::Memory>;
   Laws laws_, implicit_laws_;  ///< of the obstacles
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
+  double stiffening_;  ///< of explicit levels over implicit ones
 };
 
 }  // namespace plica

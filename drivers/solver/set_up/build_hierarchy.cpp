@@ -250,9 +250,13 @@ class HierarchyBuilder {
 
   void add_contact() {
     const Problem& p = problem_;
-    contact_ =
-        std::make_shared<const Contact<B>>(p.contact, p.body.material, static_cast<int>(surface_.vertices.size()),
-                                           surface_area(surface_), built_.reports.front().mean_edge, body_size());
+    bool stiff = true;
+    for (std::size_t i = 0; i < levels_; ++i)
+      Integrators::visit(integrator_of(i),
+                         [&](auto integrator) { stiff = stiff && decltype(integrator)::is_explicit; });
+    contact_ = std::make_shared<const Contact<B>>(p.contact, p.body.material,
+                                                  static_cast<int>(surface_.vertices.size()), surface_area(surface_),
+                                                  built_.reports.front().mean_edge, body_size(), stiff);
   }
 
   double body_size() const {
