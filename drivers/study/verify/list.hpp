@@ -52,7 +52,6 @@ VerifyRows twisting_column(const VerifyContext&);
 VerifyRows manufactured_solution(const VerifyContext&);
 VerifyRows time_order(const VerifyContext&);
 VerifyRows friction_on_a_slope(const VerifyContext&);
-VerifyRows indentation(const VerifyContext&);
 
 /// A problem with a known answer.
 struct VerifyProblem {
@@ -88,7 +87,6 @@ inline constexpr VerifyProblem verify_list[] = {
     {"manufactured_solution", "a chosen motion and the body force that it takes: order in space",
      manufactured_solution},
     {"time_order", "the order in time of every integrator on a nonlinear problem", time_order},
-    {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope},
-    {"indentation", "a rigid sphere pressed into an elastic half-space (Hertz)", indentation}};
+    {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope}};
 
 }  // namespace plica
