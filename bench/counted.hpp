@@ -36,6 +36,9 @@ requires CountedWith<A, C> Counted operator*(A a, C b) { return Counted::done(do
 template <class A, class C>
 requires CountedWith<A, C> Counted operator/(A a, C b) { return Counted::done(double(a) / double(b)); }
 inline Counted operator-(Counted a) { return Counted::done(-a.value); }
+inline Counted& operator+=(Counted& a, Counted b) { return a = a + b; }
+inline Counted& operator-=(Counted& a, Counted b) { return a = a - b; }
+inline Counted& operator*=(Counted& a, Counted b) { return a = a * b; }
 template <class A, class C>
 requires CountedWith<A, C>
 bool operator<(A a, C b) { return double(a) < double(b); }
