@@ -12,6 +12,7 @@ namespace {
 
 constexpr double sliver = 8;  // height ratio
 constexpr int rounds = 8;
+constexpr double gain = 0.95;  // a step must make the worst element around it better by that
 constexpr std::array<double, 4> fractions = {1, 0.5, 0.25, 0.1};  // of a step that are tried
 
 class Improver {
@@ -97,7 +98,7 @@ class Improver {
     const double before = worst_around(v);
     for (const double fraction : fractions) {
       at(v) = from + fraction * (to - from);
-      if (worst_around(v) < before * 0.999) return ++done.moved, true;
+      if (worst_around(v) < gain * before) return ++done.moved, true;
     }
     at(v) = from;
     return false;
@@ -110,7 +111,7 @@ class Improver {
       std::array<int, 4> now = tet(t);
       if (std::find(now.begin(), now.end(), to) != now.end()) continue;
       std::replace(now.begin(), now.end(), v, to);
-      if (!(height_ratio(mesh_, now) < before * 0.999)) return false;
+      if (!(height_ratio(mesh_, now) < gain * before)) return false;
     }
     for (const int t : star(v)) {
       std::array<int, 4>& one = tet(t);

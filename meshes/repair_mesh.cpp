@@ -7,6 +7,7 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/improve_shapes.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <plica/meshes/peel_slivers.hpp>
 #include <plica/meshes/repair_mesh.hpp>
 #include <set>
 
@@ -120,6 +121,7 @@ MeshRepair repair_mesh(const TetMesh& mesh) {
   repair.worst_before = worst_of(mesh);
   merge(repair);
   drop_loose_parts(repair);
+  repair.peeled = peel_slivers(repair.mesh, repair.original_tet);
   const Improvement improved = improve_shapes(repair.mesh, repair.original_tet);
   repair.moved = improved.moved, repair.collapsed = improved.collapsed;
   for (int& v : repair.vertex) v = improved.vertex[static_cast<std::size_t>(v)];

@@ -14,6 +14,7 @@ struct MeshRepair {
   int merged = 0;                    ///< vertices that became one with another at their place
   int parts = 0;                     ///< loose parts, dropped
   int loose_tets = 0;                ///< tetrahedra of these
+  int peeled = 0;                    ///< slivers on the boundary, dropped
   int moved = 0;                     ///< vertices, to shape the elements around them better
   int collapsed = 0;                 ///< edges
   int flat = 0;                      ///< tetrahedra without volume that nothing helped, dropped
@@ -21,11 +22,12 @@ struct MeshRepair {
   double worst_after = 0;            ///< likewise
 
   /// Whether anything is other than before.
-  bool changed() const { return merged + parts + moved + collapsed + flat > 0; }
+  bool changed() const { return merged + parts + peeled + moved + collapsed + flat > 0; }
 };
 
 /// Makes a mesh fit to be simulated. Vertices within 1e-6 of the mean edge of another one become one with it; parts that share no
-/// vertex with the rest and hold less than a hundredth of the volume are dropped. Then slivers, elements with a height ratio above 8,
+/// vertex with the rest and hold less than a hundredth of the volume are dropped. Slivers on the boundary are peeled off (see
+/// peel_slivers()). Then the others, elements with a height ratio above 8,
 /// are shaped better: a vertex goes towards the mean of its neighbours, or away from the face across the sliver, or, where that does
 /// not help, into a neighbour. A step is taken only if the worst element around it becomes better: the worst of the mesh never becomes
 /// worse. Vertices of the boundary, of faces between regions and of vertex sets stay where they are.

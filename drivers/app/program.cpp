@@ -185,7 +185,7 @@ class CommandLine {
   }
 
   void add_mesh() {
-    CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files and convert them");
+    CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files, convert, repair and make them");
     mesh->require_subcommand(1);
     CLI::App* info = mesh->add_subcommand("info", "what a mesh file holds and how well its tetrahedra are shaped");
     info->add_option("FILE", mesh_.file, "the mesh, or a surface")->required();
@@ -206,6 +206,22 @@ class CommandLine {
       };
     });
     add_convert(mesh);
+    add_making(mesh, "repair", "merge duplicates, drop loose parts, shape slivers better", "a mesh", mesh_repair);
+    CLI::App* fill =
+        add_making(mesh, "fill", "make a lattice mesh over a closed surface", "a closed surface", mesh_fill);
+    fill->add_option("--size", make_.size, "edges of its cubes, such as 2mm")->required();
+    CLI::App* coarsen = add_making(mesh, "coarsen", "make a coarser lattice mesh over a mesh", "a mesh", mesh_coarsen);
+    coarsen->add_option("--vertices", make_.vertices, "it has at most, and about")->required();
+  }
+
+  CLI::App* add_making(CLI::App* mesh, const std::string& name, const std::string& help, const std::string& in,
+                       ExitStatus (*make)(const MakeMeshArguments&)) {
+    CLI::App* command = mesh->add_subcommand(name, help);
+    command->add_option("FILE", make_.in, in)->required();
+    command->add_option("-o,--output", make_.out, "the mesh file to write, in the format of its extension")->required();
+    command->add_option("--scale", make_.scale, "metres per unit of FILE, such as 0.001");
+    command->callback([this, make] { action_ = [this, make] { return make(make_); }; });
+    return command;
   }
 
   void add_convert(CLI::App* mesh) {
@@ -218,7 +234,7 @@ class CommandLine {
     convert->add_option("--merge-duplicates", convert_.merge_duplicates,
                         "a distance, such as 1um, after scaling: vertices this close become one");
     convert->footer("Written are\n" + written_formats_text() +
-                    "Surfaces in .msh are read, too. Of a mesh written as .obj or .stl only the boundary is kept.");
+                    "Of a mesh written as a surface only the boundary is kept.");
     convert->callback([this] { action_ = [this] { return mesh_convert(convert_); }; });
   }
 
@@ -255,6 +271,7 @@ class CommandLine {
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;
   ConvertArguments convert_;
+  MakeMeshArguments make_;
   std::function<ExitStatus()> action_;
 };
 

@@ -90,6 +90,14 @@ struct ConvertArguments {
   std::optional<std::string> merge_duplicates;  ///< a length, as text
 };
 
+/// Of the commands that make a mesh of another one or of a surface.
+struct MakeMeshArguments {
+  std::filesystem::path in, out;
+  std::string scale = "1";  ///< metres per unit of the file, as text
+  std::string size;         ///< of the cells of a lattice, as text
+  int vertices = 0;         ///< of a coarser mesh, at most
+};
+
 /// plica run: simulates the scene and writes its files. A folder that holds a run already is refused, unless the arguments say
 /// `force` or `resume`.
 ExitStatus run(const RunArguments& arguments);
@@ -130,6 +138,15 @@ ExitStatus mesh_info(const MeshInfoArguments& arguments);
 
 /// plica mesh convert: writes a mesh or surface in another format. The file OUT may be IN, and is replaced as a whole.
 ExitStatus mesh_convert(const ConvertArguments& arguments);
+
+/// plica mesh repair: writes a mesh with its duplicates merged, loose parts dropped and slivers shaped better; says what changed.
+ExitStatus mesh_repair(const MakeMeshArguments& arguments);
+
+/// plica mesh fill: writes a lattice of cubes, cut into tetrahedra, over a closed surface.
+ExitStatus mesh_fill(const MakeMeshArguments& arguments);
+
+/// plica mesh coarsen: writes such a lattice over a mesh, with at most so many vertices.
+ExitStatus mesh_coarsen(const MakeMeshArguments& arguments);
 
 /// The formats that are written, a line each.
 std::string written_formats_text();

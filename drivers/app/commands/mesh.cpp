@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/commands/mesh_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/mesh_description.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
@@ -93,11 +94,6 @@ Numbers numbers_of(const ConvertArguments& arguments) {
   return numbers;
 }
 
-void warn(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings)
-    message(coloured("warning: ", Colour::yellow) + file.string() + ": " + warning);
-}
-
 bool is_surface_file(const std::filesystem::path& file) {
   return std::ranges::any_of(surface_writers, [&](const auto& one) { return extension_of(file) == one.extension; });
 }
@@ -118,12 +114,13 @@ WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const N
     MergedMesh merged = merge_duplicates(read.mesh, *numbers.merge_duplicates);
     message(fmt::format("{}: merged {} duplicate vertices", arguments.in.string(), merged.merged));
     read.mesh = std::move(merged.mesh);
+    read.report.groups = renumbered(read.report.groups, merged.vertex);
   }
   warn(arguments.in, mesh_warnings(read.mesh, read.report));
   for (const auto& [kind, count] : read.report.other_elements)
-    if (kind != "point")
-      warn(arguments.in, {counted(count, kind) + " are left out; their groups are kept as sets of vertices"});
-  if (!is_surface_file(arguments.out)) return write_mesh(arguments.out, read.mesh, arguments.format, arguments.binary);
+    if (kind != "point") warn(arguments.in, {counted(count, kind) + " left out, but for their groups"});
+  if (!is_surface_file(arguments.out))
+    return write_mesh(arguments.out, read.mesh, arguments.format, arguments.binary, read.report.groups);
   WrittenMesh written =
       write_surface(arguments.out, boundary_surface(read.mesh).surface, arguments.format, arguments.binary);
   written.left_out.push_back("this format holds triangles only, so the boundary of the mesh was written");
@@ -144,11 +141,20 @@ ExitStatus mesh_convert(const ConvertArguments& arguments) {
   const Numbers numbers = numbers_of(arguments);
   auto read = read_any(arguments.in);
   const WrittenMesh written = std::visit([&](auto& mesh) { return converted(mesh, arguments, numbers); }, read);
+  write(arguments.out, written);
+  return ExitStatus::done;
+}
+
+void warn(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    message(coloured("warning: ", Colour::yellow) + file.string() + ": " + warning);
+}
+
+void write(const std::filesystem::path& out, const WrittenMesh& written) {
   write_files(written.files);
-  warn(arguments.out, written.left_out);
+  warn(out, written.left_out);
   for (const MemoryFile& file : written.files)
     std::cout << fmt::format("{}: {}\n", file.name, in_bytes(file.bytes.size()));
-  return ExitStatus::done;
 }
 
 std::string written_formats_text() {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/app/scene/repair_level.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/sound_mesh.hpp>
@@ -33,14 +34,40 @@ class Sentences {
   std::vector<std::string> list_;
 };
 
+constexpr double largest_body = 3, smallest_body = 1e-4;  // [m]
+
+double extent_of(const TetMesh& mesh) {
+  const Box box = bounding_box(mesh.vertices);
+  return (box.max - box.min).maxCoeff();
+}
+
+bool no_body(const TetMesh& mesh) { return extent_of(mesh) > largest_body || extent_of(mesh) < smallest_body; }
+
+// The likely cause is that the file is in another unit
+std::string size_text(const TetMesh& mesh) {
+  const double extent = extent_of(mesh);
+  std::string text = fmt::format("the body is {:.4g} m long", extent);
+  const struct {
+    const char* unit;
+    double scale;
+  } units[] = {{"mm", 0.001}, {"cm", 0.01}, {"um", 1e-6}};
+  for (const auto& [unit, scale] : units)
+    if (extent > largest_body && extent * scale > 0.005 && extent * scale < largest_body)
+      return text + fmt::format("; is the file in {}? Then its scale is {:g}", unit, scale);
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report) {
   Sentences sentences;
+  for (const auto& [kind, count] : report.linearised) sentences.add(count, kind, "taken by the corners alone");
+  for (const auto& [kind, count] : report.cut) sentences.add(count, kind, "cut into tetrahedra");
   sentences.add(report.flipped, "inverted element", "turned the right way round");
   sentences.add(report.unreferenced, "unused point", "dropped");
   sentences.add(count_duplicate_vertices(mesh, at_the_same_place * mean_edge_length(mesh)), "duplicate",
                 "among the vertices: at the place of another one, where the mesh may come apart (merge them?)");
+  sentences.add(no_body(mesh), size_text(mesh));
   const int parts = count_parts(mesh);
   sentences.add(parts > 1, fmt::format("the mesh has {} parts that share no vertex", parts));
   for (const std::string& section : report.skipped_sections)
@@ -50,6 +77,8 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
 
 std::vector<std::string> surface_warnings(const SurfaceReport& report) {
   Sentences sentences;
+  for (const auto& [kind, count] : report.linearised) sentences.add(count, kind, "taken by the corners alone");
+  sentences.add(report.left_out, "bad face", "left out");
   sentences.add(report.unreferenced, "unused point", "dropped");
   sentences.add(report.collapsed, "collapsed triangle", "dropped: it names a vertex twice");
   sentences.add(report.repeated, "repeated triangle", "dropped");
@@ -61,9 +90,17 @@ std::vector<std::string> surface_warnings(const SurfaceReport& report) {
   return sentences.take();
 }
 
+std::string why_open(const SurfaceReport& report) {
+  const Point& at = report.open_at;
+  return fmt::format(
+      "has no inside: {} open edges, {} edges of more than two triangles, {} edges between triangles that face "
+      "different sides; the first is at [{:.4g}, {:.4g}, {:.4g}] in the file's unit",
+      report.open_edges, report.crowded_edges, report.inconsistent_edges, at[0], at[1], at[2]);
+}
+
 namespace {
 
-// A generator knows nothing of files: what it refuses gets the place of its recipe
+// A generator knows nothing of files, and a mesh file nothing of scenes: what is refused gets the place in the scene
 template <class Make>
 auto placed(const Where& where, const Make& make) {
   try {
@@ -75,7 +112,7 @@ auto placed(const Where& where, const Make& make) {
 
 std::filesystem::path found(const std::string& kind, const std::string& name, const Scene& scene, const Where& where) {
   const std::filesystem::path file = std::filesystem::path(scene.file).parent_path() / name;
-  if (!std::filesystem::exists(file))
+  if (std::error_code error; std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
     throw InputError("there is no " + kind + " file '" + file.string() + "' (its name is relative to the scene)",
                      where);
   return file;
@@ -106,13 +143,19 @@ Reordering better_order(const TetMesh& mesh) {
 TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where, Numbering& numbering) {
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
   MeshReport report;
-  TetMesh mesh = read_mesh(file, &report);
+  const Flaws flaws = recipe.repair ? Flaws::kept : Flaws::refused;
+  TetMesh mesh = placed(where, [&] { return read_mesh(file, &report, flaws); });
   for (Point& vertex : mesh.vertices) vertex *= recipe.scale;
   if (recipe.merge_duplicates) {
     MergedMesh merged = placed(where, [&] { return merge_duplicates(mesh, *recipe.merge_duplicates); });
     mesh = std::move(merged.mesh);
     report.vertex_tags = permuted(report.vertex_tags, merged.original_vertex);
     if (merged.merged > 0) warn(scene, file, {fmt::format("merged {} duplicate vertices", merged.merged)});
+  }
+  if (recipe.repair) {
+    std::vector<std::string> changes;
+    mesh = placed(where, [&] { return repaired(mesh, report, scene.problem.body.material, changes); });
+    warn(scene, file, changes);
   }
   warn(scene, file, mesh_warnings(mesh, report));
   const Reordering order = better_order(mesh);
@@ -123,7 +166,7 @@ TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where, N
 TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
-  TriangleSurface surface = read_surface(file, &report);
+  TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
   for (Point& vertex : surface.vertices) vertex *= recipe.scale;
   warn(scene, file, surface_warnings(report));
   return surface;
@@ -148,13 +191,8 @@ TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest, c
 TriangleSurface tool_surface(const ToolRecipe& recipe, const Scene& scene, const Where& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
-  TriangleSurface surface = read_surface(file, &report);
-  if (!report.closed())
-    throw InputError(
-        fmt::format("the surface '{}' has no inside: {} open edges, {} edges of more than two triangles, {} "
-                    "edges between triangles that face different sides",
-                    file.string(), report.open_edges, report.crowded_edges, report.inconsistent_edges),
-        where);
+  TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
+  if (!report.closed()) throw InputError(fmt::format("the surface '{}' {}", file.string(), why_open(report)), where);
   const double angle = recipe.rotation.norm();
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(angle, angle > 0 ? Point(recipe.rotation / angle) : Point::UnitZ()).toRotationMatrix();

@@ -89,13 +89,15 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("cylinder", o.cylinder, Case<CylinderRecipe>{}, "a cylinder");
   v.alternative("blob", o.blob, Case<BlobRecipe>{}, "a lump like a liver, with the region inclusion");
   v.alternative("tube", o.tube, Case<Tube>{}, "a bent pipe with a wall, like a vessel");
-  v.alternative("file", o.file, Text{}, "a mesh file (.msh, .vtk, .vtu, .ele), relative to the scene");
+  v.alternative("file", o.file, Text{}, "a mesh file (.msh, .mesh, .vtk, .vtu, .ele), relative to the scene");
   v.alternative(
       "coarsen", o.coarsen, AutoCount{fewest_points},
       "no mesh, but a coarse space of the mesh before it, of so many points; auto: as many spaces as it takes");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
   v("merge_duplicates", o.merge_duplicates, Quantity{length, not_negative},
     "vertices of that file at most this far apart, after scaling, become one; left out: they are reported");
+  v("repair", o.repair, Flag{},
+    "true: duplicates merged, loose parts dropped, slivers shaped better; what changed is said");
 }
 
 template <class V>
@@ -110,7 +112,8 @@ void describe(V& v, SurfaceRecipe& o) {
   v.one_of();
   v.alternative("sphere", o.sphere, Case<BallSurfaceRecipe>{}, "a triangulated sphere");
   v.alternative("boundary", o.boundary, Flag{}, "true: the boundary of level 0");
-  v.alternative("file", o.file, Text{}, "a surface file (.obj, .stl, .msh), relative to the scene");
+  v.alternative("file", o.file, Text{},
+                "a surface file (.obj, .stl, .ply, .off, .vtp, .vtk, .vtu, .msh, .mesh), relative to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
 }
 
@@ -132,7 +135,8 @@ void describe(V& v, BodyKeys& o) {
 
 template <class V>
 void describe(V& v, ToolRecipe& o) {
-  v.required("file", o.file, Text{}, "a closed surface (.stl, .obj, .msh), relative to the scene");
+  v.required("file", o.file, Text{},
+             "a closed surface (.stl, .obj, .ply, .off, .vtp, .vtk, .msh), relative to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
   v("rotation", o.rotation, Vector{angle}, "about the file's origin: [0, 0, 30 deg] turns it by 30 degrees about z");
   v("position", o.position, Vector{length}, "where that origin is put");

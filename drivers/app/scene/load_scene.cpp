@@ -106,6 +106,7 @@ void check_body(const Scene& scene, const Tree& tree) {
     const std::string path = fmt::format("body.levels.{}", i);
     only_of_files(level.file, level.scale != 1, path + ".scale", tree);
     only_of_files(level.file, level.merge_duplicates.has_value(), path + ".merge_duplicates", tree);
+    only_of_files(level.file, level.repair, path + ".repair", tree);
   }
   if (!scene.surface) return;
   const SurfaceRecipe& surface = *scene.surface;

@@ -44,4 +44,7 @@ void check_probes(Scene& scene, const Tree& tree);
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report);
 std::vector<std::string> surface_warnings(const SurfaceReport& report);
 
+/// Why a surface has no inside, and where: "has no inside: ...".
+std::string why_open(const SurfaceReport& report);
+
 }  // namespace plica::app

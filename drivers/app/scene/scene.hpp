@@ -56,6 +56,7 @@ struct LevelRecipe {
   std::string file;                        ///< relative to the scene
   double scale = 1;                        ///< metres per unit of the file
   std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m]
+  bool repair = false;                     ///< the file's mesh is repaired: see repair_mesh()
 };
 
 struct BallSurfaceRecipe {

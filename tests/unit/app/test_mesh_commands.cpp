@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
@@ -123,9 +124,48 @@ TEST_F(MeshCommands, ConvertLeavesTheOldFileWhereItFails) {
   EXPECT_FALSE(std::filesystem::exists(at("b.node.part")));
 }
 
+TEST_F(MeshCommands, RepairSaysWhatChanged) {
+  std::ofstream(at("flat.mesh"))
+      << "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+         "1 1 1 0\n0.5 0.5 0 0\nTetrahedra 3\n1 2 3 4 1\n2 3 4 5 1\n1 2 3 6 1\nEnd\n";
+  expect_refused({"info", at("flat.mesh")}, "flat.mesh:15: tetrahedron 3 (nodes 1 2 3 6) has no volume");
+  const Child child = plica({"repair", at("flat.mesh"), "-o", at("sound.msh")});
+  EXPECT_EQ(child.status, 0) << child.errors;
+  for (const char* piece :
+       {"1 tetrahedron without volume dropped", "without volume before", "5 vertices, 2 tetrahedra"})
+    EXPECT_NE(child.output.find(piece), std::string::npos) << child.output;
+  EXPECT_EQ(read_mesh(at("sound.msh")).tets.size(), 2u);
+  EXPECT_NE(plica({"repair", sample("blocks_41.msh"), "-o", at("same.msh")}).output.find("nothing to repair"),
+            std::string::npos);
+  EXPECT_EQ(read_mesh(at("same.msh")).tets, read_mesh(sample("blocks_41.msh")).tets);
+}
+
+TEST_F(MeshCommands, LatticesOverSurfacesAndMeshes) {
+  const Child filled = plica({"fill", sample("blocks.ply"), "-o", at("blocks.vtu"), "--size", "5 mm"});
+  EXPECT_EQ(filled.status, 0) << filled.errors;
+  EXPECT_NE(filled.output.find("225 vertices, 768 tetrahedra"), std::string::npos) << filled.output;
+  EXPECT_EQ(plica({"coarsen", sample("blocks_41.msh"), "-o", at("c.msh"), "--vertices", "23"}).status, 2);
+  ASSERT_EQ(plica({"coarsen", at("blocks.vtu"), "-o", at("c.msh"), "--vertices", "100"}).status, 0);
+  EXPECT_LE(read_mesh(at("c.msh")).vertices.size(), 100u);
+  std::ofstream(at("open.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  expect_refused({"fill", at("open.obj"), "-o", at("a.msh"), "--size", "1mm"}, "3 open edges");
+  expect_refused({"fill", at("open.obj"), "-o", at("a.msh"), "--size", "1mm"}, "the first is at [0.5, 0, 0]");
+  expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "5 cm"},
+                 "larger than the body, 0.02 x 0.02 x 0.04 m");
+  expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "-1"}, "--size");
+  expect_refused({"coarsen", sample("blocks_41.msh"), "-o", at("a.msh"), "--vertices", "30"}, "it must be 30 to 23");
+}
+
+TEST_F(MeshCommands, PipesAndHugeNamesAreRefused) {
+  ASSERT_EQ(mkfifo(at("pipe.msh").c_str(), 0600), 0);
+  expect_refused({"info", at("pipe.msh")}, "is a pipe or a device");
+  expect_refused({"info", std::string(100000, 'x') + ".msh"}, "cannot be opened: File name too long");
+}
+
 TEST_F(MeshCommands, WrongArgumentsAreRefused) {
   const std::string mesh = sample("blocks_41.msh");
-  expect_refused({"convert", mesh, at("a.msch")}, "did you mean 'msh'? (choices: msh, mesh, vtk, vtu, ele, node, obj, ply, off, stl)");
+  expect_refused({"convert", mesh, at("a.msch")},
+                 "did you mean 'msh'? (choices: msh, mesh, vtk, vtu, ele, node, obj, ply, off, stl)");
   expect_refused({"convert", mesh, at("a.msh"), "--format", "msh40"}, "unknown format 'msh40'; did you mean 'msh41'?");
   expect_refused({"convert", mesh, at("a.ele"), "--binary"}, "no binary form");
   expect_refused({"convert", sample("blocks.obj"), at("a.vtk")}, "unknown surface file extension 'vtk'");

@@ -150,6 +150,29 @@ TEST(SceneFiles, DuplicatesAreMergedOnRequest) {
   EXPECT_NE(error_of(of_files(file + ", merge_duplicates: 2 m")).find("names a node twice"), std::string::npos);
 }
 
+TEST(SceneFiles, MeshesAreRepairedOnRequest) {
+  const TemporaryFolder folder;
+  std::string text = torn;  // the third element repeats the first, the fourth has no volume
+  text.replace(text.find("\n2\n5 4"), 7, "\n4\n5 4")
+      .insert(text.find("$EndElements"), "7 4 2 0 1 10 20 30 40\n8 4 2 0 1 10 20 30 10\n");
+  std::ofstream(folder / "torn.msh") << text;
+  const std::string file = folder / "torn.msh";
+  EXPECT_EQ(error_of(of_files(file)).substr(0, 10 + file.size()), "a.yaml:3: " + file) << "the scene, then the file";
+  const Scene scene = scene_of(of_files(file + ", repair: true"));
+  EXPECT_TRUE(mentions(scene.warnings, "repaired: 1 tetrahedron that repeated another dropped"));
+  EXPECT_TRUE(mentions(scene.warnings, "repaired: 1 tetrahedron that named a vertex twice dropped"));
+  EXPECT_EQ(scene.problem.body.levels[0].tets.size(), 2);
+  EXPECT_EQ(in_input_order(scene.numbering[0].tet_ids, scene.numbering[0].input.tets), (std::vector<int>{5, 6}));
+  EXPECT_NE(error_of("duration: 1\nbody: {levels: [{ball: {radius: 1, cells: 2}, repair: true}]}\n").find("repair"),
+            std::string::npos);
+}
+
+TEST(SceneFiles, SizesNoBodyHasAreWarnedOf) {
+  const Scene scene = scene_of(of_files(sample("blocks_41.msh") + ", scale: 1000"));
+  EXPECT_TRUE(mentions(scene.warnings, "the body is 40 m long; is the file in mm? Then its scale is 0.001"));
+  EXPECT_FALSE(mentions(scene_of(of_files(sample("blocks_41.msh"))).warnings, "long"));
+}
+
 TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {
   const TemporaryFolder folder;
   std::ofstream(folder / "torn.msh") << torn;

@@ -65,6 +65,29 @@ TEST(RepairMesh, EdgesThatMovesCannotHelpAreCollapsed) {
   EXPECT_EQ(repair.vertex[a] == repair.vertex[b], repair.collapsed > 0);
 }
 
+// A flat tetrahedron on a square of the boundary, whose other diagonal it brings
+TEST(RepairMesh, SliversOnTheBoundaryArePeeledOff) {
+  TetMesh mesh = cube(1);
+  std::vector<int> top;
+  for (int v = 0; v < 8; ++v)
+    if (mesh.vertices[static_cast<std::size_t>(v)].z() > 0.5) top.push_back(v);
+  const auto edges = mesh_edges(mesh);
+  const auto is_edge = [&](int a, int b) { return std::ranges::find(edges, std::array<int, 2>{a, b}) != edges.end(); };
+  const std::array<int, 2> a = {top[0], top[3]}, b = {top[1], top[2]};  // the diagonals of the square
+  const auto& raised = is_edge(a[0], a[1]) ? b : a;
+  for (const int v : raised) mesh.vertices[static_cast<std::size_t>(v)].z() += 0.001;
+  std::array<int, 4> sliver = {top[0], top[1], top[2], top[3]};
+  if (!(height_ratio(mesh, sliver) < 1e9)) std::swap(sliver[2], sliver[3]);
+  ASSERT_LT(height_ratio(mesh, sliver), 1e9);
+  mesh.tets.push_back(sliver);
+  const MeshRepair repair = repair_mesh(mesh);
+  EXPECT_EQ(repair.peeled, 1);
+  EXPECT_GT(repair.worst_before, 500);
+  EXPECT_LT(repair.worst_after, 8);
+  EXPECT_EQ(repair.mesh.tets.size(), 6u);
+  EXPECT_EQ(repair.mesh.vertices.size(), 8u);
+}
+
 TEST(RepairMesh, DuplicatesAreMergedAndLoosePartsDropped) {
   const TetMesh one = cube(2), crumb = cube(1, 0.1);
   TetMesh mesh;
