@@ -128,7 +128,7 @@ TEST_F(MeshCommands, RepairSaysWhatChanged) {
   std::ofstream(at("flat.mesh"))
       << "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
          "1 1 1 0\n0.5 0.5 0 0\nTetrahedra 3\n1 2 3 4 1\n2 3 4 5 1\n1 2 3 6 1\nEnd\n";
-  expect_refused({"info", at("flat.mesh")}, "flat.mesh:15: tetrahedron 3 (nodes 1 2 3 6) has no volume");
+  expect_refused({"info", at("flat.mesh")}, "flat.mesh:13: tetrahedron 3 (nodes 1 2 3 6) has no volume");
   const Child child = plica({"repair", at("flat.mesh"), "-o", at("sound.msh")});
   EXPECT_EQ(child.status, 0) << child.errors;
   for (const char* piece :
