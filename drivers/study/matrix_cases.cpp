@@ -230,8 +230,8 @@ constexpr double moderate_strain = 1, large_strain = 50, moderate_impact = 0.2, 
 // where it is strained, and a step that is clear of the limit at rest is above it there.
 Expected of_explicit(const MatrixBody& body, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
-  if (body.impact > hypersonic_impact) return linear ? stops("contact") : stops();
-  if (linear) return completes();
+  if (linear) return completes();  // contact holds at any speed
+  if (body.impact > hypersonic_impact) return stops();
   if (body.impact > fast_impact)
     return either("struck at several times its wave speed, its lowest layer stiffens by about the margin of the step");
   if (body.impact > 0) return completes();

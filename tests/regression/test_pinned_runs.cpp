@@ -46,13 +46,13 @@ Problem organ() {
 
 Problem explicit_run() {
   Problem p = organ();
-  p.integration.cycle = "rsv";
+  p.integration.cycle = "rsv", p.integration.macro_step = 1e-3;
   return p;
 }
 
 Problem him_run() {
   Problem p = organ();
-  p.integration.cycle = "him";
+  p.integration.cycle = "him", p.integration.macro_step = 2e-3;
   return p;
 }
 

@@ -91,7 +91,8 @@ TEST(LargestStableStep, IsNotBoundByContact) {
   p.integration.macro_step = 0.999 * predicted;
   Simulation<Host> simulation(p);
   for (int i = 0; i < 800; ++i) simulation.step();
-  EXPECT_LT(largest(simulation.velocities()), 1e3);
+  EXPECT_LT(largest(simulation.velocities()),
+            1e4);  // so fast it leaves the plane; what grows is beyond that in 20 steps
 }
 
 // Integrators on bars and beams: against direct solves on the same mesh, beam theory and waves. `plica verify` has the direct

@@ -87,16 +87,20 @@ void only_of_files(const std::string& file, bool given, const std::string& path,
 // What every body has a value of, given to a law that does not take it
 void check_given(const Scene& scene, const Tree& tree) {
   const MaterialInfo& info = *find_material(scene.problem.body.material.model);
-  std::vector<std::string> known, sections = {"body.material"};
+  std::vector<std::string> known;
   for (const MaterialParameter& p : info.parameters) known.emplace_back(p.name);
-  for (const auto& [name, region] : scene.problem.body.regions) sections.push_back("body.regions." + name);
-  for (const std::string& section : sections)
-    for (const MaterialParameter& p : {parameter::young_modulus, parameter::poisson_ratio}) {
-      const std::string path = section + "." + p.name;
-      if (std::ranges::find(known, p.name) == known.end() && tree.find(path) != nullptr)
-        throw InputError(path + ": " + unknown_name("parameter of " + std::string(info.name), p.name, known),
-                         place_of(tree, path));
-    }
+  const auto check = [&](const Tree* section, const std::string& path) {
+    for (const MaterialParameter& p : {parameter::young_modulus, parameter::poisson_ratio})
+      if (section && section->find(p.name) && std::ranges::find(known, p.name) == known.end())
+        throw InputError(
+            path + "." + p.name + ": " + unknown_name("parameter of " + std::string(info.name), p.name, known),
+            place_of(tree, path + "." + p.name));
+  };
+  const Tree* body = tree.find("body");
+  check(body->find("material"), "body.material");
+  const Tree* regions = body->find("regions");
+  for (const auto& [name, region] : scene.problem.body.regions)
+    if (regions) check(regions->find(name), "body.regions." + name);
 }
 
 void check_body(const Scene& scene, const Tree& tree) {

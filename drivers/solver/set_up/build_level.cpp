@@ -79,9 +79,9 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     const auto own = mesh.region.empty() ? body.regions.end() : body.regions.find(mesh.region_names[r]);
     const RegionOptions o = own == body.regions.end() ? RegionOptions{} : own->second;
     if (material.has_fibres && !body.material.fibres && !o.fibres)
-      throw InputError("body.fibres is missing, and " +
-                       (mesh.region.empty() ? "the mesh has no regions" : "region '" + mesh.region_names[r] + "'") +
-                       " has none of its own; expected the direction of its fibres, such as {axis: [0, 0, 1]}");
+      throw InputError("body.fibres is missing" +
+                       (mesh.region.empty() ? "" : ", and region '" + mesh.region_names[r] + "' has none of its own") +
+                       "; expected the direction of its fibres, such as {axis: [0, 0, 1]}");
     const std::vector<double> values = parameter_values(material, body.material, o);
     c.material.push_back(material.kernel_constants(values));
     c.lame.push_back(material.small_strains(values));

@@ -145,8 +145,9 @@ std::array<double, 2> on_a_mesh(const char* material, int cells) {
   const Eigen::VectorXd f = stacked(probe.force(u)), direction = stacked(p), Kp = stacked(probe.stiffness(u, p));
   const auto energy = [&](double t) { return Eigen::Matrix<double, 1, 1>(probe.elastic_energy(at(t))); };
   const auto force = [&](double t) { return stacked(probe.force(at(t))); };
-  return {std::abs(slope_at_zero(energy, 1e-3)(0) / f.dot(direction) + 1),
-          (slope_at_zero(force, 1e-3) + Kp).norm() / Kp.norm()};
+  constexpr double h = 1e-5;  // so short that hardly any fibre becomes slack in it, where its tangent jumps
+  return {std::abs(slope_at_zero(energy, h)(0) / f.dot(direction) + 1),
+          (slope_at_zero(force, h) + Kp).norm() / Kp.norm()};
 }
 
 }  // namespace

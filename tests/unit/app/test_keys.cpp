@@ -87,7 +87,7 @@ TEST(Schema, HasEveryKey) {
     EXPECT_TRUE(at->contains("description")) << key.path;
   }
   EXPECT_EQ(schema["required"], Json({"duration", "body"}));
-  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 6);
+  EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 7);
 }
 
 bool fits(const Dimension& dimension, const std::string& unit) {

@@ -207,8 +207,8 @@ const Damage damages[] = {
     {"PoissonRatio", "young_modulus: 50 kPa", "poisson_ratio: 0.5",
      "a.yaml:7: body.material.poisson_ratio: expected a number in [0, 0.5), got '0.5'"},
     {"StiffnessOfAnotherLaw", "neo_hookean", "mooney_rivlin",
-     "a.yaml:7: body.material.young_modulus: unknown parameter of mooney_rivlin 'young_modulus' (choices: c10, c01, "
-     "bulk_modulus)"},
+     "a.yaml:7: body.material.young_modulus: unknown parameter of mooney_rivlin 'young_modulus'; did you mean "
+     "'bulk_modulus'? (choices: c10, c01, bulk_modulus)"},
     {"NoStiffnessAtRest", "{model: neo_hookean, young_modulus: 50 kPa}", "{model: mooney_rivlin, c10: -1 kPa}",
      "a.yaml:7: body.material, as the shear stiffness of mooney_rivlin at rest, is 0 Pa; expected a pressure (Pa) > 0"},
     {"OgdensAlpha", "{model: neo_hookean, young_modulus: 50 kPa}",
@@ -242,7 +242,7 @@ const Damage damages[] = {
     {"SubdividedTooOften", "subdivisions: 1", "subdivisions: 2000000000",
      "a.yaml:8: body.surface: a mesh this fine makes the scene take about "},
     {"TooFewPoints", "{box: {size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2]}}", "{coarsen: 20}",
-     "a.yaml:6: body.levels.1.coarsen: expected a whole number >= 30, or auto, got '20'"},
+     "a.yaml:6: body.levels.1.coarsen: expected a whole number >= 30, got '20'"},
     {"CoarsenFirst", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{coarsen: auto}",
      "a.yaml:5: body.levels.0: coarsen makes coarse spaces of the mesh before it; expected a mesh first"},
     {"CoarsenWithMeshes", "  material:", "    - {coarsen: auto}\n  material:",

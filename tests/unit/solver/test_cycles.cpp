@@ -218,7 +218,8 @@ TYPED_TEST(CycleMatrix, TranslatesExactly) {
     for (const std::string& cycle : names(cycles())) {
       p.integration.cycle = cycle;
       Simulation<TypeParam> simulation(p);
-      EXPECT_EQ(simulation.levels().size(), cycle == "single" ? 1 : p.body.levels.size());
+      const auto meshes = std::ranges::count_if(simulation.levels(), [](const LevelReport& l) { return l.tets > 0; });
+      EXPECT_EQ(meshes, cycle == "single" ? 1 : std::ssize(p.body.levels));
       advance(simulation, 5);
       const Point want = simulation.time() * p.body.initial.velocity;
       for (const Point& u : displacements(simulation, p.body.levels[0]))
@@ -242,8 +243,9 @@ TYPED_TEST(CycleMatrix, StaysSoundInContact) {
     for (const std::string& cycle : names(cycles())) {
       p.integration.cycle = cycle;
       Simulation<TypeParam> simulation(p);
-      advance(simulation, 10);
-      EXPECT_GT(simulation.energies().contact, 0) << cycle;
+      double touched = 0;
+      for (int n = 0; n < 10; ++n) advance(simulation, 1), touched = std::max(touched, simulation.energies().contact);
+      EXPECT_GT(touched, 0) << cycle;
       EXPECT_LT(largest(displacements(simulation, p.body.levels[0])), 0.5 * simulation.time()) << cycle;
       if (cycle == "single") single = simulation.positions();
       EXPECT_TRUE(p.body.levels.size() > 1 || cycle == "him" || same_bits(simulation.positions(), single)) << cycle;

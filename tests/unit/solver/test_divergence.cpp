@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
+#include <regex>
 
 #include "fuzz/replay.hpp"
 #include "fuzz/run_target.hpp"
@@ -55,7 +56,7 @@ TYPED_TEST(Divergence, AboveTheCriticalStepStopsBeforeItIsNotFinite) {
     EXPECT_TRUE(bad->kind == "energy" || (bad->kind == "inverted" && material == "neo_hookean")) << bad->kind;
     EXPECT_EQ(bad->level, 0);
     EXPECT_GE(bad->element, 0);
-    EXPECT_LT(bad->J, 0.5);
+    EXPECT_LT(bad->J, 0.7);
     EXPECT_NEAR(bad->substep_over_critical, 1.5, 1e-9);
     EXPECT_NE(bad->remedy.find("critical step"), std::string::npos);
     for (const char* part : {"level 0", "element ", "J = ", "1.5 times", "try "})
@@ -99,7 +100,8 @@ TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
   EXPECT_LT(bad->J, 0);
   EXPECT_NE(bad->remedy.find("allow_inversion"), std::string::npos);
   for (const Choice& material : materials())
-    EXPECT_EQ(bad->remedy.find(material.name) != std::string::npos, recovers(material.name)) << material.name;
+    EXPECT_EQ(std::regex_search(bad->remedy, std::regex("[ (]" + material.name + "[,)]")), recovers(material.name))
+        << bad->remedy;
   // it is one of the inverted elements
   const auto& t = mesh.tets[static_cast<std::size_t>(bad->element)];
   const auto at = [&](std::size_t k) {

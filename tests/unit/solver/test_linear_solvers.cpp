@@ -28,6 +28,7 @@ using namespace plica::test;
 Problem pressed(const std::string& material, int cells = 4) {
   Problem p = cube_levels(3, cells, "single");
   p.body.material.model = material;
+  p.body.material = complete(p.body.material);
   p.body.fixed = {left_face()};
   p.body.damping.mass = 3;
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);

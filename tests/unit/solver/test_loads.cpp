@@ -180,7 +180,7 @@ TEST(Loads, PressureIsBalancedInImplicitSteps) {
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.05;
   p.integration.implicit.newton_iterations = 30, p.integration.implicit.newton_tolerance = 1e-8;
   Simulation<Host> simulation(p);
-  advance(simulation, 200);
+  advance(simulation, 1000);
   EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
   LevelProbe<Host> probe(p);
   const std::vector<Point> u = displacements(simulation, p.body.levels[0]);
