@@ -64,7 +64,7 @@ struct Pieces {
                                                  : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
     fitter = std::make_unique<InertiaFitter<Host>>(typename Host::Exec{}, level,
                                                    make_elasticity<Host>(problem.body.material.model), *inverse_mass,
-                                                   CoarseModes(dense(K), spaces.back().mass));
+                                                   CoarseModes(dense_matrix(K), spaces.back().mass));
   }
 
   Eigen::MatrixXd matrix() {

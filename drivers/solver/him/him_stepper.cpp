@@ -73,7 +73,7 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   AxesShape axes;
   if (!spaces.empty()) {
     for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
-    modes.emplace(dense(K), spaces.back().mass);
+    modes.emplace(dense_matrix(K), spaces.back().mass);
     axes = coarser.made.empty() ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
                                 : axes_of_space(meshes.front(), to_finest(spaces), constants.mass);
   }

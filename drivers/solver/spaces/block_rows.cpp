@@ -2,13 +2,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <plica/drivers/solver/spaces/block_rows.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A row in the making: blocks are added to columns in any order.
 class RowSum {
@@ -16,18 +15,18 @@ class RowSum {
   explicit RowSum(std::size_t columns) : place_(columns, -1) {}
 
   void add(int column, double factor, const Eigen::Matrix3d& block) {
-    int& place = place_[at(column)];
+    int& place = place_[index_of(column)];
     if (place < 0) {
       place = static_cast<int>(row_.size());
       row_.emplace_back(column, factor * block);
     } else {
-      row_[at(place)].second += factor * block;
+      row_[index_of(place)].second += factor * block;
     }
   }
 
   /// What was added, ascending; starts anew.
   std::vector<std::pair<int, Eigen::Matrix3d>> take() {
-    for (const auto& entry : row_) place_[at(entry.first)] = -1;
+    for (const auto& entry : row_) place_[index_of(entry.first)] = -1;
     std::sort(row_.begin(), row_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     return std::exchange(row_, {});
   }
@@ -43,27 +42,28 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
   BlockRows K(mesh.vertices.size());
   for (std::size_t a = 0; a < K.size(); ++a) K[a].emplace_back(static_cast<int>(a), Eigen::Matrix3d::Zero());
   for (const auto& [a, b] : mesh_edges(mesh)) {
-    K[at(a)].emplace_back(b, Eigen::Matrix3d::Zero());
-    K[at(b)].emplace_back(a, Eigen::Matrix3d::Zero());
+    K[index_of(a)].emplace_back(b, Eigen::Matrix3d::Zero());
+    K[index_of(b)].emplace_back(a, Eigen::Matrix3d::Zero());
   }
   for (auto& row : K) std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const auto& tet = mesh.tets[e];
     Eigen::Matrix3d edges;
     for (std::size_t c = 0; c < 3; ++c)
-      edges.row(static_cast<Eigen::Index>(c)) = (mesh.vertices[at(tet[c + 1])] - mesh.vertices[at(tet[0])]).transpose();
+      edges.row(static_cast<Eigen::Index>(c)) =
+          (mesh.vertices[index_of(tet[c + 1])] - mesh.vertices[index_of(tet[0])]).transpose();
     const double volume = edges.determinant() / 6;
     Eigen::Matrix<double, 4, 3> gradient;
     gradient.bottomRows<3>() = edges.inverse().transpose();
     gradient.row(0) = -gradient.bottomRows<3>().colwise().sum();
-    const auto [lambda, mu] = lame[mesh.region.empty() ? 0 : at(mesh.region[e])];
+    const auto [lambda, mu] = lame[mesh.region.empty() ? 0 : index_of(mesh.region[e])];
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
         const Point gi = gradient.row(i), gj = gradient.row(j);
         Eigen::Matrix3d block = lambda * gi * gj.transpose() + mu * gj * gi.transpose();
         block.diagonal().array() += mu * gi.dot(gj);
-        auto& row = K[at(tet[at(i)])];
-        const auto place = std::lower_bound(row.begin(), row.end(), tet[at(j)],
+        auto& row = K[index_of(tet[index_of(i)])];
+        const auto place = std::lower_bound(row.begin(), row.end(), tet[index_of(j)],
                                             [](const auto& entry, int column) { return entry.first < column; });
         place->second += volume * block;
       }
@@ -90,7 +90,7 @@ BlockRows galerkin_product(const BlockRows& K, const RowMatrix& P) {
   return result;
 }
 
-Eigen::MatrixXd dense(const BlockRows& K) {
+Eigen::MatrixXd dense_matrix(const BlockRows& K) {
   const auto n = static_cast<Eigen::Index>(3 * K.size());
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < K.size(); ++i)

@@ -20,6 +20,6 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
 BlockRows galerkin_product(const BlockRows& K, const RowMatrix& P);
 
 /// [3 rows x 3 rows], xyz interleaved.
-Eigen::MatrixXd dense(const BlockRows& K);
+Eigen::MatrixXd dense_matrix(const BlockRows& K);
 
 }  // namespace plica

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
 #include <plica/drivers/solver/spaces/sliver_space.hpp>
 
@@ -13,14 +14,12 @@ namespace {
 constexpr int fewest_free = 120;
 constexpr double most_ratio = 5;
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The columns of free points, and these points.
 RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& constrained, std::vector<int>& points) {
   std::vector<int> number, free;
   for (const int point : points) {
-    number.push_back(constrained[at(point)] ? -1 : static_cast<int>(free.size()));
-    if (!constrained[at(point)]) free.push_back(point);
+    number.push_back(constrained[index_of(point)] ? -1 : static_cast<int>(free.size()));
+    if (!constrained[index_of(point)]) free.push_back(point);
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index a = 0; a < P.rows(); ++a)
@@ -69,7 +68,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     std::vector<int> points;
     int free = 0;
     for (auto point = order.begin(); free < size && point != order.end(); ++point)
-      points.push_back(*point), free += !constrained[at(*point)];
+      points.push_back(*point), free += !constrained[index_of(*point)];
     const double spacing = mean_spacing(graph, points);
     const RowMatrix P = moving_least_squares(mesh, graph, rows, points, spacing, options.reach);
     spaces.push_back({without_constrained(P, constrained, points), points, spacing});

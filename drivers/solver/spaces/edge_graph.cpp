@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <plica/drivers/solver/spaces/edge_graph.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
@@ -9,7 +10,6 @@ namespace plica {
 namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -18,17 +18,17 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
   EdgeGraph graph;
   graph.first.assign(mesh.vertices.size() + 1, 0);
   for (const auto& edge : edges)
-    for (const int v : edge) ++graph.first[at(v) + 1];
+    for (const int v : edge) ++graph.first[index_of(v) + 1];
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) graph.first[v + 1] += graph.first[v];
   graph.neighbour.resize(2 * edges.size()), graph.length.resize(2 * edges.size());
   std::vector<int> next(graph.first.begin(), graph.first.end() - 1);
   const auto enter = [&](int v, int other, double length) {
-    const auto place = at(next[at(v)]++);
+    const auto place = index_of(next[index_of(v)]++);
     graph.neighbour[place] = other, graph.length[place] = length;
   };
   // first all lower neighbours of each vertex, then the higher ones: ascending
   const auto length = [&](const auto& edge) {
-    return (mesh.vertices[at(edge[1])] - mesh.vertices[at(edge[0])]).norm();
+    return (mesh.vertices[index_of(edge[1])] - mesh.vertices[index_of(edge[0])]).norm();
   };
   for (const auto& edge : edges) enter(edge[1], edge[0], length(edge));
   for (const auto& edge : edges) enter(edge[0], edge[1], length(edge));
@@ -36,30 +36,30 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
 }
 
 std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart) {
-  std::vector<double> distance(at(graph.vertices()), unreached);
+  std::vector<double> distance(index_of(graph.vertices()), unreached);
   std::priority_queue<std::pair<double, int>> furthest;  // distances that may have shrunk since
   for (int v = 0; v < graph.vertices(); ++v) furthest.emplace(unreached, v);
   std::vector<int> points;
   for (int counted = 0; counted < count && !furthest.empty();) {
     const auto [known, point] = furthest.top();
     furthest.pop();
-    const double now = distance[at(point)];
+    const double now = distance[index_of(point)];
     if (now < known) {
       if (now > 0) furthest.emplace(now, point);
       continue;
     }
     points.push_back(point);
-    counted += apart.empty() || !apart[at(point)];
+    counted += apart.empty() || !apart[index_of(point)];
     DistanceQueue open;
-    distance[at(point)] = 0;
+    distance[index_of(point)] = 0;
     for (open.emplace(0, point); !open.empty();) {
       const auto [d, v] = open.top();
       open.pop();
-      if (d > distance[at(v)]) continue;
-      for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k) {
-        const int w = graph.neighbour[at(k)];
-        if (const double there = d + graph.length[at(k)]; there < distance[at(w)])
-          distance[at(w)] = there, open.emplace(there, w);
+      if (d > distance[index_of(v)]) continue;
+      for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+        const int w = graph.neighbour[index_of(k)];
+        if (const double there = d + graph.length[index_of(k)]; there < distance[index_of(w)])
+          distance[index_of(w)] = there, open.emplace(there, w);
       }
     }
   }
@@ -69,29 +69,29 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::v
 double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points) {
   // All points' neighbourhoods at once: a vertex keeps its nearest point, and where two neighbourhoods meet in an edge the
   // way through it joins their points.
-  std::vector<double> distance(at(graph.vertices()), unreached), nearest(points.size(), unreached);
-  std::vector<int> owner(at(graph.vertices()), -1);
+  std::vector<double> distance(index_of(graph.vertices()), unreached), nearest(points.size(), unreached);
+  std::vector<int> owner(index_of(graph.vertices()), -1);
   DistanceQueue open;
   for (std::size_t j = 0; j < points.size(); ++j) {
-    distance[at(points[j])] = 0, owner[at(points[j])] = static_cast<int>(j);
+    distance[index_of(points[j])] = 0, owner[index_of(points[j])] = static_cast<int>(j);
     open.emplace(0, points[j]);
   }
   while (!open.empty()) {
     const auto [d, v] = open.top();
     open.pop();
-    if (d > distance[at(v)]) continue;
-    for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k) {
-      const int w = graph.neighbour[at(k)];
-      if (const double there = d + graph.length[at(k)]; there < distance[at(w)])
-        distance[at(w)] = there, owner[at(w)] = owner[at(v)], open.emplace(there, w);
+    if (d > distance[index_of(v)]) continue;
+    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+      const int w = graph.neighbour[index_of(k)];
+      if (const double there = d + graph.length[index_of(k)]; there < distance[index_of(w)])
+        distance[index_of(w)] = there, owner[index_of(w)] = owner[index_of(v)], open.emplace(there, w);
     }
   }
   for (int v = 0; v < graph.vertices(); ++v)
-    for (int k = graph.first[at(v)]; k < graph.first[at(v) + 1]; ++k) {
-      const int w = graph.neighbour[at(k)], a = owner[at(v)], b = owner[at(w)];
+    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+      const int w = graph.neighbour[index_of(k)], a = owner[index_of(v)], b = owner[index_of(w)];
       if (a < 0 || b < 0 || a == b) continue;
-      const double way = distance[at(v)] + graph.length[at(k)] + distance[at(w)];
-      nearest[at(a)] = std::min(nearest[at(a)], way);
+      const double way = distance[index_of(v)] + graph.length[index_of(k)] + distance[index_of(w)];
+      nearest[index_of(a)] = std::min(nearest[index_of(a)], way);
     }
   double sum = 0;
   int known = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
 
@@ -7,15 +8,13 @@ namespace plica {
 
 namespace {
 
-constexpr double detour = 1.4;        // of a way along edges over the straight one
-constexpr double growth = 1.8;        // of the radius, at most
-constexpr double growth_step = 1.16;  // of it, at a time
-constexpr double most_weight = 2;     // sum of |weights| of a good fit
-constexpr double least_spread = 1e-3;
-constexpr double least_weight = 1e-4;
-constexpr std::size_t fewest = 6;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double edge_detour = 1.4;          // of a way along edges over the straight one
+constexpr double radius_growth = 1.8;        // of the radius, at most
+constexpr double radius_growth_step = 1.16;  // of it, at a time
+constexpr double most_fit_weight = 2;        // sum of |weights| of a good fit
+constexpr double least_fit_spread = 1e-3;
+constexpr double least_fit_weight = 1e-4;
+constexpr std::size_t fewest_fitted = 6;
 
 struct Near {
   int point;        // its number in the list
@@ -26,19 +25,19 @@ class Fitter {
  public:
   Fitter(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& points, double radius)
       : mesh_(mesh), points_(points), radius_(radius), number_(mesh.vertices.size(), -1), walk_(graph) {
-    for (std::size_t j = 0; j < points.size(); ++j) number_[at(points[j])] = static_cast<int>(j);
+    for (std::size_t j = 0; j < points.size(); ++j) number_[index_of(points[j])] = static_cast<int>(j);
   }
 
   /// Each row's points within the first radius: a walk from each point, which are fewer than the rows.
   std::vector<std::vector<Near>> neighbourhoods(const std::vector<int>& rows) {
     std::vector<int> place(number_.size(), -1);
-    for (std::size_t i = 0; i < rows.size(); ++i) place[at(rows[i])] = static_cast<int>(i);
+    for (std::size_t i = 0; i < rows.size(); ++i) place[index_of(rows[i])] = static_cast<int>(i);
     std::vector<std::vector<Near>> near(rows.size());
     for (std::size_t j = 0; j < points_.size(); ++j)
-      walk_.from(points_[j], detour * radius_, [&](int v, double along) {
-        if (place[at(v)] < 0) return;
+      walk_.from(points_[j], edge_detour * radius_, [&](int v, double along) {
+        if (place[index_of(v)] < 0) return;
         const double d = distance(v, points_[j], along);
-        if (d < radius_) near[at(place[at(v)])].push_back({static_cast<int>(j), d});
+        if (d < radius_) near[index_of(place[index_of(v)])].push_back({static_cast<int>(j), d});
       });
     return near;
   }
@@ -47,18 +46,18 @@ class Fitter {
   void fit(int a, const std::vector<Near>& near, std::vector<std::pair<int, double>>& row) {
     row.clear();
     if (good(a, near, radius_, row)) return;
-    const double widest = growth * radius_;
+    const double widest = radius_growth * radius_;
     std::vector<Near> more;
-    walk_.from(a, detour * widest, [&](int v, double along) {
-      if (number_[at(v)] >= 0) more.push_back({number_[at(v)], distance(a, v, along)});
+    walk_.from(a, edge_detour * widest, [&](int v, double along) {
+      if (number_[index_of(v)] >= 0) more.push_back({number_[index_of(v)], distance(a, v, along)});
     });
     std::sort(more.begin(), more.end(), [](const Near& x, const Near& y) { return x.point < y.point; });
-    for (double radius = growth_step * radius_; radius <= widest; radius *= growth_step)
+    for (double radius = radius_growth_step * radius_; radius <= widest; radius *= radius_growth_step)
       if (good(a, more, radius, row)) return;
     // as many directions as it takes
     gather(a, more, widest);
     for (int dropped = 0; fit_.size() > 0 && dropped <= 3; ++dropped)
-      if (fit_.weights(dropped, weight_) <= most_weight || dropped == 3) return take(row);
+      if (fit_.weights(dropped, weight_) <= most_fit_weight || dropped == 3) return take(row);
   }
 
  private:
@@ -72,14 +71,14 @@ class Fitter {
   std::vector<double> weight_;
 
   double distance(int v, int w, double along) const {
-    return std::max((mesh_.vertices[at(v)] - mesh_.vertices[at(w)]).norm(), along / detour);
+    return std::max((mesh_.vertices[index_of(v)] - mesh_.vertices[index_of(w)]).norm(), along / edge_detour);
   }
 
   void gather(int a, const std::vector<Near>& near, double radius) {
     fit_.clear(), fitted_.clear();
     for (const Near& one : near)
       if (const double w = fit_weight(one.distance / radius); w > 0) {
-        fit_.add((mesh_.vertices[at(points_[at(one.point)])] - mesh_.vertices[at(a)]) / radius, w);
+        fit_.add((mesh_.vertices[index_of(points_[index_of(one.point)])] - mesh_.vertices[index_of(a)]) / radius, w);
         fitted_.push_back(one.point);
       }
     if (fit_.size() > 0) fit_.prepare();
@@ -87,7 +86,8 @@ class Fitter {
 
   bool good(int a, const std::vector<Near>& near, double radius, std::vector<std::pair<int, double>>& row) {
     gather(a, near, radius);
-    if (fit_.size() < fewest || fit_.flattest() < least_spread || fit_.weights(0, weight_) > most_weight) return false;
+    if (fit_.size() < fewest_fitted || fit_.flattest() < least_fit_spread || fit_.weights(0, weight_) > most_fit_weight)
+      return false;
     take(row);
     return true;
   }
@@ -95,7 +95,7 @@ class Fitter {
   void take(std::vector<std::pair<int, double>>& row) const {
     double sum = 0;
     for (std::size_t k = 0; k < fitted_.size(); ++k)
-      if (std::abs(weight_[k]) > least_weight) row.emplace_back(fitted_[k], weight_[k]), sum += weight_[k];
+      if (std::abs(weight_[k]) > least_fit_weight) row.emplace_back(fitted_[k], weight_[k]), sum += weight_[k];
     for (auto& entry : row) entry.second /= sum;
   }
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/sliver_space.hpp>
 
@@ -8,11 +9,9 @@ namespace plica {
 namespace {
 
 constexpr double too_stiff = 3.5;  // times the median
-constexpr int most_rounds = 12;
-constexpr double most_removed = 0.35, most_weight = 2, least_entry = 1e-9;
+constexpr int elimination_rounds = 12;
+constexpr double most_removed = 0.35, most_followed_weight = 2, least_followed = 1e-9;
 constexpr std::size_t fewest_neighbours = 3;
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Row = std::vector<std::pair<int, double>>;
 
@@ -37,7 +36,7 @@ class Elimination {
     result.before = std::max_element(stiff.begin(), stiff.end())->first / median;
     if (!(result.before > too_stiff)) return {};
     const auto most = static_cast<std::size_t>(most_removed * static_cast<double>(mass_.size()));
-    for (int round = 0; round < most_rounds && order_.size() < most; ++round) {
+    for (int round = 0; round < elimination_rounds && order_.size() < most; ++round) {
       std::erase_if(stiff, [&](const auto& one) { return !(one.first > limit); });
       std::sort(stiff.begin(), stiff.end(), std::greater<>());
       const std::size_t before = order_.size();
@@ -66,15 +65,15 @@ class Elimination {
     std::vector<std::pair<double, int>> all;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     for (int a = 0; a < static_cast<int>(mass_.size()); ++a) {
-      if (gone_[at(a)] || constrained_[at(a)]) continue;
+      if (gone_[index_of(a)] || constrained_[index_of(a)]) continue;
       solver.computeDirect(block(a, a), Eigen::EigenvaluesOnly);
-      all.emplace_back(solver.eigenvalues()[2] / std::max(mass_[at(a)], 1e-300), a);
+      all.emplace_back(solver.eigenvalues()[2] / std::max(mass_[index_of(a)], 1e-300), a);
     }
     return all;
   }
 
   Eigen::Matrix3d& block(int a, int b) {
-    auto& row = K_[at(a)];
+    auto& row = K_[index_of(a)];
     auto place =
         std::lower_bound(row.begin(), row.end(), b, [](const auto& e, int column) { return e.first < column; });
     if (place == row.end() || place->first != b) place = row.insert(place, {b, Eigen::Matrix3d::Zero()});
@@ -83,21 +82,21 @@ class Elimination {
   const Eigen::Matrix3d& block(int a, int b) const { return const_cast<Elimination*>(this)->block(a, b); }
 
   void eliminate(int a, int round) {
-    const auto row = K_[at(a)];  // with the own block
-    if (locked_[at(a)] == round || row.size() - 1 < fewest_neighbours) return;
+    const auto row = K_[index_of(a)];  // with the own block
+    if (locked_[index_of(a)] == round || row.size() - 1 < fewest_neighbours) return;
     double radius = 0;
-    const auto offset = [&](int b) { return Point(mesh_.vertices[at(b)] - mesh_.vertices[at(a)]); };
+    const auto offset = [&](int b) { return Point(mesh_.vertices[index_of(b)] - mesh_.vertices[index_of(a)]); };
     for (const auto& [b, K] : row) radius = std::max(radius, 1.1 * offset(b).norm());
     fit_.clear();
     for (const auto& [b, K] : row)
       if (b != a) fit_.add(offset(b) / radius, fit_weight(offset(b).norm() / radius) + 1e-3);
     fit_.prepare();
     for (int dropped = 0; dropped <= 3; ++dropped)
-      if (fit_.weights(dropped, weight_) < most_weight) break;
+      if (fit_.weights(dropped, weight_) < most_followed_weight) break;
     Row& followed = follows_.emplace_back();
     for (const auto& [b, K] : row)
       if (b != a) followed.emplace_back(b, weight_[followed.size()]);
-    order_.push_back(a), gone_[at(a)] = 1;
+    order_.push_back(a), gone_[index_of(a)] = 1;
     take_out(a, row, followed, round);
   }
 
@@ -113,26 +112,26 @@ class Elimination {
         const auto [c, wc] = followed[j];
         block(b, c) += wb * beside[j].second + wc * beside[i].second.transpose() + (wb * wc) * own;
       }
-      std::erase_if(K_[at(b)], [&](const auto& entry) { return entry.first == a; });
-      mass_[at(b)] += wb * mass_[at(a)];
-      locked_[at(b)] = round;
+      std::erase_if(K_[index_of(b)], [&](const auto& entry) { return entry.first == a; });
+      mass_[index_of(b)] += wb * mass_[index_of(a)];
+      locked_[index_of(b)] = round;
     }
-    K_[at(a)].clear();
+    K_[index_of(a)].clear();
   }
 
   /// Who follows vertices that went later follows what those follow.
   void write(SliverSpace& result) const {
     std::vector<int> number(mass_.size(), -1);
     for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
-      if (!gone_[at(a)]) number[at(a)] = static_cast<int>(result.kept.size()), result.kept.push_back(a);
+      if (!gone_[index_of(a)]) number[index_of(a)] = static_cast<int>(result.kept.size()), result.kept.push_back(a);
     std::vector<std::vector<std::pair<int, double>>> rows(mass_.size());
-    for (const int a : result.kept) rows[at(a)] = {{number[at(a)], 1.0}};
+    for (const int a : result.kept) rows[index_of(a)] = {{number[index_of(a)], 1.0}};
     for (std::size_t i = order_.size(); i-- > 0;) {
       std::map<int, double> sum;
       for (const auto& [b, w] : follows_[i])
-        for (const auto& [column, value] : rows[at(b)]) sum[column] += w * value;
+        for (const auto& [column, value] : rows[index_of(b)]) sum[column] += w * value;
       for (const auto& [column, value] : sum)
-        if (std::abs(value) > least_entry) rows[at(order_[i])].emplace_back(column, value);
+        if (std::abs(value) > least_followed) rows[index_of(order_[i])].emplace_back(column, value);
     }
     result.up = RowMatrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(result.kept.size()));
     std::vector<Eigen::Triplet<double>> entries;

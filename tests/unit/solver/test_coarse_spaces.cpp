@@ -132,7 +132,7 @@ TEST(BlockRows, AreTheStiffnessOfLinearElements) {
   const Lame<double> lame = lame_constants(p.body.material.young_modulus, p.body.material.poisson_ratio);
   const BlockRows K = rest_stiffness(p.body.levels[0], {{lame.lambda, lame.mu}});
   const Eigen::MatrixXd expected = probe.stiffness_matrix(probe.zero());
-  EXPECT_LE((dense(K) - expected).norm(), 1e-12 * expected.norm());
+  EXPECT_LE((dense_matrix(K) - expected).norm(), 1e-12 * expected.norm());
   const EdgeGraph graph = edge_graph(p.body.levels[0]);
   const std::vector<int> points = farthest_points(graph, 20);
   const RowMatrix P =
@@ -142,7 +142,7 @@ TEST(BlockRows, AreTheStiffnessOfLinearElements) {
     for (RowMatrix::InnerIterator e(P, a); e; ++e)
       for (int k = 0; k < 3; ++k) wide(3 * a + k, 3 * e.col() + k) = e.value();
   const Eigen::MatrixXd product = wide.transpose() * expected * wide;
-  EXPECT_LE((dense(galerkin_product(K, P)) - product).norm(), 1e-12 * product.norm());
+  EXPECT_LE((dense_matrix(galerkin_product(K, P)) - product).norm(), 1e-12 * product.norm());
 }
 
 TEST(SliverSpace, IsNoneWhereThereAreNoSlivers) {
