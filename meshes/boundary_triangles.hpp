@@ -37,8 +37,8 @@ struct SurfaceReport {
   int open_edges = 0;                     ///< of one triangle only
   int crowded_edges = 0;                  ///< of more than two: the surface is no manifold there
   int inconsistent_edges = 0;             ///< of two triangles that look to different sides
-  int parts = 0;               ///< that share no vertex
-  Point open_at = Point::Zero();  ///< the middle of the first edge that keeps it from being closed [m]
+  int parts = 0;                          ///< that share no vertex
+  Point open_at = Point::Zero();          ///< the middle of the first edge that keeps it from being closed [m]
   bool turned = false;                    ///< closed, but inside out: all triangles were turned
 
   /// Whether it has an inside.

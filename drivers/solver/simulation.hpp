@@ -30,11 +30,11 @@ struct StiffElement {
 
 /// What was decided for one level.
 struct LevelReport {
-  int vertices = 0;        ///< of its mesh; points of a coarse space
-  int tets = 0;            ///< of its mesh; 0: a coarse space, made of the finest mesh
-  double nonzeros = 0;     ///< of a coarse space: weights per row of its interpolation to the next finer level
-  double mean_edge = 0;    ///< [m]
-  double mass = 0;         ///< [kg]
+  int vertices = 0;      ///< of its mesh; points of a coarse space
+  int tets = 0;          ///< of its mesh; 0: a coarse space, made of the finest mesh
+  double nonzeros = 0;   ///< of a coarse space: weights per row of its interpolation to the next finer level
+  double mean_edge = 0;  ///< [m]
+  double mass = 0;       ///< [kg]
   double critical_step =
       0;  ///< largest stable explicit step of its integrator; contact does not bound it (implicit: of
           ///< symplectic_euler); 0 where it is not integrated [s]

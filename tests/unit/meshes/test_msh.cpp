@@ -121,7 +121,8 @@ TEST(ReadMesh, ChoosesTheFormatByExtension) {
 }
 
 TEST(ReadMesh, MissingFilesAndFoldersAreNamed) {
-  EXPECT_EQ(refusal([] { read_mesh("no/such/file.msh"); }), "no/such/file.msh: cannot be opened: No such file or directory");
+  EXPECT_EQ(refusal([] { read_mesh("no/such/file.msh"); }),
+            "no/such/file.msh: cannot be opened: No such file or directory");
   EXPECT_THROW(load_file(testing::TempDir()), InputError);
 }
 
@@ -316,7 +317,8 @@ TEST(WriteMesh, WrongNamesAreRefused) {
   expect_refused([&] { write_mesh("m.msh", mesh, "msh40"); }, "m.msh", {"'msh40'", "msh41, msh22"});
   expect_refused([&] { write_mesh("m.msh", mesh, "vtk"); }, "m.msh", {"'vtk'", "msh41, msh22"});
   expect_refused([&] { write_mesh("m.ele", mesh, "", true); }, "m.ele", {"no binary form"});
-  expect_refused([&] { write_surface("m.vtk", {}); }, "m.vtk", {"unknown surface file extension 'vtk'", "obj, ply, off, stl"});
+  expect_refused([&] { write_surface("m.vtk", {}); }, "m.vtk",
+                 {"unknown surface file extension 'vtk'", "obj, ply, off, stl"});
   TetMesh lines = mesh;
   lines.region_names[0] = "two\nlines";
   expect_refused([&] { write_mesh("m.msh", lines); }, "m.msh", {"'two?lines'", "cannot be written"});
@@ -356,7 +358,8 @@ TEST(ReadAny, TellsMeshesFromSurfaces) {
   std::ofstream(folder / "s.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
                                      "$EndNodes\n$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
   EXPECT_TRUE(std::holds_alternative<ReadSurface>(read_any(folder / "s.msh")));
-  expect_refused([&] { read_any("m.mssh"); }, "m.mssh", {"unknown mesh or surface file extension 'mssh'", "obj, stl, ply, off, vtp"});
+  expect_refused([&] { read_any("m.mssh"); }, "m.mssh",
+                 {"unknown mesh or surface file extension 'mssh'", "obj, stl, ply, off, vtp"});
 }
 
 }  // namespace
