@@ -137,8 +137,10 @@ struct SweepTouching {
         if (!first) e += answer;
         known = true;
       }
-      if (first)
-        points.mobility(r) = Kokkos::max(Kokkos::sqrt(dot(answer, answer)), Kokkos::Experimental::norm_min_v<Real>);
+      if (first) {
+        constexpr Real smallest = Kokkos::Experimental::norm_min_v<Real>;
+        points.mobility(r) = Kokkos::max(Kokkos::sqrt(dot(answer, answer)), smallest);
+      }
       sweep(points.law(o), r, first ? Vec3<Real>{} : force, e);
     }
   }
