@@ -11,6 +11,24 @@ namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
+/// Distances spread along the edges from the open vertices, wherever they shrink there; reached(from, to) for each that does.
+template <class Reached>
+void spread(const EdgeGraph& graph, DistanceQueue open, std::vector<double>& distance, const Reached& reached) {
+  while (!open.empty()) {
+    const auto [d, v] = open.top();
+    open.pop();
+    if (d > distance[index_of(v)]) continue;
+    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+      const int w = graph.neighbour[index_of(k)];
+      const double there = d + graph.length[index_of(k)];
+      if (!(there < distance[index_of(w)])) continue;
+      distance[index_of(w)] = there;
+      reached(v, w);
+      open.emplace(there, w);
+    }
+  }
+}
+
 }  // namespace
 
 EdgeGraph edge_graph(const TetMesh& mesh) {
@@ -52,16 +70,8 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::v
     counted += apart.empty() || !apart[index_of(point)];
     DistanceQueue open;
     distance[index_of(point)] = 0;
-    for (open.emplace(0, point); !open.empty();) {
-      const auto [d, v] = open.top();
-      open.pop();
-      if (d > distance[index_of(v)]) continue;
-      for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
-        const int w = graph.neighbour[index_of(k)];
-        if (const double there = d + graph.length[index_of(k)]; there < distance[index_of(w)])
-          distance[index_of(w)] = there, open.emplace(there, w);
-      }
-    }
+    open.emplace(0, point);
+    spread(graph, std::move(open), distance, [](int, int) {});
   }
   return points;
 }
@@ -76,16 +86,7 @@ double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points) {
     distance[index_of(points[j])] = 0, owner[index_of(points[j])] = static_cast<int>(j);
     open.emplace(0, points[j]);
   }
-  while (!open.empty()) {
-    const auto [d, v] = open.top();
-    open.pop();
-    if (d > distance[index_of(v)]) continue;
-    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
-      const int w = graph.neighbour[index_of(k)];
-      if (const double there = d + graph.length[index_of(k)]; there < distance[index_of(w)])
-        distance[index_of(w)] = there, owner[index_of(w)] = owner[index_of(v)], open.emplace(there, w);
-    }
-  }
+  spread(graph, std::move(open), distance, [&](int from, int to) { owner[index_of(to)] = owner[index_of(from)]; });
   for (int v = 0; v < graph.vertices(); ++v)
     for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
       const int w = graph.neighbour[index_of(k)], a = owner[index_of(v)], b = owner[index_of(w)];
