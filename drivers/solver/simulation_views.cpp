@@ -195,6 +195,7 @@ void persist(Inside& s, StateArchive<B>& archive) {
     archive.state(name + "kept", s.kept[i]);
   }
   s.built.stepper->persist(archive);
+  archive.field("the obstacles' wrenches", s.wrench);
   archive.finish();
 }
 

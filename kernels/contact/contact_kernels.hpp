@@ -169,7 +169,7 @@ struct ContactEnergy {
 };
 
 /// A += W^T C W with the symmetric blocks C [points][6] of surface points and their weights W: a row of A per work item, its
-/// points in order. Vertices of one tetrahedron are coupled in A already, unless their motion is given.
+/// points in order. Vertices of one tetrahedron are coupled in A already, unless the row's motion is given.
 template <class B>
 struct AddContact {
   using Real = typename B::Real;

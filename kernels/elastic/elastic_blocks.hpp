@@ -5,63 +5,60 @@
 #include <plica/core/patch_pairs.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 
-// Assembles A = (1 + b c) M + a K(u) + b D(u), D the stiffness that damps, as blocks, see ImplicitWeights: per patch, the ten blocks (p <= q) of its elements into scratch, then their
-// sums per pair of its vertices, which go to the matrix where no other patch has a share in them, else to `shares`, to be added up
-// by a second kernel. All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 20 (slots), and
-// 9 s per block of the matrix; in scratch, which a second-level cache holds, 92 s written and 90 s read.
+// Assembles A = (1 + b c) M + a K(u) + b D(u), D the stiffness that damps, as blocks, see ImplicitWeights.
+//
+//   1. ElasticBlocks, per patch    the six blocks between two corners of each element, into scratch; then, pair by pair of the patch's
+//                                  vertices, their sum, to the matrix, or to `shares` where other patches have the pair as well
+//   2. AddShares                   the shares of pairs of several patches, to the matrix
+//   3. OwnBlocks                   a vertex's own block: the mass, minus the sum of its row, as the stiffness has no force against
+//                                  a motion of the whole body
+//
+// All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 12 (slots), and 9 s per block of the
+// matrix, written, and read once more; in scratch, which a second-level cache holds, 56 s written and 54 s read.
 namespace plica {
 
-constexpr int element_numbers = 92;  ///< of the ten blocks, in whole quarters of a register
+constexpr int element_numbers = 56;  ///< of the six blocks, in whole quarters of a register
 
-/// Where block (p, q), p <= q, of an element stands among its ten.
-KOKKOS_INLINE_FUNCTION constexpr int element_block(int p, int q) { return p * (7 - p) / 2 + q; }
+/// Where block (p, q), p < q, of an element stands among its six.
+KOKKOS_INLINE_FUNCTION constexpr int element_block(int p, int q) { return p * (5 - p) / 2 + q - 1; }
 
-/// scale * volume (dP/dF : grad N_q) grad N_p for corners p <= q, column by column; those of corner 0 by balance.
+/// scale * volume (dP/dF : grad N_q) grad N_p for corners p < q, column by column; those of corner 0 by balance.
 template <class T, class Tangent>
 KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const ElementShape<T>& shape, const T& scale,
                                            T (&K)[element_numbers]) {
   const T weight = scale * shape.volume;
   const typename Tangent::Corner corner[3] = {tangent.corner(shape.gradient[0]), tangent.corner(shape.gradient[1]),
                                               tangent.corner(shape.gradient[2])};
-  for (int q = 0; q < 3; ++q)
-    for (int p = 0; p <= q; ++p) {
-      const Mat3<T> block = tangent.block(corner[p], corner[q]);
-      for (int k = 0; k < 9; ++k) K[9 * element_block(p + 1, q + 1) + k] = weight * block[k % 3][k / 3];
+  for (int q = 1; q < 4; ++q)
+    for (int p = 1; p < q; ++p) {
+      const Mat3<T> block = tangent.block(corner[p - 1], corner[q - 1]);
+      for (int k = 0; k < 9; ++k) K[9 * element_block(p, q) + k] = weight * block[k % 3][k / 3];
     }
-  for (int k = 0; k < 9; ++k) {
-    const int t = k % 3 * 3 + k / 3;  // its place in the transpose
-    const T* const b = K + k;
-    const T* const bt = K + t;
-    K[9 * element_block(0, 1) + k] =
-        -(b[9 * element_block(1, 1)] + bt[9 * element_block(1, 2)] + bt[9 * element_block(1, 3)]);
-    K[9 * element_block(0, 2) + k] =
-        -(b[9 * element_block(1, 2)] + b[9 * element_block(2, 2)] + bt[9 * element_block(2, 3)]);
-    K[9 * element_block(0, 3) + k] =
-        -(b[9 * element_block(1, 3)] + b[9 * element_block(2, 3)] + b[9 * element_block(3, 3)]);
-    K[k] = -(b[9 * element_block(0, 1)] + b[9 * element_block(0, 2)] + b[9 * element_block(0, 3)]);
+  for (int q = 1; q < 4; ++q) {
+    const Mat3<T> own = tangent.block(corner[q - 1], corner[q - 1]);
+    for (int k = 0; k < 9; ++k) {
+      T sum = weight * own[k % 3][k / 3];
+      for (int p = 1; p < 4; ++p)
+        if (p < q)
+          sum = sum + K[9 * element_block(p, q) + k];
+        else if (p > q)
+          sum = sum + K[9 * element_block(q, p) + k % 3 * 3 + k / 3];
+      K[9 * element_block(0, q) + k] = T(0) - sum;
+    }
   }
-  K[90] = K[91] = T(0);
+  K[54] = K[55] = T(0);
 }
 
-/// Puts a sum of element blocks where it belongs, with the mass on the diagonal.
+/// Puts the sum of element blocks of a pair of vertices where it belongs, and its transpose.
 template <class B>
 struct PlaceBlock {
-  using Real = typename B::Real;
   BlockMatrix<B> A;
-  Scalars<B> mass;
-  MassDamping<B> damping;
-  Real b;
 
-  KOKKOS_INLINE_FUNCTION void operator()(int upper, int lower, const Real* sum) const {
-    Real* const at = &A.value(upper, 0);
-    if (upper == lower) {
-      const int i = A.column(upper);
-      const Real m = (1 + b * damping(i)) * mass(i);
-      for (int k = 0; k < 9; ++k) at[k] = Real(0.5) * (sum[k] + sum[k % 3 * 3 + k / 3]) + (k % 4 == 0 ? m : Real(0));
-    } else {
-      Real* const turned = &A.value(lower, 0);
-      for (int k = 0; k < 9; ++k) at[k] = sum[k], turned[k % 3 * 3 + k / 3] = sum[k];
-    }
+  KOKKOS_INLINE_FUNCTION void operator()(int upper, int lower, const typename B::Real* sum) const {
+    if (upper >= 0)
+      for (int k = 0; k < 9; ++k) A.value(upper, k) = sum[k];
+    if (lower >= 0)
+      for (int k = 0; k < 9; ++k) A.value(lower, k % 3 * 3 + k / 3) = sum[k];
   }
 };
 
@@ -92,7 +89,8 @@ struct ElasticBlocks {
     const int p = team.league_rank();
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
-    const int first = pairs.first_pair(p), count = pairs.first_pair(p + 1) - first;
+    const int first = pairs.first_pair(p), first_shared = pairs.first_shared(p),
+              count = pairs.first_pair(p + 1) - first;
     Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(near_bytes(), 64));
     Real* const blocks = static_cast<Real*>(team.team_scratch(1).get_shmem_aligned(far_bytes(), 64));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
@@ -102,7 +100,8 @@ struct ElasticBlocks {
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
                          [&](int q) { element(p, first_pack + q, local, blocks + q * lanes * element_numbers); });
     team.team_barrier();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](int i) { sum(first + i, blocks); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count),
+                         [&](int i) { sum(first + i, first + i >= first_shared, blocks); });
   }
 
   KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* blocks) const {
@@ -118,28 +117,24 @@ struct ElasticBlocks {
     }
   }
 
-  static KOKKOS_INLINE_FUNCTION const Real* block(const Real* blocks, int slot) {
-    return blocks + slot / 10 * element_numbers + slot % 10 * 9;
-  }
-
-  KOKKOS_INLINE_FUNCTION void sum(int pair, const Real* blocks) const {
+  KOKKOS_INLINE_FUNCTION void sum(int pair, bool shared, const Real* blocks) const {
     Real total[9] = {};
     int s = pairs.first_turned(pair);
     const int last = pairs.first_slot(pair + 1);
     if (s < last) {
       Real turned[9] = {};
       for (; s < last; ++s) {
-        const Real* const from = block(blocks, pairs.slot(s));
+        const Real* const from = blocks + pairs.slot(s);
         for (int k = 0; k < 9; ++k) turned[k] += from[k];
       }
       for (int k = 0; k < 9; ++k) total[k] = turned[k % 3 * 3 + k / 3];
     }
     for (s = pairs.first_slot(pair); s < pairs.first_turned(pair); ++s) {
-      const Real* const from = block(blocks, pairs.slot(s));
+      const Real* const from = blocks + pairs.slot(s);
       for (int k = 0; k < 9; ++k) total[k] += from[k];
     }
-    const int lower = pairs.lower(pair), upper = pairs.upper(pair);
-    if (lower >= 0) return place(upper, lower, total);
+    const int upper = pairs.upper(pair);
+    if (!shared) return place(upper, pairs.lower(pair), total);
     for (int k = 0; k < 9; ++k) shares(upper, k) = total[k];
   }
 };
@@ -158,6 +153,29 @@ struct AddShares {
   }
 };
 
+/// Row a's own block: its mass, minus the sum of the row's other blocks.
+template <class B>
+struct OwnBlocks {
+  using Real = typename B::Real;
+  BlockMatrix<B> A;
+  Scalars<B> mass;
+  MassDamping<B> damping;
+  Real b;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const int own = A.diagonal(a);
+    Real sum[9] = {};
+    const auto subtract = [&](int first, int last) {
+      for (int s = first; s < last; ++s)
+        for (int k = 0; k < 9; ++k) sum[k] -= A.value(s, k);
+    };
+    subtract(A.first(a), own), subtract(own + 1, A.first(a + 1));
+    const Real m = (1 + b * damping(a)) * mass(a);
+    for (int k = 0; k < 9; ++k)
+      A.value(own, k) = Real(0.5) * (sum[k] + sum[k % 3 * 3 + k / 3]) + (k % 4 == 0 ? m : Real(0));
+  }
+};
+
 /// A of vertices that are free; the others' rows keep their mass alone.
 template <class B, class Material, template <class> class Tangent>
 void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
@@ -166,7 +184,7 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   using Real = typename B::Real;
   using Kernel = ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>>;
   const TangentScale<B> scale{model.patches.damping, static_cast<Real>(weights.b / weights.a)};
-  const PlaceBlock<B> place{A, model.mass, model.damping, static_cast<Real>(weights.b)};
+  const PlaceBlock<B> place{A};
   typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
   policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
   policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
@@ -175,6 +193,8 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   Kokkos::parallel_for("plica::add_shares",
                        Kokkos::RangePolicy<typename B::Exec>(exec, 0, static_cast<int>(pairs.shared_upper.extent(0))),
                        AddShares<B>{pairs, shares, place});
+  Kokkos::parallel_for("plica::own_blocks", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
+                       OwnBlocks<B>{A, model.mass, model.damping, static_cast<Real>(weights.b)});
 }
 
 }  // namespace plica

@@ -19,9 +19,10 @@ template <class B>
 struct CgSquare {
   Blocks<B> inverse_diagonal;
   Vectors<B> r, z;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    const auto residual = vector_at<B>(r, a), answer = block_at<B>(inverse_diagonal, a) * residual;
-    for (int k = 0; k < 3; ++k) z(a, k) = answer[k];
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const { return of(a, vector_at<B>(r, a)); }
+  KOKKOS_INLINE_FUNCTION Sums<1> of(int a, const Vec3<typename B::Real>& residual) const {
+    const auto answer = block_at<B>(inverse_diagonal, a) * residual;
+    set_vector<B>(z, a, answer);
     return {{static_cast<double>(dot(residual, answer))}};
   }
 };
@@ -79,7 +80,8 @@ struct CgDirection {
   Vectors<B> z, p;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const auto beta = static_cast<typename B::Real>(s(cg::beta));
-    for (int k = 0; k < 3; ++k) p(a, k) = z(a, k) + (beta != 0 ? beta * p(a, k) : typename B::Real(0));
+    const auto last = beta != 0 ? beta * vector_at<B>(p, a) : Vec3<typename B::Real>{};
+    set_vector<B>(p, a, vector_at<B>(z, a) + last);
   }
 };
 
@@ -101,9 +103,11 @@ struct CgAdvance {
   Vectors<B> x, p, q;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     const auto alpha = static_cast<typename B::Real>(s(cg::alpha));
-    if (alpha != 0)
-      for (int k = 0; k < 3; ++k) x(a, k) += alpha * p(a, k), square.r(a, k) -= alpha * q(a, k);
-    return square(a);
+    if (alpha == 0) return square(a);
+    const auto answer = vector_at<B>(x, a) + alpha * vector_at<B>(p, a);
+    const auto residual = vector_at<B>(square.r, a) - alpha * vector_at<B>(q, a);
+    set_vector<B>(x, a, answer), set_vector<B>(square.r, a, residual);
+    return square.of(a, residual);
   }
 };
 

@@ -77,6 +77,18 @@ struct BlockProduct {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(y, a, block_row_product<B>(A, a, x)); }
 };
 
+/// y = A x and x.y
+template <class B>
+struct BlockProductDot {
+  BlockMatrix<B> A;
+  Vectors<B> x, y;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    const auto row = block_row_product<B>(A, a, x);
+    set_vector<B>(y, a, row);
+    return {{static_cast<double>(dot(vector_at<B>(x, a), row))}};
+  }
+};
+
 /// The matrix of the next coarser level, P^T A P (Galerkin). Its block (I, J) couples two coarse vertices: it is the sum of the
 /// blocks (i, j) of A over all fine vertices i that hang on I and j that hang on J, each times the two weights:
 ///

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/kernels/elastic/elastic_blocks.hpp>
+#include <tuple>
 #include <utility>
 
 namespace plica {
@@ -12,10 +12,17 @@ namespace {
 
 constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// One block of one element: the pair of vertices it is for, first <= second, and whether it is for them turned round.
+/// One block of one element: the pair of vertices it is for, first < second, whether it is for them turned round, and where it stands
+/// among the patch's element blocks.
 struct ElementPair {
   int first, second, turned, slot;
   auto operator<=>(const ElementPair&) const = default;
+};
+
+/// A pair of a patch's vertices: its element blocks [begin, straight) as they are, [straight, end) turned.
+struct PairOfPatch {
+  int first, second;
+  std::size_t begin, straight, end;
 };
 
 template <class B>
@@ -29,8 +36,10 @@ class PatternBuilder {
         vertex_(on_host(model.patches.vertex)),
         corner_(on_host(model.patches.corner)),
         element_(on_host(model.patches.element)) {
-    for (int p = 0; p < model.patches.count; ++p) add_patch(p);
+    for (int p = 0; p < model.patches.count; ++p) find_pairs(p);
     make_rows();
+    count_patches();
+    for (int p = 0; p < model.patches.count; ++p) sort_pairs(p);
     place_pairs();
   }
 
@@ -45,6 +54,7 @@ class PatternBuilder {
     PatchPairs<B>& P = made.pairs;
     P.shares = first_share_.back();
     P.first_pair = to_device<Indices<B>>("pairs.first_pair", first_pair_);
+    P.first_shared = to_device<Indices<B>>("pairs.first_shared", first_shared_);
     P.first_slot = to_device<Indices<B>>("pairs.first_slot", first_slot_);
     P.first_turned = to_device<Indices<B>>("pairs.first_turned", first_turned_);
     P.slot = to_device<decltype(P.slot)>("pairs.slot", slot_);
@@ -64,47 +74,50 @@ class PatternBuilder {
   Host<Indices<B>> first_pack_, first_vertex_, vertex_;
   Host<decltype(Patches<B>::corner)> corner_;
   Host<Indices<B>> element_;
-  std::vector<std::array<int, 2>> pair_;  // of patch pairs, patch by patch
-  std::vector<int> first_pair_{0}, first_slot_{0}, first_turned_, upper_, lower_;
+  std::vector<ElementPair> block_;  // of elements, patch by patch, pair by pair
+  std::vector<PairOfPatch> pair_;   // patch by patch
+  std::vector<int> patches_of_;     // [blocks of the matrix] i < j: how many have the pair
+  std::vector<int> first_pair_{0}, first_shared_, first_slot_{0}, first_turned_, upper_, lower_;
   std::vector<std::uint16_t> slot_;
   std::vector<int> first_, column_, diagonal_, first_share_{0}, shared_upper_, shared_lower_;
 
-  void add_patch(int p) {
-    std::vector<ElementPair> blocks;
+  bool is_free(int a) const { return inverse_mass_(a) > 0; }
+
+  void find_pairs(int p) {
+    const std::size_t begin = block_.size();
     for (int q = first_pack_(p); q < first_pack_(p + 1); ++q)
       for (int l = 0; l < B::lanes; ++l)
-        if (element_(q * B::lanes + l) >= 0) add_element(p, q, l, blocks);
-    std::sort(blocks.begin(), blocks.end());
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const ElementPair& b = blocks[i];
-      if (i == 0 || b.first != blocks[i - 1].first || b.second != blocks[i - 1].second) {
-        pair_.push_back({b.first, b.second});
-        if (pair_.size() > 1) first_slot_.push_back(static_cast<int>(slot_.size()));
-        first_turned_.push_back(static_cast<int>(slot_.size()));
-      }
-      slot_.push_back(static_cast<std::uint16_t>(b.slot));
-      if (b.turned == 0) first_turned_.back() = static_cast<int>(slot_.size());
+        if (element_(q * B::lanes + l) >= 0) add_element(p, q, l);
+    std::sort(block_.begin() + static_cast<std::ptrdiff_t>(begin), block_.end());
+    for (std::size_t i = begin; i < block_.size(); ++i) {
+      const ElementPair& b = block_[i];
+      if (i == begin || b.first != pair_.back().first || b.second != pair_.back().second)
+        pair_.push_back({b.first, b.second, i, i, i});
+      pair_.back().end = i + 1;
+      if (b.turned == 0) pair_.back().straight = i + 1;
     }
     first_pair_.push_back(static_cast<int>(pair_.size()));
   }
 
-  void add_element(int patch, int pack, int lane, std::vector<ElementPair>& blocks) const {
+  void add_element(int patch, int pack, int lane) {
     const int e = (pack - first_pack_(patch)) * B::lanes + lane;
     for (int p = 0; p < 4; ++p)
-      for (int q = p; q < 4; ++q) {
+      for (int q = p + 1; q < 4; ++q) {
         const int a = vertex_(first_vertex_(patch) + corner_(pack, p, lane));
         const int b = vertex_(first_vertex_(patch) + corner_(pack, q, lane));
-        if (!(inverse_mass_(a) > 0) || !(inverse_mass_(b) > 0)) continue;
-        blocks.push_back({std::min(a, b), std::max(a, b), a > b ? 1 : 0, 10 * e + element_block(p, q)});
+        if (!is_free(a) && !is_free(b)) continue;
+        block_.push_back(
+            {std::min(a, b), std::max(a, b), a > b ? 1 : 0, element_numbers * e + 9 * element_block(p, q)});
       }
   }
 
   void make_rows() {
-    first_slot_.push_back(static_cast<int>(slot_.size()));
     std::vector<std::vector<int>> rows(at(vertices_));
     for (int a = 0; a < vertices_; ++a) rows[at(a)].push_back(a);
-    for (const auto& [a, b] : pair_)
-      if (a != b) rows[at(a)].push_back(b), rows[at(b)].push_back(a);
+    for (const PairOfPatch& pair : pair_) {
+      if (is_free(pair.first)) rows[at(pair.first)].push_back(pair.second);
+      if (is_free(pair.second)) rows[at(pair.second)].push_back(pair.first);
+    }
     first_.push_back(0);
     for (int a = 0; a < vertices_; ++a) {
       std::vector<int>& row = rows[at(a)];
@@ -116,27 +129,59 @@ class PatternBuilder {
     }
   }
 
+  /// Of block (a, b) in the matrix; -1 where row a is empty.
   int place_of(int a, int b) const {
+    if (!is_free(a)) return -1;
     const auto row = column_.begin() + first_[at(a)];
     return static_cast<int>(std::lower_bound(row, column_.begin() + first_[at(a + 1)], b) - column_.begin());
   }
+  /// Of one of the two blocks of a pair.
+  int place_of(const PairOfPatch& pair) const {
+    return is_free(pair.first) ? place_of(pair.first, pair.second) : place_of(pair.second, pair.first);
+  }
 
+  void count_patches() {
+    patches_of_.resize(column_.size());
+    for (const PairOfPatch& pair : pair_) ++patches_of_[at(place_of(pair))];
+  }
+
+  /// Those that other patches have too last; then by how many blocks they have, so that a processor foresees the ends of their sums.
+  void sort_pairs(int p) {
+    const auto first = pair_.begin() + first_pair_[at(p)], last = pair_.begin() + first_pair_[at(p + 1)];
+    const auto key = [&](const PairOfPatch& a) {
+      return std::tuple(patches_of_[at(place_of(a))] > 1, a.straight - a.begin, a.end - a.begin, a.first, a.second);
+    };
+    std::sort(first, last, [&](const PairOfPatch& a, const PairOfPatch& b) { return key(a) < key(b); });
+    const auto shared =
+        std::find_if(first, last, [&](const PairOfPatch& a) { return patches_of_[at(place_of(a))] > 1; });
+    first_shared_.push_back(static_cast<int>(shared - pair_.begin()));
+    for (auto pair = first; pair != last; ++pair) {
+      for (std::size_t i = pair->begin; i < pair->end; ++i) slot_.push_back(static_cast<std::uint16_t>(block_[i].slot));
+      first_turned_.push_back(first_slot_.back() + static_cast<int>(pair->straight - pair->begin));
+      first_slot_.push_back(static_cast<int>(slot_.size()));
+    }
+  }
+
+  /// Shares of a block follow each other in the order of the patches.
   void place_pairs() {
-    std::vector<std::vector<int>> patch_pairs(column_.size());  // of the block (i, j), i <= j
-    for (std::size_t s = 0; s < pair_.size(); ++s)
-      patch_pairs[at(place_of(pair_[s][0], pair_[s][1]))].push_back(static_cast<int>(s));
+    std::vector<int> first_share(column_.size(), -1);
     upper_.resize(pair_.size()), lower_.resize(pair_.size());
-    int shares = 0;
-    for (int a = 0; a < vertices_; ++a)
-      for (int upper = diagonal_[at(a)]; upper < first_[at(a + 1)]; ++upper) {
-        const std::vector<int>& from = patch_pairs[at(upper)];
-        const int lower = place_of(column_[at(upper)], a);
-        if (from.size() == 1) upper_[at(from[0])] = upper, lower_[at(from[0])] = lower;
-        if (from.size() == 1) continue;
-        for (const int s : from) upper_[at(s)] = shares++, lower_[at(s)] = -1;
-        shared_upper_.push_back(upper), shared_lower_.push_back(lower);  // a vertex without pairs: its mass alone
-        first_share_.push_back(shares);
+    for (std::size_t s = 0; s < pair_.size(); ++s) {
+      const PairOfPatch& pair = pair_[s];
+      const int block = place_of(pair), upper = place_of(pair.first, pair.second);
+      const int lower = place_of(pair.second, pair.first);
+      if (patches_of_[at(block)] == 1) {
+        upper_[s] = upper, lower_[s] = lower;
+        continue;
       }
+      int& share = first_share[at(block)];
+      if (share < 0) {
+        share = first_share_.back();
+        shared_upper_.push_back(upper), shared_lower_.push_back(lower);
+        first_share_.push_back(share + patches_of_[at(block)]);
+      }
+      upper_[s] = share++, lower_[s] = -1;
+    }
   }
 };
 

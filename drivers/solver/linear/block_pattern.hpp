@@ -8,8 +8,8 @@ namespace plica {
 
 /// Which blocks a level's matrix has, and where its elements go in it.
 ///
-/// An element has ten blocks, one for every two of its vertices and one for each alone. Those of a patch's elements are added up
-/// where the patch works, and leave it once per pair of vertices. A pair that no other patch has goes straight to the matrix; one
+/// An element has six blocks, one for every two of its vertices. Those of a patch's elements are added up where the patch works, and
+/// leave it once per pair of vertices. A pair that no other patch has goes straight to the matrix; one
 /// that several have goes to the shares, which are added up in the order of the patches:
 ///
 ///   elements of a patch    (1,2) of e0   (1,2) of e1        (2,5) of e1   (2,5) of e2
@@ -25,7 +25,7 @@ struct BlockPattern {
   PatchPairs<B> pairs;
 };
 
-/// Vertices with a zero inverse mass have their own block alone.
+/// Rows of vertices with a zero inverse mass have their own block alone.
 template <class B>
 BlockPattern<B> block_pattern(const Model<B>& model);
 

@@ -64,6 +64,9 @@ struct Direct {
     Eigen::SimplicialLDLT<Matrix> factor_;
     Eigen::Index nonzeros_ = 0;
 
+    /// Whether a row has more than its own block. Where its motion is given it has not, and its column is left out.
+    static bool coupled(const BlockMatrix<B>& A, int a) { return A.first(a + 1) - A.first(a) > 1; }
+
     bool indefinite() const { return factor_.info() == Eigen::Success && (factor_.vectorD().array() < 0).any(); }
 
     void factorise(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive) {
@@ -81,7 +84,7 @@ struct Direct {
       std::vector<Eigen::Triplet<double, int>> triplets;
       for (int a = 0; a < A.rows; ++a)
         for (int s = A.diagonal(a); s < A.first(a + 1); ++s)  // column a, by symmetry
-          for (int k = 0; k < 9; ++k)
+          for (int k = 0; k < 9 && (A.column(s) == a || coupled(A, A.column(s))); ++k)
             if (3 * A.column(s) + k / 3 >= 3 * a + k % 3)
               triplets.emplace_back(3 * A.column(s) + k / 3, 3 * a + k % 3, static_cast<double>(9 * s + k));
       lower_.resize(3 * A.rows, 3 * A.rows);

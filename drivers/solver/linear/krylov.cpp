@@ -62,8 +62,7 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Pr
   }
   update_vertices<B>(exec, "plica::cg_turn", 1, CgTurn<B>{scalars_, preconditioner ? cg::product : cg::square});
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, z_, p_});
-  system.product(exec, p_, q_);
-  dot<B>(exec, "plica::cg_curvature", p_, q_, sums_, slot(cg::curvature));
+  system.product(exec, p_, q_, sums_, slot(cg::curvature));
   update_vertices<B>(exec, "plica::cg_step", 1, CgStep<B>{scalars_});
   reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square));
   update_vertices<B>(exec, "plica::cg_judge", 1, CgJudge<B>{scalars_, tolerance});

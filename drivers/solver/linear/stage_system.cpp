@@ -56,6 +56,16 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
 }
 
 template <class B>
+void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
+                             const Doubles<B>& curvature) const {
+  if (by_matrix())
+    return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{pattern_.matrix, p, q}, sums,
+                        curvature);
+  product(exec, p, q);
+  dot<B>(exec, "plica::curvature", p, q, sums, curvature);
+}
+
+template <class B>
 void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
   if (by_matrix())
     update_vertices<B>(exec, "plica::space_products", rows(), SpaceProducts<B>{pattern_.matrix, space});
@@ -67,8 +77,9 @@ template <class B>
 std::size_t StageSystem<B>::bytes() const {
   const BlockMatrix<B>& A = pattern_.matrix;
   const PatchPairs<B>& P = pattern_.pairs;
-  return bytes_of_views(inverse_diagonal_, shares_, A.first, A.column, A.diagonal, A.value, P.first_pair, P.first_slot,
-                        P.first_turned, P.slot, P.upper, P.lower, P.first_share, P.shared_upper, P.shared_lower);
+  return bytes_of_views(inverse_diagonal_, shares_, A.first, A.column, A.diagonal, A.value, P.first_pair,
+                        P.first_shared, P.first_slot, P.first_turned, P.slot, P.upper, P.lower, P.first_share,
+                        P.shared_upper, P.shared_lower);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;

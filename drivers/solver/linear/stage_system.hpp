@@ -20,6 +20,9 @@ class StageSystem {
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
   /// q = A p
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
+  /// The same, and p.q
+  void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
+               const Doubles<B>& curvature) const;
   /// q = A w of a whole space
   void products(const Exec& exec, const SolutionSpace<B>& space) const;
   /// The inverses of its vertex blocks; 0 where the motion is given.

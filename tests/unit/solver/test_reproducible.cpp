@@ -184,6 +184,16 @@ TYPED_TEST(SavedStates, KeepTheLastGoodState) {
   expect_same(whole, second);
 }
 
+TYPED_TEST(SavedStates, KeepWrenches) {
+  const Problem problem = thrown("rsv", "symplectic_euler");
+  Simulation<TypeParam> whole(problem), second(problem);
+  for (int i = 0; i < 200 && whole.wrenches()[0].force.isZero(); ++i) advance(whole, 1);
+  ASSERT_FALSE(whole.wrenches()[0].force.isZero());
+  second.restore(whole.save());
+  EXPECT_EQ(second.wrenches()[0].force, whole.wrenches()[0].force);
+  EXPECT_EQ(second.wrenches()[0].torque, whole.wrenches()[0].torque);
+}
+
 template <class B>
 std::string refusal_of(Simulation<B>& simulation, const SavedState& saved) {
   const auto before = simulation.save().bytes;
