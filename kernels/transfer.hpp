@@ -137,13 +137,20 @@ struct DefectCorrection {
 
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B>& A, int row, const Vectors<B>& x) {
-  Vec3<typename B::Real> sum;
-  for (int s = A.first(row); s < A.first(row + 1); ++s) {
-    const typename B::Real w = A.value(s);
+  using Real = typename B::Real;
+  constexpr int sums = 4;  // taken in turns, so that an addition need not wait for the last one
+  Vec3<Real> sum[sums];
+  const auto add = [&](int s, Vec3<Real>& to) {
+    const Real w = A.value(s);
     const int b = A.column(s);
-    for (int k = 0; k < 3; ++k) sum[k] += w * x(b, k);
-  }
-  return sum;
+    for (int k = 0; k < 3; ++k) to[k] += w * x(b, k);
+  };
+  int s = A.first(row);
+  const int last = A.first(row + 1);
+  for (; s + sums <= last; s += sums)
+    for (int i = 0; i < sums; ++i) add(s + i, sum[i]);
+  for (; s < last; ++s) add(s, sum[0]);
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /// y = A x

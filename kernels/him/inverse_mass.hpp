@@ -64,10 +64,15 @@ struct FilterForces {
     const int n = 3 * filter.vertices, first = item * rows, inside = first % block;
     const float* matrix = filter.matrix.data() + static_cast<std::size_t>(first / block) * n * block + inside;
     const Real* force = filter.turned.data();
-    Real sum[rows] = {};
-    for (int j = 0; j < n; ++j, matrix += block)
-      for (int i = 0; i < rows; ++i) sum[i] += static_cast<Real>(matrix[i]) * force[j];
-    for (int i = 0; i < rows; ++i) x(first + i) = sum[i];
+    Real even[rows] = {}, odd[rows] = {};  // so that an addition need not wait for the last one
+    int j = 0;
+    for (; j + 1 < n; j += 2, matrix += 2 * block)
+      for (int i = 0; i < rows; ++i) {
+        even[i] += static_cast<Real>(matrix[i]) * force[j];
+        odd[i] += static_cast<Real>(matrix[block + i]) * force[j + 1];
+      }
+    for (int i = 0; i < rows; ++i)
+      x(first + i) = even[i] + odd[i] + (j < n ? static_cast<Real>(matrix[i]) * force[j] : Real(0));
   }
 };
 
