@@ -6,6 +6,7 @@
 #include <iostream>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/core_wait.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -166,9 +167,11 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
                                  in_units(scene.duration, "s")));
   auto lock = watch.hold();
   RunOutput<B> output(scene, simulation, folder, checkpoint, !arguments.resume.empty());
+  const CoreWait wait;
   const auto summary_at = [&](const RunEnd& end) {
     Summary summary = summary_of(scene, simulation, machine, end, output);
     summary.setup_time = set_up_time;
+    summary.wait_share = wait.share(machine.threads);
     return summary;
   };
   Summary latest = summary_at(start);

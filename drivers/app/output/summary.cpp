@@ -232,6 +232,8 @@ long steps_to_cover(double duration, double macro_step) {
 
 namespace {
 
+constexpr double notable_wait = 0.1;  // of the threads' time
+
 Json diagnosis_json(const std::optional<Diagnosis>& diagnosis, const std::vector<Point>& corners) {
   if (!diagnosis) return nullptr;
   Json places = Json::array();
@@ -309,6 +311,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"precision", s.precision},
                      {"backend", s.backend},
                      {"threads", s.threads},
+                     {"wait_share", s.wait_share ? Json(*s.wait_share) : Json()},
                      {"cycle", s.cycle},
                      {"choice", choice_json(s.choice)},
                      {"levels", levels_json(s.levels)},
@@ -336,10 +339,14 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
           : "";
   const std::string last_good =
       s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time) : std::string{};
+  const std::string waited = s.wait_share.value_or(0) > notable_wait
+                                 ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
+                                               100 * *s.wait_share, s.threads > 1 ? ", --threads 1 may be faster" : "")
+                                 : "";
   const std::vector<std::vector<std::string>> rows = {
       {"simulated", fmt::format("{:.5g} s in {} of {}{}", s.simulated_time, counted(s.macro_steps, "macro step"),
                                 in_units(s.macro_step, "s"), beyond)},
-      {"stepping", in_units(wall, "s") + speed},
+      {"stepping", in_units(wall, "s") + speed + waited},
       {"set-up", in_units(s.setup_time, "s") + ", peak memory " + in_bytes(s.peak_memory)},
       {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
                             counted(static_cast<long>(s.frames), "frame"), last_good)},

@@ -25,6 +25,7 @@ struct Summary {
   std::size_t peak_memory = 0, frames = 0;
   std::string precision, backend;
   int threads = 0;
+  std::optional<double> wait_share;   ///< see CoreWait
   std::string cycle;                  ///< that ran
   std::optional<CycleChoice> choice;  ///< of cycle auto
   std::vector<LevelReport> levels;

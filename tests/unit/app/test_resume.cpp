@@ -45,7 +45,7 @@ class Resume : public ProgramTest {
       if (entry.is_regular_file() && entry.path().filename() != "checkpoint.bin")
         files[std::filesystem::relative(entry.path(), folder / into).string()] = content_of(entry.path());
     Json summary = Json::parse(files.at("summary.json"));
-    for (const char* changing : {"arguments", "wall_time", "setup_time", "peak_memory", "stages"})
+    for (const char* changing : {"arguments", "wall_time", "setup_time", "peak_memory", "stages", "wait_share"})
       summary.erase(changing);
     files["summary.json"] = summary.dump();
     return files;
