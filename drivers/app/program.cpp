@@ -31,6 +31,7 @@ class CommandLine {
     add_stability();
     add_verify();
     add_report();
+    add_view();
     add_doctor();
     add_mesh();
     add_list();
@@ -177,6 +178,15 @@ class CommandLine {
     command->add_flag("--quiet", report_.quiet, "say nothing unless something is wrong");
   }
 
+  void add_view() {
+    CLI::App* command = add_scene_command("view", "watch the scene live in a browser, and pull at the body",
+                                          [this] { return view(arguments_, view_); });
+    command->add_option("--port", view_.port, "of the page's address (8642); 0: any free one")
+        ->type_name("N")
+        ->check(CLI::Range(0, 65535));
+    command->add_flag("!--no-browser", view_.browser, "open none, only say the address");
+  }
+
   void add_doctor() {
     CLI::App* command = add("doctor", "say what this machine can do, and check a short run",
                             [this] { return doctor(arguments_.json, arguments_.kokkos); });
@@ -267,6 +277,7 @@ class CommandLine {
   StabilityArguments stability_;
   VerifyArguments verify_;
   ReportArguments report_;
+  ViewArguments view_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
   MeshInfoArguments mesh_;

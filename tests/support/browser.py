@@ -96,7 +96,8 @@ class Browser:
                 return answer["result"]
 
     def open(self, path):
-        address = "file://" + os.path.abspath(path)
+        """A file, or an address."""
+        address = path if path.startswith("http:") else "file://" + os.path.abspath(path)
         self.call("Page.navigate", url=address)
         while self.run("document.readyState") != "complete" or self.run("location.href") != address:
             time.sleep(0.05)
@@ -112,6 +113,11 @@ class Browser:
     def press(self, key):
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key)
+
+    def mouse(self, kind, x, y):
+        """Of its left button: pressed, moved (while it is down) or released."""
+        self.call("Input.dispatchMouseEvent", type=f"mouse{kind.capitalize()}", x=x, y=y, button="left", buttons=0 if kind == "released" else 1,
+                  clickCount=1)
 
     def picture(self, path=None):
         """The page as a PNG, all of its height; into a file where one is named."""

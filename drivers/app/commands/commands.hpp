@@ -74,6 +74,11 @@ struct ReportArguments {
   bool quiet = false;
 };
 
+struct ViewArguments {
+  int port = 8642;      ///< of the page's address; 0: any free one
+  bool browser = true;  ///< one is opened, where there is a screen
+};
+
 struct MeshInfoArguments {
   std::filesystem::path file;
   bool json = false;
@@ -131,6 +136,9 @@ std::string verify_problems_text();
 
 /// plica report: writes report.html, a page that shows what a run or a study left in its folder.
 ExitStatus report(const ReportArguments& arguments);
+
+/// plica view: lets the scene run and serves a page that shows it and reaches into it, until Ctrl-C.
+ExitStatus view(const SceneArguments& arguments, const ViewArguments& more);
 
 /// plica mesh info: what a mesh or surface file holds, what was repaired in it, how well its tetrahedra are shaped, and which
 /// explicit step they allow.

@@ -130,6 +130,23 @@ Examples:
 
 Exit status: 0 done, 1 the page cannot be written, 2 the folder holds no run and no study, or a damaged one)";
 
+constexpr const char* view_manual =
+    R"(Lets the scene run and serves a page, to browsers on this machine alone, that shows it while it does:
+  drag the body    pull it by a patch around that place, as with forceps, by springs
+  a ball           is dragged likewise and pushes the body (a penalty on the vertices inside)
+  sliders          speed, gravity, the springs' stiffness, the ball's radius
+  shown            real-time factor, and what would be possible; the method, and the error class that cycle auto chose it for;
+                   forces; colours by displacement, speed, von Mises stress or volume ratio J
+It runs on beyond the scene's duration, and rests while no page is open. A state that diverges is shown as it last was good, with
+the reason; "start" goes back to the beginning. On explicit levels springs and ball are as stiff as the step bears, if that is less
+than asked for. From another machine: ssh -L 8642:localhost:8642 HOST, and the same address.
+
+Examples:
+  plica view drivers/scenes/ball_in_bowl_hybrid.yaml
+  plica view liver.yaml --set integration.cycle=auto --port 9000 --no-browser
+
+Exit status: 0 ended by Ctrl-C, 1 failure, 2 bad input, or the port is in use, 130 interrupted while it was set up)";
+
 constexpr const char* explain_manual =
     R"(Prints levels with critical steps [s], shares and sub-steps, and each part that is in or out, why, and its bytes.
 
@@ -181,6 +198,7 @@ std::string manual_of(const std::string& command) {
   if (command == "stability") return stability_manual;
   if (command == "verify") return fmt::format(fmt::runtime(verify_manual), verify_problems_text());
   if (command == "report") return report_manual;
+  if (command == "view") return view_manual;
   if (command == "explain") return explain_manual;
   if (command == "check") return check_manual;
   if (command == "schema") return schema_manual;

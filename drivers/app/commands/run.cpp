@@ -10,6 +10,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/version.hpp>
 #include <stdexcept>
@@ -59,14 +60,6 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.wrenches = simulation.wrenches();
   summary.diagnosis = end.diagnosis;
   return summary;
-}
-
-// As the mesh file numbers them
-Diagnosis in_input_numbers(Diagnosis diagnosis, const Scene& scene) {
-  const Numbering& numbering = scene.numbering[static_cast<std::size_t>(std::max(diagnosis.level, 0))];
-  diagnosis.element = input_number(numbering.tet_ids, diagnosis.element);
-  diagnosis.vertex = input_number(numbering.vertex_ids, diagnosis.vertex);
-  return diagnosis;
 }
 
 // Of its element, or its vertex; numbered as the library numbers them

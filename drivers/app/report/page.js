@@ -89,14 +89,7 @@ function draw_marks() {
   const {view} = page, svg = by_id("marks"), {clientWidth: width, clientHeight: height} = svg.parentNode, rows = view.turn();
   svg.replaceChildren();
   svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-  ["x", "y", "z"].forEach((name, k) => {
-    const x = 46 + 30 * rows[0][k], y = height - 46 - 30 * rows[1][k];
-    svg.append(element("line", {x1: 46, y1: height - 46, x2: x, y2: y, stroke: colour("--c" + [4, 2, 0][k]), "stroke-width": 2}),
-      element("text", {x: 46 + 41 * rows[0][k], y: height - 42 - 41 * rows[1][k], "text-anchor": "middle"}, name));
-  });
-  const length = round_below(150 / view.resolution()), end = width - 18, start = end - length * view.resolution();
-  svg.append(element("path", {class: "axis", fill: "none", d: `M${start} ${height - 26}v8h${end - start}v-8`}),
-    element("text", {x: (start + end) / 2, y: height - 26, "text-anchor": "middle"}, with_unit(length, "m")));
+  draw_axes(svg, view, width, height);
   if (!page.mark || page.mark.look === "off") return;
   const at = minus(page.mark.middle, view.focus), x = width / 2 + view.shift[0] + dot(rows[0], at) * view.resolution();
   const y = height / 2 + view.shift[1] - dot(rows[1], at) * view.resolution();

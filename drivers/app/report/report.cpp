@@ -161,24 +161,9 @@ class Maker {
     return true;
   }
 
-  // A '<' in the data might end the script
   std::string page() const {
-    const std::string json = data_.dump(-1, ' ', false, Json::error_handler_t::replace);
-    std::string data, title;
-    for (const char letter : json) letter == '<' ? data += "\\u003c" : data += letter;
-    for (const char letter : data_["title"].get<std::string>())
-      letter == '<' ? title += "&lt;" : letter == '&' ? title += "&amp;" : title += letter;
-    const std::map<std::string_view, std::string_view> parts = {
-        {"title", title}, {"style", page_style()}, {"data", data}, {"script", page_script()}};
-    std::string html;
-    std::string_view rest = page_html();
-    for (std::size_t at = 0; (at = rest.find("{{")) != std::string_view::npos;) {
-      html += rest.substr(0, at);
-      const std::size_t end = rest.find("}}", at);
-      html += parts.at(rest.substr(at + 2, end - at - 2));
-      rest.remove_prefix(end + 2);
-    }
-    return html.append(rest);
+    return filled_page(report_files(), data_["title"].get<std::string>(),
+                       data_.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
 
   std::filesystem::path folder_;

@@ -40,6 +40,7 @@ class View {
     this.gl = canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     this.surfaces = [];
     this.moved = moved;
+    this.held = null; // while the mouse holds something, it does not turn the view
     const across = Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
     this.up = up, this.right = unit(minus(across, times(up, dot(across, up))));
     this.away = cross(up, this.right);
@@ -133,7 +134,7 @@ class View {
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => {
-      if (!canvas.hasPointerCapture(event.pointerId)) return;
+      if (this.held || !canvas.hasPointerCapture(event.pointerId)) return;
       if (event.shiftKey || event.buttons !== 1) this.shift = [this.shift[0] + event.movementX, this.shift[1] + event.movementY];
       else {
         this.azimuth += 0.4 * event.movementX;
@@ -149,6 +150,19 @@ class View {
       this.moved();
     }, {passive: false});
   }
+}
+
+// The axes and a scale, into an SVG of the view's size.
+function draw_axes(svg, view, width, height) {
+  const rows = view.turn();
+  ["x", "y", "z"].forEach((name, k) => {
+    const x = 46 + 30 * rows[0][k], y = height - 46 - 30 * rows[1][k];
+    svg.append(element("line", {x1: 46, y1: height - 46, x2: x, y2: y, stroke: colour("--c" + [4, 2, 0][k]), "stroke-width": 2}),
+      element("text", {x: 46 + 41 * rows[0][k], y: height - 42 - 41 * rows[1][k], "text-anchor": "middle"}, name));
+  });
+  const length = round_below(150 / view.resolution()), end = width - 18, start = end - length * view.resolution();
+  svg.append(element("path", {class: "axis", fill: "none", d: `M${start} ${height - 26}v8h${end - start}v-8`}),
+    element("text", {x: (start + end) / 2, y: height - 26, "text-anchor": "middle"}, with_unit(length, "m")));
 }
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/view/hands.hpp>
+#include <plica/drivers/solver/materials.hpp>
+
+namespace plica::app {
+namespace {
+
+constexpr double patch = 0.06;        // radius of what is held, over the body's size
+constexpr double hand_speed = 10;     // the body's sizes per second; simulated
+constexpr double ball_speed = 4;      // likewise
+constexpr double pull_limit = 0.1;    // h^2 k / m of a vertex; with its own stiffness it has to stay below 4
+constexpr double push_limit = 0.25;   // likewise
+constexpr double ball_stiffness = 2;  // of a touched vertex, over Young's modulus times an edge
+constexpr double damping_ratio = 0.3;
+
+template <class Rows>
+Point row(const Rows& rows, std::size_t i) {
+  return {static_cast<double>(rows(i, 0)), static_cast<double>(rows(i, 1)), static_cast<double>(rows(i, 2))};
+}
+template <class B>
+void add(const Vectors<B>& forces, std::size_t i, const Point& force) {
+  for (int k = 0; k < 3; ++k) forces(i, k) += static_cast<typename B::Real>(force[k]);
+}
+
+}  // namespace
+
+template <class B>
+Hands<B>::Hands(const Scene& scene, const Simulation<B>& simulation, double size)
+    : scene_gravity_(scene.problem.gravity),
+      size_(size),
+      young_(stiffness_at_rest(scene.problem.body.material)),
+      macro_step_(simulation.macro_step()) {
+  if (scene_gravity_.norm() > 0) down_ = scene_gravity_.normalized();
+  const auto& levels = simulation.levels();
+  for (std::size_t i = 0; i < std::min(levels.size(), scene.problem.body.levels.size()); ++i) {
+    LevelParts parts;
+    parts.mass = vertex_masses(scene.problem.body, static_cast<int>(i));
+    parts.edge = levels[i].mean_edge;
+    parts.step = levels[i].substeps > 0 ? levels[i].share * macro_step_ / levels[i].substeps : macro_step_;
+    parts.critical = simulation.him() ? levels[i].critical_step : 0;
+    levels_.push_back(std::move(parts));
+  }
+}
+
+template <class B>
+void Hands<B>::Follower::aim(const Point& goal, double reach, double step) {
+  const Point way = goal - place;
+  velocity = way * std::min(1.0, reach / std::max(way.norm(), 1e-300)) / step;
+}
+
+template <class B>
+void Hands<B>::hold(const Controls& controls, double time) {
+  const bool anew = controls.pull && (!controls_.pull || controls.pull->at != controls_.pull->at);
+  if (anew) ++grips_, hand_.place = controls.pull->target;
+  if (controls.tool && !controls_.tool) ball_.place = controls.tool->centre;
+  controls_ = controls, start_ = time;
+  more_gravity_ = down_ * controls.gravity - scene_gravity_;
+  pull_ = push_ = Point::Zero();
+  if (controls.pull) hand_.aim(controls.pull->target, hand_speed * size_ * macro_step_, macro_step_);
+  if (controls.tool) ball_.aim(controls.tool->centre, ball_speed * size_ * macro_step_, macro_step_);
+  tool_ = controls.tool;
+  if (tool_) tool_->centre = ball_.place;
+}
+
+template <class B>
+void Hands<B>::advance() {
+  for (Follower* one : {&hand_, &ball_}) one->place += macro_step_ * one->velocity, one->velocity.setZero();
+  if (tool_) tool_->centre = ball_.place;
+}
+
+template <class B>
+double Hands<B>::since_start(const ForceRequest<B>& request) const {
+  return std::clamp(request.time + request.ahead - start_, 0.0, macro_step_);
+}
+
+template <class B>
+void Hands<B>::operator()(const ForceRequest<B>& request) {
+  if constexpr (B::on_host) {
+    if (static_cast<std::size_t>(request.level) >= levels_.size()) return;
+    request.exec.fence("plica::hands");
+    LevelParts& level = levels_[static_cast<std::size_t>(request.level)];
+    if (more_gravity_ != Point::Zero())
+      for (std::size_t i = 0; i < level.mass.size(); ++i) add<B>(request.force, i, level.mass[i] * more_gravity_);
+    if (controls_.pull) add_pull(level, request);
+    if (controls_.tool) add_push(level, request);
+  }
+}
+
+template <class B>
+void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
+  level.grip = grips_;
+  level.held.clear(), level.weight.clear(), level.offset.clear();
+  const double radius = std::max(patch * size_, 1.2 * level.edge);
+  double sum = 0;
+  Point middle = Point::Zero();
+  for (std::size_t i = 0; i < level.mass.size(); ++i) {
+    const double w = 1 - (row(request.rest, i) - controls_.pull->at).norm() / radius;
+    if (w <= 0) continue;
+    level.held.push_back(i), level.weight.push_back(w);
+    level.offset.push_back(row(request.rest, i) + row(request.displacement, i));
+    sum += w, middle += w * level.offset.back();
+  }
+  for (std::size_t j = 0; j < level.held.size(); ++j) level.weight[j] /= sum, level.offset[j] -= middle / sum;
+}
+
+// Cycle him makes what is finer than its step resolves as heavy as that bears: of a patch, as if the step were so much shorter.
+template <class B>
+double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& request, std::size_t vertex,
+                                double radius) const {
+  if (request.stiffness.extent(0) > 0) return HUGE_VAL;  // implicit
+  double step = level.step;
+  if (level.critical > 0) step = std::min(step, level.critical * std::max(1.0, 2 * radius / level.edge));
+  return level.mass[vertex] / (step * step);
+}
+
+// Every vertex of the patch is pulled to its place in the patch as it was taken hold of: as by forceps, not by a thread.
+template <class B>
+void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
+  using Real = typename B::Real;
+  if (level.grip != grips_) take_hold(level, request);
+  const Point target = hand_.place + since_start(request) * hand_.velocity;
+  Point sum = Point::Zero();
+  for (std::size_t j = 0; j < level.held.size(); ++j) {
+    const std::size_t i = level.held[j];
+    const Point v = row(request.velocity, i),
+                x = row(request.rest, i) + row(request.displacement, i) + request.ahead * v;
+    const double k = std::min(level.weight[j] * controls_.stiffness,
+                              pull_limit * most_stiffness(level, request, i, std::max(patch * size_, level.edge)));
+    const double c = 2 * damping_ratio * std::sqrt(k * level.mass[i]);
+    const Point force = k * (target + level.offset[j] - x) - c * (v - hand_.velocity);
+    add<B>(request.force, i, force);
+    if (request.stiffness.extent(0) > 0)
+      for (int b = 0; b < 3; ++b) request.stiffness(i, b) += static_cast<Real>(k + c / request.step);
+    sum += force;
+  }
+  if (request.level == 0) pull_ = sum;
+}
+
+template <class B>
+void Hands<B>::add_push(const LevelParts& level, const ForceRequest<B>& request) {
+  using Real = typename B::Real;
+  const Point centre = ball_.place + since_start(request) * ball_.velocity;
+  const double radius = controls_.tool->radius;
+  Point sum = Point::Zero();
+  for (std::size_t i = 0; i < level.mass.size(); ++i) {
+    const Point v = row(request.velocity, i);
+    const Point away = row(request.rest, i) + row(request.displacement, i) + request.ahead * v - centre;
+    const double distance = away.norm(), depth = radius - distance;
+    if (!(depth > 0) || !(distance > 0)) continue;
+    const Point n = away / distance;
+    const double k =
+        std::min(ball_stiffness * young_ * level.edge, push_limit * most_stiffness(level, request, i, radius));
+    const double c = damping_ratio * std::sqrt(k * level.mass[i]);
+    const Point force = std::max(k * depth - c * n.dot(v - ball_.velocity), 0.0) * n;
+    add<B>(request.force, i, force);
+    if (request.stiffness.extent(0) > 0) {
+      const double stiff = k + c / request.step,
+                   pairs[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2]};
+      for (int b = 0; b < 6; ++b) request.stiffness(i, b) += static_cast<Real>(stiff * pairs[b]);
+    }
+    sum += force;
+  }
+  if (request.level == 0) push_ = sum;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class Hands<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica::app

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <plica/core/error.hpp>
+#include <plica/drivers/app/output/json_parts.hpp>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/report/film.hpp>
+#include <plica/drivers/app/report/page.hpp>
+#include <plica/drivers/app/scene/input_diagnosis.hpp>
+#include <plica/drivers/app/view/hands.hpp>
+#include <plica/drivers/app/view/live_view.hpp>
+#include <plica/drivers/app/view/web_server.hpp>
+#include <plica/drivers/solver/materials.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <thread>
+
+namespace plica::app {
+namespace {
+
+using LiveJson = nlohmann::ordered_json;
+using LiveClock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds frame_time(33);
+constexpr double longest_debt =
+    0.1;  // of simulated time that is behind, in seconds of the clock; older debts are forgotten
+
+double seconds(LiveClock::duration time) { return std::chrono::duration<double>(time).count(); }
+
+LiveJson three_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+std::string in_base64(const std::vector<float>& values) { return base64(values.data(), values.size() * sizeof(float)); }
+
+/// The body as the page sees it: the boundary of level 0.
+struct Skin {
+  BoundarySurface boundary;
+  Point low, high;
+  explicit Skin(const Body& body) : boundary(boundary_surface(body.levels.front())) {
+    for (Point& p : boundary.surface.vertices) p += placement_of(body);
+    low = high = boundary.surface.vertices.front();
+    for (const Point& p : boundary.surface.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  }
+  double size() const { return (high - low).norm(); }
+  std::vector<float> of(const std::vector<Point>& points) const {
+    std::vector<float> values;
+    for (const int v : boundary.mesh_vertex)
+      for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(points[static_cast<std::size_t>(v)][k]));
+    return values;
+  }
+};
+
+/// How fast time went in the last second or so.
+class Speed {
+ public:
+  void add(double simulated, double stepping, LiveClock::duration wall) {
+    const double keep = std::exp(-seconds(wall) / 0.7);
+    simulated_ = keep * simulated_ + simulated, stepping_ = keep * stepping_ + stepping;
+    wall_ = keep * wall_ + seconds(wall);
+  }
+  double now() const { return wall_ > 0 ? simulated_ / wall_ : 0; }
+  double possible() const { return stepping_ > 0 ? simulated_ / stepping_ : 0; }
+
+ private:
+  double simulated_ = 0, stepping_ = 0, wall_ = 0;
+};
+
+template <class B>
+class LiveView {
+ public:
+  LiveView(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options, const ExternalForces<B>& forces)
+      : scene_(scene),
+        simulation_(simulation),
+        options_(options),
+        forces_(forces),
+        skin_(scene.problem.body),
+        hands_(scene, simulation, skin_.size()),
+        first_(simulation.save()) {
+    said_.gravity = scene.problem.gravity.norm();
+    simulation_.set_external_forces([this](const ForceRequest<B>& request) {
+      if (forces_) forces_(request);
+      hands_(request);
+    });
+  }
+  ~LiveView() { simulation_.set_external_forces(forces_); }
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
+
+  void run() {
+    WebServer server(options_.port, page(), [this](const std::string& text) { return take(text); });
+    if (options_.listening) options_.listening(fmt::format("http://127.0.0.1:{}", server.port()));
+    auto due = LiveClock::now(), before = due;
+    while (!options_.ended || !options_.ended()) {
+      const Controls controls = said();
+      start_again(controls);
+      const bool stepped = server.watchers() > 0 && controls.running && words_.empty() && keep_pace(controls, before);
+      const auto now = LiveClock::now();
+      speed_.add(0, 0, now - before);
+      before = now;
+      if (server.watchers() > 0 && now >= due)
+        server.publish(frame(controls)), due = LiveClock::now() + (controls.running ? frame_time : 5 * frame_time);
+      if (!stepped) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+ private:
+  Controls said() {
+    const std::lock_guard lock(mutex_);
+    return said_;
+  }
+
+  std::string take(const std::string& text) {
+    try {
+      const Controls controls = controls_of(text);
+      const std::lock_guard lock(mutex_);
+      said_ = controls;
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  }
+
+  void start_again(const Controls& controls) {
+    if (controls.restarts == restarts_) return;
+    restarts_ = controls.restarts;
+    simulation_.restore(first_);
+    words_.clear();
+  }
+
+  // A macro step, if it is time for one
+  bool keep_pace(const Controls& controls, LiveClock::time_point before) {
+    const auto start = LiveClock::now();
+    debt_ += controls.speed * seconds(start - before);
+    if (debt_ <= 0) return false;
+    const double time = simulation_.time();
+    hands_.hold(controls, time);
+    if (const auto bad = simulation_.step_checked()) {
+      simulation_.return_to_last_good();
+      words_ = in_input_numbers(*bad, scene_).text();
+      return false;
+    }
+    hands_.advance();
+    const double simulated = simulation_.time() - time;
+    debt_ = std::min(debt_ - simulated, longest_debt * controls.speed);
+    speed_.add(simulated, seconds(LiveClock::now() - start), {});
+    return true;
+  }
+
+  std::string page() const {
+    const Problem& problem = scene_.problem;
+    const double young = stiffness_at_rest(problem.body.material), size = skin_.size();
+    std::vector<std::uint32_t> corners;
+    for (const auto& triangle : skin_.boundary.surface.triangles)
+      corners.insert(corners.end(), triangle.begin(), triangle.end());
+    std::vector<float> rest;
+    for (const Point& p : skin_.boundary.surface.vertices)
+      for (int k = 0; k < 3; ++k) rest.push_back(static_cast<float>(p[k]));
+    int tets = 0;
+    for (const LevelReport& level : simulation_.levels()) tets += level.tets;
+    const LiveJson data = {{"title", scene_.name},
+                           {"up", problem.gravity.norm() > 0 ? three_of(-problem.gravity) : LiveJson({0, 0, 1})},
+                           {"gravity", problem.gravity.norm()},
+                           {"stiffness", 0.1 * young * size},
+                           {"size", size},
+                           {"method", options_.method},
+                           {"tets", tets},
+                           {"rest", in_base64(rest)},
+                           {"triangles", base64(corners.data(), corners.size() * sizeof(std::uint32_t))},
+                           {"obstacles", obstacles_json(problem.contact)}};
+    return filled_page(live_files(), scene_.name, data.dump(-1, ' ', false, LiveJson::error_handler_t::replace));
+  }
+
+  std::string frame(const Controls& controls) const {
+    const auto& tool = hands_.tool();
+    const std::vector<float> values = values_of(controls.colour);
+    const LiveJson data = {{"time", simulation_.time()},
+                           {"speed", speed_.now()},
+                           {"possible", speed_.possible()},
+                           {"pull", hands_.pull().norm()},
+                           {"push", hands_.push().norm()},
+                           {"tool", tool ? three_of(tool->centre) : LiveJson()},
+                           {"wrong", words_},
+                           {"colour", controls.colour},
+                           {"values", values.empty() ? LiveJson() : LiveJson(in_base64(values))},
+                           {"points", in_base64(skin_.of(simulation_.positions()))}};
+    return data.dump(-1, ' ', false, LiveJson::error_handler_t::replace);
+  }
+
+  // Per vertex of the skin; none: the page knows them, or there are none
+  std::vector<float> values_of(const std::string& colour) const {
+    std::vector<double> all;
+    if (colour == "speed")
+      for (const Point& v : simulation_.velocities()) all.push_back(v.norm());
+    if (colour == "von_mises" || colour == "J") {
+      const ElementFields fields = simulation_.element_fields();
+      all = at_vertices(fields, colour == "J" ? fields.J : fields.von_mises);
+    }
+    std::vector<float> values;
+    if (!all.empty())
+      for (const int v : skin_.boundary.mesh_vertex)
+        values.push_back(static_cast<float>(all[static_cast<std::size_t>(v)]));
+    return values;
+  }
+
+  // Of a linear element's vertex the mean of its tetrahedra
+  std::vector<double> at_vertices(const ElementFields& fields, const std::vector<double>& values) const {
+    if (fields.per_vertex) return values;
+    const TetMesh& mesh = scene_.problem.body.levels.front();
+    std::vector<double> sum(mesh.vertices.size()), count(mesh.vertices.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+      for (const int v : mesh.tets[t])
+        sum[static_cast<std::size_t>(v)] += values[t], ++count[static_cast<std::size_t>(v)];
+    for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(count[v], 1.0);
+    return sum;
+  }
+
+  const Scene& scene_;
+  Simulation<B>& simulation_;
+  const LiveOptions& options_;
+  ExternalForces<B> forces_;
+  Skin skin_;
+  Hands<B> hands_;
+  SavedState first_;
+  std::mutex mutex_;  // of what is said
+  Controls said_;
+  int restarts_ = 0;
+  double debt_ = 0;  // simulated time that is due [s]
+  Speed speed_;
+  std::string words_;  // why it cannot go on
+};
+
+}  // namespace
+
+template <class B>
+std::string live_method(const Scene& scene, const Simulation<B>& simulation, const std::optional<CycleChoice>& choice) {
+  int tets = 0;
+  for (const LevelReport& level : simulation.levels()) tets += level.tets;
+  std::string text = fmt::format("{} tetrahedra, {}, macro step {}", tets,
+                                 choice ? "cycle " + choice->cycle : "cycle " + scene.problem.integration.cycle,
+                                 in_units(simulation.macro_step(), "s"));
+  const double critical = simulation.levels().front().critical_step;
+  if (critical > 0)
+    text += fmt::format(" ({:.3g} critical steps of the finest level)", simulation.macro_step() / critical);
+  if (choice)
+    text += fmt::format("; chosen for the error class {} ({:.3g} % of displacement)", choice->error_class,
+                        100 * choice->allowed);
+  return text;
+}
+
+template <class B>
+void show_live(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options,
+               const ExternalForces<B>& forces) {
+  if constexpr (!B::on_host) throw InputError("a live view needs a back end on the host");
+  LiveView<B>(scene, simulation, options, forces).run();
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                         \
+  template void show_live(const Scene&, Simulation<Backend<Real, Exec>>&, const LiveOptions&, \
+                          const ExternalForces<Backend<Real, Exec>>&);                        \
+  template std::string live_method(const Scene&, const Simulation<Backend<Real, Exec>>&,      \
+                                   const std::optional<CycleChoice>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica::app
