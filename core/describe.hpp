@@ -169,6 +169,7 @@ template <class V>
 void describe(V& v, PartVelocity& o) {
   describe(v, o.where);
   v.required("velocity", o.velocity, Vector{velocity}, "of these vertices, on top of all other");
+  v("angular_velocity", o.angular_velocity, Vector{angular_velocity}, "about the centre of their bounding box");
 }
 
 template <class V>
@@ -290,6 +291,9 @@ void describe(V& v, ObstacleOptions& o) {
 /// But for the obstacles.
 template <class V>
 void describe(V& v, ContactOptions& o) {
+  v("bodies", o.bodies, Flag{}, "false: several bodies pass through each other");
+  v("self", o.self, Flag{}, "true: a body's surface touches itself, where it folds");
+  v("friction", o.friction, Quantity{plain, not_negative}, "of both, Coulomb's coefficient; left out: frictionless");
   v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive},
     "times the penalty stiffness 64 E A / h, E A / h where a level is implicit");
   v("damping_scale", o.damping_scale, Quantity{plain, not_negative}, "times the damping of the approach");

@@ -21,4 +21,24 @@ std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle) {
   return own.empty() ? "obstacle_" + std::to_string(obstacle) : own;
 }
 
+bool has_pairs(const Problem& problem) {
+  return problem.contact.self || (problem.contact.bodies && problem.body.parts.size() > 1);
+}
+
+bool has_contact(const Problem& problem) { return !problem.contact.obstacles.empty() || has_pairs(problem); }
+
+void remove_contact(Problem& problem) {
+  problem.contact.obstacles.clear(), problem.contact.bodies = problem.contact.self = false;
+  problem.body.surface.reset();
+  for (BodyPart& part : problem.body.parts) part.points = 0;
+}
+
+std::vector<std::string> wrench_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o) names.push_back(obstacle_name(problem.contact, o));
+  if (problem.body.parts.size() > 1 && has_pairs(problem))
+    for (const BodyPart& part : problem.body.parts) names.push_back(part.name);
+  return names;
+}
+
 }  // namespace plica

@@ -73,8 +73,9 @@ struct DampingOptions {
 
 /// Initial velocity of a part of the body, chosen on level 0.
 struct PartVelocity {
-  Selection where;                 ///< its vertices
-  Point velocity = Point::Zero();  ///< [m/s]
+  Selection where;                         ///< its vertices
+  Point velocity = Point::Zero();          ///< [m/s]
+  Point angular_velocity = Point::Zero();  ///< about the centre of their bounding box [rad/s]
 };
 
 /// Initial rotation about the line between two points of the mesh at rest, before it is placed: none in the plane through the
@@ -99,6 +100,14 @@ struct InitialOptions {
 
 inline constexpr int fewest_points = 30;  ///< of a coarse space
 
+/// One of several bodies that are stepped as one: the elements whose region has its name, or begins with that and a slash. See
+/// join_bodies().
+struct BodyPart {
+  std::string name;          ///< not empty
+  MaterialOptions material;  ///< where its regions have no other: contact is as stiff as that
+  int points = 0;            ///< of its surface; the body's surface has those of all parts, in their order
+};
+
 /// A deformable body.
 struct Body {
   std::vector<TetMesh> levels;  ///< finest first, at least one
@@ -116,6 +125,7 @@ struct Body {
   DampingOptions damping;                        ///< of the whole body
   InitialOptions initial;                        ///< state at t = 0
   std::optional<TriangleSurface> surface;        ///< embedded in every level; contact acts on its vertices
+  std::vector<BodyPart> parts = {};              ///< where it is several bodies; empty: one
 };
 
 /// Whether any of it is damped in proportion to its mass.
@@ -173,11 +183,14 @@ struct IntegrationOptions {
   RetryOptions retry;                                          ///< of a bad macro step
 };
 
-/// Penalty contact of the embedded surface's vertices, see cmake/docs/contact.md. The scales multiply, per surface point, the
-/// stiffness k = 64 E A / h (E A / h where a level is implicit) and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest
-/// level's mean edge.
+/// Penalty contact of the embedded surface's vertices with obstacles and with the surface's triangles, see
+/// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (E A / h where a level is implicit)
+/// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
   std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch
+  bool bodies = true;                      ///< where there are several, they touch each other
+  bool self = false;                       ///< a body's surface touches itself
+  std::optional<double> friction = {};     ///< of these two; none: frictionless
   double stiffness_scale = 1;              ///< of the penalty
   double damping_scale = 1;                ///< of the approach
   double tangential_damping_scale = 1;     ///< caps what friction can do at small sliding speed
@@ -194,5 +207,14 @@ struct Problem {
   ContactOptions contact;          ///< with obstacles
   bool surface_forces = false;     ///< the caller will put forces of its own on the surface: embed it in every level
 };
+
+/// Whether its surface touches its surface: bodies each other, or one of them itself.
+bool has_pairs(const Problem& problem);
+/// Whether it touches anything.
+bool has_contact(const Problem& problem);
+/// What is left of it where nothing touches: no obstacles, no pairs, no surface.
+void remove_contact(Problem& problem);
+/// Of what pushes it, in order: its obstacles, and where several bodies touch each other the bodies.
+std::vector<std::string> wrench_names(const Problem& problem);
 
 }  // namespace plica

@@ -17,44 +17,99 @@ namespace {
 // inside an obstacle, the next must not throw out.
 constexpr double most_stiffening = 64;
 
+constexpr double pair_reach = 0.5, pair_margin = 0.25;  // of an edge
+
 }  // namespace
 
 template <class B>
-Contact<B>::Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area,
-                    double edge, double size, bool stiff)
-    : points_(points),
-      reach_(edge),
-      deepest_(size),
-      lost_(zeros<Indices<B>>("plica::contact.lost", 1)),
-      stiffening_(stiff ? most_stiffening : 1) {
-  const DepthWatch<B> watch{lost_, static_cast<Real>(size)};
-  const double per_point = area / points;
-  const double soft = options.stiffness_scale * stiffness_at_rest(material) * per_point / edge;
-  stiffness_ = stiffening_ * soft;
-  const auto critical = [&](double k) {
-    return std::sqrt(k * material.density * per_point * edge);
-  };  // 2 * 0.5 sqrt(k m)
-  damping_ = options.damping_scale * critical(stiffness_);
-  const auto law_of = [&](const ObstacleOptions& o, double k) {
-    return PenaltyLaw<Real>{static_cast<Real>(k), static_cast<Real>(options.damping_scale * critical(k)),
-                            static_cast<Real>(o.friction ? options.tangential_damping_scale * critical(k) : 0),
-                            static_cast<Real>(o.friction.value_or(0))};
+Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs, bool stiff)
+    : points_(static_cast<int>(surface.surface.vertices.size())),
+      reach_(surface.edge),
+      deepest_(surface.size),
+      lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
+  const DepthWatch<B> watch{lost_, static_cast<Real>(deepest_)};
+  for (const ObstacleOptions& o : options.obstacles) obstacles_.push_back(make_obstacle<B>(o, watch));
+  make_laws(options, surface, stiff ? most_stiffening : 1);
+  if (!pairs) return;
+  limits_ = {static_cast<Real>(pair_reach * surface.edge), static_cast<Real>(pair_margin * surface.edge),
+             static_cast<Real>(surface.edge), options.bodies, options.self};
+  connect(surface.surface);
+}
+
+/// A row of laws for every obstacle and one for pairs; in it one for every body.
+template <class B>
+void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of, double stiffening) {
+  std::vector<double> area(of.parts.size(), 0), points(of.parts.size(), 0);
+  const auto part = [&](int p) {
+    return of.body.empty() ? 0u : static_cast<std::size_t>(of.body[static_cast<std::size_t>(p)]);
   };
-  std::vector<PenaltyLaw<Real>> laws, implicit_laws;
-  for (const ObstacleOptions& o : options.obstacles) {
-    laws.push_back(law_of(o, stiffness_)), implicit_laws.push_back(law_of(o, soft));
-    obstacles_.push_back(make_obstacle<B>(o, implicit_laws.back(), watch));
+  for (int p = 0; p < points_; ++p) ++points[part(p)];
+  for (const auto& t : of.surface.triangles) {
+    const auto x = [&](std::size_t c) { return of.surface.vertices[static_cast<std::size_t>(t[c])]; };
+    area[part(t[0])] += 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   }
-  laws_ = to_device<Laws>("contact.laws", laws);
-  implicit_laws_ = to_device<Laws>("contact.implicit_laws", implicit_laws);
+  std::vector<PenaltyLaw<Real>> laws, implicit_laws;
+  const auto add_row = [&](const std::optional<double>& friction) {
+    for (std::size_t b = 0; b < of.parts.size(); ++b) {
+      const MaterialOptions& material = *of.parts[b].material;
+      const double per_point = area[b] / std::max(points[b], 1.0), edge = of.parts[b].edge;
+      const double soft = options.stiffness_scale * stiffness_at_rest(material) * per_point / edge;
+      const auto critical = [&](double k) {
+        return std::sqrt(k * material.density * per_point * edge);
+      };  // 2 * 0.5 sqrt(k m)
+      const auto law = [&](double k) {
+        return PenaltyLaw<Real>{static_cast<Real>(k), static_cast<Real>(options.damping_scale * critical(k)),
+                                static_cast<Real>(friction ? options.tangential_damping_scale * critical(k) : 0),
+                                static_cast<Real>(friction.value_or(0))};
+      };
+      laws.push_back(law(stiffening * soft)), implicit_laws.push_back(law(soft));
+      if (laws.size() == 1) stiffness_ = stiffening * soft, damping_ = options.damping_scale * critical(stiffness_);
+    }
+  };
+  for (const ObstacleOptions& o : options.obstacles) add_row(o.friction);
+  add_row(options.friction);
+  laws_.body = of.body.empty() ? Indices<B>{} : to_device<Indices<B>>("contact.body", of.body);
+  laws_.bodies = static_cast<int>(of.parts.size());
+  implicit_laws_ = laws_;
+  laws_.law = to_device<decltype(laws_.law)>("contact.laws", laws);
+  implicit_laws_.law = to_device<decltype(laws_.law)>("contact.implicit_laws", implicit_laws);
+}
+
+/// The surface's triangles, and those around each point.
+template <class B>
+void Contact<B>::connect(const TriangleSurface& surface) {
+  std::vector<std::vector<int>> around(surface.vertices.size());
+  std::vector<int> corner, first{0}, triangle;
+  for (const auto& t : surface.triangles)
+    for (const int p : t) {
+      around[static_cast<std::size_t>(p)].push_back(static_cast<int>(corner.size() / 3));
+      corner.push_back(p);
+    }
+  for (const auto& list : around) {
+    triangle.insert(triangle.end(), list.begin(), list.end());
+    first.push_back(static_cast<int>(triangle.size()));
+  }
+  pairs_.triangles = static_cast<int>(surface.triangles.size());
+  pairs_.corner = to_device<Indices<B>>("contact.corner", corner);
+  pairs_.first = to_device<Indices<B>>("contact.first", first);
+  pairs_.triangle = to_device<Indices<B>>("contact.triangle", triangle);
 }
 
 template <class B>
 TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
-  const std::size_t n = static_cast<std::size_t>(points_), records = n * obstacles_.size();
+  const std::size_t n = static_cast<std::size_t>(points_);
   TouchingPoints<B> points;
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
   points.law = implicit ? implicit_laws_ : laws_;
+  points.pairs = pairs_;
+  if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
+    points.pairs.partner = zeros<Indices<B>>("plica::contact.partner", n);
+    points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);
+    points.pairs.from = zeros<Indices<B>>("plica::contact.from", triangles + 1);
+    points.pairs.point = zeros<Indices<B>>("plica::contact.point", n);
+    points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);
+  }
+  const std::size_t records = n * static_cast<std::size_t>(points.rows());
   points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
   points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
   points.force = zeros<Vectors<B>>("plica::contact.force", records);
@@ -109,11 +164,12 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
                           const BlockSums<B>& blocks) const {
   const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
   double total = 0;
-  for (const auto& obstacle : obstacles_) {
-    obstacle->energy(exec, level.surface, level.state, time, blocks, result);
+  for (int o = 0; o < obstacles(); ++o) {
+    obstacles_[static_cast<std::size_t>(o)]->energy(exec, level.surface, level.state, time, o,
+                                                    implicit ? implicit_laws_ : laws_, blocks, result);
     total += host_values(exec, result)[0];
   }
-  return implicit ? total : stiffening_ * total;
+  return total;
 }
 
 template <class B>

@@ -6,6 +6,7 @@
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/kernels/contact/implicit_response.hpp>
+#include <plica/kernels/contact/pair_grid.hpp>
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
@@ -26,9 +27,9 @@ class Obstacle {
   /// Its gap to every point of a state.
   virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                     const TouchingPoints<B>&) const = 0;
-  /// Energy stored in its penalties [J], into result(0).
-  virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const BlockSums<B>&,
-                      const Doubles<B>& result) const = 0;
+  /// Energy stored in its penalties by these laws [J], into result(0).
+  virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
+                      const PointLaws<B>&, const BlockSums<B>&, const Doubles<B>& result) const = 0;
   /// Its origin [m], which moves with it: what torques are about.
   virtual Point origin(double time) const = 0;
   /// Device memory of its own.
@@ -37,20 +38,31 @@ class Obstacle {
 
 /// Launches the kernels of the shape that the options name.
 template <class B>
-std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const PenaltyLaw<typename B::Real>& law,
-                                           const DepthWatch<B>& watch);
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch);
 
-/// Penalty contact between a level's embedded surface and all obstacles.
+/// What contact needs to know of the surface, and of the bodies that it belongs to.
+struct TouchingSurface {
+  /// One of them, or all there is.
+  struct Part {
+    const MaterialOptions* material;
+    double edge = 0;  ///< mean, of the finest level [m]
+  };
+  const TriangleSurface& surface;  ///< placed
+  std::vector<Part> parts;
+  std::vector<int> body;  ///< of each point its part; empty: there is one
+  double edge = 0;        ///< mean, of all [m]
+  double size = 0;        ///< of the whole: a point deeper than that is lost [m]
+};
+
+/// Penalty contact of a level's embedded surface with all obstacles, and with itself.
 template <class B>
 class Contact {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  /// `area` of the whole surface [m^2], `edge` the finest level's mean edge [m]: see ContactOptions for the law. `size` of the
-  /// body [m]: a point deeper than that is lost. `stiff`: no level is implicit.
-  Contact(const ContactOptions& options, const MaterialOptions& material, int points, double area, double edge,
-          double size, bool stiff);
+  /// See ContactOptions for the law. `pairs`: the surface touches itself. `stiff`: no level is implicit.
+  Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs, bool stiff);
 
   /// Work arrays of one level; blocks on an implicit one only.
   TouchingPoints<B> make_points(bool implicit) const;
@@ -72,21 +84,27 @@ class Contact {
   int take_lost(const Exec&) const;
   double deepest() const { return deepest_; }  ///< [m]
 
-  double stiffness() const { return stiffness_; }  ///< of a point, on explicit levels [N/m]
+  double stiffness() const { return stiffness_; }  ///< of a point of the first body, on explicit levels [N/m]
   double damping() const { return damping_; }      ///< along the normal, likewise [N s/m]
   int points() const { return points_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
   Point origin(int obstacle, double time) const { return obstacles_[static_cast<std::size_t>(obstacle)]->origin(time); }
   std::size_t grid_bytes() const;  ///< of sampled distances
+  const PairLimits<Real>& limits() const { return limits_; }
+  int touching_bodies() const { return pairs_.triangles > 0 && laws_.bodies > 1 ? laws_.bodies : 0; }
+  int wrenches() const { return obstacles() + touching_bodies(); }
 
  private:
   int points_;
   double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
-  using Laws = Kokkos::View<PenaltyLaw<Real>*, typename B::Memory>;
-  Laws laws_, implicit_laws_;  ///< of the obstacles
+  PointLaws<B> laws_, implicit_laws_;
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
-  double stiffening_;  ///< of explicit levels over implicit ones
+  PairedPoints<B> pairs_;  ///< what levels share of them
+  PairLimits<Real> limits_;
+
+  void make_laws(const ContactOptions& options, const TouchingSurface& surface, double stiffening);
+  void connect(const TriangleSurface& surface);
 };
 
 }  // namespace plica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 #include <plica/drivers/solver/contact_response.hpp>
+#include <plica/kernels/contact/find_pairs.hpp>
 
 namespace plica {
 
@@ -18,7 +19,24 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, i
       smooth_(zeros<Vectors<B>>("plica::contact.smooth", static_cast<std::size_t>(vertices))),
       answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(vertices))),
       sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
-      impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->obstacles()))) {}
+      impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
+  if (points_.pairs.triangles > 0) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), points_);
+}
+
+template <class B>
+void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                              const TouchingPoints<B>& points) const {
+  contact_->find(exec, level, state, time, points);
+  if (search_) search_->find(exec, level.surface, state, points, blocks_);
+}
+
+/// See SumPointForces.
+template <class B>
+void ContactResponse<B>::sum_up(const Exec& exec, double reaction) const {
+  if (search_)
+    where_touching<B>(exec, points_.count, "plica::contact_sum", contact_->points(),
+                      SumPointForces<B>{points_, static_cast<Real>(reaction)});
+}
 
 template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
@@ -26,11 +44,13 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
   const int n = level.surface.points;
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
   law.entry = static_cast<Real>(step.entry);
-  contact_->find(exec, level, state, time, law.points);
+  find(exec, level, state, time, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
+  sum_up(exec, static_cast<double>(law.bounding()));
   for (int sweep = 0; sweep <= sweeps; ++sweep) {  // the first for rho and the forces by e alone
     if (sweep == 0 || step.span > 0) respond();
     where_touching<B>(exec, points_.count, "plica::contact_sweep", n, SweepTouching<B>{law, sweep == 0});
+    sum_up(exec, -1);
     if (!(step.span > 0)) break;
   }
 }
@@ -65,13 +85,28 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, co
         blocks_, sums_);
     update_vertices<B>(exec, "plica::contact_impulse", 6, AddImpulse<B>{sums_, impulse_, 6 * o, weight});
   }
+  for (int b = 0; b < contact_->touching_bodies(); ++b) {
+    reduce<B, 6>(exec, "plica::contact_wrench", level.surface.points, BodyWrench<B>{level.surface, state.u, points_, b},
+                 blocks_, sums_);
+    update_vertices<B>(exec, "plica::contact_impulse", 6,
+                       AddImpulse<B>{sums_, impulse_, 6 * (contact_->obstacles() + b), weight});
+  }
+}
+
+template <class B>
+double ContactResponse<B>::pair_energy(const Exec& exec, const Level<B>& level) const {
+  if (!search_) return 0;
+  search_->find(exec, level.surface, level.state, points_, blocks_);
+  const auto result = zeros<Doubles<B>>("plica::pair_energy", 1);
+  reduce<B, 1>(exec, "plica::pair_energy", level.surface.points, PairEnergy<B>{points_}, blocks_, result);
+  return host_values(exec, result)[0];
 }
 
 template <class B>
 std::size_t ContactResponse<B>::bytes() const {
   const std::size_t reals =
       3 * points_.normal.span() + 2 * points_.depth.span() + points_.block.span() + smooth_.span() + answer_.span();
-  return reals * sizeof(Real);
+  return reals * sizeof(Real) + (search_ ? search_->bytes() : 0);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class ContactResponse<Backend<Real, Exec>>;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/pair_search.hpp>
 
 namespace plica {
 
@@ -27,14 +28,16 @@ class ContactResponse {
   void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
                const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) {
     TouchingPoints<B> points = points_;
-    points.reach = std::numeric_limits<Real>::max();
+    points.reach = std::numeric_limits<Real>::max();  // what no record is further than
     solve(exec, level, state, time, step, {level.surface, points, smooth, answer, 0, 0, 0, false}, respond);
   }
 
   /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.
   void forget_impulse(const Exec& exec) const;
   void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
-  const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles] N s and N m s
+  const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
+  /// Energy stored in the pairs' penalties of the level's state [J]. Waits.
+  double pair_energy(const Exec& exec, const Level<B>& level) const;
 
   const TouchingPoints<B>& points() const { return points_; }
   std::size_t bytes() const;
@@ -42,12 +45,16 @@ class ContactResponse {
  private:
   std::shared_ptr<const Contact<B>> contact_;
   TouchingPoints<B> points_;
+  std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
   BlockSums<B> blocks_;
   Vectors<B> smooth_, answer_;  ///< of the vertices, on explicit levels
   Doubles<B> sums_, impulse_;
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
              TouchLaw<B> law, const Respond& respond) const;
+  void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+            const TouchingPoints<B>& points) const;
+  void sum_up(const Exec& exec, double reaction) const;
 };
 
 }  // namespace plica

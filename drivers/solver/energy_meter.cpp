@@ -52,7 +52,8 @@ Energies EnergyMeter<B>::all(double time) const {
                result_);
   e.elastic = read()[0];
   if (level.contact())
-    e.contact = level.contact()->energy(exec, level, time, level.response().points().block.extent(0) > 0, blocks_);
+    e.contact = level.contact()->energy(exec, level, time, level.response().points().block.extent(0) > 0, blocks_) +
+                level.response().pair_energy(exec, level);
   return e;
 }
 

@@ -21,7 +21,6 @@ class ObstacleOf final : public Obstacle<B> {
   Point origin_;        // at t = 0
   std::vector<PathKnot> knots_;
   Path path_;
-  PenaltyLaw<Real> law_;
   DepthWatch<B> watch_;
 
   PathPoint at(double time, double ahead) const { return path_step(path_, knots_.data(), time, ahead); }
@@ -31,15 +30,15 @@ class ObstacleOf final : public Obstacle<B> {
 
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, const Motion& motion,
-             const PenaltyLaw<Real>& law, const DepthWatch<B>& watch)
-      : shape_(shape), storage_(storage), origin_(origin), path_(make_path(motion, knots_)), law_(law), watch_(watch) {}
+             const DepthWatch<B>& watch)
+      : shape_(shape), storage_(storage), origin_(origin), path_(make_path(motion, knots_)), watch_(watch) {}
 
   void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
                  const ImplicitWeights& w, double ahead, int number, const TouchingPoints<B>& points) const override {
     const PathPoint now = at(time, ahead);
     update_vertices<B>(exec, "plica::contact_forces", surface.points,
                        ObstacleContact<B, Shape>{surface, s.u, s.v, shape_, rounded(now.displacement),
-                                                 rounded(now.velocity), law_, watch_, static_cast<Real>(ahead),
+                                                 rounded(now.velocity), watch_, static_cast<Real>(ahead),
                                                  static_cast<Real>(w.a), static_cast<Real>(w.b), number, points});
   }
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
@@ -49,10 +48,10 @@ class ObstacleOf final : public Obstacle<B> {
                        FindTouching<B, Shape>{surface, s, shape_, rounded(now.displacement), rounded(now.velocity),
                                               watch_, points.record(number, 0), points});
   }
-  void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
-              const BlockSums<B>& blocks, const Doubles<B>& result) const override {
+  void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
+              const PointLaws<B>& law, const BlockSums<B>& blocks, const Doubles<B>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
-                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, rounded(at(time, 0).displacement), law_.stiffness},
+                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, rounded(at(time, 0).displacement), law, number},
                  blocks, result);
   }
   Point origin(double time) const override {
@@ -80,15 +79,14 @@ auto device_shape(S, const typename S::Options& o, Scalars<B>& storage) {
 }
 
 template <class B>
-std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const PenaltyLaw<typename B::Real>& law,
-                                           const DepthWatch<B>& watch) {
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch) {
   std::unique_ptr<Obstacle<B>> obstacle;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     Scalars<B> storage;
     const auto made = device_shape<B>(shape, its, storage);
     using Shape = std::decay_t<decltype(made)>;
     obstacle =
-        std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), options.motion, law, watch);
+        std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), options.motion, watch);
   });
   return obstacle;
 }

@@ -68,7 +68,12 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   for (const LevelReport& r : built.reports)
     if (solver.empty()) solver = r.linear_solver;
   for (const ObstacleOptions& o : problem.contact.obstacles) friction = friction || o.friction.has_value();
-  const bool contact = !problem.contact.obstacles.empty();
+  const bool contact = has_contact(problem), pairs = has_pairs(problem);
+  friction = friction || (pairs && problem.contact.friction);
+  std::string touched = counted(problem.contact.obstacles.size(), "obstacle");
+  if (pairs && problem.contact.bodies && body.parts.size() > 1)
+    touched += ", " + std::to_string(body.parts.size()) + " bodies";
+  if (pairs && problem.contact.self) touched += ", itself";
   const std::size_t variations = sum([](const L& l) { return bytes_of(l.start) + bytes_of(l.previous); });
   const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
   const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.element, l.flags.J); });
@@ -108,12 +113,11 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       "not in cycle " + problem.integration.cycle, built.stepper->bytes());
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
       sum([](const L& l) { return bytes_of(l.surface); }));
-  add("contact", contact, counted(problem.contact.obstacles.size(), "obstacle"), "no obstacle",
-      sum([](const L& l) { return l.response().bytes(); }));
+  add("contact", contact, touched, "no obstacle", sum([](const L& l) { return l.response().bytes(); }));
   const Contact<B>* touching = (*built.hierarchy)[0].contact();
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
-  add("friction", friction, "contact.obstacles", "no obstacle has it", 0);
+  add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);
   add("implicit solver", !solver.empty(), solver, "every level is explicit",
       sum([](const L& l) { return l.integrator->bytes(); }));
   add("inversion flags", flags > 0, body.material.model + " may not be inverted",

@@ -75,8 +75,8 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                  std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                               [](const ObstacleOptions& o) { return moves(o.motion); });
-  if (const int obstacles = static_cast<int>(p.contact.obstacles.size()); obstacles > 0)
-    wrench = zeros<Doubles<B>>("plica::contact.wrenches", static_cast<std::size_t>(6 * obstacles));
+  if (const std::size_t count = wrench_names(p).size(); count > 0)
+    wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
   linear = !find_material(p.body.material.model)->rotation_invariant;
   keep();
   open_budget();

@@ -73,11 +73,12 @@ struct Energies {
   double total() const { return kinetic + elastic + potential + contact; }
 };
 
-/// What an obstacle does to the body: the mean force over the last macro step, of which an obstacle feels the opposite.
+/// What an obstacle does to the body, or to one of several bodies all the others: the mean force over the last macro step, of which
+/// an obstacle feels the opposite.
 struct Wrench {
-  std::string obstacle;          ///< its name
+  std::string obstacle;          ///< its name, or that of the body, see wrench_names()
   Point force = Point::Zero();   ///< on the body [N]
-  Point torque = Point::Zero();  ///< about the obstacle's origin, which moves with it [N m]
+  Point torque = Point::Zero();  ///< about the obstacle's origin, which moves with it, or about the scene's [N m]
 };
 
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
@@ -154,8 +155,8 @@ class Simulation {
   std::optional<HimReport> him() const;            ///< of that cycle
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
-  std::vector<Wrench> wrenches() const;            ///< of all obstacles, of the last macro step; waits
-  /// The same as the device holds it, force and torque of one obstacle after the other, 6 numbers each; step() updates it in
+  std::vector<Wrench> wrenches() const;            ///< of obstacles, then bodies, of the last macro step; waits
+  /// The same as the device holds it, force and torque of one after the other, 6 numbers each; step() updates it in
   /// place.
   Doubles<B> wrench() const;
   std::map<std::string, double> stages()

@@ -59,11 +59,10 @@ Doubles<B> Simulation<B>::wrench() const {
 template <class B>
 std::vector<Wrench> Simulation<B>::wrenches() const {
   const std::vector<double> w = host_values(inside_->hierarchy().exec(), inside_->wrench);
+  const std::vector<std::string> names = wrench_names(inside_->problem);
   std::vector<Wrench> all;
   for (std::size_t o = 0; 6 * o < w.size(); ++o)
-    all.push_back({obstacle_name(inside_->problem.contact, o),
-                   {w[6 * o], w[6 * o + 1], w[6 * o + 2]},
-                   {w[6 * o + 3], w[6 * o + 4], w[6 * o + 5]}});
+    all.push_back({names[o], {w[6 * o], w[6 * o + 1], w[6 * o + 2]}, {w[6 * o + 3], w[6 * o + 4], w[6 * o + 5]}});
   return all;
 }
 

@@ -122,7 +122,7 @@ class CycleTrials {
   CycleChoice all() {
     if (!has_coarse_levels(problem_.integration.cycle, problem_.body)) return std::move(choice_);
     choice_.duration = trial_steps * critical_;
-    if (!problem_.contact.obstacles.empty()) look_ahead();
+    if (has_contact(problem_)) look_ahead();
     const TrialRun reference = run_reference();
     if (!reference.reason.empty()) {
       choice_.reason = "level 0 alone, which is what errors are measured against, " + reference.reason;

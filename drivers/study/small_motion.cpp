@@ -28,7 +28,7 @@ Problem about_rest(Problem p, const typename B::Exec& exec) {
   }
   p.body.material.model = "linear";
   p.gravity = Point::Zero();
-  p.contact.obstacles.clear(), p.body.surface.reset(), p.body.loads.clear();
+  remove_contact(p), p.body.loads.clear();
   for (const PrescribedMotion& given : p.body.prescribed) p.body.fixed.push_back(given.where);
   p.body.prescribed.clear();
   p.body.initial = {};

@@ -149,7 +149,7 @@ class Search {
       Sought s{one, problem_of(problem_, one)};
       s.problem.body.loads.clear();  // a coarse mesh may have no vertex where one acts
       row.critical_step = study_level(problem_, one.level).critical_step;
-      s.problem.contact.obstacles.clear(), s.problem.body.surface.reset();
+      remove_contact(s.problem);
       s.critical = study_level(s.problem, 0).critical_step;
       if (!row.integrator.empty())
         is_explicit(row.integrator) ? find_explicit(row, s) : find_implicit(row, s);

@@ -35,7 +35,7 @@ E instance(int threads) {
 // Nothing takes energy out or brings it in, other than gravity
 bool keeps_energy(const Problem& p) {
   return p.body.loads.empty() && p.body.prescribed.empty() && !damps_by_mass(p.body) && !damps_by_stiffness(p.body) &&
-         p.contact.obstacles.empty();
+         !has_contact(p);
 }
 
 template <class B>

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
+#include <plica/kernels/contact/paired_points.hpp>
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
@@ -19,30 +20,72 @@ struct DepthWatch {
   }
 };
 
-/// Contact of a level's surface points with the obstacles, on the device: a record for every obstacle and point.
+/// The laws of all rows of records, of one body after the other.
+template <class B>
+struct PointLaws {
+  using Law = PenaltyLaw<typename B::Real>;
+  Kokkos::View<Law*, typename B::Memory> law;  ///< [rows * bodies]
+  Indices<B> body;                             ///< of each point; empty: there is one
+  int bodies = 1;
+  KOKKOS_INLINE_FUNCTION const Law& operator()(int row, int p) const {
+    return law(row * bodies + (bodies > 1 ? body(p) : 0));
+  }
+};
+
+/// Contact of a level's surface points, on the device: a row of records for every obstacle, and with pairs one more; a record for
+/// every point in it.
 template <class B>
 struct TouchingPoints {
   using Real = typename B::Real;
   int points = 0, obstacles = 0;
   Real reach = 0;  ///< a point further than that outside an obstacle is not looked at [m]
-  Kokkos::View<PenaltyLaw<Real>*, typename B::Memory> law;  ///< of each obstacle
-  Vectors<B> normal;                                        ///< [records][3] out of the obstacle
-  Vectors<B> velocity;                                      ///< of the point relative to it [m/s]
-  Scalars<B> depth;                                         ///< > 0 inside [m]
-  Scalars<B> mobility;                                      ///< rho [1/kg]; 0: it does not touch
-  Vectors<B> force;                                         ///< on the point [N]
-  Blocks<B> block;   ///< [points][6] kg, of all obstacles, on implicit levels only
-  Doubles<B> count;  ///< [1] records that touch
+  PointLaws<B> law;
+  PairedPoints<B> pairs;  ///< empty where the surface does not touch itself
+  Vectors<B> normal;      ///< [records][3] out of the obstacle, or of the triangle
+  Vectors<B> velocity;    ///< of the point relative to it [m/s]
+  Scalars<B> depth;       ///< > 0 inside [m]
+  Scalars<B> mobility;    ///< rho [1/kg]; 0: it does not touch
+  Vectors<B> force;       ///< on the point [N]
+  Blocks<B> block;        ///< [points][6] kg, of all obstacles, on implicit levels only
+  Doubles<B> count;       ///< [1] records that touch
 
-  KOKKOS_INLINE_FUNCTION int record(int obstacle, int p) const { return obstacle * points + p; }
+  KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 1 : 0); }
+  KOKKOS_INLINE_FUNCTION int record(int row, int p) const { return row * points + p; }
   KOKKOS_INLINE_FUNCTION bool near(int r) const { return depth(r) > -reach; }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> force_on_point(int p) const {
+    if (pairs.triangles > 0) return vector_at<B>(pairs.sum, p);
+    Vec3<Real> sum;
+    for (int o = 0; o < obstacles; ++o) sum += vector_at<B>(force, record(o, p));
+    return sum;
+  }
   /// On the i-th touched vertex of the surface, its points in order.
   KOKKOS_INLINE_FUNCTION Vec3<Real> force_on(const EmbeddedSurface<B>& surface, int i) const {
     Vec3<Real> sum;
     for (int s = surface.first(i); s < surface.first(i + 1); ++s)
-      for (int o = 0; o < obstacles; ++o)
-        for (int k = 0; k < 3; ++k) sum[k] += surface.weight(s) * force(record(o, surface.point(s)), k);
+      sum += surface.weight(s) * force_on_point(surface.point(s));
     return sum;
+  }
+};
+
+/// The force on each point with pairs: what it touches, and what touches triangles around it. `reaction`: what a triangle gets of a
+/// pair's force, -1; 1 where rows of W A W^T are bounded.
+template <class B>
+struct SumPointForces {
+  using Real = typename B::Real;
+  TouchingPoints<B> points;
+  Real reaction;
+  KOKKOS_INLINE_FUNCTION void operator()(int q) const {
+    const PairedPoints<B>& pairs = points.pairs;
+    Vec3<Real> sum;
+    for (int row = 0; row < points.rows(); ++row) sum += vector_at<B>(points.force, points.record(row, q));
+    for (int s = pairs.first(q); s < pairs.first(q + 1); ++s) {
+      const int t = pairs.triangle(s);
+      for (int i = pairs.from(t); i < pairs.from(t + 1); ++i) {
+        const int p = pairs.point(i);
+        sum += (reaction * pairs.weight_of(p, t, q)) * vector_at<B>(points.force, points.record(points.obstacles, p));
+      }
+    }
+    set_vector<B>(pairs.sum, q, sum);
   }
 };
 
@@ -56,7 +99,6 @@ struct ObstacleContact {
   Vectors<B> u, v;
   Shape shape;
   Vec3<Real> offset, velocity;  ///< of the obstacle at the time of the state
-  PenaltyLaw<Real> law;
   DepthWatch<B> watch;
   Real ahead, a, b;
   int obstacle;
@@ -67,6 +109,7 @@ struct ObstacleContact {
     surface_point(surface, u, v, p, x, speed);
     const Gap<Real> gap = shape(x - offset);
     watch.look(p, gap.distance);
+    const PenaltyLaw<Real>& law = points.law(obstacle, p);
     const PointContact<Real> c = penalty_contact(law, gap, speed - velocity, ahead);
     set_vector<B>(points.force, points.record(obstacle, p), c.force);
     const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
@@ -158,13 +201,14 @@ struct ContactEnergy {
   Vectors<B> u, v;
   Shape shape;
   Vec3<Real> offset;
-  Real stiffness;
+  PointLaws<B> law;
+  int obstacle;
 
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
     const Real penetration = max(-shape(x - offset).distance, Real(0));
-    return {{0.5 * static_cast<double>(stiffness * penetration * penetration)}};
+    return {{0.5 * static_cast<double>(law(obstacle, p).stiffness * penetration * penetration)}};
   }
 };
 

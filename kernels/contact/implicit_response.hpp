@@ -18,6 +18,9 @@
 //   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
 //   2. forces from e and the last r     --W^T-->  f  --A-->  a  --W-->  r      once for every sweep
 //
+// A pair is a point and the triangle it touches: W takes the point's value less the triangle's where it is nearest, and the triangle's
+// corners get the opposite of the point's force by the same weights. Then rho sums up absolute values, which bounds the row's sum.
+//
 // W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices). Why no number
 // of sweeps takes stability away is in cmake/docs/contact.md.
 namespace plica {
@@ -64,9 +67,14 @@ struct TouchLaw {
   Real h, ahead, entry;
   bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
-  KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int p) const {
-    return value_at<B>(surface.embedding, x, p);
+  /// The point's value, in the row of pairs with `reaction` times the triangle's.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int row, int p, Real reaction = -1) const {
+    Vec3<Real> value = value_at<B>(surface.embedding, x, p);
+    if (row == points.obstacles) value += reaction * points.pairs.across(surface, x, p);
+    return value;
   }
+  /// What triangles get of unit forces, see SumPointForces.
+  KOKKOS_INLINE_FUNCTION Real bounding() const { return isotropic ? Real(1) : Real(-1); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(points.normal, r); }
   KOKKOS_INLINE_FUNCTION Real looks_ahead(int r) const {
     return points.depth(r) > 0 ? ahead : Kokkos::max(ahead, entry);
@@ -97,17 +105,14 @@ struct StartTouching {
   TouchLaw<B> law;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     const TouchingPoints<B>& points = law.points;
-    Vec3<Real> e;
-    bool known = false;
     double count = 0;
-    for (int o = 0; o < points.obstacles; ++o) {
-      const int r = points.record(o, p);
+    for (int row = 0; row < points.rows(); ++row) {
+      const int r = points.record(row, p);
       points.mobility(r) = 0;
       Vec3<Real> unit;
       if (points.near(r)) {
-        if (!known) e = law.at(law.smooth, p);
-        known = true;
-        if (law.depth(r, e) > 0 && law.pressure(points.law(o), r, e) > 0) {
+        const Vec3<Real> e = law.at(law.smooth, row, p);
+        if (law.depth(r, e) > 0 && law.pressure(points.law(row, p), r, e) > 0) {
           unit = law.isotropic ? Vec3<Real>{Real(1), Real(0), Real(0)} : law.normal(r);
           count += 1;
         }
@@ -126,22 +131,19 @@ struct SweepTouching {
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const TouchingPoints<B>& points = law.points;
-    Vec3<Real> answer, e;
-    bool known = false;
-    for (int o = 0; o < points.obstacles; ++o) {
-      const int r = points.record(o, p);
+    for (int row = 0; row < points.rows(); ++row) {
+      const int r = points.record(row, p);
       const Vec3<Real> force = vector_at<B>(points.force, r);
       if (!(first ? dot(force, force) > 0 : points.mobility(r) > 0)) continue;
-      if (!known) {
-        answer = law.at(law.answer, p), e = law.at(law.smooth, p);
-        if (!first) e += answer;
-        known = true;
-      }
+      const Vec3<Real> answer = law.at(law.answer, row, p, first ? law.bounding() : Real(-1));
+      Vec3<Real> e = law.at(law.smooth, row, p);
       if (first) {
         constexpr Real smallest = Kokkos::Experimental::norm_min_v<Real>;
         points.mobility(r) = Kokkos::max(Kokkos::sqrt(dot(answer, answer)), smallest);
+      } else {
+        e += answer;
       }
-      sweep(points.law(o), r, first ? Vec3<Real>{} : force, e);
+      sweep(points.law(row, p), r, first ? Vec3<Real>{} : force, e);
     }
   }
 
@@ -199,6 +201,20 @@ struct AnswerByMass {
 
 // What obstacles do to the body.
 
+/// A force on a surface point, and its torque about another point.
+template <class B>
+KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const EmbeddedSurface<B>& surface, const Vectors<B>& u, int p,
+                                         const Vec3<typename B::Real>& f, const Vec3<double>& about) {
+  const Vec3<typename B::Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+  Vec3<double> arm, force;
+  for (int k = 0; k < 3; ++k) {
+    arm[k] = static_cast<double>(x[k]) - about[k];
+    force[k] = static_cast<double>(f[k]);
+  }
+  const Vec3<double> torque = cross(arm, force);
+  return {{force[0], force[1], force[2], torque[0], torque[1], torque[2]}};
+}
+
 /// Force of one obstacle, and its torque about a point; 0 where nothing touches.
 template <class B>
 struct ObstacleWrench {
@@ -210,18 +226,27 @@ struct ObstacleWrench {
   Vec3<double> about;
   KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
     if (!(points.count(0) > 0) || !(points.mobility(first + p) > 0)) return {};
-    const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
-    Vec3<double> arm, force;
-    for (int k = 0; k < 3; ++k) {
-      arm[k] = static_cast<double>(x[k]) - about[k];
-      force[k] = static_cast<double>(points.force(first + p, k));
-    }
-    const Vec3<double> torque = cross(arm, force);
-    return {{force[0], force[1], force[2], torque[0], torque[1], torque[2]}};
+    return wrench_at(surface, u, p, vector_at<B>(points.force, first + p), about);
   }
 };
 
-/// impulse += weight sums, of one obstacle
+/// What the other bodies do to one of several, the same about a point.
+template <class B>
+struct BodyWrench {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> u;
+  TouchingPoints<B> points;
+  int body;
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
+    if (!(points.count(0) > 0) || points.law.body(p) != body) return {};
+    Vec3<Real> by_pairs = points.force_on_point(p);
+    for (int o = 0; o < points.obstacles; ++o) by_pairs -= vector_at<B>(points.force, points.record(o, p));
+    return wrench_at(surface, u, p, by_pairs, {});
+  }
+};
+
+/// impulse += weight sums, of one obstacle or body
 template <class B>
 struct AddImpulse {
   Doubles<B> sums, impulse;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -22,19 +23,19 @@ constexpr const char* head =
     "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
     "com_x,com_y,com_z,max_speed,rms_speed";
 
-std::string history_head(bool retries, const ContactOptions& contact) {
+std::string history_head(bool retries, const std::vector<std::string>& wrenches) {
   std::string all = std::string(head) + (retries ? ",halvings" : "");
-  for (std::size_t i = 0; i < contact.obstacles.size(); ++i)
+  for (const std::string& name : wrenches)
     for (const char* column : {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"})
-      all += fmt::format(",{}.{}", obstacle_name(contact, i), column);
+      all += fmt::format(",{}.{}", name, column);
   return all + "\n";
 }
 
 }  // namespace
 
 History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
-                 const ContactOptions& contact, std::optional<std::uint64_t> kept)
-    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, contact))),
+                 const std::vector<std::string>& wrenches, std::optional<std::uint64_t> kept)
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, wrenches))),
       masses_(std::move(masses)),
       retries_(retries) {}
 
@@ -127,7 +128,7 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
       frame_times_(from ? from->frame_times : std::vector<double>{}),
       surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
       history_(folder / "history.csv", vertex_masses(body_), scene.problem.integration.retry.halvings > 0,
-               scene.problem.contact, from ? std::optional(from->history_bytes) : std::nullopt) {
+               wrench_names(scene.problem), from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
   for (const int level : volume_levels_) {
@@ -144,6 +145,13 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
     skin_vertex_ = std::move(boundary.mesh_vertex);
     if (const auto& vertices = numbering_.front().input.vertices; !vertices.empty())
       for (int& v : skin_vertex_) v = vertices[static_cast<std::size_t>(v)];
+  }
+  if (body_.parts.empty()) return;
+  const std::vector<int> part =
+      body_.surface ? parts_of_points(body_.parts) : parts_of_vertices(body_.levels.front(), body_.parts);
+  for (const auto& t : skin_.triangles) {
+    const auto p = static_cast<std::size_t>(t[0]);
+    skin_body_.push_back(part[body_.surface ? p : static_cast<std::size_t>(skin_vertex_[p])]);
   }
 }
 
@@ -170,6 +178,7 @@ VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   grid.point_fields = {
       {"displacement", displacements(grid.points, skin_.vertices, placement_)},
       {"velocity", embedded ? snapshot.surface_velocities : gathered(snapshot.velocities, skin_vertex_)}};
+  if (!skin_body_.empty()) grid.cell_fields.push_back({"body", skin_body_});
   return grid;
 }
 

@@ -59,12 +59,12 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
-/// one was halved so far; and the force and torque of each obstacle on the body, over the macro step that ends there.
+/// one was halved so far; and what each of wrench_names() does or feels, over the macro step that ends there.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
-  History(const std::filesystem::path& file, std::vector<double> masses, bool retries, const ContactOptions& contact,
-          std::optional<std::uint64_t> kept = {});
+  History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
+          const std::vector<std::string>& wrenches, std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
   const GrowingFile& file() const { return file_; }
 
@@ -110,6 +110,7 @@ class RunFiles {
   Point placement_;
   TriangleSurface skin_;          // the embedded surface, else the boundary of level 0, at rest
   std::vector<int> skin_vertex_;  // of that boundary: its vertices' numbers in level 0
+  std::vector<int> skin_body_;    // of its triangles the body, where there are several
   std::vector<int> volume_levels_;
   std::vector<Volume> volumes_;
   std::vector<double> frame_times_;

@@ -8,6 +8,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/version.hpp>
 
@@ -291,6 +292,17 @@ Json levels_json(const std::vector<LevelReport>& levels) {
   return list;
 }
 
+Json bodies_json(const Body& body) {
+  Json list = Json::array();
+  std::vector<int> vertices(body.parts.size(), 0);
+  if (!body.levels.empty())
+    for (const int part : parts_of_vertices(body.levels.front(), body.parts))
+      ++vertices[static_cast<std::size_t>(part)];
+  for (std::size_t i = 0; i < body.parts.size(); ++i)
+    list.push_back({{"name", body.parts[i].name}, {"vertices", vertices[i]}, {"surface_points", body.parts[i].points}});
+  return list;
+}
+
 std::string summary_json(const Scene& scene, const Summary& s, const std::vector<std::string>& words) {
   const Point& gravity = scene.problem.gravity;
   const Json json = {{"name", scene.name},
@@ -314,6 +326,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"wait_share", s.wait_share ? Json(*s.wait_share) : Json()},
                      {"cycle", s.cycle},
                      {"choice", choice_json(s.choice)},
+                     {"bodies", bodies_json(scene.problem.body)},
                      {"levels", levels_json(s.levels)},
                      {"stages", s.stages},
                      {"counters", s.counters},

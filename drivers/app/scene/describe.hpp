@@ -121,17 +121,29 @@ inline constexpr Bounds below_half{.min = 0, .max = 0.5, .max_excluded = true}; 
 
 /// The key `body` fills the library's Body and the recipes of its meshes.
 struct BodyKeys {
-  Scene& scene;
+  std::vector<LevelRecipe>& levels;
+  double& jitter;
+  Body& body;
+  std::optional<SurfaceRecipe>& surface;
 };
 
 template <class V>
 void describe(V& v, BodyKeys& o) {
-  v.required("levels", o.scene.levels, List{}, "the body's meshes, finest first");
-  v("jitter", o.scene.jitter, Quantity{plain, below_half},
+  v.required("levels", o.levels, List{}, "the body's meshes, finest first");
+  v("jitter", o.jitter, Quantity{plain, below_half},
     "vertices of every level are moved at random by up to this part of their shortest edge; its faces stay");
-  describe(v, o.scene.problem.body);
-  v("surface", o.scene.surface, Group{}, "embedded in every level: it touches the obstacles, and frames show it");
+  describe(v, o.body);
+  v("surface", o.surface, Group{}, "embedded in every level: it touches the obstacles, and frames show it");
 }
+
+template <class V>
+void describe(V& v, BodyRecipe& o) {
+  BodyKeys keys{o.levels, o.jitter, o.body, o.surface};
+  describe(v, keys);
+}
+
+/// A map of names to what `body` may say.
+struct BodyMap {};
 
 template <class V>
 void describe(V& v, ToolRecipe& o) {
@@ -214,8 +226,10 @@ void describe(V& v, Scene& o) {
   v("name", o.name, Text{}, "title; left out: the file's name");
   v.required("duration", o.duration, Quantity{duration, positive}, "simulated time");
   describe(v, o.problem);
-  BodyKeys body{o};
-  v.required("body", body, Group{}, "the deformable body");
+  BodyKeys body{o.levels, o.jitter, o.problem.body, o.surface};
+  v.one_of();
+  v.alternative("body", body, Group{}, "the deformable body");
+  v.alternative("bodies", o.bodies, BodyMap{}, "several: a name for each, and below it the keys of body");
   v("integration", o.problem.integration, Group{}, "how it is stepped in time");
   ContactKeys contact{o};
   v("contact", contact, Group{}, "what it collides with");

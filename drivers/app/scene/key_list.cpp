@@ -152,6 +152,7 @@ class Catalogue {
   static const char* words_of(const Switch&) { return "true, false, or a map"; }
   static const char* words_of(const List&) { return "a list of maps"; }
   static const char* words_of(const Map&) { return "a map of maps"; }
+  static const char* words_of(const BodyMap&) { return "a map of maps, each as body"; }
   template <class T>
   static const char* words_of(const Case<T>&) {
     return "a map";
@@ -198,6 +199,10 @@ class Catalogue {
   template <class T>
   Json inside(std::map<std::string, T>&, const Map&, const std::string& path) {
     return {{"type", "object"}, {"additionalProperties", object<T>(path + ".<name>")}};
+  }
+  template <class T>
+  static Json inside(T&, const BodyMap&, const std::string&) {
+    return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", {{"$ref", "#/properties/body"}}}};
   }
   template <class Target, class T>
   Json inside(Target&, const Case<T>&, const std::string& path) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/valid_utf8.hpp>
+#include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/solver/materials.hpp>
@@ -189,13 +190,15 @@ double generated_bytes(const Scene& scene) {
 }
 
 void check_scene(const Scene& scene, const Tree& tree) {
-  check_body(scene, tree);
-  check_memory(scene, tree);
-  with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });
+  if (scene.bodies.empty()) {  // else each is checked
+    check_body(scene, tree);
+    check_memory(scene, tree);
+    with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });
+    if (!scene.obstacles.empty() && !scene.surface)
+      throw InputError("contact.obstacles: the body has no surface to touch them; give body.surface",
+                       place_of(tree, "contact.obstacles"));
+  }
   check_duration(scene, tree);
-  if (!scene.obstacles.empty() && !scene.surface)
-    throw InputError("contact.obstacles: the body has no surface to touch them; give body.surface",
-                     place_of(tree, "contact.obstacles"));
   check_output(scene, tree);
 }
 
@@ -231,10 +234,19 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
   return load_scene(tree);
 }
 
-Scene load_scene(const Tree& tree) {
+namespace {
+
+Scene load_body(const Tree& tree) {
   Scene scene = read_scene(tree);
   check_scene(scene, tree);
   build_meshes(scene, tree);
+  return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const Tree& tree) {
+  Scene scene = tree.find("bodies") != nullptr ? load_bodies(tree) : load_body(tree);
   with_places(tree, [&] { validate(scene.problem); });
   for (const std::string& doubt : doubts(scene.problem)) scene.warnings.push_back(scene.file + ": " + doubt);
   check_probes(scene, tree);

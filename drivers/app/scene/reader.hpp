@@ -127,6 +127,11 @@ class Reader {
     check_map(value);
     for (const Tree& item : value.tree.items) fill({item, value.path + "." + item.key}, Group{}, member[item.key]);
   }
+  template <class T>
+  static void fill(const Value& value, const BodyMap&, std::map<std::string, T>& member) {
+    fill(value, Map{}, member);
+    if (member.empty()) value.mismatch("at least one body");
+  }
   template <class T, class Target>
   static void fill(const Value& value, const Case<T>&, Target& target) {
     T made{};

@@ -117,6 +117,14 @@ struct VolumeLevels {
   std::vector<int> levels;  ///< else these, 0: the finest
 };
 
+/// One of `bodies`.
+struct BodyRecipe {
+  std::vector<LevelRecipe> levels;
+  double jitter = 0;
+  Body body;
+  std::optional<SurfaceRecipe> surface;
+};
+
 struct OutputOptions {
   std::optional<Interval> every;  ///< between frames; none: a sixtieth of the duration
   VolumeLevels volume;
@@ -135,6 +143,7 @@ struct Scene {
   std::vector<LevelRecipe> levels;
   double jitter = 0;  ///< of every level: see jittered()
   std::optional<SurfaceRecipe> surface;
+  std::map<std::string, BodyRecipe> bodies;  ///< instead of the four above; what they make is one body of several parts
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
   StudyOptions study;  ///< but for its duration, which is the scene's

@@ -11,6 +11,7 @@
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
+#include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
@@ -67,7 +68,7 @@ class HierarchyBuilder {
     });
     for (std::size_t i = 0; i < levels_; ++i)
       elasticity_.push_back(make_elasticity<B>(problem_.body.material.model, constants_[i].element));
-    if (!problem_.contact.obstacles.empty()) phase("preparing the obstacles", [&] { add_contact(); });
+    if (has_contact(problem_)) phase("preparing contact", [&] { add_contact(); });
     for (std::size_t i = 0; i < levels_; ++i)
       phase("finding the critical step of level " + std::to_string(i), [&] { add_dynamics(i); });
     phase("planning the steps", [&] { plan(); });
@@ -92,7 +93,7 @@ class HierarchyBuilder {
   std::vector<LevelConstants> constants_;
   std::vector<std::vector<AssembledLoad>> loads_;        // per level
   std::vector<std::vector<FollowerLoad<B>>> followers_;  // likewise
-  std::vector<std::unique_ptr<TetLocator>> locators_;
+  std::vector<std::unique_ptr<BodyLocator>> locators_;
   std::vector<Embedding> down_, up_;  // [i]: level i's vertices in level i-1, and the other way; [0] empty
   std::vector<int> massless_ = {0};   // [i]: level i's vertices that inherit no mass
   std::vector<std::shared_ptr<const Elasticity<B>>> elasticity_;  // per level
@@ -120,7 +121,7 @@ class HierarchyBuilder {
       }
       for (Point& p : mesh.vertices) p += shift;
     }
-    for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<TetLocator>(mesh));
+    for (const TetMesh& mesh : built_.meshes) locators_.push_back(std::make_unique<BodyLocator>(mesh, body.parts));
     if (body.surface) surface_ = *body.surface;
     for (Point& p : surface_.vertices) p += shift;
   }
@@ -186,14 +187,14 @@ class HierarchyBuilder {
       level.drift_limit = to_device<Scalars<B>>("drift_limit", limit);
     }
     // the finest level carries the surface for whoever looks at it; the others only where something acts on it
-    if (problem_.body.surface && (i == 0 || !problem_.contact.obstacles.empty() || problem_.surface_forces))
+    if (problem_.body.surface && (i == 0 || has_contact(problem_) || problem_.surface_forces))
       level.surface = build_surface<B>(surface_, embed_surface(i));
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock, static_cast<int>(i));
   }
 
   Embedding embed_surface(std::size_t i) const {
     constexpr double far = 10;  // edges; a coarse mesh may well lie a little inside its skin
-    Embedding embedding = embed(surface_.vertices, *locators_[i], Outside::clamp);
+    Embedding embedding = locators_[i]->embed(surface_.vertices, parts_of_points(problem_.body.parts), Outside::clamp);
     if (embedding.largest_distance_over_edge > far)
       throw InputError("body.surface: " + std::to_string(embedding.misses) + " of its " +
                        std::to_string(surface_.vertices.size()) + " points lie outside level " + std::to_string(i) +
@@ -206,8 +207,12 @@ class HierarchyBuilder {
     const Outside rule = outside_rule(problem_.integration);
     down_.resize(1), up_.resize(1);
     for (std::size_t i = 1; i < meshes_; ++i) {
-      down_.push_back(embed(built_.meshes[i].vertices, *locators_[i - 1], rule));
-      up_.push_back(embed(built_.meshes[i - 1].vertices, *locators_[i], rule));
+      const auto in = [&](std::size_t points, std::size_t mesh) {
+        const TetMesh& of = built_.meshes[points];
+        return locators_[mesh]->embed(of.vertices, parts_of_vertices(of, problem_.body.parts), rule);
+      };
+      down_.push_back(in(i, i - 1));
+      up_.push_back(in(i - 1, i));
       expect_overlap(i);
       expect_same_body(i);
       std::vector<double>& mass = constants_[i].mass;
@@ -220,8 +225,8 @@ class HierarchyBuilder {
     const auto &coarse = built_.meshes[i].vertices, &fine = built_.meshes[i - 1].vertices;
     if (down_[i].misses < static_cast<int>(coarse.size()) || up_[i].misses < static_cast<int>(fine.size())) return;
     double distance = std::numeric_limits<double>::infinity();
-    for (const Point& p : coarse) distance = std::min(distance, locators_[i - 1]->locate(p).distance);
-    for (const Point& p : fine) distance = std::min(distance, locators_[i]->locate(p).distance);
+    for (const Point& p : coarse) distance = std::min(distance, locators_[i - 1]->distance(p));
+    for (const Point& p : fine) distance = std::min(distance, locators_[i]->distance(p));
     throw InputError(text("body.levels: levels ", i - 1, " and ", i, " do not overlap, they are ", number(distance, 4),
                           " m apart; expected meshes of one body"));
   }
@@ -254,9 +259,16 @@ class HierarchyBuilder {
     for (std::size_t i = 0; i < levels_; ++i)
       Integrators::visit(integrator_of(i),
                          [&](auto integrator) { stiff = stiff && decltype(integrator)::is_explicit; });
-    contact_ = std::make_shared<const Contact<B>>(p.contact, p.body.material,
-                                                  static_cast<int>(surface_.vertices.size()), surface_area(surface_),
-                                                  built_.reports.front().mean_edge, body_size(), stiff);
+    TouchingSurface touching{.surface = surface_,
+                             .parts = {},
+                             .body = parts_of_points(p.body.parts),
+                             .edge = built_.reports.front().mean_edge,
+                             .size = body_size()};
+    for (std::size_t b = 0; b < p.body.parts.size(); ++b)
+      touching.parts.push_back({&p.body.parts[b].material, locators_[0]->mean_edge(b)});
+    if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
+    if (has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
+    contact_ = std::make_shared<const Contact<B>>(p.contact, touching, has_pairs(p), stiff);
   }
 
   double body_size() const {

@@ -53,9 +53,17 @@ std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh
     const double part = from.dot(along) / along.squaredNorm();
     v += part * o.twist->angular_velocity * along.normalized().cross(from);
   }
-  for (std::size_t i = 0; i < o.parts.size(); ++i)
-    for (int a : select_vertices(mesh, o.parts[i].where, {"body.initial.parts." + std::to_string(i), 0}))
-      velocity[static_cast<std::size_t>(a)] += o.parts[i].velocity;
+  for (std::size_t i = 0; i < o.parts.size(); ++i) {
+    const std::vector<int> part =
+        select_vertices(mesh, o.parts[i].where, {"body.initial.parts." + std::to_string(i), 0});
+    std::vector<Point> points;
+    for (const int a : part) points.push_back(mesh.vertices[static_cast<std::size_t>(a)]);
+    const Box box = bounding_box(points);
+    for (const int a : part) {
+      const Point arm = mesh.vertices[static_cast<std::size_t>(a)] - 0.5 * (box.min + box.max);
+      velocity[static_cast<std::size_t>(a)] += o.parts[i].velocity + o.parts[i].angular_velocity.cross(arm);
+    }
+  }
   return velocity;
 }
 

@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
@@ -173,8 +174,28 @@ void check_regions(const Body& body) {
       throw InputError(unknown_name("region", name, all));
 }
 
+void check_pairs(const Problem& problem) {
+  const Body& body = problem.body;
+  const std::string key = problem.contact.self ? "contact.self" : "contact.bodies";
+  if (!body.surface)
+    throw InputError(key + ": there is no surface to touch with; expected body.surface, or " + key + ": false");
+  for (const BodyPart& part : body.parts)
+    if (part.points == 0)
+      throw InputError("bodies." + part.name +
+                       ": it has no surface, which touching other bodies needs; expected bodies." + part.name +
+                       ".surface, or contact.bodies: false");
+  check_closed("body.surface", *body.surface);
+  for (const std::string& name : problem.integration.integrator)
+    if (bool implicit = false;
+        Integrators::visit(name, [&](auto it) { implicit = !decltype(it)::is_explicit; }), implicit)
+      throw InputError("integration.integrator is " + name + ", but surfaces touch each other (" + key +
+                       "), which explicit steps and cycle him alone can have; expected an explicit integrator, or " +
+                       key + ": false");
+}
+
 void check_contact(const Problem& problem) {
   const auto& obstacles = problem.contact.obstacles;
+  if (has_pairs(problem)) check_pairs(problem);
   if (!obstacles.empty() && !problem.body.surface)
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
   if (!obstacles.empty() && problem.body.surface->triangles.empty())
@@ -194,6 +215,10 @@ void check_contact(const Problem& problem) {
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
       check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
+  for (const BodyPart& part : problem.body.parts)
+    if (const auto other = named.find(part.name); other != named.end())
+      throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" + part.name +
+                       "', as is that of a body; expected names that differ");
 }
 
 }  // namespace

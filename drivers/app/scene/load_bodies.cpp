@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <numeric>
+#include <plica/drivers/app/scene/load_bodies.hpp>
+#include <plica/drivers/solver/set_up/join_bodies.hpp>
+
+namespace plica::app {
+
+namespace {
+
+/// The scene with one of its bodies as `body`, which has `levels` levels: the coarsest is repeated.
+Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
+  Tree one = tree;
+  std::erase_if(one.items, [](const Tree& item) { return item.key == "bodies" || item.key == "output"; });
+  one.items.push_back(body);
+  one.items.back().key = "body";
+  for (Tree& item : one.items.back().items)
+    if (item.key == "levels")
+      while (!item.items.empty() && item.items.size() < levels) item.items.push_back(item.items.back());
+  return one;
+}
+
+/// The sentence of a body by itself, with the path that the scene has.
+std::string renamed(std::string message, const std::string& name) {
+  const std::string from = "body.", to = "bodies." + name + ".";
+  for (std::size_t at = 0; (at = message.find(from, at)) != std::string::npos; at += to.size())
+    if (at == 0 || message[at - 1] == ' ')  // no part of a file's name
+      message.replace(at, from.size(), to);
+  return message;
+}
+
+Scene load_one(const Tree& tree, const std::string& name) {
+  try {
+    Scene scene = read_scene(tree);
+    check_scene(scene, tree);
+    build_meshes(scene, tree);
+    return scene;
+  } catch (const InputError& error) {
+    throw InputError(renamed(error.what(), name));
+  }
+}
+
+std::vector<int> joined_numbers(std::vector<int> all, std::vector<int> more, std::size_t before, std::size_t count) {
+  if (more.empty()) more.resize(count), std::iota(more.begin(), more.end(), 0);
+  for (const int number : more) all.push_back(number + static_cast<int>(before));
+  return all;
+}
+
+/// Of one level: bodies one after the other, each in the order of its input.
+void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, std::size_t vertices, std::size_t tets) {
+  Reordering& input = all.input;
+  input.vertices = joined_numbers(std::move(input.vertices), one.input.vertices, vertices, mesh.vertices.size());
+  input.tets = joined_numbers(std::move(input.tets), one.input.tets, tets, mesh.tets.size());
+}
+
+}  // namespace
+
+Scene load_bodies(const Tree& tree) {
+  const Scene recipe = read_scene(tree);
+  std::size_t levels = 0;
+  for (const auto& [name, body] : recipe.bodies) levels = std::max(levels, body.levels.size());
+  Scene all = recipe;
+  all.numbering.assign(levels, {});
+  std::vector<std::size_t> vertices(levels, 0), tets(levels, 0);
+  std::vector<std::pair<std::string, Body>> bodies;
+  for (const Tree& item : tree.find("bodies")->items) {
+    Scene one = load_one(scene_of_one(tree, item, levels), item.key);
+    if (all.levels.size() < one.levels.size()) all.levels = one.levels;
+    if (!all.surface) all.surface = one.surface;
+    for (std::string& warning : one.warnings) all.warnings.push_back(renamed(warning, item.key));
+    for (std::size_t i = 0; i < std::min(levels, one.numbering.size()); ++i) {
+      const TetMesh& mesh = one.problem.body.levels[i];
+      add_numbering(all.numbering[i], one.numbering[i], mesh, vertices[i], tets[i]);
+      vertices[i] += mesh.vertices.size(), tets[i] += mesh.tets.size();
+    }
+    all.problem.contact = one.problem.contact;  // with the surfaces of its obstacles
+    bodies.emplace_back(item.key, std::move(one.problem.body));
+  }
+  try {
+    all.problem.body = join_bodies(bodies);
+  } catch (const InputError& error) {
+    throw located(error, tree);
+  }
+  for (Numbering& one : all.numbering) {
+    const Reordering back = inverse(one.input);
+    one.vertex_ids = back.vertices, one.tet_ids = back.tets;
+  }
+  check_scene(all, tree);
+  return all;
+}
+
+}  // namespace plica::app

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <plica/drivers/solver/pair_search.hpp>
+#include <plica/kernels/contact/find_pairs.hpp>
+
+namespace plica {
+
+template <class B>
+PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B>& points)
+    : blocks_(points.pairs.triangles), near_(zeros<Doubles<B>>("plica::pairs.near", 1)) {
+  const auto n = static_cast<std::size_t>(points.points), triangles = static_cast<std::size_t>(points.pairs.triangles);
+  const std::size_t buckets = std::bit_ceil(2 * triangles);
+  grid_.limits = limits;
+  grid_.buckets = static_cast<int>(buckets);
+  grid_.x = zeros<Vectors<B>>("plica::pairs.x", n);
+  grid_.built = to_device<Vectors<B>>(
+      "pairs.built", std::vector<std::array<Real, 3>>(n, {Real(1e15), Real(1e15), Real(1e15)}));  // far from anything
+  grid_.moved = zeros<Doubles<B>>("plica::pairs.moved", 1);
+  grid_.stale = zeros<Doubles<B>>("plica::pairs.stale", 1);
+  grid_.radius = zeros<Doubles<B>>("plica::pairs.radius", 1);
+  grid_.width = zeros<Scalars<B>>("plica::pairs.width", 1);
+  grid_.first = zeros<Indices<B>>("plica::pairs.first", buckets);
+  grid_.filled = zeros<Indices<B>>("plica::pairs.filled", buckets);
+  grid_.item = zeros<Indices<B>>("plica::pairs.item", triangles);
+  grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
+  count_ = zeros<Indices<B>>("plica::pairs.count", triangles);
+}
+
+template <class B>
+void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
+                         const TouchingPoints<B>& points, const BlockSums<B>& blocks) const {
+  const FindPairs<B> find{surface, state, grid_, points, std::numeric_limits<Real>::max()};
+  reduce<B, 1, PlacePoints<B>, Sums<1, 1>>(exec, "plica::pairs_moved", points.points,
+                                           PlacePoints<B>{surface, state.u, grid_}, blocks, grid_.moved);
+  update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_});
+  make_grid(exec, points);
+  where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points,
+                    MarkClose<B>{find, {points.pairs.corner, grid_}});
+  reduce<B, 1>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find}, blocks, near_);
+  list_partners(exec, points.pairs);
+}
+
+/// Where it is stale.
+template <class B>
+void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points) const {
+  const TriangleOfGrid<B> of{points.pairs.corner, grid_};
+  const int triangles = points.pairs.triangles, buckets = grid_.buckets;
+  const Doubles<B>& stale = grid_.stale;
+  reduce<B, 1, MeasureTriangles<B>, Sums<1, 1>>(exec, "plica::pairs_measure", triangles, MeasureTriangles<B>{of},
+                                                blocks_, grid_.radius);
+  where_touching<B>(exec, stale, "plica::pairs_width", 1, SetWidth<B>{grid_});
+  where_touching<B>(exec, stale, "plica::pairs_keep", points.points, KeepPlaces<B>{grid_});
+  where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
+  where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{of});
+  Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, buckets),
+                        SumBefore<B>{grid_.filled, grid_.first, buckets, stale});
+  where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
+  where_touching<B>(exec, stale, "plica::pairs_fill", triangles, FillCells<B>{of});
+}
+
+template <class B>
+void PairSearch<B>::list_partners(const Exec& exec, const PairedPoints<B>& pairs) const {
+  const int points = static_cast<int>(pairs.partner.extent(0)), triangles = pairs.triangles;
+  where_touching<B>(exec, near_, "plica::pairs_clear", triangles, ClearInts<B>{count_});
+  where_touching<B>(exec, near_, "plica::pairs_partners", points, CountPartners<B>{pairs, count_});
+  Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, triangles + 1),
+                        SumBefore<B>{count_, pairs.from, triangles, near_});
+  where_touching<B>(exec, near_, "plica::pairs_clear", triangles, ClearInts<B>{count_});
+  where_touching<B>(exec, near_, "plica::pairs_list", points, ListPartners<B>{pairs, count_});
+  where_touching<B>(exec, near_, "plica::pairs_sort", triangles, SortPartners<B>{pairs});
+}
+
+template <class B>
+std::size_t PairSearch<B>::bytes() const {
+  return (grid_.x.span() + grid_.built.span()) * sizeof(Real) +
+         (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + count_.span()) *
+             sizeof(int);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec) template class PairSearch<Backend<Real, Exec>>;
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/contact/nearest_on_triangle.hpp>
+#include <plica/kernels/contact/pair_grid.hpp>
+
+// The narrow phase of pairs: each point's nearest triangle, and on which side of it the point is.
+namespace plica {
+
+/// Geometry of the surface as it is in a grid's `x`.
+template <class B>
+struct FindPairs {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  State<B> state;
+  PairGrid<B> grid;
+  TouchingPoints<B> points;
+  Real nowhere;  ///< the depth of what is near nothing, negative: further than any reach [m]
+
+  KOKKOS_INLINE_FUNCTION int corner(int t, int c) const { return points.pairs.corner(3 * t + c); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> x(int p) const { return vector_at<B>(grid.x, p); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> rest(int p) const { return vector_at<B>(surface.rest, p); }
+  KOKKOS_INLINE_FUNCTION bool one_body(int p, int t) const {
+    const PointLaws<B>& of = points.law;
+    return of.bodies == 1 || of.body(p) == of.body(corner(t, 0));
+  }
+  /// On one body, at rest, they must be far apart, or face each other across a gap: not neighbours, nor the sides of something thin.
+  KOKKOS_INLINE_FUNCTION bool may_touch(int p, int t) const {
+    if (!one_body(p, t)) return grid.limits.between;
+    if (!grid.limits.self) return false;
+    const Vec3<Real> at = rest(p), a = rest(corner(t, 0)), b = rest(corner(t, 1)), c = rest(corner(t, 2));
+    const Vec3<Real> w = nearest_on_triangle(at, a, b, c), d = at - (w[0] * a + w[1] * b + w[2] * c);
+    const Vec3<Real> n = cross(b - a, c - a);
+    const Real square = dot(d, d), out = dot(d, n);
+    return square > grid.limits.apart * grid.limits.apart || (out > 0 && 4 * out * out > square * dot(n, n));
+  }
+  /// Not normalised.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> face(int t) const {
+    const Vec3<Real> a = x(corner(t, 0));
+    return cross(x(corner(t, 1)) - a, x(corner(t, 2)) - a);
+  }
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> unit(const Vec3<Real>& d) {
+    const Real length = Kokkos::sqrt(dot(d, d));
+    return length > 0 ? (1 / length) * d : Vec3<Real>{};
+  }
+  KOKKOS_INLINE_FUNCTION Real angle_at(int t, int q) const {
+    int c = 0;
+    while (c < 2 && corner(t, c) != q) ++c;
+    const Vec3<Real> at = x(q), d = unit(x(corner(t, (c + 1) % 3)) - at), e = unit(x(corner(t, (c + 2) % 3)) - at);
+    return Kokkos::acos(Kokkos::max(Real(-1), Kokkos::min(Real(1), dot(d, e))));
+  }
+  KOKKOS_INLINE_FUNCTION bool has(int t, int q) const {
+    return corner(t, 0) == q || corner(t, 1) == q || corner(t, 2) == q;
+  }
+  /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see SignedDistance.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> outward(int t, const Vec3<Real>& w) const {
+    int on[3], n = 0;
+    for (int c = 0; c < 3; ++c)
+      if (w[c] > 0) on[n++] = corner(t, c);
+    if (n == 3) return unit(face(t));
+    Vec3<Real> sum;
+    for (int s = points.pairs.first(on[0]); s < points.pairs.first(on[0] + 1); ++s) {
+      const int other = points.pairs.triangle(s);
+      if (n == 1)
+        sum += angle_at(other, on[0]) * unit(face(other));
+      else if (has(other, on[1]))
+        sum += unit(face(other));
+    }
+    return unit(sum);
+  }
+};
+
+/// Which points something may come near to while the grid stays.
+template <class B>
+struct MarkClose {
+  using Real = typename B::Real;
+  FindPairs<B> find;
+  TriangleOfGrid<B> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const Vec3<Real> at = find.x(p);
+    const Real width = of.grid.width(0);
+    bool close = false;
+    of.grid.around(at, [&](int t) {
+      if (close) return;
+      const Vec3<Real> d = of.centroid(t) - at;
+      close = dot(d, d) < width * width && find.may_touch(p, t);
+    });
+    of.grid.close(p) = close ? 1 : 0;
+  }
+};
+
+/// Each point's record of its nearest triangle, the one with the lowest number where several are; counts those within reach.
+template <class B>
+struct NearestTriangles {
+  using Real = typename B::Real;
+  FindPairs<B> find;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
+    const TouchingPoints<B>& points = find.points;
+    const int r = points.record(points.obstacles, p);
+    points.depth(r) = -find.nowhere;
+    points.pairs.partner(p) = -1;
+    if (find.grid.close(p) == 0) return {};
+    const Real reach = find.grid.limits.reach;
+    Real least = reach * reach;
+    int nearest = -1;
+    Vec3<Real> weight;
+    const Vec3<Real> at = find.x(p);
+    find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
+      const Vec3<Real> a = find.x(find.corner(t, 0)), b = find.x(find.corner(t, 1)), c = find.x(find.corner(t, 2));
+      const Vec3<Real> w = nearest_on_triangle(at, a, b, c), d = at - (w[0] * a + w[1] * b + w[2] * c);
+      const Real square = dot(d, d);
+      if (!(square < least || (square == least && t < nearest)) || !find.may_touch(p, t)) return;
+      least = square, nearest = t, weight = w;
+    });
+    if (nearest < 0 || !record(p, r, nearest, weight)) return {};
+    return {{1}};
+  }
+
+  KOKKOS_INLINE_FUNCTION bool record(int p, int r, int t, const Vec3<Real>& w) const {
+    constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
+    const TouchingPoints<B>& points = find.points;
+    Vec3<Real> d = find.x(p), speed = value_at<B>(find.surface.embedding, find.state.v, p);
+    for (int c = 0; c < 3; ++c) {
+      const int q = find.corner(t, c);
+      d -= w[c] * find.x(q);
+      speed -= w[c] * value_at<B>(find.surface.embedding, find.state.v, q);
+    }
+    const Vec3<Real> out = find.outward(t, w);
+    const bool inside = dot(d, out)<0, on_face = w[0]> 0 && w[1] > 0 && w[2] > 0;
+    const Real distance = Kokkos::sqrt(dot(d, d)), limit = find.grid.limits.reach;
+    // The far side of a thin part of its own body is no partner
+    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
+    points.depth(r) = inside ? distance : -distance;
+    set_vector<B>(points.normal, r, on_face || distance < tiny * limit ? out : ((inside ? -1 : 1) / distance) * d);
+    set_vector<B>(points.velocity, r, speed);
+    set_vector<B>(points.pairs.weight, p, w);
+    points.pairs.partner(p) = t;
+    return true;
+  }
+};
+
+/// How many points are near each triangle.
+template <class B>
+struct CountPartners {
+  PairedPoints<B> pairs;
+  Indices<B> count;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    if (pairs.partner(p) >= 0) Kokkos::atomic_inc(&count(pairs.partner(p)));
+  }
+};
+
+/// Lists them; `count` starts from 0.
+template <class B>
+struct ListPartners {
+  PairedPoints<B> pairs;
+  Indices<B> count;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const int t = pairs.partner(p);
+    if (t >= 0) pairs.point(pairs.from(t) + Kokkos::atomic_fetch_add(&count(t), 1)) = p;
+  }
+};
+
+/// Sorts each triangle's list, which is short.
+template <class B>
+struct SortPartners {
+  PairedPoints<B> pairs;
+  KOKKOS_INLINE_FUNCTION void operator()(int t) const {
+    const int begin = pairs.from(t), end = pairs.from(t + 1);
+    for (int i = begin + 1; i < end; ++i) {
+      const int p = pairs.point(i);
+      int j = i;
+      for (; j > begin && pairs.point(j - 1) > p; --j) pairs.point(j) = pairs.point(j - 1);
+      pairs.point(j) = p;
+    }
+  }
+};
+
+/// Potential energy of the pairs' penalties, as a field of the points [J].
+template <class B>
+struct PairEnergy {
+  TouchingPoints<B> points;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
+    const int row = points.obstacles;
+    const auto depth = points.depth(points.record(row, p));
+    if (!(depth > 0)) return {};
+    return {{0.5 * static_cast<double>(points.law(row, p).stiffness * depth * depth)}};
+  }
+};
+
+}  // namespace plica

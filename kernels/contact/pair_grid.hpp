@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/contact/contact_kernels.hpp>
+
+// The broad phase of pairs: triangles in the cells of a uniform grid, by their centroids. A cell is as wide as what is to be found
+// around a point, so that 27 of them hold all of it, and cells share a table by a hash. The grid stays while nothing has moved by more
+// than half of `margin`; the device decides that, and leaves out the work.
+namespace plica {
+
+/// What the search goes by.
+template <class Real>
+struct PairLimits {
+  Real reach = 0;        ///< a triangle further than that outside is not looked for [m]
+  Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
+  Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
+  bool between = false;  ///< bodies
+  bool self = false;     ///< on one body
+};
+
+template <class B>
+struct PairGrid {
+  using Real = typename B::Real;
+  PairLimits<Real> limits;
+  int buckets = 0;    ///< a power of two
+  Vectors<B> x;       ///< [points][3] now [m]
+  Vectors<B> built;   ///< [points][3] when the grid was made [m]
+  Doubles<B> moved;   ///< [1] largest squared distance between these [m^2]
+  Doubles<B> stale;   ///< [1] above 0: the grid is being made
+  Doubles<B> radius;  ///< [1] largest squared distance of a corner from its centroid, then [m^2]
+  Scalars<B> width;   ///< [1] of a cell [m]
+  Indices<B> first;   ///< [buckets] into item
+  Indices<B> filled;  ///< [buckets] items of each
+  Indices<B> item;    ///< [triangles]
+  Indices<B> close;   ///< [points] 1: something may come within reach before the grid is made anew
+
+  KOKKOS_INLINE_FUNCTION int cell(Real coordinate) const {
+    constexpr Real most = Real(1 << 30);
+    return static_cast<int>(Kokkos::floor(Kokkos::max(-most, Kokkos::min(most, coordinate / width(0)))));
+  }
+  KOKKOS_INLINE_FUNCTION int bucket(int i, int j, int k) const {
+    const unsigned mixed = static_cast<unsigned>(i) * 73856093u ^ static_cast<unsigned>(j) * 19349663u ^
+                           static_cast<unsigned>(k) * 83492791u;
+    return static_cast<int>(mixed & static_cast<unsigned>(buckets - 1));
+  }
+  KOKKOS_INLINE_FUNCTION int bucket_of(const Vec3<Real>& at) const {
+    return bucket(cell(at[0]), cell(at[1]), cell(at[2]));
+  }
+  /// look(triangle) for all that may be near a point; some come twice.
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void around(const Vec3<Real>& at, const Look& look) const {
+    const int c[3] = {cell(at[0]), cell(at[1]), cell(at[2])};
+    for (int n = 0; n < 27; ++n) {
+      const int b = bucket(c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1), begin = first(b);
+      for (int s = begin; s < begin + filled(b); ++s) look(item(s));
+    }
+  }
+};
+
+/// x of a state; its squared distance from where the grid was made.
+template <class B>
+struct PlacePoints {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> u;
+  PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int p) const {
+    const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+    set_vector<B>(grid.x, p, x);
+    const Vec3<Real> d = x - vector_at<B>(grid.built, p);
+    return {{static_cast<double>(dot(d, d))}};
+  }
+};
+
+template <class B>
+struct JudgeGrid {
+  PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+    const double half = 0.5 * static_cast<double>(grid.limits.margin);
+    grid.stale(0) = grid.moved(0) <= half * half ? 0 : 1;
+  }
+};
+
+/// What a triangle is to a grid that is made.
+template <class B>
+struct TriangleOfGrid {
+  using Real = typename B::Real;
+  Indices<B> corner;
+  PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION Vec3<Real> x(int t, int c) const { return vector_at<B>(grid.x, corner(3 * t + c)); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> centroid(int t) const { return Real(1) / 3 * (x(t, 0) + x(t, 1) + x(t, 2)); }
+};
+
+template <class B>
+struct MeasureTriangles {
+  using Real = typename B::Real;
+  TriangleOfGrid<B> of;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int t) const {
+    Sums<1, 1> largest;
+    if (!(of.grid.stale(0) > 0)) return largest;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3<Real> d = of.x(t, c) - of.centroid(t);
+      largest += {{static_cast<double>(dot(d, d))}};
+    }
+    return largest;
+  }
+};
+
+template <class B>
+struct SetWidth {
+  using Real = typename B::Real;
+  PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+    grid.width(0) = static_cast<Real>(Kokkos::sqrt(grid.radius(0))) + grid.limits.reach + grid.limits.margin;
+  }
+};
+
+template <class B>
+struct ClearInts {
+  Indices<B> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const { of(i) = 0; }
+};
+
+template <class B>
+struct KeepPlaces {
+  PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const { set_vector<B>(grid.built, p, vector_at<B>(grid.x, p)); }
+};
+
+template <class B>
+struct CountCells {
+  TriangleOfGrid<B> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int t) const {
+    Kokkos::atomic_inc(&of.grid.filled(of.grid.bucket_of(of.centroid(t))));
+  }
+};
+
+/// first(i) = the sum of count(j) for j < i, i up to one more than there are where `last`; left out where `on` is 0.
+template <class B>
+struct SumBefore {
+  Indices<B> count, first;
+  int n;
+  Doubles<B> on;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int& sum, bool final) const {
+    if (!(on(0) > 0)) return;
+    const int own = i < n ? count(i) : 0;
+    if (final) first(i) = sum;
+    sum += own;
+  }
+};
+
+/// Puts triangles into their cells, whose counts start from 0 again. In any order: who looks takes the nearest.
+template <class B>
+struct FillCells {
+  TriangleOfGrid<B> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int t) const {
+    const int b = of.grid.bucket_of(of.centroid(t));
+    of.grid.item(of.grid.first(b) + Kokkos::atomic_fetch_add(&of.grid.filled(b), 1)) = t;
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/drivers/app/output/json_parts.hpp>
+#include <plica/drivers/app/scene/load_scene.hpp>
+
+#include "support/refusal.hpp"
+
+// Scenes with several bodies.
+namespace {
+
+using namespace plica;
+using namespace plica::app;
+using test::refusal;
+
+const std::string two = R"(
+duration: 0.1
+bodies:
+  left:
+    levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}, {box: {size: [1, 1, 1], cells: [1, 1, 1]}}]
+    material: {young_modulus: 30 kPa}
+    fixed: [{plane: {normal: [0, 0, 1]}}]
+    surface: {boundary: true}
+  right:
+    levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]
+    initial: {position: [2.5, 0.5, 0.5], velocity: [-1, 0, 0]}
+    surface: {sphere: {radius: 0.4, subdivisions: 1}}
+contact: {friction: 0.2}
+)";
+
+Scene scene_of(const std::string& text) { return load_scene(parse_tree(text, "two.yaml")); }
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = two;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(BodiesScene, IsOneBodyOfSeveralParts) {
+  const Scene scene = scene_of(two);
+  const Body& body = scene.problem.body;
+  ASSERT_EQ(body.parts.size(), 2u);
+  EXPECT_EQ(body.parts[0].name, "left");
+  EXPECT_EQ(body.parts[0].points, 26);
+  EXPECT_EQ(body.parts[1].points, 42);
+  ASSERT_EQ(body.levels.size(), 2u);
+  EXPECT_EQ(body.levels[0].vertices.size(), 54u);
+  EXPECT_EQ(body.levels[1].vertices.size(), 8u + 27u);  // right repeats its one mesh
+  EXPECT_EQ(body.regions.at("left").young_modulus, 30e3);
+  EXPECT_EQ(body.levels[0].vertex_sets.at("left/fixed.0").size(), 9u);
+  EXPECT_TRUE(body.levels[0].vertices[53].isApprox(Point(3, 1, 1)));
+  EXPECT_EQ(scene.problem.contact.friction, 0.2);
+  EXPECT_EQ(scene.levels.size(), 2u);
+}
+
+TEST(BodiesScene, SaysWhatIsWrongAndWhere) {
+  const auto said = [](const std::string& text) { return refusal([&] { scene_of(text); }); };
+  EXPECT_NE(said(with("young_modulus", "young_modulos")).find("two.yaml:6: bodies.left.material: unknown key"),
+            std::string::npos)
+      << said(with("young_modulus", "young_modulos"));
+  EXPECT_NE(said(with("normal: [0, 0, 1]", "point: [0, 0, -5]")).find("bodies.left.fixed.0"), std::string::npos);
+  EXPECT_NE(said(with("{sphere: {radius: 0.4, subdivisions: 1}}", "{file: none.obj}")).find("two.yaml:12:"),
+            std::string::npos);
+  EXPECT_NE(said(with("    surface: {sphere", "    #surface: {sphere")).find("bodies.right: it has no surface"),
+            std::string::npos);
+  EXPECT_NE(said(two + "body: {levels: [{box: {size: [1, 1, 1], cells: [1, 1, 1]}}]}").find("only one of body, bodies"),
+            std::string::npos);
+  EXPECT_NE(said("duration: 1\nbodies: {}").find("at least one body"), std::string::npos);
+}
+
+}  // namespace
