@@ -188,8 +188,9 @@ TEST(Bodies, CollideWithTheMomentaTheyHad) {
       depth = std::max(depth, deepest(p, s));
       const Momenta now = momenta(s, mass);
       EXPECT_LE((now.linear - before.linear).norm(), round_off<double>(2000, size)) << integrator;
-      if (integrator != "rk4")
+      if (integrator != "rk4") {
         EXPECT_LE((now.angular - before.angular).norm(), round_off<double>(2000, 0.1 * size)) << integrator;
+      }
     }
     EXPECT_LE(most, 1.02 * energy) << integrator;
     EXPECT_LE(depth, 0.05 * mean_edge_length(p.body.levels[0])) << integrator;
