@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/summary.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
@@ -27,15 +32,20 @@ namespace {
 template <class B>
 class SimulationOf final : public AnySimulation {
  public:
-  SimulationOf(std::shared_ptr<const app::Scene> scene, const Problem& problem)
-      : scene_(std::move(scene)), simulation_(problem), surface_points_(simulation_.surface_positions().size()) {}
+  SimulationOf(std::shared_ptr<const app::Scene> scene, const std::optional<CycleChoice>& choice)
+      : scene_(std::move(scene)),
+        choice_(choice),
+        simulation_(with_choice(scene_->problem, choice)),
+        surface_points_(simulation_.surface_positions().size()) {}
 
   std::optional<Diagnosis> advance(double until, long at_most, const std::function<void()>& between) override {
     const double rounding = 1e-9 * simulation_.macro_step();
     std::optional<Diagnosis> bad;
     try {
       for (; at_most > 0 && !bad && simulation_.time() < until - rounding; --at_most) {
+        const auto start = std::chrono::steady_clock::now();
         bad = step();
+        wall_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         between();
       }
     } catch (...) {
@@ -46,6 +56,7 @@ class SimulationOf final : public AnySimulation {
     refresh();
     return bad;
   }
+  std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
   void end_at(double time) override { simulation_.end_at(time); }
 
   ElementFields element_fields(int level) const override {
@@ -73,14 +84,42 @@ class SimulationOf final : public AnySimulation {
 
   void set_forces(HostForces forces) override {
     if constexpr (!B::on_host) throw InputError("forces of one's own need a back end on the host");
-    if (!forces) return simulation_.set_external_forces({});
-    simulation_.set_external_forces(
-        [this, forces = std::move(forces)](const ForceRequest<B>& request) { add_forces(request, forces); });
+    forces_ = {};
+    if (forces)
+      forces_ = [this, forces = std::move(forces)](const ForceRequest<B>& request) { add_forces(request, forces); };
+    simulation_.set_external_forces(forces_);
   }
 
   SavedState save() const override { return simulation_.save(); }
   void restore(const SavedState& saved) override {
     simulation_.restore(saved);
+    refresh();
+  }
+
+  void start_files(const std::filesystem::path& folder) override {
+    app::make_folder(folder);
+    files_.emplace(*scene_, folder);
+    folder_ = folder;
+  }
+  void write_frame(const std::string& status, const std::optional<Diagnosis>& diagnosis) override {
+    if (files_->frames() == 0 || files_->last_time() < simulation_.time())
+      files_->write(app::take_snapshot(simulation_, simulation_.time(), files_->volumes()));
+    app::Summary summary;
+    summary.status = status, summary.diagnosis = diagnosis;
+    summary.simulated_time = simulation_.time(), summary.last_good_time = files_->last_time();
+    summary.macro_step = simulation_.macro_step(), summary.macro_steps = simulation_.macro_steps();
+    summary.wall_time = wall_time_, summary.frames = files_->frames();
+    summary.precision = precision(), summary.backend = B::Exec::name(),
+    summary.threads = typename B::Exec().concurrency();
+    summary.choice = choice_, summary.cycle = app::cycle_name(*scene_, choice_);
+    summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches();
+    summary.residual = simulation_.worst_residual();
+    app::write_file(folder_ / "summary.json", app::summary_json(*scene_, summary, {"import plica"}));
+  }
+
+  void show_live(app::LiveOptions options) override {
+    options.method = app::live_method(*scene_, simulation_, choice_);
+    app::show_live(*scene_, simulation_, options, forces_);
     refresh();
   }
 
@@ -92,13 +131,9 @@ class SimulationOf final : public AnySimulation {
   std::optional<Diagnosis> step() {
     try {
       auto bad = simulation_.step_checked();
-      if (bad) {
-        const app::Numbering& numbers = numbering(std::max(bad->level, 0));
-        bad->element = app::input_number(numbers.tet_ids, bad->element);
-        bad->vertex = app::input_number(numbers.vertex_ids, bad->vertex);
-      }
+      if (bad) bad = app::in_input_numbers(*bad, *scene_);
       return bad;
-    } catch (...) {  // a caller's force: the step is half done
+    } catch (...) {  // a caller's force, or Ctrl-C: the step is half done
       simulation_.return_to_last_good();
       throw;
     }
@@ -168,16 +203,19 @@ class SimulationOf final : public AnySimulation {
   }
 
   std::shared_ptr<const app::Scene> scene_;
+  std::optional<CycleChoice> choice_;
   Simulation<B> simulation_;
   std::size_t surface_points_;
+  ExternalForces<B> forces_;
+  double wall_time_ = 0;  // of steps [s]
+  std::optional<app::RunFiles> files_;
+  std::filesystem::path folder_;
 };
 
 template <class B>
 std::unique_ptr<AnySimulation> make(std::shared_ptr<const app::Scene> scene) {
   try {
-    const Problem& problem = scene->problem;
-    const auto choice = choose_cycle<B>(problem);
-    return std::make_unique<SimulationOf<B>>(scene, choice ? with_choice(problem, choice) : problem);
+    return std::make_unique<SimulationOf<B>>(scene, choose_cycle<B>(scene->problem));
   } catch (const SubstepRefused& error) {
     throw app::located(app::in_input_numbers(error, *scene), scene->source);
   } catch (const InputError& error) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/app/view/live_view.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <string>
 #include <vector>
@@ -35,6 +37,7 @@ class AnySimulation {
   /// The values of a field, which follow the simulation as long as somebody holds them.
   std::shared_ptr<Values> live(Field field, int level);
   virtual ElementFields element_fields(int level) const = 0;
+  virtual std::vector<Wrench> wrenches() const = 0;
 
   virtual double time() const = 0;
   virtual double macro_step() const = 0;
@@ -48,6 +51,14 @@ class AnySimulation {
   virtual void set_forces(HostForces forces) = 0;
   virtual SavedState save() const = 0;
   virtual void restore(const SavedState& saved) = 0;
+
+  /// From now on the files of a run in this folder, as those of `plica run`.
+  virtual void start_files(const std::filesystem::path& folder) = 0;
+  /// Writes the state as a frame, and the summary, with what a run is like so far: running, completed, diverged.
+  virtual void write_frame(const std::string& status, const std::optional<Diagnosis>& diagnosis) = 0;
+
+  /// See app::show_live(); the method is filled in.
+  virtual void show_live(app::LiveOptions options) = 0;
 
  protected:
   virtual void read(Field field, int level, Values& to) const = 0;

@@ -15,9 +15,11 @@
 #include <plica/drivers/app/output/study_table.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
+#include <plica/drivers/app/report/report.hpp>
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
+#include <plica/drivers/python/between_kernels.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/version.hpp>
@@ -58,6 +60,7 @@ nb::object array(const std::vector<std::array<int, corners>>& cells) {
   return array(std::move(values), corners);
 }
 
+nb::object vector_of(const Point& p) { return array(Values{p.x(), p.y(), p.z()}); }
 Values values_of(const Table<double>& table) { return {table.data(), table.data() + table.size()}; }
 std::vector<Point> points_of(const Table<double>& table) {
   std::vector<Point> points;
@@ -200,6 +203,20 @@ void set_forces(const Handle& simulation, const nb::object& callback) {
   });
 }
 
+/// Until Ctrl-C, which raises KeyboardInterrupt. listening(address) is called once.
+void show_live(const Handle& simulation, int port, const nb::object& listening) {
+  Signals signals;
+  const nb::gil_scoped_release release;
+  app::LiveOptions options;
+  options.port = port;
+  options.listening = [&](const std::string& address) {
+    const nb::gil_scoped_acquire gil;
+    listening(address);
+  };
+  options.ended = [&] { return signals(), false; };
+  simulation->show_live(options);
+}
+
 void bind_simulation(nb::module_& m) {
   using H = Handle;
   nb::class_<H>(m, "Simulation")
@@ -208,6 +225,7 @@ void bind_simulation(nb::module_& m) {
            [](const H& s, double until, long at_most) {
              Signals signals;
              const nb::gil_scoped_release release;
+             const BetweenKernels between([&] { signals(); });
              return s->advance(until, at_most, [&] { signals(); });
            })
       .def("end_at", [](const H& s, double time) { s->end_at(time); })
@@ -220,6 +238,21 @@ void bind_simulation(nb::module_& m) {
              ElementFields fields = s->element_fields(level);
              return nb::make_tuple(fields.per_vertex, array(std::move(fields.von_mises)), array(std::move(fields.J)));
            })
+      .def("wrenches",
+           [](const H& s) {
+             std::vector<nb::object> all;
+             for (const Wrench& w : s->wrenches())
+               all.push_back(nb::make_tuple(w.obstacle, vector_of(w.force), vector_of(w.torque)));
+             return all;
+           })
+      .def("start_files", [](const H& s, const std::string& folder) { s->start_files(folder); })
+      .def(
+          "write_frame",
+          [](const H& s, const std::string& status, const std::optional<Diagnosis>& diagnosis) {
+            s->write_frame(status, diagnosis);
+          },
+          "status"_a, "diagnosis"_a.none())
+      .def("show_live", &show_live)
       .def("set_state",
            [](const H& s, const Table<double>& x, const Table<double>& v) { s->set_state(values_of(x), values_of(v)); })
       .def("set_forces", &set_forces, nb::arg("callback").none())
@@ -241,7 +274,10 @@ void bind_simulation(nb::module_& m) {
       .def_prop_ro("counters", [](const H& s) { return s->counters(); })
       .def_prop_ro("levels", [](const H& s) { return app::levels_json(s->levels()).dump(); });
   m.def("simulate", [](const ScenePtr& scene, const std::string& precision) {
+    start_kokkos();
+    Signals signals;
     const nb::gil_scoped_release release;
+    const BetweenKernels between([&] { signals(); });
     return Handle(make_simulation(scene, precision));
   });
 }
@@ -280,6 +316,12 @@ NB_MODULE(_plica, m) {
   });
   m.def("read_mesh", [](const std::string& file) { return parts_of(read_mesh(file)); });
   m.def("write_mesh", &write_mesh_file, "file"_a, "points"_a, "tets"_a, "region"_a, "region_names"_a, "vertex_sets"_a);
+  m.def("report", [](const std::string& folder, std::size_t frames) {
+    const app::Report made = app::make_report(folder, frames);
+    const auto file = (std::filesystem::path(folder) / "report.html").string();
+    app::write_file(file, made.html);
+    return nb::make_tuple(file, made.warnings);
+  });
   bind_results(m);
   bind_scene(m);
   bind_simulation(m);

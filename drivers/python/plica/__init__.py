@@ -16,12 +16,12 @@ from . import _plica
 from ._plica import Diagnosis, Energies, FileError, InputError
 from .mesh import Mesh
 from .scene import Scene, keys
-from .simulation import Diverged, Simulation, close_all
+from .simulation import Diverged, Simulation, Wrench, close_all, report, view
 from .study import study
 
 __version__ = _plica.version()
-__all__ = ["Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Scene", "Simulation", "info", "init", "keys",
-           "study"]
+__all__ = ["Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Scene", "Simulation", "Wrench", "info", "init",
+           "keys", "report", "study", "view"]
 
 
 def init(threads: int = 0) -> None:

@@ -3,10 +3,17 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import json
 import math
+import os
+import warnings
 import weakref
+import webbrowser
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -34,11 +41,49 @@ class Diverged(RuntimeError):
         self.diagnosis = diagnosis
 
 
+@dataclass(frozen=True)
+class Wrench:
+    """What an obstacle does to the body. The obstacle feels the opposite.
+
+    force: [3] N. torque: [3] N m, about the obstacle's origin, which moves with it.
+    """
+
+    force: np.ndarray
+    torque: np.ndarray
+
+
+def report(folder, *, frames: int = 200) -> Path:
+    """Writes FOLDER/report.html of what a run or a study left there, as `plica report` does. Its path.
+
+    frames: of a run, at most so many, evenly.
+    """
+    if frames < 2:
+        raise InputError(f"frames: expected 2 or more, got {frames}")
+    file, notes = _plica.report(os.fspath(folder), frames)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return Path(file)
+
+
+def view(scene, *, port: int = 8642, browser: bool = True, precision: str = "double", set: dict | None = None, **overrides) -> Simulation:
+    """Simulates a scene while a page in a browser shows it, until Ctrl-C; see Simulation.view(). Returns the simulation.
+
+    scene: a plica.Scene, or what makes one.
+    """
+    return Simulation(scene, precision=precision, set=set, **overrides).view(port=port, browser=browser)
+
+
+def _invite(browser: bool, address: str) -> None:
+    opened = browser and webbrowser.open(address)
+    print(f"{address} {'is open in the browser' if opened else ': open it in a browser on this machine'}; Ctrl-C ends it", flush=True)
+
+
 class Run:
     """The frames of a run, one after the other. len() is how many there are at most; each is the simulation itself."""
 
-    def __init__(self, simulation: Simulation, end: float, every: float, steps: int):
+    def __init__(self, simulation: Simulation, end: float, every: float, steps: int, writes: bool):
         self._simulation, self._start, self._end, self._every, self._steps = simulation, simulation.time, end, every, steps
+        self._writes = writes
         macro_steps = self._count((end - simulation.time) / simulation.macro_step)
         self._length = macro_steps
         if steps:
@@ -61,12 +106,21 @@ class Run:
         slack = _rounding * simulation.macro_step
         if simulation.time >= self._end - slack:
             raise StopIteration
-        if self._steps:
-            simulation._advance(self._end, self._steps)
-        else:
-            frame = math.floor((simulation.time - self._start + slack) / self._every) + 1
-            simulation._advance(min(self._start + frame * self._every, self._end))
+        try:
+            if self._steps:
+                simulation._advance(self._end, self._steps)
+            else:
+                frame = math.floor((simulation.time - self._start + slack) / self._every) + 1
+                simulation._advance(min(self._start + frame * self._every, self._end))
+        except Diverged as error:
+            self._write("diverged", error.diagnosis)
+            raise
+        self._write("running" if simulation.time < self._end - slack else "completed", None)
         return simulation
+
+    def _write(self, status: str, diagnosis: Diagnosis | None) -> None:
+        if self._writes:
+            self._simulation._open().write_frame(status, diagnosis)
 
 
 class Simulation:
@@ -88,13 +142,13 @@ class Simulation:
             self.scene = scene
         else:
             self.scene = Scene(scene, set=set, **overrides)
-        self._simulation = None
+        self._simulation = self._folder = None
         self._simulation = _plica.simulate(self.scene._scene, precision)
         _all.add(self)
 
     # -- stepping
 
-    def run(self, duration: float | str | None = None, *, every: float | str | None = None):
+    def run(self, duration: float | str | None = None, *, every: float | str | None = None, folder=None, force: bool = False):
         """Goes on for so long [s]; left out, for the scene's duration.
 
         Without `every` it runs at once and returns the simulation. With it, it returns the frames to go through: after each of
@@ -103,7 +157,11 @@ class Simulation:
             for frame in tqdm(sim.run(0.5, every="10 ms")): ...
 
         Where the scene leaves the macro step open, the last one ends exactly then; macro steps of a given size are whole. The
-        states are those of `plica run`, bit for bit. Diverged where the run cannot go on. Ctrl-C ends it after the macro step.
+        states are those of `plica run`, bit for bit. Diverged where the run cannot go on. Ctrl-C ends it: between two macro steps, or
+        within one that takes long, and then the state is the last one that was kept.
+
+        folder: the state now and each frame are written there, as `plica run` does, for report(), ParaView and the like. One that
+        holds a run already is refused, unless `force` says to replace it.
         """
         simulation = self._open()
         seconds = self.scene.duration if duration is None else _interval(duration, "duration")[0]
@@ -111,10 +169,22 @@ class Simulation:
         if self.scene._scene.automatic_step:
             simulation.end_at(end)
         if every is None:
+            if folder is not None:
+                raise InputError("folder: frames are written only where `every` says when")
             self._advance(end)
             return self
         interval, steps = _interval(every, "every")
-        return Run(self, end, interval, steps)
+        if folder is not None:
+            self._start_files(folder, force)
+        return Run(self, end, interval, steps, folder is not None)
+
+    def _start_files(self, folder, force: bool) -> None:
+        there = [name for name in ("checkpoint.bin", "summary.json", "history.csv", "frames.pvd") if (Path(folder) / name).exists()]
+        if there and not force:
+            raise InputError(f"folder: {folder} holds a run already ({', '.join(there)}); expected another one, or force=True")
+        self._open().start_files(os.fspath(folder))
+        self._folder = Path(folder)
+        self._open().write_frame("running", None)
 
     def step(self, macro_steps: int = 1) -> Simulation:
         """So many macro steps."""
@@ -188,6 +258,27 @@ class Simulation:
     def energies(self) -> Energies:
         """Of level 0 now [J]: kinetic, elastic, potential, contact, total."""
         return self._open().energies
+
+    def wrenches(self) -> dict[str, Wrench]:
+        """What each obstacle does to the body, by its name: the mean over the last macro step."""
+        return {name: Wrench(force, torque) for name, force, torque in self._open().wrenches()}
+
+    def report(self, *, frames: int = 200) -> Path:
+        """Writes the page of the last run that had a `folder`: one file that a browser opens without a network. Its path."""
+        if self._folder is None:
+            raise InputError("report: nothing was written; expected run(..., every=..., folder=...) before")
+        return report(self._folder, frames=frames)
+
+    def view(self, *, port: int = 8642, browser: bool = True) -> Simulation:
+        """Goes on from here while a page in a browser shows it: the mouse pulls the body and pushes it with a ball, sliders change
+        gravity, stiffness and speed. Until Ctrl-C (in a notebook: interrupt the kernel).
+
+        port: of the page's address on this machine; 0: any free one. browser: whether one is opened.
+        """
+        self._open().end_at(math.inf)
+        with contextlib.suppress(KeyboardInterrupt):
+            self._open().show_live(port, functools.partial(_invite, browser))
+        return self
 
     def to_pyvista(self, level: int = 0):
         """A pyvista.UnstructuredGrid of a level as it is now, with displacement [m], velocity [m/s], von_mises [Pa] and J."""

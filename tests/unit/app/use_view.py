@@ -29,10 +29,10 @@ def check(holds, words):
         sys.exit("not so: " + words)
 
 
-def wait_for(page, script, words, seconds=30):
+def wait_for(page, script, words, seconds=60):
     deadline = time.monotonic() + seconds
     while not page.run(script):
-        check(time.monotonic() < deadline, words)
+        check(time.monotonic() < deadline, f"{words}; {page.run('live.frame && [live.frame.time, live.frame.wrong].join()')}")
         time.sleep(0.05)
 
 
