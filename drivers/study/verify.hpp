@@ -29,7 +29,7 @@ enum class Judged {
 struct VerifyRow {
   std::string problem = {}, quantity = {}, unit = {};
   std::string element = "linear";  ///< of its meshes
-  std::string mesh = "regular";    ///< these: regular or jittered
+  std::string mesh = "regular";    ///< these: regular, jittered or delaunay
   std::optional<double> accepted = {};
   std::string source = {};  ///< of the accepted value
   std::vector<VerifyValue> ours = {};

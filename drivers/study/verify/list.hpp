@@ -49,6 +49,8 @@ VerifyRows tapered_membrane(const VerifyContext&);
 VerifyRows laws_of_tissue(const VerifyContext&);
 VerifyRows bending_heart_muscle(const VerifyContext&);
 VerifyRows twisting_column(const VerifyContext&);
+VerifyRows free_spin(const VerifyContext&);
+VerifyRows squash(const VerifyContext&);
 VerifyRows manufactured_solution(const VerifyContext&);
 VerifyRows time_order(const VerifyContext&);
 VerifyRows friction_on_a_slope(const VerifyContext&);
@@ -76,15 +78,20 @@ inline constexpr VerifyProblem verify_list[] = {
     {"bending", "slender and stubby clamped beams, nu from 0.3 to 0.4999, of linear and of nodal elements", bending},
     {"cook_incompressible", "Cook's membrane at nu 0.4999, flat and thick, of both elements", cook_incompressible},
     {"punch", "a punched block, nearly incompressible, squeezed to a third, of nodal elements", punch},
-    {"free_cube", "first frequency of a nearly incompressible free cube: locks", free_cube},
+    {"free_cube",
+     "frequencies of a nearly incompressible free cube: linear elements lock, nodal ones have the first 20 modes",
+     free_cube},
     {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)", tapered_membrane},
     {"laws_of_tissue", "stretched and sheared boxes of every law of tissue, in closed form, of both elements",
      laws_of_tissue},
     {"bending_heart_muscle",
      "a beam bent by a pressure that follows it (Land et al. 2015, problem 1), of nodal elements",
      bending_heart_muscle},
-    {"twisting_column", "a twisting column against its own finest mesh, and its energy", twisting_column},
-    {"manufactured_solution", "a chosen motion and the body force that it takes: order in space",
+    {"twisting_column", "a twisting column against its own finest mesh, and its energy, of both elements",
+     twisting_column},
+    {"free_spin", "energy and angular momentum of a spinning cube over 28 000 steps, of nodal elements", free_spin},
+    {"squash", "how far a cube can be squashed between lubricated plates, of both elements", squash},
+    {"manufactured_solution", "a chosen motion and the body force that it takes: order in space of both elements",
      manufactured_solution},
     {"time_order", "the order in time of every integrator on a nonlinear problem", time_order},
     {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope}};
