@@ -24,6 +24,10 @@ struct TetMesh {
   std::vector<int> region;                ///< per tet an index into region_names; empty: one nameless region
   std::vector<std::string> region_names;  ///< unique
   std::map<std::string, std::vector<int>> vertex_sets;  ///< named vertices (surface, line and point groups), ascending
+  std::vector<double> filled = {};  ///< per tet the part of it that is body, in (0, 1]; empty: all of each
+
+  /// Of a tetrahedron. Its mass, stiffness and energy are this part of what its volume would have.
+  double part(std::size_t tet) const { return filled.empty() ? 1 : filled[tet]; }
 };
 
 /// A triangulated surface, on the host.

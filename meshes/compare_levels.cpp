@@ -20,6 +20,7 @@ double factor(double a, double b) { return a > 0 && b > 0 ? std::max(a / b, b / 
 Point extent(const MeshSize& size) { return size.box.max - size.box.min; }
 
 double largest_factor(const MeshSize& a, const MeshSize& b) {
+  if (a.around || b.around) return 1;
   double largest = 1;
   for (int k = 0; k < 3; ++k) largest = std::max(largest, factor(extent(a)[k], extent(b)[k]));
   return largest;
@@ -65,11 +66,12 @@ std::string likely_cause(const MeshSize& finest, const MeshSize& coarse, std::si
 MeshSize mesh_size(const TetMesh& mesh, const std::vector<double>& density) {
   MeshSize size;
   size.box = bounding_box(mesh.vertices);
+  size.around = !mesh.filled.empty();
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const auto at = [&](std::size_t k) -> const Point& {
       return mesh.vertices[static_cast<std::size_t>(mesh.tets[e][k])];
     };
-    const double volume = tet_volume(at(0), at(1), at(2), at(3));
+    const double volume = mesh.part(e) * tet_volume(at(0), at(1), at(2), at(3));
     size.volume += volume;
     size.mass += volume * density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])];
     size.centroid += volume / 4 * (at(0) + at(1) + at(2) + at(3));

@@ -9,6 +9,7 @@ namespace plica {
 /// A mesh as a whole.
 struct MeshSize {
   Box box;                         ///< around its vertices [m]
+  bool around = false;             ///< cells that the body fills in part: larger than it, not to be compared
   double volume = 0;               ///< [m^3]
   double mass = 0;                 ///< [kg]
   Point centroid = Point::Zero();  ///< of the volume [m]

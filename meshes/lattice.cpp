@@ -5,6 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/cell_contents.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/generators.hpp>
@@ -18,6 +19,7 @@ namespace {
 constexpr double most_cells = 8e6;
 constexpr double inner_part = 1 - 1e-6;  // of a cube's edge: a face that only touches a cube is not in it
 constexpr int fewest_vertices = 30;
+constexpr double least_part = 0.001;  // of a tetrahedron that is body
 
 // Whether a triangle reaches into a cube around the origin with edges of 2 half: no plane of 13 keeps them apart (Akenine-Moeller,
 // Fast 3D triangle-box overlap testing, Journal of Graphics Tools 6, 2001)
@@ -53,7 +55,7 @@ class Lattice {
                             " of them in the body's bounding box; ", number(most_cells), " at most"));
     const Point edges = size * Point(cells_[0], cells_[1], cells_[2]);
     low_ = (box.min + box.max - edges) / 2;
-    kept_.assign(static_cast<std::size_t>(all), false);
+    marked_.assign(static_cast<std::size_t>(all), false);
   }
 
   void mark(const TriangleSurface& surface) {
@@ -71,22 +73,34 @@ class Lattice {
         for (int j = first[1]; j <= last[1]; ++j)
           for (int i = first[0]; i <= last[0]; ++i) {
             const Point centre(i + 0.5, j + 0.5, k + 0.5);
-            if (!kept_[index(i, j, k)] && reaches_into({t[0] - centre, t[1] - centre, t[2] - centre}, inner_part / 2))
-              kept_[index(i, j, k)] = true;
+            if (!marked_[index(i, j, k)] && reaches_into({t[0] - centre, t[1] - centre, t[2] - centre}, inner_part / 2))
+              marked_[index(i, j, k)] = true;
           }
     }
   }
 
   // Neighbours that the surface does not reach into are on one side of it
   void fill(const std::function<bool(const Point&)>& inside) {
-    const std::vector<bool> marked = kept_;
-    for (int k = 0; k < cells_[2]; ++k)
-      for (int j = 0; j < cells_[1]; ++j)
-        for (int i = 0; i < cells_[0]; ++i) {
-          const std::size_t c = index(i, j, k);
-          if (marked[c]) continue;
-          kept_[c] = i > 0 && !marked[c - 1] ? kept_[c - 1] : inside(low_ + size_ * Point(i + 0.5, j + 0.5, k + 0.5));
-        }
+    kept_ = marked_;
+    for_cells([&](int i, int j, int k) {
+      const std::size_t c = index(i, j, k);
+      if (marked_[c]) return;
+      kept_[c] = i > 0 && !marked_[c - 1] ? kept_[c - 1] : inside(low_ + size_ * Point(i + 0.5, j + 0.5, k + 0.5));
+    });
+  }
+
+  // The body's part of each tetrahedron of mesh(); counts the cells that hold several parts of it
+  std::vector<double> filled(const TriangleSurface& surface, int& shared) const {
+    const CellContents contents(surface, low_, size_, cells_);
+    std::vector<double> parts;
+    for_cells([&](int i, int j, int k) {
+      if (!kept_[index(i, j, k)]) return;
+      if (!marked_[index(i, j, k)]) return void(parts.insert(parts.end(), 6, 1.0));
+      const CellContents::Contents here = contents.of(i, j, k);
+      for (const double part : here.filled) parts.push_back(std::max(part, least_part));
+      shared += here.parts > 1;
+    });
+    return parts;
   }
 
   // Six tetrahedra of each cell that is kept, cell after cell
@@ -116,20 +130,40 @@ class Lattice {
            static_cast<std::size_t>(i);
   }
 
+  template <class Visit>
+  void for_cells(const Visit& visit) const {
+    for (int k = 0; k < cells_[2]; ++k)
+      for (int j = 0; j < cells_[1]; ++j)
+        for (int i = 0; i < cells_[0]; ++i) visit(i, j, k);
+  }
+
   double size_;
   std::array<int, 3> cells_;
   Point low_;
-  std::vector<bool> kept_;
+  std::vector<bool> marked_, kept_;  // the surface reaches into it; it has tetrahedra
 };
 
 }  // namespace
 
-TetMesh lattice_mesh(const TriangleSurface& surface, double size) {
+namespace {
+
+Lattice lattice_over(const TriangleSurface& surface, double size) {
   Lattice lattice(surface.vertices, size);
   const SignedDistance distance(surface);
   lattice.mark(surface);
   lattice.fill([&](const Point& p) { return distance(p) < 0; });
-  return lattice.mesh();
+  return lattice;
+}
+
+}  // namespace
+
+TetMesh lattice_mesh(const TriangleSurface& surface, double size) { return lattice_over(surface, size).mesh(); }
+
+WeightedLattice weighted_lattice(const TriangleSurface& surface, double size) {
+  const Lattice lattice = lattice_over(surface, size);
+  WeightedLattice result{lattice.mesh()};
+  result.mesh.filled = lattice.filled(surface, result.shared_cells);
+  return result;
 }
 
 TetMesh coarse_lattice(const TetMesh& mesh, int vertices) {

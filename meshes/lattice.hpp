@@ -11,6 +11,15 @@ namespace plica {
 ///        million cubes
 TetMesh lattice_mesh(const TriangleSurface& surface, double size);
 
+/// A lattice whose tetrahedra are filled by the part of them that is body (TetMesh::filled), so that all of it has the body's mass and
+/// stiffness where the body is. An element's frequency does not depend on its part, and neither does the critical step.
+struct WeightedLattice {
+  TetMesh mesh;          ///< no part is below 0.001: a vertex has some mass, whatever reaches into its cells
+  int shared_cells = 0;  ///< that hold several unconnected parts of the body: there they are connected
+};
+/// The arguments are those of lattice_mesh().
+WeightedLattice weighted_lattice(const TriangleSurface& surface, double size);
+
 /// The lattice over a mesh that comes nearest to a number of vertices, not above it. A cube is of the region that its centre is in or
 /// nearest to; vertex sets are left out.
 /// @param vertices  30 to as many as the mesh has; InputError for any other number

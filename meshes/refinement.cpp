@@ -38,7 +38,7 @@ class Refinement {
  public:
   explicit Refinement(const TetMesh& mesh) : mesh_(mesh), finer_(mesh) {
     checked_count("the number of tetrahedra", 8.0 * static_cast<double>(mesh.tets.size()));
-    finer_.tets.clear(), finer_.region.clear();
+    finer_.tets.clear(), finer_.region.clear(), finer_.filled.clear();
     finer_.tets.reserve(8 * mesh.tets.size());
     middles_.reserve(mesh.tets.size() * 3 / 2);
   }
@@ -47,6 +47,7 @@ class Refinement {
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
       cut(mesh_.tets[t]);
       if (!mesh_.region.empty()) finer_.region.insert(finer_.region.end(), 8, mesh_.region[t]);
+      if (!mesh_.filled.empty()) finer_.filled.insert(finer_.filled.end(), 8, mesh_.filled[t]);
     }
     add_middles_to_sets();
     return std::move(finer_);

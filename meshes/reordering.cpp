@@ -86,6 +86,7 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
   result.vertices = permuted(mesh.vertices, order.vertices);
   result.tets = permuted(mesh.tets, order.tets);
   result.region = permuted(mesh.region, order.tets);
+  result.filled = permuted(mesh.filled, order.tets);
   result.region_names = mesh.region_names;
   result.vertex_sets = mesh.vertex_sets;
   for (auto& tet : result.tets)

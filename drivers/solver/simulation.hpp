@@ -28,10 +28,20 @@ struct StiffElement {
   double step = 0;          ///< 2/w of it alone [s]
 };
 
+/// What a level is.
+enum class LevelKind {
+  mesh,     ///< tetrahedra
+  lattice,  ///< tetrahedra that the body fills in part
+  space,    ///< motions of the finest mesh, without elements
+  slivers   ///< such a space, in which only the vertices of slivers follow others
+};
+
 /// What was decided for one level.
 struct LevelReport {
+  LevelKind kind = LevelKind::mesh;
   int vertices = 0;      ///< of its mesh; points of a coarse space
-  int tets = 0;          ///< of its mesh; 0: a coarse space, made of the finest mesh
+  int tets = 0;          ///< of its mesh; a coarse space has none
+  double filled = 1;     ///< the body's part of its volume
   double nonzeros = 0;   ///< of a coarse space: weights per row of its interpolation to the next finer level
   double mean_edge = 0;  ///< [m]
   double mass = 0;       ///< [kg]

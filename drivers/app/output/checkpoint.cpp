@@ -94,6 +94,7 @@ std::uint64_t mesh_digest(const Body& body) {
     add_points(mesh.vertices);
     digest.add(mesh.tets);
     digest.add(mesh.region);
+    digest.add(mesh.filled);
     for (const std::string& name : mesh.region_names) digest.add(name);
     for (const auto& [name, vertices] : mesh.vertex_sets) digest.add(name), digest.add(vertices);
   }

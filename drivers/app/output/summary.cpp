@@ -63,6 +63,15 @@ Json choice_json(const std::optional<CycleChoice>& choice) {
 
 namespace {
 
+bool has_elements(const LevelReport& level) {
+  return level.kind == LevelKind::mesh || level.kind == LevelKind::lattice;
+}
+
+const char* name_of(LevelKind kind) {
+  constexpr const char* names[] = {"mesh", "lattice", "space", "slivers"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
 // "nodal (stabilisation 0.4), linear; about 8 across the thickness of level 0"
 std::string elements_text(const Body& body, const Plan& plan) {
   std::vector<Lame<double>> lame;
@@ -72,7 +81,7 @@ std::string elements_text(const Body& body, const Plan& plan) {
     lame.push_back(material.small_strains(parameter_values(material, body.material, region)));
   std::string text;
   for (const LevelReport& level : plan.levels) {
-    if (level.tets == 0) continue;
+    if (!has_elements(level)) continue;
     text += (text.empty() ? "" : ", ") + level.element;
     if (level.element == name_of(Element::nodal))
       text += fmt::format(" (stabilisation {:g}{})", body.stabilisation,
@@ -134,9 +143,9 @@ std::string spaces_text(const Plan& plan) {
   std::vector<std::vector<std::string>> rows = {{"level", "points", "spacing", "weights per row"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
-    if (level.tets == 0)
+    if (!has_elements(level))
       rows.push_back({std::to_string(i), std::to_string(level.vertices),
-                      level.mean_edge > 0 ? in_units(level.mean_edge, "m") : "slivers follow",
+                      level.kind == LevelKind::space ? in_units(level.mean_edge, "m") : "slivers follow",
                       fmt::format("{:.1f}", level.nonzeros)});
   }
   return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0 (body.levels: coarsen)\n" + text_table(rows, ">>>>");
@@ -150,8 +159,10 @@ std::string levels_text(const Plan& plan) {
       {"level", "share", "time", "sub-steps", "of", "of / critical", "integrator"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
-    if (level.tets == 0) continue;
-    meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets),
+    if (!has_elements(level)) continue;
+    const std::string filled =
+        level.kind == LevelKind::lattice ? fmt::format(", {:.1f} % filled", 100 * level.filled) : "";
+    meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets) + filled,
                       in_units(level.mean_edge, "m"), in_units(level.mass, "kg"),
                       level.critical_step > 0 ? in_units(level.critical_step, "s") : "",
                       in_units(level.element_bound, "s")});
@@ -173,7 +184,7 @@ std::string transfers_text(const Plan& plan) {
       {"levels", "coarse vertices outside", "fine vertices outside", "largest miss / edge"}};
   for (std::size_t i = 1; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
-    if (level.tets == 0) return {};
+    if (!has_elements(level)) return {};
     rows.push_back({fmt::format("{} - {}", i - 1, i), std::to_string(level.outside_down),
                     std::to_string(level.outside_up), fmt::format("{:.2g}", level.largest_miss)});
   }
@@ -270,9 +281,11 @@ Json levels_json(const std::vector<LevelReport>& levels) {
     for (const StiffElement& e : level.stiffest)
       stiffest.push_back(
           {{"element", e.element}, {"region", e.region}, {"height_ratio", e.height_ratio}, {"step", e.step}});
-    list.push_back({{"vertices", level.vertices},
+    list.push_back({{"kind", name_of(level.kind)},
+                    {"vertices", level.vertices},
                     {"tets", level.tets},
-                    {"nonzeros_per_row", level.tets > 0 ? Json(nullptr) : Json(level.nonzeros)},
+                    {"filled", level.filled},
+                    {"nonzeros_per_row", has_elements(level) ? Json(nullptr) : Json(level.nonzeros)},
                     {"mean_edge", level.mean_edge},
                     {"mass", level.mass},
                     {"critical_step", level.critical_step},

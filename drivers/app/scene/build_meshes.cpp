@@ -11,6 +11,7 @@
 #include <plica/meshes/files/sound_mesh.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/meshes/jitter.hpp>
+#include <plica/meshes/lattice.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica::app {
@@ -172,6 +173,42 @@ TriangleSurface from_file(const SurfaceRecipe& recipe, Scene& scene, const Where
   return surface;
 }
 
+// Of a mesh its boundary
+TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene, const Where& where) {
+  const std::filesystem::path file = found("surface", recipe.surface, scene, where);
+  auto read = placed(where, [&] { return read_any(file); });
+  TriangleSurface surface;
+  if (const auto* mesh = std::get_if<ReadMesh>(&read)) {
+    warn(scene, file, mesh_warnings(mesh->mesh, mesh->report));
+    surface = boundary_surface(mesh->mesh).surface;
+  } else {
+    const SurfaceReport& report = std::get<ReadSurface>(read).report;
+    if (!report.closed()) throw InputError(fmt::format("the surface '{}' {}", file.string(), why_open(report)), where);
+    warn(scene, file, surface_warnings(report));
+    surface = std::move(std::get<ReadSurface>(read).surface);
+  }
+  for (Point& vertex : surface.vertices) vertex *= recipe.scale;
+  return surface;
+}
+
+// Lattices over it, which is what is embedded in them unless the scene has another one
+void lay_lattices(Scene& scene, const Tree& tree) {
+  Body& body = scene.problem.body;
+  const Where where = place_of(tree, "body.levels.surface");
+  body.surface = closed_surface(*scene.lattices, scene, where);
+  for (std::size_t i = 0; i < scene.levels.size(); ++i) {
+    const double size = *scene.levels[i].lattice;
+    WeightedLattice lattice = placed(place_of(tree, fmt::format("body.levels.sizes.{}", i)),
+                                     [&] { return weighted_lattice(*body.surface, size); });
+    if (lattice.shared_cells > 0)
+      warn(scene, scene.lattices->surface,
+           {fmt::format("{} of {:g} m {} several unconnected parts of the body, which the lattice connects there; "
+                        "smaller cells keep them apart",
+                        counted(lattice.shared_cells, "cell"), size, lattice.shared_cells == 1 ? "holds" : "hold")});
+    body.levels.push_back(std::move(lattice.mesh));
+  }
+}
+
 TetMesh generated(const LevelRecipe& recipe) {
   if (const auto& box = recipe.box) return box_mesh({box->origin, box->origin + box->size}, box->cells);
   if (const auto& ball = recipe.ball) return ball_mesh(ball->centre, ball->radius, ball->cells);
@@ -249,10 +286,11 @@ void check_names(const Body& body, const Tree& tree) {
 TetMesh finer_mesh(const Scene& scene) {
   LevelRecipe recipe = scene.levels.front();
   const Where where = place_of(scene.source, "body.levels.0");
-  if (!recipe.file.empty())
+  if (recipe.lattice || !recipe.file.empty())
     throw InputError(
-        "--space needs a finest level that can be made finer: a box, a ball, a cylinder, a blob or a tube, got a file; "
-        "--truth refines any",
+        fmt::format("--space needs a finest level that can be made finer: a box, a ball, a cylinder, a blob or a tube, "
+                    "got a {}; --truth refines any",
+                    recipe.lattice ? "lattice" : "file"),
         where);
   if (recipe.box)
     for (int& cells : recipe.box->cells) cells *= 2;
@@ -267,7 +305,8 @@ void build_meshes(Scene& scene, const Tree& tree) {
   Body& body = scene.problem.body;
   body.levels.clear();
   scene.numbering.assign(scene.levels.size(), {});
-  for (std::size_t i = 0; i < scene.levels.size(); ++i) {
+  if (scene.lattices) lay_lattices(scene, tree);
+  for (std::size_t i = 0; i < scene.levels.size() && !scene.lattices; ++i) {
     const LevelRecipe& recipe = scene.levels[i];
     const Where where = place_of(tree, fmt::format("body.levels.{}", i));
     body.levels.push_back(recipe.file.empty() ? placed(where, [&] { return generated(recipe); })

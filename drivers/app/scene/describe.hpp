@@ -31,6 +31,9 @@ struct LevelChoice {
 /// true for a struct with its defaults, false for none, or the struct: of an optional.
 struct Switch {};
 
+/// A list of maps, or one map instead: of a struct with both.
+struct ListOrMap {};
+
 /// Points with names.
 struct NamedPoints {
   std::string expects() const { return "a map of names to lists of 3 lengths (m)"; }
@@ -101,6 +104,21 @@ void describe(V& v, LevelRecipe& o) {
 }
 
 template <class V>
+void describe(V& v, LatticesRecipe& o) {
+  v.required("surface", o.surface, Text{},
+             "a closed surface (.stl, .obj, .ply, .off, .vtp, .vtk, .msh) or a mesh, relative to the scene");
+  v.required("sizes", o.sizes, ListOf<Quantity>{{length, positive}},
+             "of the cells of a lattice each, finest first; elements count for the part of them that is body");
+  v("scale", o.scale, Quantity{plain, positive}, scale_help);
+}
+
+/// `body.levels`: a recipe for each, or for all.
+struct LevelsKeys {
+  std::vector<LevelRecipe>& list;
+  std::optional<LatticesRecipe>& map;
+};
+
+template <class V>
 void describe(V& v, BallSurfaceRecipe& o) {
   v.required("radius", o.radius, Quantity{length, positive}, "radius");
   v("subdivisions", o.subdivisions, Count{0}, "of an icosahedron: 12, 42, 162, 642, 2562 ... points");
@@ -122,6 +140,7 @@ inline constexpr Bounds below_half{.min = 0, .max = 0.5, .max_excluded = true}; 
 /// The key `body` fills the library's Body and the recipes of its meshes.
 struct BodyKeys {
   std::vector<LevelRecipe>& levels;
+  std::optional<LatticesRecipe>& lattices;
   double& jitter;
   Body& body;
   std::optional<SurfaceRecipe>& surface;
@@ -129,7 +148,9 @@ struct BodyKeys {
 
 template <class V>
 void describe(V& v, BodyKeys& o) {
-  v.required("levels", o.levels, List{}, "the body's meshes, finest first");
+  LevelsKeys levels{o.levels, o.lattices};
+  v.required("levels", levels, ListOrMap{},
+             "the body's meshes, finest first; or a surface that lattices are laid over");
   v("jitter", o.jitter, Quantity{plain, below_half},
     "vertices of every level are moved at random by up to this part of their shortest edge; its faces stay");
   describe(v, o.body);
@@ -138,7 +159,7 @@ void describe(V& v, BodyKeys& o) {
 
 template <class V>
 void describe(V& v, BodyRecipe& o) {
-  BodyKeys keys{o.levels, o.jitter, o.body, o.surface};
+  BodyKeys keys{o.levels, o.lattices, o.jitter, o.body, o.surface};
   describe(v, keys);
 }
 
@@ -226,7 +247,7 @@ void describe(V& v, Scene& o) {
   v("name", o.name, Text{}, "title; left out: the file's name");
   v.required("duration", o.duration, Quantity{duration, positive}, "simulated time");
   describe(v, o.problem);
-  BodyKeys body{o.levels, o.jitter, o.problem.body, o.surface};
+  BodyKeys body{o.levels, o.lattices, o.jitter, o.problem.body, o.surface};
   v.one_of();
   v.alternative("body", body, Group{}, "the deformable body");
   v.alternative("bodies", o.bodies, BodyMap{}, "several: a name for each, and below it the keys of body");

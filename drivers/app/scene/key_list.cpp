@@ -151,6 +151,7 @@ class Catalogue {
   static const char* words_of(const Group&) { return "a map"; }
   static const char* words_of(const Switch&) { return "true, false, or a map"; }
   static const char* words_of(const List&) { return "a list of maps"; }
+  static const char* words_of(const ListOrMap&) { return "a list of maps, or a map"; }
   static const char* words_of(const Map&) { return "a map of maps"; }
   static const char* words_of(const BodyMap&) { return "a map of maps, each as body"; }
   template <class T>
@@ -195,6 +196,10 @@ class Catalogue {
   template <class T>
   Json inside(std::vector<T>&, const List&, const std::string& path) {
     return list<T>(path);
+  }
+  template <class T>
+  Json inside(T& member, const ListOrMap&, const std::string& path) {
+    return any_of({inside(member.list, List{}, path), inside(member.map, Group{}, path)});
   }
   template <class T>
   Json inside(std::map<std::string, T>&, const Map&, const std::string& path) {

@@ -14,9 +14,12 @@ Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   std::erase_if(one.items, [](const Tree& item) { return item.key == "bodies" || item.key == "output"; });
   one.items.push_back(body);
   one.items.back().key = "body";
-  for (Tree& item : one.items.back().items)
-    if (item.key == "levels")
-      while (!item.items.empty() && item.items.size() < levels) item.items.push_back(item.items.back());
+  for (Tree& item : one.items.back().items) {
+    if (item.key != "levels") continue;
+    const auto sizes = std::ranges::find(item.items, "sizes", &Tree::key);  // of lattices
+    std::vector<Tree>& list = sizes != item.items.end() ? sizes->items : item.items;
+    while (!list.empty() && list.size() < levels) list.push_back(list.back());
+  }
   return one;
 }
 
@@ -58,7 +61,8 @@ void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, st
 Scene load_bodies(const Tree& tree) {
   const Scene recipe = read_scene(tree);
   std::size_t levels = 0;
-  for (const auto& [name, body] : recipe.bodies) levels = std::max(levels, body.levels.size());
+  for (const auto& [name, body] : recipe.bodies)
+    levels = std::max({levels, body.levels.size(), body.lattices ? body.lattices->sizes.size() : 0});
   Scene all = recipe;
   all.numbering.assign(levels, {});
   std::vector<std::size_t> vertices(levels, 0), tets(levels, 0);

@@ -46,6 +46,23 @@ void take_coarse_spaces(Scene& scene, const Tree& tree) {
   scene.levels.erase(first, scene.levels.end());
 }
 
+/// A level for each lattice.
+void take_lattices(Scene& scene, const Tree& tree) {
+  if (!scene.lattices) return;
+  const std::vector<double>& sizes = scene.lattices->sizes;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const std::string path = fmt::format("body.levels.sizes.{}", i);
+    if (i > 0 && !(sizes[i] >= sizes[i - 1]))
+      throw InputError(
+          fmt::format("{} is {:g} m after {:g} m; expected sizes that grow from level to level, finest first", path,
+                      sizes[i], sizes[i - 1]),
+          place_of(tree, path));
+    scene.levels.emplace_back().lattice = sizes[i];
+  }
+  if (scene.jitter > 0)
+    throw InputError("body.jitter: the cells of a lattice stay cubes; expected none", place_of(tree, "body.jitter"));
+}
+
 }  // namespace
 
 Scene read_scene(const Tree& tree) {
@@ -56,6 +73,7 @@ Scene read_scene(const Tree& tree) {
   describe(reader, scene);
   reader.finish();
   take_coarse_spaces(scene, tree);
+  take_lattices(scene, tree);
   for (const ObstacleRecipe& recipe : scene.obstacles) {
     ObstacleOptions& made = scene.problem.contact.obstacles.emplace_back(recipe.options);
     if (recipe.tool) made.shape = recipe.tool->options;
@@ -194,7 +212,7 @@ void check_scene(const Scene& scene, const Tree& tree) {
     check_body(scene, tree);
     check_memory(scene, tree);
     with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });
-    if (!scene.obstacles.empty() && !scene.surface)
+    if (!scene.obstacles.empty() && !scene.surface && !scene.lattices)
       throw InputError("contact.obstacles: the body has no surface to touch them; give body.surface",
                        place_of(tree, "contact.obstacles"));
   }

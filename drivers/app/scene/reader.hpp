@@ -123,6 +123,11 @@ class Reader {
     for (std::size_t i = 0; i < size; ++i) fill(value.item(i), Group{}, member.emplace_back());
   }
   template <class T>
+  static void fill(const Value& value, const ListOrMap&, T& member) {
+    if (value.tree.kind == Tree::Kind::map) return fill(value, Group{}, member.map);
+    fill(value, List{}, member.list);
+  }
+  template <class T>
   static void fill(const Value& value, const Map&, std::map<std::string, T>& member) {
     check_map(value);
     for (const Tree& item : value.tree.items) fill({item, value.path + "." + item.key}, Group{}, member[item.key]);

@@ -45,13 +45,21 @@ struct BlobRecipe {
   Point centre = Point::Zero();  ///< [m]
 };
 
-/// One of them, a file, or a coarse space of the mesh before.
+/// Lattices over a closed surface, see weighted_lattice().
+struct LatticesRecipe {
+  std::string surface;        ///< a file, relative to the scene
+  double scale = 1;           ///< metres per unit of the file
+  std::vector<double> sizes;  ///< of their cells, finest first [m]
+};
+
+/// One of them, a file, a lattice, or a coarse space of the mesh before.
 struct LevelRecipe {
   std::optional<BoxRecipe> box;
   std::optional<BallRecipe> ball;
   std::optional<CylinderRecipe> cylinder;
   std::optional<BlobRecipe> blob;
   std::optional<Tube> tube;
+  std::optional<double> lattice;           ///< its cells' size, over Scene::lattices' surface [m]
   std::optional<int> coarsen;              ///< its points; 0: auto, as many spaces as it takes
   std::string file;                        ///< relative to the scene
   double scale = 1;                        ///< metres per unit of the file
@@ -120,6 +128,7 @@ struct VolumeLevels {
 /// One of `bodies`.
 struct BodyRecipe {
   std::vector<LevelRecipe> levels;
+  std::optional<LatticesRecipe> lattices;
   double jitter = 0;
   Body body;
   std::optional<SurfaceRecipe> surface;
@@ -135,15 +144,16 @@ struct OutputOptions {
 
 struct Scene {
   std::string file;
-  std::string name;                   ///< none given: the file's
-  double duration = 0;                ///< [s]
-  Problem problem;                    ///< complete once its meshes are built
-  std::vector<Numbering> numbering;   ///< of each of these meshes
-  std::vector<std::string> warnings;  ///< about what was found in it and its files, a sentence each
+  std::string name;                        ///< none given: the file's
+  double duration = 0;                     ///< [s]
+  Problem problem;                         ///< complete once its meshes are built
+  std::vector<Numbering> numbering;        ///< of each of these meshes
+  std::vector<std::string> warnings;       ///< about what was found in it and its files, a sentence each
+  std::optional<LatticesRecipe> lattices;  ///< what the levels are, if they are lattices
   std::vector<LevelRecipe> levels;
   double jitter = 0;  ///< of every level: see jittered()
   std::optional<SurfaceRecipe> surface;
-  std::map<std::string, BodyRecipe> bodies;  ///< instead of the four above; what they make is one body of several parts
+  std::map<std::string, BodyRecipe> bodies;  ///< instead of the five above; what they make is one body of several parts
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
   StudyOptions study;  ///< but for its duration, which is the scene's

@@ -47,6 +47,7 @@ Coarser coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
 void report_spaces(const std::vector<CoarseSpace>& made, std::vector<LevelReport>& reports) {
   for (const CoarseSpace& space : made) {
     LevelReport& report = reports.emplace_back();
+    report.kind = space.slivers ? LevelKind::slivers : LevelKind::space;
     report.vertices = static_cast<int>(space.points.size());
     report.mean_edge = space.spacing;
     report.nonzeros = static_cast<double>(space.up.nonZeros()) / static_cast<double>(space.up.rows());
@@ -68,7 +69,7 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   const auto spaces = mass_spaces(coarser.transfers, constants.mass);
   HimParts<B> parts;
   parts.options = setup.problem.integration.him;
-  parts.detail = !coarser.made.empty() && coarser.made.front().slivers();
+  parts.detail = !coarser.made.empty() && coarser.made.front().slivers;
   std::optional<CoarseModes> modes;
   AxesShape axes;
   if (!spaces.empty()) {

@@ -147,6 +147,12 @@ class HierarchyBuilder {
     const TetMesh& mesh = built_.meshes[i];
     LevelReport& report = built_.reports.emplace_back();
     report.vertices = static_cast<int>(mesh.vertices.size()), report.tets = static_cast<int>(mesh.tets.size());
+    if (!mesh.filled.empty()) {
+      TetMesh whole = mesh;
+      whole.filled.clear();
+      report.kind = LevelKind::lattice;
+      report.filled = mesh_size(mesh, constants_[i].density).volume / mesh_size(whole, constants_[i].density).volume;
+    }
     report.mean_edge = mean_edge_length(mesh);
     report.mass = std::accumulate(constants_[i].mass.begin(), constants_[i].mass.end(), 0.0);
     std::vector<double> steps = element_steps(mesh, constants_[i].lame, constants_[i].density);

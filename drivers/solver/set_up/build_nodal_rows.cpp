@@ -72,7 +72,7 @@ class Domains {
     Eigen::Matrix3d edges;
     for (int c = 0; c < 3; ++c) edges.col(c) = mesh_.vertices[at(t[at(c + 1)])] - mesh_.vertices[at(t[0])];
     const Eigen::Matrix3d inverse = edges.inverse();
-    const double volume = edges.determinant() / 6;
+    const double volume = mesh_.part(e) * edges.determinant() / 6;
     std::array<Point, 4> g;
     for (int c = 0; c < 3; ++c) g[at(c + 1)] = inverse.row(c).transpose();
     g[0] = -(g[1] + g[2] + g[3]);

@@ -182,7 +182,7 @@ class PatchBuilder {
     const Eigen::Matrix3d inverse = edges.inverse();
     auto& shape = shape_[q0 + pack];
     for (int k = 0; k < 9; ++k) shape[at(k)][lane] = static_cast<Real>(inverse(k / 3, k % 3));
-    shape[9][lane] = static_cast<Real>(edges.determinant() / 6);
+    shape[9][lane] = static_cast<Real>(mesh_.part(at(e)) * edges.determinant() / 6);
     for (std::size_t c = 0; c < 4; ++c) {
       const int v = local_[at(t[c])];
       corner_[q0 + pack][c][lane] = static_cast<std::uint16_t>(v);

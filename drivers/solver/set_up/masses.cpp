@@ -22,7 +22,8 @@ std::vector<double> lumped_masses(const TetMesh& mesh, const std::vector<double>
     const auto& t = mesh.tets[e];
     const auto x = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
     const double of_tet = density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])];
-    for (int v : t) mass[static_cast<std::size_t>(v)] += of_tet * tet_volume(x(0), x(1), x(2), x(3)) / 4;
+    const double volume = mesh.part(e) * tet_volume(x(0), x(1), x(2), x(3));
+    for (int v : t) mass[static_cast<std::size_t>(v)] += of_tet * volume / 4;
   }
   return mass;
 }

@@ -129,6 +129,9 @@ std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection
 
 std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Selection& selection,
                                                  const Selecting& who) {
+  if (!mesh.filled.empty())
+    throw InputError(who.option + ": level " + std::to_string(who.level) +
+                     " is a lattice, whose faces are not the body's; expected a force, contact, or a mesh that fits");
   const std::vector<int> vertices = select_vertices(mesh, selection, who);
   std::vector<char> in(mesh.vertices.size(), 0);
   for (int v : vertices) in[static_cast<std::size_t>(v)] = 1;

@@ -250,6 +250,13 @@ void validate_mesh(const TetMesh& mesh, int level) {
   if (!mesh.region.empty() && mesh.region.size() != mesh.tets.size())
     refuse(" has regions for " + std::to_string(mesh.region.size()) + " of " + std::to_string(mesh.tets.size()) +
            " tetrahedra; expected all or none");
+  if (!mesh.filled.empty() && mesh.filled.size() != mesh.tets.size())
+    refuse(" is filled for " + std::to_string(mesh.filled.size()) + " of " + std::to_string(mesh.tets.size()) +
+           " tetrahedra; expected all or none");
+  for (std::size_t e = 0; e < mesh.filled.size(); ++e)
+    if (!(mesh.filled[e] > 0 && mesh.filled[e] <= 1))
+      refuse(": tetrahedron " + std::to_string(e) + " is filled to " + number(mesh.filled[e]) +
+             "; expected a part in (0, 1]");
   for (std::size_t e = 0; e < mesh.region.size(); ++e)
     if (mesh.region[e] < 0 || mesh.region[e] >= regions)
       refuse(": tetrahedron " + std::to_string(e) + " is in region " + std::to_string(mesh.region[e]) + " of " +

@@ -52,7 +52,7 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
     for (std::size_t c = 0; c < 3; ++c)
       edges.row(static_cast<Eigen::Index>(c)) =
           (mesh.vertices[index_of(tet[c + 1])] - mesh.vertices[index_of(tet[0])]).transpose();
-    const double volume = edges.determinant() / 6;
+    const double volume = mesh.part(e) * edges.determinant() / 6;
     Eigen::Matrix<double, 4, 3> gradient;
     gradient.bottomRows<3>() = edges.inverse().transpose();
     gradient.row(0) = -gradient.bottomRows<3>().colwise().sum();

@@ -62,7 +62,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
   if (options.slivers)
     if (auto slivers = sliver_space(mesh, constrained, mass, K)) {
       rows = slivers->kept;
-      spaces.push_back({without_constrained(slivers->up, constrained, rows), rows, 0});
+      spaces.push_back({without_constrained(slivers->up, constrained, rows), rows, 0, true});
     }
   for (const int size : options.sizes) {
     std::vector<int> points;

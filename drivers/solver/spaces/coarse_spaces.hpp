@@ -21,9 +21,8 @@ namespace plica {
 struct CoarseSpace {
   RowMatrix up;             ///< P: values at its points -> at those of the finer one, [finer points x points]
   std::vector<int> points;  ///< vertices of the mesh; where these are fixed a space has none
-  double spacing = 0;       ///< mean distance along edges to the next point [m]; 0: of a sliver space
-
-  bool slivers() const { return spacing == 0; }
+  double spacing = 0;       ///< mean distance along edges to the next point; not of a sliver space [m]
+  bool slivers = false;     ///< whether it is a sliver space
 };
 
 /// How many points spaces have by themselves.

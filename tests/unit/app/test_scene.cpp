@@ -69,6 +69,33 @@ TEST(Scene, CoarseSpacesAreNoMeshes) {
   EXPECT_FALSE(scene_of(sound_scene).problem.body.coarsen);
 }
 
+TEST(Scene, LatticesOverASurface) {
+  const auto levels = [](const std::string& rest) {
+    return std::vector<std::string>{"integration={cycle: rsv}", "body.levels={" + rest + "}"};
+  };
+  const std::string data = PLICA_SOURCE_DIR "/meshes/data/", ball = "surface: " + data + "ball.msh, ";
+  const Scene scene = scene_of(sound_scene, levels(ball + "sizes: [15 mm, 40 mm]"));
+  ASSERT_EQ(scene.problem.body.levels.size(), 2);
+  for (const TetMesh& mesh : scene.problem.body.levels) EXPECT_EQ(mesh.filled.size(), mesh.tets.size());
+  EXPECT_EQ(scene.problem.body.surface->vertices.size(), 42);  // the scene's own
+  Tree without = parse_tree(damaged("  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", ""), "a.yaml");
+  for (const std::string& set : levels(ball + "sizes: 20 mm")) override_value(without, set, set);
+  EXPECT_GT(load_scene(without).problem.body.surface->vertices.size(), 100);  // the ball's
+
+  const auto said = [&](const std::string& rest) { return error_of(sound_scene, levels(rest)); };
+  const auto expect_said = [&](const std::string& rest, const std::string& words) {
+    EXPECT_NE(said(rest).find(words), std::string::npos) << said(rest);
+  };
+  expect_said(ball + "sizes: [2 mm, 2 mm]", "body.levels.sizes.1 is 0.002 m after 0.002 m; expected larger cells");
+  expect_said(ball + "sizes: [9 m]", "the size of cells, 9 m, is larger than the body");
+  expect_said(ball + "size: 9 mm", "body.levels: unknown key 'size'");
+  expect_said("sizes: 9 mm", "body.levels: the key 'surface' is missing");
+  expect_said("surface: no.stl, sizes: 9 mm", "there is no surface file");
+  expect_said("surface: " + data + "formats/blocks.stl, sizes: 9 mm", "has no inside: 4 open edges");
+  EXPECT_NE(error_of(sound_scene, {"body.jitter=0.1", levels(ball + "sizes: 9 mm")[1]}).find("body.jitter"),
+            std::string::npos);
+}
+
 TEST(Override, ReplacesAndAdds) {
   const Scene scene = scene_of(
       sound_scene, {"duration=20 ms", "body.levels.0.box.cells=[3, 3, 3]", "name=a=b",
