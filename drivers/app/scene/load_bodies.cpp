@@ -14,12 +14,9 @@ Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   std::erase_if(one.items, [](const Tree& item) { return item.key == "bodies" || item.key == "output"; });
   one.items.push_back(body);
   one.items.back().key = "body";
-  for (Tree& item : one.items.back().items) {
-    if (item.key != "levels") continue;
-    const auto sizes = std::ranges::find(item.items, "sizes", &Tree::key);  // of lattices
-    std::vector<Tree>& list = sizes != item.items.end() ? sizes->items : item.items;
-    while (!list.empty() && list.size() < levels) list.push_back(list.back());
-  }
+  for (Tree& item : one.items.back().items)
+    if (item.key == "levels" && item.kind == Tree::Kind::list)
+      while (!item.items.empty() && item.items.size() < levels) item.items.push_back(item.items.back());
   return one;
 }
 
@@ -63,6 +60,13 @@ Scene load_bodies(const Tree& tree) {
   std::size_t levels = 0;
   for (const auto& [name, body] : recipe.bodies)
     levels = std::max({levels, body.levels.size(), body.lattices ? body.lattices->sizes.size() : 0});
+  for (const auto& [name, body] : recipe.bodies)
+    if (body.lattices && body.lattices->sizes.size() != levels) {
+      const std::string path = "bodies." + name + ".levels.sizes";
+      throw InputError(path + " are " + std::to_string(body.lattices->sizes.size()) + "; expected " +
+                           std::to_string(levels) + ", as many as the other bodies have levels",
+                       place_of(tree, path));
+    }
   Scene all = recipe;
   all.numbering.assign(levels, {});
   std::vector<std::size_t> vertices(levels, 0), tets(levels, 0);

@@ -52,11 +52,10 @@ void take_lattices(Scene& scene, const Tree& tree) {
   const std::vector<double>& sizes = scene.lattices->sizes;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const std::string path = fmt::format("body.levels.sizes.{}", i);
-    if (i > 0 && !(sizes[i] >= sizes[i - 1]))
-      throw InputError(
-          fmt::format("{} is {:g} m after {:g} m; expected sizes that grow from level to level, finest first", path,
-                      sizes[i], sizes[i - 1]),
-          place_of(tree, path));
+    if (i > 0 && !(sizes[i] > sizes[i - 1]))
+      throw InputError(fmt::format("{} is {:g} m after {:g} m; expected larger cells from level to level, finest first",
+                                   path, sizes[i], sizes[i - 1]),
+                       place_of(tree, path));
     scene.levels.emplace_back().lattice = sizes[i];
   }
   if (scene.jitter > 0)
