@@ -218,8 +218,11 @@ class CommandLine {
     add_convert(mesh);
     add_making(mesh, "repair", "merge duplicates, drop loose parts, shape slivers better", "a mesh", mesh_repair);
     CLI::App* fill =
-        add_making(mesh, "fill", "make a lattice mesh over a closed surface", "a closed surface", mesh_fill);
-    fill->add_option("--size", make_.size, "edges of its cubes, such as 2mm")->required();
+        add_making(mesh, "fill", "make a mesh of a closed surface's inside", "a closed surface", mesh_fill);
+    fill->add_option("--size", make_.size, "its edges, such as 2mm")->required();
+    fill->add_option("--with", make_.with,
+                     "gmsh: it fits the surface; lattice: of cubes over it; left out: Gmsh where it is installed")
+        ->check(CLI::IsMember({"gmsh", "lattice"}));
     CLI::App* coarsen = add_making(mesh, "coarsen", "make a coarser lattice mesh over a mesh", "a mesh", mesh_coarsen);
     coarsen->add_option("--vertices", make_.vertices, "it has at most, and about")->required();
   }

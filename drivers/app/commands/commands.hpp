@@ -101,6 +101,7 @@ struct MakeMeshArguments {
   std::string scale = "1";  ///< metres per unit of the file, as text
   std::string size;         ///< of the cells of a lattice, as text
   int vertices = 0;         ///< of a coarser mesh, at most
+  std::string with;         ///< what fills a surface: gmsh or lattice; empty: Gmsh where it is installed and able
 };
 
 /// plica run: simulates the scene and writes its files. A folder that holds a run already is refused, unless the arguments say
@@ -150,7 +151,7 @@ ExitStatus mesh_convert(const ConvertArguments& arguments);
 /// plica mesh repair: writes a mesh with its duplicates merged, loose parts dropped and slivers shaped better; says what changed.
 ExitStatus mesh_repair(const MakeMeshArguments& arguments);
 
-/// plica mesh fill: writes a lattice of cubes, cut into tetrahedra, over a closed surface.
+/// plica mesh fill: writes a mesh that fits a closed surface, by Gmsh, or a lattice of cubes over it, cut into tetrahedra.
 ExitStatus mesh_fill(const MakeMeshArguments& arguments);
 
 /// plica mesh coarsen: writes such a lattice over a mesh, with at most so many vertices.

@@ -3,6 +3,7 @@
 
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
+#include <plica/drivers/app/commands/fill_with_gmsh.hpp>
 #include <plica/drivers/app/commands/mesh_output.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
@@ -44,6 +45,22 @@ ExitStatus write_new(const MakeMeshArguments& arguments, const TetMesh& mesh, co
   return ExitStatus::done;
 }
 
+// Gmsh is asked where it is named or installed; what it cannot do a lattice can
+TetMesh filled(const TriangleSurface& surface, double size, const std::string& with) {
+  if (with == "lattice") return lattice_mesh(surface, size);
+  std::string why = "there is no gmsh on PATH";
+  if (has_gmsh()) {
+    try {
+      return fill_with_gmsh(surface, size);
+    } catch (const InputError& error) {
+      why = error.what();
+    }
+  }
+  if (with == "gmsh") throw InputError("--with gmsh: " + why + "; expected --with lattice");
+  std::cout << why << "\na lattice of cubes instead, which does not fit the surface\n";
+  return lattice_mesh(surface, size);
+}
+
 }  // namespace
 
 ExitStatus mesh_repair(const MakeMeshArguments& arguments) {
@@ -68,7 +85,7 @@ ExitStatus mesh_fill(const MakeMeshArguments& arguments) {
   if (!report.closed()) throw InputError("the surface " + why_open(report), {arguments.in.string()});
   for (Point& p : surface.vertices) p *= scale;
   warn(arguments.in, surface_warnings(report));
-  return write_new(arguments, placed(arguments.in, [&] { return lattice_mesh(surface, size); }));
+  return write_new(arguments, placed(arguments.in, [&] { return filled(surface, size, arguments.with); }));
 }
 
 ExitStatus mesh_coarsen(const MakeMeshArguments& arguments) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 
@@ -141,7 +142,8 @@ TEST_F(MeshCommands, RepairSaysWhatChanged) {
 }
 
 TEST_F(MeshCommands, LatticesOverSurfacesAndMeshes) {
-  const Child filled = plica({"fill", sample("blocks.ply"), "-o", at("blocks.vtu"), "--size", "5 mm"});
+  const Child filled =
+      plica({"fill", sample("blocks.ply"), "-o", at("blocks.vtu"), "--size", "5 mm", "--with", "lattice"});
   EXPECT_EQ(filled.status, 0) << filled.errors;
   EXPECT_NE(filled.output.find("225 vertices, 768 tetrahedra"), std::string::npos) << filled.output;
   EXPECT_EQ(plica({"coarsen", sample("blocks_41.msh"), "-o", at("c.msh"), "--vertices", "23"}).status, 2);
@@ -154,6 +156,44 @@ TEST_F(MeshCommands, LatticesOverSurfacesAndMeshes) {
                  "larger than the body, 0.02 x 0.02 x 0.04 m");
   expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "-1"}, "--size");
   expect_refused({"coarsen", sample("blocks_41.msh"), "-o", at("a.msh"), "--vertices", "30"}, "it must be 30 to 23");
+}
+
+// A stand-in for Gmsh, so that what follows from it does not depend on what is installed
+TEST_F(MeshCommands, FillsWithGmshWhereThereIsOne) {
+  const std::string path = getenv("PATH");
+  const auto with_gmsh = [&](const std::string& does) {
+    std::ofstream(at("gmsh")) << "#!/bin/sh\n" << does;
+    std::filesystem::permissions(at("gmsh"), std::filesystem::perms::owner_all);
+    setenv("PATH", (at("") + ":" + path).c_str(), 1);
+  };
+  const std::vector<std::string> fill = {"fill", sample("blocks.ply"), "-o", at("a.vtu"), "--size", "5 mm"};
+  const auto asked = [&](const std::string& with) {
+    std::vector<std::string> words = fill;
+    words.insert(words.end(), {"--with", with});
+    return words;
+  };
+  with_gmsh("cp '" + sample("blocks_22.msh") + "' \"$6\"\n");
+  const Child fitted = plica(fill);
+  EXPECT_EQ(fitted.status, 0) << fitted.errors;
+  EXPECT_NE(fitted.output.find("23 vertices"), std::string::npos) << fitted.output;
+
+  with_gmsh("echo 'Info : starts'; echo 'Error : the surface meets itself' >&2; exit 1\n");
+  const Child instead = plica(fill);
+  EXPECT_EQ(instead.status, 0) << instead.errors;
+  EXPECT_NE(instead.output.find("Error : the surface meets itself\na lattice of cubes instead"), std::string::npos)
+      << instead.output;
+  EXPECT_NE(instead.output.find("225 vertices"), std::string::npos) << instead.output;
+  expect_refused(asked("gmsh"),
+                 "--with gmsh: Gmsh made no mesh that fits; it says:\n  Error : the surface meets itself");
+
+  with_gmsh("cp '" + sample("../ball.msh") + "' \"$6\"\n");
+  expect_refused(asked("gmsh"), "of a surface that encloses");
+  setenv("PATH", at("").c_str(), 1);
+  std::filesystem::remove(at("gmsh"));
+  expect_refused(asked("gmsh"), "there is no gmsh on PATH");
+  EXPECT_NE(plica(fill).output.find("there is no gmsh on PATH\na lattice of cubes instead"), std::string::npos);
+  setenv("PATH", path.c_str(), 1);
+  expect_refused(asked("tetgen"), "--with");
 }
 
 TEST_F(MeshCommands, PipesAndHugeNamesAreRefused) {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <plica/core/error.hpp>
+#include <plica/drivers/app/commands/fill_with_gmsh.hpp>
+#include <plica/drivers/app/output/write_file.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+#include <sstream>
+
+namespace plica::app {
+
+namespace {
+
+constexpr double same_volume = 0.1;  // edges of the size cut corners
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "plica-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw FileError("cannot make a folder for temporary files: " + name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The surface in patches that meet at edges sharper than 40 degrees, meshed anew, and its inside
+std::string gmsh_script(const std::filesystem::path& surface, double size) {
+  return fmt::format(
+      "Merge \"{}\";\n"
+      "ClassifySurfaces{{40 * Pi / 180, 1, 1, Pi}};\n"
+      "CreateGeometry;\n"
+      "Surface Loop(1) = Surface{{:}};\n"
+      "Volume(1) = {{1}};\n"
+      "Mesh.MeshSizeMax = {};\n"
+      "Mesh.MeshSizeMin = {};\n"
+      "Mesh.MeshSizeExtendFromBoundary = 0;\n",
+      surface.string(), size, size / 2);
+}
+
+// Its exit status; what it says goes to a file
+int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh,
+             const std::filesystem::path& said) {
+  std::array<std::string, 8> words = {"gmsh", script.string(), "-3",      "-format", "msh22",
+                                      "-o",   mesh.string(),   "-nopopup"};
+  std::array<char*, words.size() + 1> pointers = {};
+  for (std::size_t i = 0; i < words.size(); ++i) pointers[i] = words[i].data();
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  pid_t id = 0;
+  const int failure = posix_spawnp(&id, "gmsh", &files, nullptr, pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  int status = 0;
+  if (failure != 0 || waitpid(id, &status, 0) != id) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// The lines in which Gmsh names an error; where there are none the last one
+std::string errors_in(const std::filesystem::path& said) {
+  std::ifstream file(said);
+  std::string errors, last;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("Error")) errors += "\n  " + line;
+    if (!line.empty()) last = line;
+  }
+  return errors.empty() ? "\n  " + last : errors;
+}
+
+}  // namespace
+
+bool has_gmsh() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((std::filesystem::path(folder) / "gmsh").c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+TetMesh fill_with_gmsh(const TriangleSurface& surface, double size) {
+  const TemporaryFolder folder;
+  const auto stl = folder / "surface.stl", geo = folder / "fill.geo", msh = folder / "mesh.msh", said = folder / "said";
+  write_files(write_surface(stl, surface).files);
+  write_file(geo, gmsh_script(stl, size));
+  const int status = run_gmsh(geo, msh, said);
+  if (status != 0 || !std::filesystem::exists(msh))
+    throw InputError("Gmsh made no mesh that fits; it says:" + errors_in(said));
+  TetMesh mesh = read_mesh(msh);
+  mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();
+  const double volume = mesh_quality(mesh).volume, enclosed = enclosed_volume(surface);
+  if (std::abs(volume - enclosed) > same_volume * enclosed)
+    throw InputError(fmt::format("Gmsh made a mesh of {:.4g} m^3 of a surface that encloses {:.4g} m^3; it says:{}",
+                                 volume, enclosed, errors_in(said)));
+  return mesh;
+}
+
+}  // namespace plica::app

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/mesh.hpp>
+
+namespace plica::app {
+
+/// Whether the outside program Gmsh is installed: it is on PATH.
+bool has_gmsh();
+
+/// A mesh of a closed surface's inside that fits it, with edges of about `size` [m]. Gmsh runs as a process of its own, in a folder
+/// for temporary files. InputError with Gmsh's own words where it makes none, or one of another volume.
+TetMesh fill_with_gmsh(const TriangleSurface& surface, double size);
+
+}  // namespace plica::app
