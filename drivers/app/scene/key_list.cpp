@@ -199,7 +199,10 @@ class Catalogue {
   }
   template <class T>
   Json inside(T& member, const ListOrMap&, const std::string& path) {
-    return any_of({inside(member.list, List{}, path), inside(member.map, Group{}, path)});
+    Json schema = inside(member.list, List{}, path);  // what it says of items holds for lists only, of keys for objects
+    schema.update(inside(member.map, Group{}, path));
+    schema["type"] = {"array", "object"};
+    return schema;
   }
   template <class T>
   Json inside(std::map<std::string, T>&, const Map&, const std::string& path) {
