@@ -24,6 +24,7 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.first = zeros<Indices<B>>("plica::pairs.first", buckets);
   grid_.filled = zeros<Indices<B>>("plica::pairs.filled", buckets);
   grid_.item = zeros<Indices<B>>("plica::pairs.item", triangles);
+  grid_.centre = zeros<Vectors<B>>("plica::pairs.centre", triangles);
   grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
   count_ = zeros<Indices<B>>("plica::pairs.count", triangles);
 }
@@ -36,8 +37,7 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
                                            PlacePoints<B>{surface, state.u, grid_}, blocks, grid_.moved);
   update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_});
   make_grid(exec, points);
-  where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points,
-                    MarkClose<B>{find, {points.pairs.corner, grid_}});
+  where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, MarkClose<B>{find});
   reduce<B, 1>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find}, blocks, near_);
   list_partners(exec, points.pairs);
 }
@@ -74,7 +74,7 @@ void PairSearch<B>::list_partners(const Exec& exec, const PairedPoints<B>& pairs
 
 template <class B>
 std::size_t PairSearch<B>::bytes() const {
-  return (grid_.x.span() + grid_.built.span()) * sizeof(Real) +
+  return (grid_.x.span() + grid_.built.span() + grid_.centre.span()) * sizeof(Real) +
          (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + count_.span()) *
              sizeof(int);
 }

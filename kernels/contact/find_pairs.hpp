@@ -23,10 +23,13 @@ struct FindPairs {
     const PointLaws<B>& of = points.law;
     return of.bodies == 1 || of.body(p) == of.body(corner(t, 0));
   }
+  KOKKOS_INLINE_FUNCTION bool allowed(int p, int t) const {
+    return one_body(p, t) ? grid.limits.self : grid.limits.between;
+  }
   /// On one body, at rest, they must be far apart, or face each other across a gap: not neighbours, nor the sides of something thin.
   KOKKOS_INLINE_FUNCTION bool may_touch(int p, int t) const {
-    if (!one_body(p, t)) return grid.limits.between;
-    if (!grid.limits.self) return false;
+    if (!allowed(p, t)) return false;
+    if (!one_body(p, t)) return true;
     const Vec3<Real> at = rest(p), a = rest(corner(t, 0)), b = rest(corner(t, 1)), c = rest(corner(t, 2));
     const Vec3<Real> w = nearest_on_triangle(at, a, b, c), d = at - (w[0] * a + w[1] * b + w[2] * c);
     const Vec3<Real> n = cross(b - a, c - a);
@@ -74,17 +77,10 @@ template <class B>
 struct MarkClose {
   using Real = typename B::Real;
   FindPairs<B> find;
-  TriangleOfGrid<B> of;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    const Vec3<Real> at = find.x(p);
-    const Real width = of.grid.width(0);
     bool close = false;
-    of.grid.around(at, [&](int t) {
-      if (close) return;
-      const Vec3<Real> d = of.centroid(t) - at;
-      close = dot(d, d) < width * width && find.may_touch(p, t);
-    });
-    of.grid.close(p) = close ? 1 : 0;
+    find.grid.around(find.x(p), [&](int t) { close = close || find.may_touch(p, t); });
+    find.grid.close(p) = close ? 1 : 0;
   }
 };
 
@@ -105,6 +101,7 @@ struct NearestTriangles {
     Vec3<Real> weight;
     const Vec3<Real> at = find.x(p);
     find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
+      if (!find.allowed(p, t)) return;
       const Vec3<Real> a = find.x(find.corner(t, 0)), b = find.x(find.corner(t, 1)), c = find.x(find.corner(t, 2));
       const Vec3<Real> w = nearest_on_triangle(at, a, b, c), d = at - (w[0] * a + w[1] * b + w[2] * c);
       const Real square = dot(d, d);

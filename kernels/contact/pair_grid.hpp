@@ -30,7 +30,8 @@ struct PairGrid {
   Scalars<B> width;   ///< [1] of a cell [m]
   Indices<B> first;   ///< [buckets] into item
   Indices<B> filled;  ///< [buckets] items of each
-  Indices<B> item;    ///< [triangles]
+  Indices<B> item;    ///< [triangles] of one cell after the other
+  Vectors<B> centre;  ///< [items][3] their centroids when the grid was made [m]
   Indices<B> close;   ///< [points] 1: something may come within reach before the grid is made anew
 
   KOKKOS_INLINE_FUNCTION int cell(Real coordinate) const {
@@ -45,13 +46,17 @@ struct PairGrid {
   KOKKOS_INLINE_FUNCTION int bucket_of(const Vec3<Real>& at) const {
     return bucket(cell(at[0]), cell(at[1]), cell(at[2]));
   }
-  /// look(triangle) for all that may be near a point; some come twice.
+  /// look(triangle) for all that may come near a point that was `at` this place when the grid was made; some come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void around(const Vec3<Real>& at, const Look& look) const {
     const int c[3] = {cell(at[0]), cell(at[1]), cell(at[2])};
+    const Real far = width(0) * width(0);
     for (int n = 0; n < 27; ++n) {
       const int b = bucket(c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1), begin = first(b);
-      for (int s = begin; s < begin + filled(b); ++s) look(item(s));
+      for (int s = begin; s < begin + filled(b); ++s) {
+        const Vec3<Real> d = vector_at<B>(centre, s) - at;
+        if (dot(d, d) < far) look(item(s));
+      }
     }
   }
 };
@@ -151,10 +156,13 @@ struct SumBefore {
 /// Puts triangles into their cells, whose counts start from 0 again. In any order: who looks takes the nearest.
 template <class B>
 struct FillCells {
+  using Real = typename B::Real;
   TriangleOfGrid<B> of;
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    const int b = of.grid.bucket_of(of.centroid(t));
-    of.grid.item(of.grid.first(b) + Kokkos::atomic_fetch_add(&of.grid.filled(b), 1)) = t;
+    const Vec3<Real> centre = of.centroid(t);
+    const int b = of.grid.bucket_of(centre), s = of.grid.first(b) + Kokkos::atomic_fetch_add(&of.grid.filled(b), 1);
+    of.grid.item(s) = t;
+    set_vector<B>(of.grid.centre, s, centre);
   }
 };
 

@@ -86,7 +86,9 @@ TEST(Schema, HasEveryKey) {
     ASSERT_NE(at, nullptr) << key.path;
     EXPECT_TRUE(at->contains("description")) << key.path;
   }
-  EXPECT_EQ(schema["required"], Json({"duration", "body"}));
+  EXPECT_EQ(schema["required"], Json({"duration"}));
+  EXPECT_EQ(schema["allOf"].at(0).at("oneOf").size(), 2);  // body or bodies
+  EXPECT_EQ(schema_at(schema, "bodies")->at("additionalProperties").at("$ref"), "#/properties/body");
   EXPECT_EQ(schema_at(schema, "body.levels[]")->at("allOf").at(0).at("oneOf").size(), 7);
 }
 

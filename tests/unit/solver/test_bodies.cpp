@@ -295,7 +295,25 @@ TEST(SelfContact, KeepsAFoldApart) {
   }
 }
 
-// --- What it costs ----------------------------------------------------------------------------------------------------------
+// --- How it is computed ---------------------------------------------------------------------------------------------------------
+
+#if defined(KOKKOS_ENABLE_OPENMP)
+TEST(Bodies, GiveTheSameBitsForOneThreadAndTwo) {
+  if (Kokkos::OpenMP().concurrency() < 2) GTEST_SKIP() << "one thread";
+  for (const std::string cycle : {"single", "rsv", "him"}) {
+    Problem p = collision(2, cycle);
+    if (cycle == "him") p.integration.macro_step = 1e-3;
+    p.contact.friction = 0.3, p.contact.self = true;
+    const auto result = [&](int threads) {
+      Simulation<Backend<double, Kokkos::OpenMP>> s(p, Kokkos::OpenMP(threads));
+      advance(s, 60);
+      EXPECT_GT(s.energies().contact, 0);
+      return s.positions();
+    };
+    EXPECT_TRUE(same_bits(result(1), result(2))) << cycle;
+  }
+}
+#endif
 
 TEST(SelfContact, IsLeftOutWhereNothingAsksForIt) {
   Problem p = fold();
