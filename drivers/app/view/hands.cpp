@@ -9,8 +9,8 @@ namespace plica::app {
 namespace {
 
 constexpr double patch = 0.06;        // radius of what is held, over the body's size
-constexpr double hand_speed = 10;     // the body's sizes per second; simulated
-constexpr double ball_speed = 4;      // likewise
+constexpr double hand_speed = 2;      // the body's sizes per second; simulated
+constexpr double ball_speed = 1;      // likewise
 constexpr double pull_limit = 0.1;    // h^2 k / m of a vertex; with its own stiffness it has to stay below 4
 constexpr double push_limit = 0.25;   // likewise
 constexpr double ball_stiffness = 2;  // of a touched vertex, over Young's modulus times an edge

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the Python package says of obstacles, writes into folders and shows on pages."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+import plica
+import pytest
+
+sys.path.insert(0, str(Path(os.environ["PLICA_SOURCE_DIR"]) / "drivers" / "plots"))
+
+PRESS = {
+    "duration": "40 ms",
+    "body": {
+        "levels": [{"box": {"size": [0.1, 0.1, 0.04], "cells": [4, 4, 2]}}],
+        "fixed": [{"plane": {"normal": [0, 0, 1]}}],
+        "surface": {"boundary": True},
+    },
+    "contact": {"obstacles": [{"name": "finger", "sphere": {"centre": [0.05, 0.05, 0.058], "radius": 0.02}}]},
+}
+
+
+def test_wrenches_are_named_and_push_the_body_away():
+    sim = plica.Simulation(PRESS)
+    assert list(sim.wrenches()) == ["finger"]
+    fingers = [sim.step().wrenches()["finger"] for _ in range(10)]
+    assert all(one.force.shape == one.torque.shape == (3,) and one.force.dtype == np.float64 for one in fingers)
+    force = min((one.force for one in fingers), key=lambda force: force[2])
+    assert force[2] < -1e-3 and np.abs(force[:2]).max() < 0.2 * -force[2]
+    with plica.Simulation({key: value for key, value in PRESS.items() if key != "contact"}) as alone:
+        assert alone.wrenches() == {}
+
+
+def test_frames_are_written_as_by_the_program(tmp_path):
+    from frames import read_vtu
+
+    sim = plica.Simulation(PRESS)
+    times = [frame.time for frame in sim.run(every="10 ms", folder=tmp_path / "run")]
+    assert len(times) == 4
+    files = sorted((tmp_path / "run/frames").glob("surface_*.vtu"))
+    assert len(files) == 5
+    assert len(read_vtu(files[-1])["Points"]) == len(sim.surface_positions())
+    page = sim.report()
+    assert page == tmp_path / "run/report.html" and "finger" in page.read_text()
+    assert plica.report(tmp_path / "run", frames=2) == page
+    with pytest.raises(plica.InputError, match="holds a run already"):
+        sim.run("10 ms", every="5 ms", folder=tmp_path / "run")
+    assert len(list(sim.run("10 ms", every="5 ms", folder=tmp_path / "run", force=True))) == 2
+
+
+def test_a_view_is_served_and_ctrl_c_ends_it():
+    code = textwrap.dedent(f"""
+        import plica
+        sim = plica.view({PRESS!r}, port=0, browser=False)
+        print("ended", sim.time)
+    """)
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    address = child.stdout.readline().split()[0]
+    with urllib.request.urlopen(address + "/") as page:
+        assert b"live" in page.read()
+    with urllib.request.urlopen(address + "/frames") as frames:  # while somebody looks, it runs
+        seen = [json.loads(line[6:])["time"] for line, _ in zip((line for line in frames if line.startswith(b"data: ")), range(5))]
+    assert seen == sorted(seen) and seen[-1] > seen[0]
+    child.send_signal(signal.SIGINT)
+    output, errors = child.communicate(timeout=20)
+    assert child.returncode == 0 and output.startswith("ended") and float(output.split()[1]) >= seen[-1], errors
