@@ -176,11 +176,11 @@ TEST(Loads, PressureIsBalancedInImplicitSteps) {
   Problem p = body_of({box_mesh({{0, 0, 0}, {0.4, 0.1, 0.1}}, {8, 2, 2})}, "neo_hookean");
   p.body.fixed = {left_face()};
   p.body.loads = {{Box{{0, 0, 0}, {1, 1, 0}}, FollowerPressure{60}, RampCourse{0.5}}};
-  p.body.damping.mass = 40;
+  p.body.damping.mass = 4;  // [1/s], about critical: at rest after 10 s
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.05;
   p.integration.implicit.newton_iterations = 30, p.integration.implicit.newton_tolerance = 1e-8;
   Simulation<Host> simulation(p);
-  advance(simulation, 1000);
+  advance(simulation, 200);
   EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
   LevelProbe<Host> probe(p);
   const std::vector<Point> u = displacements(simulation, p.body.levels[0]);
@@ -188,7 +188,7 @@ TEST(Loads, PressureIsBalancedInImplicitSteps) {
   const auto f = probe.force(u, probe.zero(), 10);
   for (std::size_t a = 0; a < f.size(); ++a)
     if (p.body.levels[0].vertices[a][0] > 1e-9) {
-      EXPECT_LE(f[a].norm(), 2e-3) << a;  // of 2.4 N in all
+      EXPECT_LE(f[a].norm(), 1e-5) << a;  // of 2.4 N in all
     }
 }
 

@@ -167,8 +167,14 @@ TEST_P(Matrix, EveryCaseEndsAsItMust) {
                         << ". " << row.detail;
 }
 
-INSTANTIATE_TEST_SUITE_P(Materials, Matrix, testing::ValuesIn(materials_of_two_constants()),
-                         [](const auto& material) { return material.param; });
+std::vector<std::string> materials_and_nodal() {
+  std::vector<std::string> ends = materials_of_two_constants();
+  ends.emplace_back("nodal");
+  return ends;
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, Matrix, testing::ValuesIn(materials_and_nodal()),
+                         [](const auto& end) { return end.param; });
 
 TEST(Matrix, BodiesInOtherWordsMoveAlike) {
   for (const auto& run : invariance_cases(MatrixSize::small)) {
