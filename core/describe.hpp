@@ -59,9 +59,27 @@ void describe_constants(V& v, Options& o) {
 }
 
 template <class V>
+void describe(V& v, FibreWinding& o) {
+  v("point", o.point, Vector{length}, "on the line");
+  v.required("axis", o.axis, Direction{}, "along the line; its length does not matter");
+  v("angle", o.angle, Quantity{angle}, "of the helix: 0 round the line, 90 deg along it");
+}
+
+template <class V>
+void describe(V& v, PronyTerm& o) {
+  v.required("alpha", o.alpha, Quantity{plain, inside_zero_one}, "part of the stress at once that relaxes");
+  v.required("tau", o.tau, Quantity{duration, positive}, "time in which e^-1 of it is left");
+}
+
+template <class V>
 void describe(V& v, FibreOptions& o) {
-  v.required("axis", o.axis, Direction{}, "along the fibres; its length does not matter");
   v("sheet", o.sheet, Direction{}, "across them: in the plane of their sheets, or of two families");
+  v("sheet_field", o.sheet_field, Text{}, "the same, of each element: vectors of the mesh file by their name");
+  v.one_of();
+  v.alternative("axis", o.axis, Direction{}, "along the fibres everywhere; its length does not matter");
+  v.alternative("around", o.around, Case<FibreWinding>{}, "round a line, as in vessels; their sheets are cylinders");
+  v.alternative("field", o.field, Text{},
+                "of each element: vectors of the mesh file, of its cells or points, by their name");
 }
 
 template <class V>
@@ -78,6 +96,7 @@ void describe(V& v, MaterialOptions& o) {
   v("terms", o.terms, List{}, "of ogden: 1 to 6");
   v("convention", o.convention, Name{"convention", ogden_conventions}, "of ogden, which has no standard one");
   v("volume", o.volume, Name{"volume", volumes}, "of laws of tissue, U(J); left out: simo_hughes");
+  v("prony", o.prony, List{}, "relaxation of the stress of shape, of neo_hookean and laws of tissue: 1 to 6 terms");
   v("allow_inversion", o.allow_inversion, Flag{}, "false: inverted elements end the run; left out: by the material");
 }
 
@@ -276,6 +295,7 @@ void describe(V& v, IntegrationOptions& o) {
 /// But for the body, its integration and contact.
 template <class V>
 void describe(V& v, Problem& o) {
+  v("preset", o, PresetName{}, "a published method, whose options the other keys override: plica list presets");
   v("gravity", o.gravity, Vector{acceleration}, "acceleration of everything that is free");
 }
 

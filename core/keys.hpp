@@ -24,6 +24,7 @@ std::vector<Choice> materials();               ///< constitutive laws
 std::vector<Choice> volumes();                 ///< what laws of tissue have for the volume
 std::vector<Choice> ogden_conventions();       ///< of the mu in Ogden's terms
 std::vector<Choice> tissues();                 ///< materials by the name of a tissue
+std::vector<Choice> presets();                 ///< published methods, as what they consist of here
 std::vector<Choice> elements();                ///< how strains follow from the vertices, and auto
 std::vector<Choice> pressures();               ///< of nodal elements, and auto
 std::vector<Choice> integrators();             ///< one-level ODE solvers
@@ -176,6 +177,18 @@ struct TissueName {
   }
   template <class Material>
   void check(const std::string&, const Material&) const {}
+};
+
+/// A name of presets(), which stands for options of a whole problem.
+struct PresetName {
+  Name name{"preset", presets};
+  std::string expects() const { return name.expects(); }
+  template <class Problem>
+  std::string shown(const Problem& of) const {
+    return of.preset;
+  }
+  template <class Problem>
+  void check(const std::string&, const Problem&) const {}
 };
 
 /// One name for all levels, or one for each.

@@ -40,6 +40,22 @@ struct FollowerLoad {
   LoadCourse course;
 };
 
+/// How a Prony series goes on over a time t: H_i <- keep H_i + gain (S - S before) with keep = e^(-t/tau), gain = (1 - keep) tau/t.
+template <class Real>
+struct RelaxationStep {
+  static constexpr int most_terms = 6;
+  int terms = 0;
+  Real keep[most_terms] = {}, gain[most_terms] = {};
+};
+
+/// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A symmetric matrix is xx yy zz xy xz yz.
+template <class B>
+struct StressMemory {
+  int terms = 0;      ///< of the Prony series
+  Scalars<B> memory;  ///< [slots][1 + terms][6] isochoric second Piola stress: elastic, and of each term [Pa]
+  Scalars<B> lost;    ///< [slots][6] what relaxation takes off the second Piola stress where it is looked at [Pa]
+};
+
 /// One resolution of the body: what is constant, its state, what is needed to integrate it, and how it exchanges states with
 /// its neighbours. Members that a scene does not need stay empty.
 template <class B>
@@ -51,10 +67,11 @@ struct Level {
   std::vector<FollowerLoad<B>> followers;
   EmbeddedSurface<B> surface;  ///< only with contact; on level 0 also for looking at
 
-  Vectors<B> f;           ///< [vertices][3] force at the state about to be integrated [N]
-  Vectors<B> partial;     ///< [shares][3] what the element kernels leave, a row per share
-  NodalWork<B> nodal;     ///< with nodal elements only
-  ElementFlags<B> flags;  ///< only where no element may be inverted
+  Vectors<B> f;            ///< [vertices][3] force at the state about to be integrated [N]
+  Vectors<B> partial;      ///< [shares][3] what the element kernels leave, a row per share
+  NodalWork<B> nodal;      ///< with nodal elements only
+  StressMemory<B> stress;  ///< of viscous materials only
+  ElementFlags<B> flags;   ///< only where no element may be inverted
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
   Transfer<B> to_finer;    ///< P: level i -> i-1, likewise

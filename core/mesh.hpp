@@ -25,6 +25,8 @@ struct TetMesh {
   std::vector<std::string> region_names;  ///< unique
   std::map<std::string, std::vector<int>> vertex_sets;  ///< named vertices (surface, line and point groups), ascending
   std::vector<double> filled = {};  ///< per tet the part of it that is body, in (0, 1]; empty: all of each
+  std::map<std::string, std::vector<Point>> tet_vectors =
+      {};  ///< named vectors, one per tet: such as directions of fibres
 
   /// Of a tetrahedron. Its mass, stiffness and energy are this part of what its volume would have.
   double part(std::size_t tet) const { return filled.empty() ? 1 : filled[tet]; }

@@ -43,6 +43,7 @@ struct NodalRows {
   Array<int* [height]> surface_neighbour;
   Array<Real* [3][height]> surface_gradient;
   Scalars<B> constants;   ///< [regions * n] of the material
+  Scalars<B> fibres;      ///< [slots * 6] axis and sheet of each domain, instead of its region's; empty: none
   Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
   Scalars<B> excess;      ///< [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
   Scalars<B> damping;     ///< [regions] part of the stiffness that damps [s]; empty: none anywhere

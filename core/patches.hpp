@@ -42,9 +42,10 @@ struct Patches {
   Indices<B> vertex;        ///< [patch vertices]
   Array<std::uint16_t* [4][lanes]> corner;
   Array<Real* [10][lanes]> shape;
-  Scalars<B> constants;        ///< [count * n] the n constants of its material: a patch never spans two regions
-  Scalars<B> damping;          ///< [count] part of its stiffness that damps [s]; empty: none anywhere
-  Indices<B> first_slot;       ///< [patch vertices + 1]
+  Scalars<B> constants;   ///< [count * n] the n constants of its material: a patch never spans two regions
+  Scalars<B> fibres;      ///< [packs * lanes * 6] axis and sheet of each element, instead of its patch's; empty: none
+  Scalars<B> damping;     ///< [count] part of its stiffness that damps [s]; empty: none anywhere
+  Indices<B> first_slot;  ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
   VertexShares<B> shares;
   Indices<B> element;  ///< [packs * lanes] the mesh's tetrahedron, -1: padding

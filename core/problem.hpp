@@ -13,10 +13,27 @@
 /// are checked where the simulation is set up.
 namespace plica {
 
-/// The directions of a body's fibres at rest, the same everywhere in it.
+/// Directions round a line: of circles about it, turned by an angle towards it. Their sheets are the cylinders about it.
+struct FibreWinding {
+  Point point = Point::Zero();  ///< on the line [m]
+  Point axis = Point::UnitZ();  ///< along it; its length does not matter
+  double angle = 0;             ///< of the helix: 0 round the line, a right angle along it [rad]
+};
+
+/// The directions of a body's fibres at rest: the same everywhere, by a rule, or of each element.
 struct FibreOptions {
-  Point axis = Point::UnitX();  ///< along them; its length does not matter
-  std::optional<Point> sheet;   ///< across them, in the plane of their sheets or families
+  Point axis = Point::UnitX();              ///< along them; its length does not matter
+  std::optional<Point> sheet = {};          ///< across them, in the plane of their sheets or families
+  std::optional<FibreWinding> around = {};  ///< instead of `axis` and `sheet`
+  std::string field = {};                   ///< instead of `axis`: the vectors of this name in TetMesh::tet_vectors
+  std::string sheet_field = {};             ///< instead of `sheet`, likewise
+};
+
+/// A part of the stress of shape that relaxes: of a step of strain, alpha e^(-t/tau) of it is left after a time t.
+struct PronyTerm {
+  double alpha = 0;  ///< part of the stress at once
+  double tau = 0;    ///< [s]
+  bool operator==(const PronyTerm&) const = default;
 };
 
 /// One of the sum that Ogden's law is.
@@ -36,6 +53,7 @@ struct MaterialOptions {
   std::optional<std::string> volume = {};         ///< of volumes(): U(J) of laws of tissue; none: simo_hughes
   std::optional<std::string> convention = {};     ///< of ogden_conventions(), for mu in `terms`
   std::vector<OgdenTerm> terms = {};              ///< of Ogden's law, 1 to 6
+  std::vector<PronyTerm> prony = {};              ///< relaxation; none: the material is elastic
   std::optional<FibreOptions> fibres = {};        ///< of laws with fibres; a scene has it as body.fibres
   std::string tissue = {};                        ///< whose values these were, see tissue_material()
 };
@@ -201,6 +219,7 @@ std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle);
 
 /// A body, what acts on it, and how it is integrated.
 struct Problem {
+  std::string preset = {};         ///< of presets(), whose options these were; see apply_preset()
   Body body;                       ///< what moves
   Point gravity = Point::Zero();   ///< [m/s^2]
   IntegrationOptions integration;  ///< in time

@@ -127,6 +127,16 @@ struct SymMat3 {
   }
 };
 
+/// A symmetric matrix as xx yy zz xy xz yz.
+template <class T>
+KOKKOS_INLINE_FUNCTION SymMat3<T> six_of(const Mat3<T>& M) {
+  return {{M[0][0], M[1][1], M[2][2], M[0][1], M[0][2], M[1][2]}};
+}
+template <class T>
+KOKKOS_INLINE_FUNCTION Mat3<T> matrix_of(const SymMat3<T>& m) {
+  return {Vec3<T>{m.a[0], m.a[3], m.a[4]}, Vec3<T>{m.a[3], m.a[1], m.a[5]}, Vec3<T>{m.a[4], m.a[5], m.a[2]}};
+}
+
 /// Whether A is positive definite, and then its inverse.
 template <class T>
 KOKKOS_INLINE_FUNCTION bool invert_positive(const SymMat3<T>& A, SymMat3<T>& inverse) {

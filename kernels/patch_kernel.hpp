@@ -83,7 +83,7 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
 /// patch vertex into `partial`. An integrand has
 ///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
 ///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
-/// with G the gradients of the fields. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
+/// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
 /// 8 (slots), and per patch vertex 4 + 3 s fields + 3 s.
 template <class B, class Integrand>
 struct PatchKernel {
@@ -93,6 +93,7 @@ struct PatchKernel {
   static constexpr int lanes = B::lanes;
   static constexpr int fields = Integrand::fields;
   static constexpr int stride = patch_stride<B>;
+  static constexpr bool adds = requires { Integrand::adds; };
   static constexpr int force_slots = (Patches<B>::capacity + lanes - 1) / lanes * 12 * lanes;
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
     return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * stride * fields) * sizeof(Real);
@@ -124,6 +125,10 @@ struct PatchKernel {
       for (int s = patches.first_slot(first_vertex + i); s < patches.first_slot(first_vertex + i + 1); ++s) {
         const Real* f = forces + patches.slot(s);
         x += f[0], y += f[lanes], z += f[2 * lanes];
+      }
+      if constexpr (adds) {
+        const auto at = [&](int k) { return partial(first_vertex + i, k); };
+        x += at(0), y += at(1), z += at(2);
       }
       partial(first_vertex + i, 0) = x, partial(first_vertex + i, 1) = y, partial(first_vertex + i, 2) = z;
     });

@@ -158,10 +158,12 @@ Improvement improve_shapes(TetMesh& mesh, std::vector<int>& numbers) {
     if (!improver.alive[t]) continue;
     mesh.tets[kept] = mesh.tets[t], numbers[kept] = numbers[t];
     if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
+    for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
     ++kept;
   }
   mesh.tets.resize(kept), numbers.resize(kept);
   if (!mesh.region.empty()) mesh.region.resize(kept);
+  for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
   for (int& v : improver.done.vertex)
     while (improver.done.vertex[static_cast<std::size_t>(v)] != v)
       v = improver.done.vertex[static_cast<std::size_t>(v)];

@@ -64,10 +64,12 @@ int peel_slivers(TetMesh& mesh, std::vector<int>& numbers) {
       if (peeler.peels(mesh.tets[t])) continue;
       mesh.tets[kept] = mesh.tets[t], numbers[kept] = numbers[t];
       if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
+      for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
       ++kept;
     }
     mesh.tets.resize(kept), numbers.resize(kept);
     if (!mesh.region.empty()) mesh.region.resize(kept);
+    for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
     if (kept == count) break;
   }
   return static_cast<int>(before - mesh.tets.size());

@@ -88,6 +88,7 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
   result.region = permuted(mesh.region, order.tets);
   result.filled = permuted(mesh.filled, order.tets);
   result.region_names = mesh.region_names;
+  for (const auto& [name, vectors] : mesh.tet_vectors) result.tet_vectors[name] = permuted(vectors, order.tets);
   result.vertex_sets = mesh.vertex_sets;
   for (auto& tet : result.tets)
     for (int& v : tet) v = new_number[static_cast<std::size_t>(v)];

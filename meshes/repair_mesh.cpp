@@ -37,10 +37,12 @@ void filter(TetMesh& mesh, std::vector<int>& original, const Keep& keep) {
     if (!keep(t)) continue;
     mesh.tets[kept] = mesh.tets[t], original[kept] = original[t];
     if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
+    for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
     ++kept;
   }
   mesh.tets.resize(kept), original.resize(kept);
   if (!mesh.region.empty()) mesh.region.resize(kept);
+  for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
 }
 
 // Tetrahedra name the first of the vertices at a place; those that lose a corner by that, or repeat another, are dropped

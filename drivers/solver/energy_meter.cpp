@@ -47,6 +47,7 @@ Energies EnergyMeter<B>::all(double time) const {
   const auto& exec = hierarchy_.exec();
   const SolverLevel<B>& level = hierarchy_[0];
   Energies e = motion(Point::Zero()).energies;
+  if (level.viscosity) level.viscosity->look_at_once(exec);
   level.elasticity().energy(exec, level, level.state.u);
   reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial}, blocks_,
                result_);

@@ -6,6 +6,7 @@
 #include <plica/kernels/elastic/elastic_force.hpp>
 #include <plica/kernels/elastic/elastic_stress.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
+#include <plica/kernels/elastic/remember_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
 namespace plica {
@@ -41,7 +42,11 @@ class LinearElasticity final : public Elasticity<B> {
   }
   void stress(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& von_mises,
               const Scalars<B>& J) const override {
-    elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J);
+    elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J, level.stress.lost);
+  }
+  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& constants,
+                const RelaxationStep<typename B::Real>& step) const override {
+    if constexpr (requires { Material::splits_shape; }) remember_elements<B, Material>(exec, level, u, constants, step);
   }
 };
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 #include <plica/core/error.hpp>
+#include <plica/core/level.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/materials/list.hpp>
@@ -17,6 +19,29 @@ auto constants_of(const std::vector<double>& values) {
   auto c = M::kernel_constants(values.data());
   if constexpr (IsochoricLaws::has<M>) c.law = IsochoricLaws::place_of<M>();
   return c;
+}
+
+/// A law's energy is as many times larger as its stiffnesses are, since its other parameters have no unit.
+template <class M>
+std::vector<double> scaled_values(std::vector<double> values, double share) {
+  for (std::size_t k = 0; k < M::parameters.size(); ++k)
+    if (M::parameters[k].kind.dimension == keys::pressure) values[k] *= share;
+  TissueSettings settings = settings_at(values.data() + M::parameters.size());
+  for (double& coefficient : settings.coefficient) coefficient *= share;
+  const std::vector<double> list = as_list(settings);
+  std::ranges::copy(list, values.begin() + static_cast<std::ptrdiff_t>(M::parameters.size()));
+  return values;
+}
+
+template <class M>
+std::vector<double> constants_with_shape(const std::vector<double>& values, double share, double bulk) {
+  if constexpr (IsochoricLaws::has<M>) {
+    auto c = constants_of<M>(scaled_values<M>(values, share));
+    c.bulk = bulk;
+    return as_list(c);
+  } else {
+    return as_list(M::with_shape(constants_of<M>(values), share, bulk));
+  }
 }
 
 template <class M>
@@ -39,6 +64,7 @@ MaterialInfo describe_material() {
     info.with_lambda = [](const std::vector<double>& values, double lambda) {
       return as_list(M::with_lambda(constants_of<M>(values), lambda));
     };
+  if constexpr (requires { M::splits_shape; }) info.with_shape = constants_with_shape<M>;
   info.of_tissue = IsochoricLaws::has<M>;
   info.has_fibres = requires { M::has_fibres; };
   info.has_terms = requires { M::has_terms; };
@@ -101,7 +127,14 @@ void check_structure(const MaterialInfo& info, const std::string& path, const st
     if (terms[i].alpha == 0)
       throw InputError(material + "terms." + std::to_string(i) + ".alpha is 0; expected a number other than 0");
   if (!info.has_fibres && fibres) throw InputError(path + "fibres: " + name + " has none");
-  if (fibres && fibres->sheet && fibres->axis.normalized().cross(fibres->sheet->normalized()).norm() < 1e-6)
+  if (!fibres) return;
+  if (fibres->around && (fibres->sheet || !fibres->sheet_field.empty()))
+    throw InputError(path +
+                     "fibres.sheet: fibres around a line have their sheets on cylinders about it; expected none");
+  if (fibres->sheet && !fibres->sheet_field.empty())
+    throw InputError(path + "fibres.sheet is given twice: as sheet and as sheet_field");
+  if (fibres->field.empty() && !fibres->around && fibres->sheet &&
+      fibres->axis.normalized().cross(fibres->sheet->normalized()).norm() < 1e-6)
     throw InputError(path + "fibres.sheet is along the axis; expected a direction across it");
 }
 
@@ -122,9 +155,35 @@ void check_at_rest(const MaterialInfo& info, const std::string& where, const Mat
   if (info.has_fibres && !fibres)
     throw InputError("body.fibres is missing; expected the direction of the fibres of " + std::string(info.name) +
                      ", such as {axis: [0, 0, 1]}, of the body or of every region");
-  if (fibres && !fibres->sheet && needs_sheet(info, values))
+  if (fibres && !fibres->sheet && !fibres->around && fibres->sheet_field.empty() && needs_sheet(info, values))
     throw InputError((region.fibres ? where : "body") + ".fibres.sheet is missing; " + std::string(info.name) +
                      " differs across its fibres: expected a direction across them");
+}
+
+void check_prony(const MaterialInfo& info, const std::vector<PronyTerm>& terms) {
+  if (terms.empty()) return;
+  const std::string path = "body.material.prony";
+  const auto most = static_cast<std::size_t>(RelaxationStep<double>::most_terms);
+  if (!info.with_shape) {
+    std::string able;
+    for (const MaterialInfo& one : material_list())
+      if (one.with_shape) able += (able.empty() ? "" : ", ") + std::string(one.name);
+    throw InputError(path + ": " + std::string(info.name) +
+                     " does not split shape from volume, and only shape relaxes; " +
+                     "expected no prony, or one of the models " + able);
+  }
+  if (terms.size() > most)
+    throw InputError(path + ": " + std::to_string(terms.size()) + " terms; expected 1 to " + std::to_string(most));
+  double sum = 0;
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const std::string term = path + "." + std::to_string(i);
+    keys::Quantity{keys::plain, keys::inside_zero_one}.check(term + ".alpha", terms[i].alpha);
+    keys::Quantity{keys::duration, keys::positive}.check(term + ".tau", terms[i].tau);
+    sum += terms[i].alpha;
+  }
+  if (!(sum < 1))
+    throw InputError(path + ": the sum of alpha is " + number(sum, 6) +
+                     "; expected one below 1: what is left of 1 is the part that never relaxes");
 }
 
 void check_tissue(const MaterialInfo& info, const Body& body) {
@@ -180,6 +239,7 @@ void check_parameters(const MaterialInfo& info, const Body& body) {
   };
   check("body.material.", {});
   for (const auto& [name, region] : body.regions) check("body.regions." + name + ".", region);
+  check_prony(info, body.material.prony);
   check_tissue(info, body);
 }
 

@@ -22,6 +22,8 @@ struct MaterialInfo {
   Lame<double> (*small_strains)(const std::vector<double>& values);
   /// What its kernels get with another lambda at rest; a null pointer where the material has no stiffness for the volume alone.
   std::vector<double> (*with_lambda)(const std::vector<double>& values, double lambda);
+  /// With the energy of shape times `share` and another bulk modulus [Pa]; a null pointer where it has no shape of its own.
+  std::vector<double> (*with_shape)(const std::vector<double>& values, double share, double bulk) = nullptr;
   bool of_tissue = false;  ///< it has TissueSettings: behind its parameters' values
   bool has_fibres = false;
   bool has_terms = false;

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/kernels/elastic/nodal_elements.hpp>
+#include <plica/kernels/elastic/remember_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
 namespace plica {
@@ -42,6 +43,10 @@ class NodalElasticity final : public Elasticity<B> {
   void stress(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& von_mises,
               const Scalars<B>& J) const override {
     nodal_stress<B, Material>(exec, level, u, von_mises, J);
+  }
+  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& constants,
+                const RelaxationStep<typename B::Real>& step) const override {
+    if constexpr (requires { Material::splits_shape; }) remember_domains<B, Material>(exec, level, u, constants, step);
   }
 
  private:

@@ -24,14 +24,14 @@ std::size_t bytes_of(const State<B>& s) {
 }
 template <class B>
 std::size_t bytes_of(const Patches<B>& p) {
-  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.first_slot, p.slot,
+  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.fibres, p.first_slot, p.slot,
                p.shares.first, p.shares.row, p.element);
 }
 template <class B>
 std::size_t bytes_of(const NodalRows<B>& r) {
   return bytes(r.first, r.region, r.vertex, r.volume, r.inverse_volume, r.neighbour, r.gradient, r.coupling,
-               r.smoothing, r.first_surface, r.surface_neighbour, r.surface_gradient, r.constants, r.shares.first,
-               r.shares.row);
+               r.smoothing, r.first_surface, r.surface_neighbour, r.surface_gradient, r.constants, r.fibres,
+               r.shares.first, r.shares.row);
 }
 template <class B>
 std::size_t bytes_of(const NodalWork<B>& w) {
@@ -90,6 +90,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       sum([](const L& l) { return bytes(l.model.damping.of_vertex); }));
   add("stiffness damping", damps_by_stiffness(body), "body.damping.stiffness: a tangent product with every force",
       "zero", sum([](const L& l) { return bytes(l.model.patches.damping); }));
+  add("viscosity", !body.material.prony.empty(), "body.material.prony: " + counted(body.material.prony.size(), "term"),
+      "body.material has no prony", sum([](const L& l) { return l.viscosity ? l.viscosity->bytes(l) : 0; }));
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
   add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"), "none asked for",
       sum([](const L& l) {

@@ -13,6 +13,9 @@ namespace plica {
 template <class B>
 std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& built);
 
+template <class B>
+using KeptStress = typename Viscosity<B>::Kept;
+
 /// What a simulation owns, for the sources that implement it.
 template <class B>
 struct Simulation<B>::Inside {
@@ -41,6 +44,7 @@ struct Simulation<B>::Inside {
 
   // The last state that was kept
   std::vector<State<B>> kept;
+  std::vector<KeptStress<B>> kept_stress;  // likewise, of viscous materials only
   double kept_time = 0, kept_put_in = 0;
   long kept_steps = 0;
   Point kept_drift = Point::Zero();
@@ -69,7 +73,9 @@ struct Simulation<B>::Inside {
   void keep_at_times();
   void keep();
   void go_back();
-  void put_back(const std::vector<State<B>>& states);
+  void put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses);
+  void keep_stress(std::vector<KeptStress<B>>& to);
+  void remember();
   void restart();
   void open_budget();
 

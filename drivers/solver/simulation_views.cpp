@@ -130,6 +130,7 @@ void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInp
   if (velocities.size() != positions.size())  // before anything is written
     throw InputError(std::to_string(positions.size()) + " positions and " + std::to_string(velocities.size()) +
                      " velocities");
+  inside_->remember();
   write_positions<B>(inside_->hierarchy().exec(), positions, inside_->rest_positions(0), state.u);
   write_vectors<B>(inside_->hierarchy().exec(), velocities, state.v);
   inside_->restart();
@@ -165,6 +166,7 @@ ElementFields Simulation<B>::element_fields(int level) const {
   const bool nodal = of.model.rows.slices > 0;
   const int rows = nodal ? of.model.vertices : of.model.tets;
   const Scalars<B> von_mises("plica::von_mises", rows), J("plica::J", rows);
+  if (of.viscosity) of.viscosity->look_at(of.exec(), of, inside_->time);
   of.elasticity().stress(of.exec(), of, of.state.u, von_mises, J);
   of.exec().fence("plica::element_fields");
   const auto values = [](const Scalars<B>& field) {
@@ -192,6 +194,9 @@ void persist(Inside& s, StateArchive<B>& archive) {
     const std::string name = "level " + std::to_string(i) + "'s ";
     s.hierarchy().levels[i].persist(archive, name);
     archive.state(name + "kept", s.kept[i]);
+    if (s.kept_stress.empty()) continue;
+    archive.field(name + "kept memory of stress", s.kept_stress[i].memory);
+    archive.number(s.kept_stress[i].time);
   }
   s.built.stepper->persist(archive);
   archive.field("the obstacles' wrenches", s.wrench);

@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
+#include <plica/kernels/elastic/lost_stress.hpp>
 #include <plica/kernels/follower_pressure.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -26,10 +27,12 @@ void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity,
 }
 
 template <class B>
-void SolverLevel<B>::elastic_and_gravity(const State<B>& at, const Vectors<B>& force) {
+void SolverLevel<B>::elastic_and_gravity(const State<B>& at, double time, const Vectors<B>& force) {
   ++evaluations_;
   book("force", [&] {
+    if (viscosity) viscosity->look_at(exec(), *this, time);
     elasticity_->force(exec(), *this, at, ++evaluation_);
+    if (viscosity) add_lost_force<B>(exec(), *this, at.u);
     gather_forces<B>(exec(), this->model, this->partial, gravity_, force);
   });
 }
@@ -69,7 +72,7 @@ void SolverLevel<B>::count_contact(double time, double weight) {
 
 template <class B>
 void SolverLevel<B>::evaluate_without_contact(const State<B>& at, double time, const Vectors<B>& force) {
-  elastic_and_gravity(at, force);
+  elastic_and_gravity(at, time, force);
   add_loads(time, force);
   add_followers(at, time, force);
   if (external_) book("external", [&] { ask_caller(at, time, 0, 0, force); });
@@ -87,7 +90,7 @@ void SolverLevel<B>::dead(double time, const Vectors<B>& force) const {
 template <class B>
 void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWeights& weights, double ahead,
                                const Vectors<B>& force) {
-  elastic_and_gravity(at, force);
+  elastic_and_gravity(at, time + ahead, force);
   add_loads(time + ahead, force);
   add_followers(at, time + ahead, force);
   if (contact_)
@@ -112,6 +115,12 @@ void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, do
 template <class B>
 void SolverLevel<B>::add_correction(const Vectors<B>& force) const {
   if (correction_.extent(0) > 0) add<B>(exec(), "plica::add_correction", 1, correction_, force);
+}
+
+template <class B>
+void SolverLevel<B>::incremental_energy(const State<B>& at) const {
+  elasticity_->energy(exec(), *this, at.u);
+  if (viscosity) add_lost_energy<B>(exec(), *this, at.u);
 }
 
 template <class B>
@@ -165,6 +174,7 @@ void SolverLevel<B>::persist(StateArchive<B>& archive, const std::string& name) 
   archive.state(name + "start", this->start);
   archive.state(name + "previous", this->previous);
   archive.number(evaluations_);
+  if (viscosity) viscosity->persist(archive, *this, name);
   integrator->persist(archive);
 }
 

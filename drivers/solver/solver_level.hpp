@@ -8,6 +8,7 @@
 #include <plica/drivers/solver/external_forces.hpp>
 #include <plica/drivers/solver/stage_clock.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
+#include <plica/drivers/solver/viscosity.hpp>
 
 namespace plica {
 
@@ -32,10 +33,17 @@ class SolverLevel : public Level<B> {
                   std::shared_ptr<const Contact<B>> contact, bool implicit);
 
   std::unique_ptr<Integrator<B>> integrator;
-  double share = 1;  ///< of the macro step
-  int substeps = 1;  ///< in its share
+  std::unique_ptr<Viscosity<B>> viscosity;  ///< of viscous materials only
+  double share = 1;                         ///< of the macro step
+  int substeps = 1;                         ///< in its share
 
   const Exec& exec() const { return clock_->exec(); }
+
+  /// The level's state at this time [s] is one that it has been through: what relaxes takes it into account. At the start of every
+  /// step, and wherever else a state is final.
+  void remember(double time) const {
+    if (viscosity) viscosity->remember(exec(), *this, *elasticity_, this->state.u, time);
+  }
 
   /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default the bare penalty law. They act
   /// for `weight` of the time [s], which is what the obstacles' impulse counts.
@@ -66,6 +74,9 @@ class SolverLevel : public Level<B> {
                 const Blocks9<B>& shares, const BlockMatrix<B>& A) const;
   /// partial = the shares of -K p at a state; see Elasticity::tangent.
   void tangent(const State<B>& state, const Vectors<B>& p, double over = 0, bool positive = false) const;
+
+  /// The energy [J] whose derivative the elastic forces of the last evaluation are, in the x components of `partial`.
+  void incremental_energy(const State<B>& state) const;
 
   /// Books work() under a stage of this level.
   template <class Work>
@@ -106,7 +117,7 @@ class SolverLevel : public Level<B> {
   long evaluations_ = 0;
   int evaluation_ = 0;
 
-  void elastic_and_gravity(const State<B>& state, const Vectors<B>& f);
+  void elastic_and_gravity(const State<B>& state, double time, const Vectors<B>& f);
   void ask_caller(const State<B>& state, double time, double step, double ahead, const Vectors<B>& f);
   void add_loads(double time, const Vectors<B>& f) const;
   /// Pressures that follow the state; linear systems leave their derivative out.

@@ -23,7 +23,8 @@ const std::vector<Tissue>& list() {
   static const std::vector<Tissue> all = {
       {{"heart_muscle",
         "costa: a 2 kPa, b_ff 8, across 2, fibre and cross 4; needs body.fibres. "
-        "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1, and its input in FEniCSx-pulse"},
+        "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1; read in the input of FEniCSx-pulse, not in the "
+        "paper"},
        "costa",
        {{"a", 2 * kPa},
         {"b_ff", 8},
@@ -36,7 +37,7 @@ const std::vector<Tissue>& list() {
       {{"artery_adventitia",
         "holzapfel_gasser_ogden: c 7.64 kPa, k1 996.6 kPa, k2 524.6, kappa 0.226, angle 49.98 deg; "
         "needs body.fibres: axis around the artery, sheet along it. "
-        "Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006, and its input in svFSI-Tests"},
+        "Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006; read in the input of svFSI-Tests, not in the paper"},
        "holzapfel_gasser_ogden",
        {{"c", 7.64 * kPa},
         {"k1", 996.6 * kPa},

@@ -109,7 +109,8 @@ struct ElasticBlocks {
     Mat3<T> G[1];
     load_pack<B, 1>(patches, pack, local, shape, G);
     T K[element_numbers];
-    const Tangent tangent(Mat3<T>::identity() + G[0], load_constants<Material, T>(patches.constants, patch));
+    const Tangent tangent(Mat3<T>::identity() + G[0],
+                          load_constants<Material, T>(patches.constants, patch, patches.fibres, pack * lanes));
     element_blocks(tangent, shape, T(a * scale(patch)), K);
     for (int k = 0; k < element_numbers; k += 4) {
       const T four[4] = {K[k], K[k + 1], K[k + 2], K[k + 3]};

@@ -12,11 +12,12 @@ struct ElasticEnergy {
   static constexpr int fields = 1;
   Vectors<B> field[1];
   Scalars<B> constants;  ///< of the patches
+  Scalars<B> fibres;     ///< likewise, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
-                                         int patch, int) const {
-    const auto c = load_constants<Material, T>(constants, patch);
+                                         int patch, int pack) const {
+    const auto c = load_constants<Material, T>(constants, patch, fibres, pack * B::lanes);
     const T quarter = T(0.25f) * shape.volume * Material::energy(Mat3<T>::identity() + G[0], c);
     for (Vec3<T>& at : corner) at = {quarter, T(0), T(0)};
   }
@@ -25,8 +26,8 @@ struct ElasticEnergy {
 template <class B, class Material>
 void elastic_energy(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
                     const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_energy", patches, ElasticEnergy<B, Material>{{u}, patches.constants},
-                    partial);
+  launch_patches<B>(exec, "plica::elastic_energy", patches,
+                    ElasticEnergy<B, Material>{{u}, patches.constants, patches.fibres}, partial);
 }
 
 }  // namespace plica

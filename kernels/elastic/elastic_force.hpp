@@ -16,12 +16,14 @@ struct ElasticForce {
   Scalars<B> constants;   ///< of the patches
   ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0
   int evaluation;
+  Scalars<B> fibres = {};  ///< likewise, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
                                          int patch, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    stress_to_corners(Material::stress(F, load_constants<Material, T>(constants, patch)), shape, corner);
+    stress_to_corners(Material::stress(F, load_constants<Material, T>(constants, patch, fibres, pack * B::lanes)),
+                      shape, corner);
     if constexpr (Watched) {
       const T J = determinant(F);
       bool upright = true;
@@ -51,7 +53,7 @@ struct DampedElasticForce {
     const Mat3<T> displacement[1] = {G[0]}, F = Mat3<T>::identity() + G[0];
     elastic(displacement, shape, corner, patch, pack);
     Vec3<T> drag[4];
-    const auto constants = load_constants<Material, T>(elastic.constants, patch);
+    const auto constants = load_constants<Material, T>(elastic.constants, patch, elastic.fibres, pack * B::lanes);
     stress_to_corners(T(damping(patch)) * Material::stress_change(F, G[1], constants), shape, drag);
     for (int c = 0; c < 4; ++c) corner[c] += drag[c];
   }
@@ -62,7 +64,7 @@ template <class B, class Material>
 void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const State<B>& state,
                    const ElementFlags<B>& flags, int evaluation, const Vectors<B>& partial) {
   const auto launch = [&]<bool Watched>(std::bool_constant<Watched>) {
-    const ElasticForce<B, Material, Watched> elastic{{state.u}, patches.constants, flags, evaluation};
+    const ElasticForce<B, Material, Watched> elastic{{state.u}, patches.constants, flags, evaluation, patches.fibres};
     if (patches.damping.extent(0) > 0)
       launch_patches<B>(exec, "plica::damped_elastic_force", patches,
                         DampedElasticForce<B, Material, Watched>{{state.u, state.v}, elastic, patches.damping},

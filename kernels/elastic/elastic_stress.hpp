@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/patches.hpp>
+#include <plica/kernels/elastic/stress_memory.hpp>
 #include <plica/kernels/materials/material.hpp>
 
 namespace plica {
@@ -14,6 +15,7 @@ struct ElasticStress {
   Patches<B> patches;
   Vectors<B> u;
   Scalars<B> equivalent, ratio;  ///< [tets of the mesh]
+  Scalars<B> lost;               ///< to relaxation; see StressMemory
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
     const int p = team.league_rank(), first = patches.first_pack(p) * lanes, last = patches.first_pack(p + 1) * lanes;
@@ -30,18 +32,22 @@ struct ElasticStress {
       for (int r = 0; r < 3; ++r)
         for (int k = 0; k < 3; ++k)
           F[r][k] += (u(vertex[c + 1], r) - u(vertex[0], r)) * patches.shape(pack, 3 * c + k, lane);
-    equivalent(tet) = von_mises(cauchy_stress<Material>(F, load_constants<Material, Real>(patches.constants, patch)));
+    const int slot = pack * lanes + lane;
+    Mat3<Real> sigma =
+        cauchy_stress<Material>(F, load_constants<Material, Real>(patches.constants, patch, patches.fibres, slot));
+    if (lost.extent(0) > 0) sigma = sigma - pushed_forward(F, load_symmetric<B, Real>(lost, slot));
+    equivalent(tet) = von_mises(sigma);
     ratio(tet) = determinant(F);
   }
 };
 
 template <class B, class Material>
 void elastic_stress(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
-                    const Scalars<B>& von_mises, const Scalars<B>& J) {
+                    const Scalars<B>& von_mises, const Scalars<B>& J, const Scalars<B>& lost) {
   if (patches.count == 0) return;
   Kokkos::parallel_for("plica::elastic_stress",
                        Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
-                       ElasticStress<B, Material>{patches, u, von_mises, J});
+                       ElasticStress<B, Material>{patches, u, von_mises, J, lost});
 }
 
 }  // namespace plica

@@ -24,12 +24,13 @@ struct ElasticTangent {
   Vectors<B> field[2];   ///< u, p
   Scalars<B> constants;  ///< of the patches
   TangentScale<B> scale;
+  Scalars<B> fibres = {};  ///< likewise, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
-                                         int patch, int) const {
+                                         int patch, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    const auto c = load_constants<Material, T>(constants, patch);
+    const auto c = load_constants<Material, T>(constants, patch, fibres, pack * B::lanes);
     stress_to_corners(T(scale(patch)) * Material::stress_change(F, G[1], c), shape, corner);
   }
 };
@@ -42,13 +43,14 @@ struct ElasticDiagonal {
   Scalars<B> constants;  ///< of the patches
   int direction;
   TangentScale<B> scale;
+  Scalars<B> fibres = {};  ///< likewise, or empty
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
-                                         int patch, int) const {
+                                         int patch, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     const T weight = T(scale(patch)) * shape.volume;
-    const auto constant = load_constants<Material, T>(constants, patch);
+    const auto constant = load_constants<Material, T>(constants, patch, fibres, pack * B::lanes);
     for (int c = 0; c < 4; ++c) {
       const Vec3<T> g =
           c > 0 ? shape.gradient[c - 1] : T(-1) * (shape.gradient[0] + shape.gradient[1] + shape.gradient[2]);
@@ -64,17 +66,19 @@ void elastic_tangent(const typename B::Exec& exec, const Patches<B>& patches, co
                      double over, const Vectors<B>& partial) {
   launch_patches<B>(
       exec, "plica::elastic_tangent", patches,
-      ElasticTangent<B, Material>{{u, p}, patches.constants, {patches.damping, static_cast<typename B::Real>(over)}},
+      ElasticTangent<B, Material>{
+          {u, p}, patches.constants, {patches.damping, static_cast<typename B::Real>(over)}, patches.fibres},
       partial);
 }
 
 template <class B, class Material>
 void elastic_diagonal(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u, int direction,
                       double over, const Vectors<B>& partial) {
-  launch_patches<B>(exec, "plica::elastic_diagonal", patches,
-                    ElasticDiagonal<B, Material>{
-                        {u}, patches.constants, direction, {patches.damping, static_cast<typename B::Real>(over)}},
-                    partial);
+  launch_patches<B>(
+      exec, "plica::elastic_diagonal", patches,
+      ElasticDiagonal<B, Material>{
+          {u}, patches.constants, direction, {patches.damping, static_cast<typename B::Real>(over)}, patches.fibres},
+      partial);
 }
 
 }  // namespace plica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/elastic/nodal_rows.hpp>
+#include <plica/kernels/elastic/stress_memory.hpp>
 #include <plica/kernels/materials/material.hpp>
 #include <type_traits>
 
@@ -24,9 +25,9 @@ namespace plica {
 template <class B>
 struct RowScales {
   using Real = typename B::Real;
-  Scalars<B> constants, stabiliser, damping;
+  Scalars<B> constants, fibres, stabiliser, damping;
   explicit RowScales(const NodalRows<B>& rows)
-      : constants(rows.constants), stabiliser(rows.stabiliser), damping(rows.damping) {}
+      : constants(rows.constants), fibres(rows.fibres), stabiliser(rows.stabiliser), damping(rows.damping) {}
   /// 1, and the part of the stiffness that damps over a time.
   KOKKOS_INLINE_FUNCTION Real tangent(int region, Real over) const {
     return damping.extent(0) > 0 ? 1 + over * damping(region) : Real(1);
@@ -58,7 +59,7 @@ struct NodalForce {
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&field)[fields],
                                          const RowsAt<B>& at, int region, Mat3<T>& Q, Vec3<T>& v) const {
-    const auto c = load_constants<Material, T>(scales.constants, region);
+    const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
     const T b = T(scales.stabiliser(region));
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     Q = Material::stress(F, c) - b * G[0];
@@ -100,7 +101,8 @@ struct NodalTangent {
                                          int region, Mat3<T>& Q, Vec3<T>& v) const {
     const T scale = T(scales.tangent(region, over)), b = T(scales.stabiliser(region));
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    Mat3<T> dP = Tangent<T>(F, load_constants<Material, T>(scales.constants, region))(G[1]) - b * G[1];
+    Mat3<T> dP =
+        Tangent<T>(F, load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot))(G[1]) - b * G[1];
     if constexpr (Smoothed)
       dP = dP + pressure.template at<T>(at.slot, 1) * cofactor(F) +
            pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
@@ -223,7 +225,7 @@ struct NodalEnergy {
       spread -= load_rows<B>(&rows.coupling(e, at.offset)) * dot(d, d);
     }
     const T volume = load_rows<B>(&rows.volume(at.slot)), half = T(0.5f);
-    const auto c = load_constants<Material, T>(rows.constants, region);
+    const auto c = load_constants<Material, T>(rows.constants, region, rows.fibres, at.slot);
     T energy = volume * Material::energy(Mat3<T>::identity() + G[0], c) +
                half * T(rows.stabiliser(region)) * (half * spread - volume * inner(G[0], G[0]));
     if constexpr (Smoothed) {
@@ -255,6 +257,7 @@ struct NodalStress {
   NodalRows<B> rows;
   NodalWork<B> work;
   RowPressure<B, Smoothed> pressure;
+  Scalars<B> lost;  ///< to relaxation; see StressMemory
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
     Vec3<T> own[1];
@@ -262,7 +265,10 @@ struct NodalStress {
     row_gradients<B, 1>(rows, work.near, at, own, G);
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     const T J = determinant(F);
-    Mat3<T> sigma = cauchy_stress<Material>(F, load_constants<Material, T>(rows.constants, rows.region(at.slice)));
+    const int region = rows.region(at.slice);
+    Mat3<T> sigma =
+        cauchy_stress<Material>(F, load_constants<Material, T>(rows.constants, region, rows.fibres, at.slot));
+    if (lost.extent(0) > 0) sigma = sigma - pushed_forward(F, load_symmetric<B, T>(lost, at.slot));
     if constexpr (Smoothed) sigma = sigma + Mat3<T>::diagonal(pressure.template at<T>(at.slot, 0));
     const T equivalent = von_mises(sigma);
     for (int l = 0; l < B::lanes; ++l) {
@@ -296,7 +302,7 @@ void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vec
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed) smooth_pressures<B, 1>(exec, rows, level.nodal);
     for_rows<B>(exec, "plica::nodal_stress", rows,
-                NodalStress<B, Material, smoothed>{rows, level.nodal, {level.nodal.pressure, 1}});
+                NodalStress<B, Material, smoothed>{rows, level.nodal, {level.nodal.pressure, 1}, level.stress.lost});
   });
   Kokkos::parallel_for("plica::nodal_means", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.model.vertices),
                        MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});

@@ -155,8 +155,8 @@ struct RowStresses {
   }
 };
 
-/// 3. partial[slot] from records.
-template <class B>
+/// 3. partial[slot] from records; `adds`: to what is in it.
+template <class B, bool adds = false>
 struct RowForces {
   using Real = typename B::Real;
   using T = RowPack<B>;
@@ -194,7 +194,12 @@ struct RowForces {
     const T stabiliser = T(rows.stabiliser(rows.region(at.slice)));
     for (int i = 0; i < 3; ++i) {
       f[i] += own[0][i] * sum[0] + own[1][i] * sum[1] + own[2][i] * sum[2] - stabiliser * drag[i];
-      for (int l = 0; l < B::lanes; ++l) partial(at.slot + l, i) = lane(f[i], l);
+      for (int l = 0; l < B::lanes; ++l) {
+        if constexpr (adds)
+          partial(at.slot + l, i) += lane(f[i], l);
+        else
+          partial(at.slot + l, i) = lane(f[i], l);
+      }
     }
   }
 };

@@ -54,16 +54,6 @@ struct IsochoricStress {
   KOKKOS_INLINE_FUNCTION void identity(const T&) {}
 };
 
-/// A symmetric matrix as xx yy zz xy xz yz.
-template <class T>
-KOKKOS_INLINE_FUNCTION SymMat3<T> six_of(const Mat3<T>& M) {
-  return {{M[0][0], M[1][1], M[2][2], M[0][1], M[0][2], M[1][2]}};
-}
-template <class T>
-KOKKOS_INLINE_FUNCTION Mat3<T> matrix_of(const SymMat3<T>& m) {
-  return {Vec3<T>{m.a[0], m.a[3], m.a[4]}, Vec3<T>{m.a[3], m.a[1], m.a[5]}, Vec3<T>{m.a[4], m.a[5], m.a[2]}};
-}
-
 /// Takes S and dS/dC.
 template <class T>
 struct IsochoricStiffness : IsochoricStress<T> {
@@ -144,6 +134,7 @@ struct Isochoric {
   static constexpr bool recovers = true;
   static constexpr bool allows_inversion = false;
   static constexpr bool isotropic = true;
+  static constexpr bool splits_shape = true;
   template <class T>
   using Constants = IsochoricConstants<T>;
 

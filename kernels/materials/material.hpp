@@ -20,6 +20,7 @@
 //   parameters                std::array of the MaterialParameters that a scene gives
 //   kernel_constants(p)       Constants<double> of their values, in that order; worked out once per region
 //   small_strains(c)          Lame's constants of its tangent at rest, by which steps are bounded
+//   splits_shape              where its energy is W of the shape, J^(-2/3) F^T F, and U of the volume: what Prony series act on
 //   with_lambda(c, lambda)    where its volume has a stiffness of its own: the constants with another one, and lambda at rest
 // and says of itself:
 //   name, summary             what a scene calls it; one line for lists
@@ -75,6 +76,20 @@ std::vector<double> as_list(const Constants& constants) {
 template <class Material, class T, class View>
 KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all, int set) {
   return load_each_constant<Material, T>(all, set, std::make_index_sequence<constant_count<Material>>());
+}
+
+/// Those of set `set`, with the directions of fibres at `slot` and behind it, one in each lane, where elements have their own.
+template <class Material, class T, class View>
+KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all, int set,
+                                                                               [[maybe_unused]] const View& fibres,
+                                                                               [[maybe_unused]] int slot) {
+  auto c = load_constants<Material, T>(all, set);
+  if constexpr (requires { c.axis; }) {
+    if (fibres.extent(0) == 0) return c;
+    for (int k = 0; k < 6; ++k)
+      for (int l = 0; l < LaneOf<T>::count; ++l) set_lane(c.axis[k / 3][k % 3], l, fibres((slot + l) * 6 + k));
+  }
+  return c;
 }
 
 /// The true stress sigma = P F^T / J [Pa]. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 5.45a.

@@ -21,6 +21,11 @@ struct NeoHookean : TwoConstants {
   static constexpr bool survives_inversion = true;
   static constexpr bool recovers = true;
   static constexpr bool allows_inversion = false;
+  static constexpr bool splits_shape = true;
+  /// With the energy of shape times `share`, and kappa = bulk.
+  static Lame<double> with_shape(const Lame<double>& c, double share, double bulk) {
+    return {bulk - 2 * share * c.mu / 3, share * c.mu};
+  }
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION T bulk(const Lame<T>& c) {

@@ -37,6 +37,7 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
         {static_cast<std::int64_t>(t), {of(a), of(b), of(c), of(d)}, mesh.region.empty() ? 0 : mesh.region[t], {}});
   }
   raw.region_names = mesh.region_names;
+  for (const auto& [name, vectors] : mesh.tet_vectors) raw.vectors.push_back({name, false, vectors});
   for (const auto& [name, vertices] : mesh.vertex_sets)
     for (auto& group = raw.groups.emplace_back(RawGroup{name, 0, 0, {}}); const int v : vertices)
       group.elements.push_back({0, {of(v), 0, 0}, 0, {}});

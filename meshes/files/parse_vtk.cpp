@@ -96,7 +96,7 @@ void LegacyArrays::values(const std::string& name, std::int64_t tuples, std::int
     if (of_cells_)
       grid_.read_cell_data(name, tuples, components, type, numbers);
     else
-      numbers.skip(tuples * components, type, "a value");
+      grid_.read_point_data(name, tuples, components, type, numbers);
     return numbers.end("the values of " + shown(name)), 0;
   });
 }

@@ -25,6 +25,7 @@ class VtuParser {
   void read_cells();
   void read_polygons();
   void read_regions();
+  void read_vectors();
   std::vector<PlacedInteger> integers(const std::string& section, const char* name, std::int64_t count);
   std::vector<PlacedInteger> corners(const std::string& section, const std::vector<PlacedInteger>& ends);
   [[noreturn]] void fail(const Place& place, const std::string& message) const { refuse(file_.name, place, message); }
@@ -36,7 +37,7 @@ class VtuParser {
   bool polygonal_ = false;
   std::optional<XmlElement> root_, piece_;
   std::map<std::pair<std::string, std::string>, XmlElement> used_;  // arrays by section and name
-  std::vector<XmlElement> cell_data_;
+  std::vector<XmlElement> cell_data_, point_data_;
 };
 
 // What cells there are besides those of <Cells>, each with a number in VTK
@@ -70,6 +71,7 @@ void VtuParser::take(const XmlElement& element) {
 
 void VtuParser::data_array(const XmlElement& array, const std::string& section) {
   if (section == "CellData") cell_data_.push_back(array);
+  if (section == "PointData") point_data_.push_back(array);
   const bool of_cells = section == "Cells" ||
                         std::ranges::any_of(polygonal_sections, [&](const Section& s) { return section == s.name; });
   if (section != "Points" && !of_cells) return;
@@ -147,6 +149,26 @@ void VtuParser::read_regions() {
   }
 }
 
+void VtuParser::read_vectors() {
+  const auto read = [&](const std::vector<XmlElement>& arrays, const char* count_name, bool of_points) {
+    const std::int64_t count = attribute_count(*piece_, count_name, file_);
+    for (const XmlElement& array : arrays) {
+      const auto name = array.attributes.find("Name"), components = array.attributes.find("NumberOfComponents");
+      if (name == array.attributes.end() || components == array.attributes.end() || components->second != "3") continue;
+      if (name->second == "region" || is_integer(vtu_type(array, file_))) continue;
+      arrays_.read(array, [&](Numbers& numbers, NumberType type) {
+        numbers.checked_count(count, count_name, type, 3);
+        if (of_points)
+          grid_.read_point_data(name->second, count, 3, type, numbers);
+        else
+          grid_.read_cell_data(name->second, count, 3, type, numbers);
+      });
+    }
+  };
+  read(cell_data_, "NumberOfCells", false);
+  read(point_data_, "NumberOfPoints", true);
+}
+
 RawMesh VtuParser::parse() {
   for (const XmlElement& element : vtu_elements(file_)) take(element);
   if (!piece_) fail(root_->place, "there is no <Piece>");
@@ -156,6 +178,7 @@ RawMesh VtuParser::parse() {
   } else {
     read_cells();
     read_regions();
+    read_vectors();
   }
   report_.format = (polygonal_ ? "VTP, " : "VTU, ") + needed("Points", "").attributes.at("format");
   return grid_.mesh(report_);

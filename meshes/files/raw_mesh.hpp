@@ -79,6 +79,13 @@ struct RawGroup {
   std::vector<RawTriangle> elements;  ///< of which the first dimension + 1 vertices count
 };
 
+/// Vectors with a name, of vertices or of cells: number `tag` is that of the vertex or element with this tag.
+struct RawVectors {
+  std::string name;
+  bool of_vertices = false;
+  std::vector<Point> values;
+};
+
 /// What a parser of any format gathers, before anything of it is believed.
 struct RawMesh {
   std::string file;
@@ -91,6 +98,7 @@ struct RawMesh {
   BadFaces bad_faces;                  ///< left out
   std::vector<std::string> region_names;  ///< unique; empty: one nameless region
   std::vector<std::int64_t> region_tags;  ///< their numbers in the file
+  std::vector<RawVectors> vectors;        ///< those of cells first
   std::vector<RawGroup> groups;           ///< their vertices become the vertex set of their name
   std::vector<RawMention> others;         ///< of elements that are not kept: only checked
   std::vector<RawMention> middles;        ///< vertices of elements of higher order that are no corners

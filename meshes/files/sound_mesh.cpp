@@ -170,6 +170,20 @@ void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMe
   }
 }
 
+// Of each tetrahedron, that of its cell or the mean of its corners; of two fields of a name the first. After all numbers are final
+void add_vectors(const RawMesh& raw, TetMesh& mesh, const MeshReport& report) {
+  for (const RawVectors& field : raw.vectors) {
+    const auto at = [&](std::int64_t tag) -> const Point& { return field.values[static_cast<std::size_t>(tag)]; };
+    const auto [place, is_new] = mesh.tet_vectors.try_emplace(field.name);
+    for (std::size_t t = 0; is_new && t < mesh.tets.size(); ++t) {
+      Point mean = Point::Zero();
+      for (const int v : mesh.tets[t])
+        mean += field.of_vertices ? at(report.vertex_tags[static_cast<std::size_t>(v)]) : at(report.tet_tags[t]);
+      place->second.push_back(mean / 4);
+    }
+  }
+}
+
 // Files name groups in any encoding; from here on names are UTF-8. A name of a region and of a set stays one name.
 void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
   std::vector<std::string> names = mesh.region_names;
@@ -200,6 +214,7 @@ TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws) {
   flaws == Flaws::refused ? refuse_repeats(raw, mesh) : drop_repeats(mesh, report);
   add_sets(raw, numbering, mesh, report);
   drop_unreferenced(raw, numbering, mesh, report);
+  add_vectors(raw, mesh, report);
   name_in_utf8(mesh, report.groups);
   return mesh;
 }

@@ -56,8 +56,24 @@ void VtkGrid::read_points(std::int64_t count, NumberType type, Numbers& numbers)
   }
 }
 
+void VtkGrid::read_vectors(const std::string& name, std::int64_t tuples, NumberType type, bool of_points,
+                           Numbers& numbers) {
+  RawVectors field{name, of_points, std::vector<Point>(static_cast<std::size_t>(tuples))};
+  for (Point& value : field.values)
+    for (int k = 0; k < 3; ++k) value[k] = numbers.number(type, "a component of a vector");
+  vectors.push_back(std::move(field));
+}
+
+void VtkGrid::read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
+                              Numbers& numbers) {
+  if (components == 3 && !is_integer(type) && !name.empty()) return read_vectors(name, tuples, type, true, numbers);
+  numbers.skip(tuples * components, type, "a value");
+}
+
 void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
                              Numbers& numbers) {
+  if (components == 3 && !is_integer(type) && !name.empty() && name != region_name)
+    return read_vectors(name, tuples, type, false, numbers);
   const bool usable = components == 1 && is_integer(type);
   if (name == region_name && !usable)
     numbers.fail("the array 'region' of the cells must be one integer per cell, to tell their regions");
@@ -122,6 +138,10 @@ RawMesh VtkGrid::mesh(MeshReport& report) const {
       numbers.insert(numbers.end(), add_element(kind, tag, corners, place, raw, report),
                      regions.empty() ? 0 : regions[c].value);
   }
+  for (const bool of_points : {false, true})  // a field of the whole file has no such count
+    for (const RawVectors& field : vectors)
+      if (field.of_vertices == of_points && field.values.size() == (of_points ? points.size() : ends.size()))
+        raw.vectors.push_back(field);
   name_regions(raw, numbers, [this](std::int64_t number) { return region_array + "_" + std::to_string(number); });
   return raw;
 }

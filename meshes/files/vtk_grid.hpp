@@ -66,12 +66,16 @@ struct VtkGrid {
   std::vector<PlacedInteger> types;         ///< per cell
   std::string region_array;                 ///< the name of that one of the cells' arrays; empty: there is none
   std::vector<PlacedInteger> regions;       ///< per cell
+  std::vector<RawVectors> vectors;          ///< of cells and points
 
   void read_points(std::int64_t count, NumberType type, Numbers& numbers);
   /// Reads an array of the cells, from numbers or past them: the one named "region" tells the regions, else the first
-  /// one of an integer per cell.
+  /// one of an integer per cell. Three fractions per cell are vectors.
   void read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
                       Numbers& numbers);
+  /// Likewise an array of the points: three fractions each are vectors.
+  void read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
+                       Numbers& numbers);
   /// Adds cells of one kind, whose ends count from their own first point.
   void add_cells(int type, const std::vector<PlacedInteger>& points_of_cells,
                  const std::vector<PlacedInteger>& cell_ends);
@@ -80,6 +84,7 @@ struct VtkGrid {
   RawMesh mesh(MeshReport& report) const;
 
  private:
+  void read_vectors(const std::string& name, std::int64_t tuples, NumberType type, bool of_points, Numbers& numbers);
   void add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw,
                  MeshReport& report) const;
 };

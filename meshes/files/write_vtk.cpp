@@ -16,6 +16,13 @@ WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
   return written;
 }
 
+// What both formats can take for a name
+std::string plain(std::string name) {
+  for (char& c : name)
+    if (c <= ' ' || std::string_view("\"'<>&\x7f").find(c) != std::string_view::npos) c = '_';
+  return name;
+}
+
 // Each array after its length in bytes
 class Appended {
  public:
@@ -49,9 +56,15 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
   out.text(end + "CELL_TYPES " + cells + "\n");
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.int32(tet_type).end();
   out.text(end);
+  if (!mesh.region.empty() || !mesh.tet_vectors.empty()) out.text("CELL_DATA " + cells + "\n");
   if (!mesh.region.empty()) {
-    out.text("CELL_DATA " + cells + "\nSCALARS region int 1\nLOOKUP_TABLE default\n");
+    out.text("SCALARS region int 1\nLOOKUP_TABLE default\n");
     for (const std::int64_t region : region_numbers(mesh, groups)) out.int32(region).end();
+    out.text(end);
+  }
+  for (const auto& [name, vectors] : mesh.tet_vectors) {
+    out.text("VECTORS " + plain(name) + " double\n");
+    for (const Point& vector : vectors) out.real64(vector).end();
     out.text(end);
   }
   written.files = {{path.string(), out.take()}};
@@ -86,8 +99,15 @@ WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh, co
       << appended.array("Float64", "Points", 3, points) << "</Points>\n<Cells>\n"
       << appended.array("Int64", "connectivity", 1, corners) << appended.array("Int64", "offsets", 1, ends)
       << appended.array("UInt8", "types", 1, types) << "</Cells>\n";
-  if (!mesh.region.empty())
-    out << "<CellData>\n" << appended.array("Int64", "region", 1, region_numbers(mesh, groups)) << "</CellData>\n";
+  const bool has_data = !mesh.region.empty() || !mesh.tet_vectors.empty();
+  if (has_data) out << "<CellData>\n";
+  if (!mesh.region.empty()) out << appended.array("Int64", "region", 1, region_numbers(mesh, groups));
+  for (const auto& [name, vectors] : mesh.tet_vectors) {
+    std::vector<double> numbers;
+    for (const Point& p : vectors) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
+    out << appended.array("Float64", plain(name).c_str(), 3, numbers);
+  }
+  if (has_data) out << "</CellData>\n";
   out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << appended.bytes()
       << "\n</AppendedData>\n</VTKFile>\n";
   written.files = {{path.string(), out.take()}};

@@ -50,7 +50,8 @@ std::vector<Choice> shapes_with_keys() {
   return shapes;
 }
 
-constexpr Family families[] = {{"materials", "constitutive laws", materials},
+constexpr Family families[] = {{"presets", "published methods, as what they consist of here", presets},
+                               {"materials", "constitutive laws", materials},
                                {"tissues", "materials with values of a source, by name", tissues},
                                {"volumes", "stiffness of the volume in laws of tissue", volumes},
                                {"ogden_conventions", "what mu is in the terms of ogden", ogden_conventions},

@@ -57,6 +57,7 @@ std::string vtu_text(const VtuGrid& grid) {
   for (const auto& [name, values] : grid.point_fields) point_data += appended.points(name, values);
   for (const auto& [name, values] : grid.point_scalars) point_data += appended.array("Float64", name, 1, values);
   for (const auto& [name, values] : grid.cell_scalars) cell_data += appended.array("Float64", name, 1, values);
+  for (const auto& [name, values] : grid.cell_vectors) cell_data += appended.points(name, values);
   for (const auto& [name, values] : grid.cell_fields) cell_data += appended.array("Int32", name, 1, values);
   const std::string points = appended.points("Points", grid.points), cell_arrays = cells(grid, appended);
   return fmt::format(

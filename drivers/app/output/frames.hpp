@@ -28,6 +28,7 @@ struct VtuGrid {
   std::vector<ScalarField> point_scalars;
   std::vector<CellField> cell_fields;
   std::vector<ScalarField> cell_scalars;
+  std::vector<PointField> cell_vectors;
   double time = 0;  ///< [s]
 };
 

@@ -6,6 +6,7 @@
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/body_parts.hpp>
+#include <plica/drivers/solver/set_up/fibres.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -62,6 +63,8 @@ void History::write(const Snapshot& s) {
 
 namespace {
 
+constexpr const char* fibre_field = "fibre";
+
 std::vector<Point> displacements(const std::vector<Point>& positions, const std::vector<Point>& rest,
                                  const Point& placement) {
   std::vector<Point> result(positions.size());
@@ -87,6 +90,14 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
 Body with_regions(Body body) {
   for (std::size_t i = 0; i < body.levels.size(); ++i) add_regions(body.levels[i], body.regions, static_cast<int>(i));
   return body;
+}
+
+// As a field of the mesh, for frames: at rest
+void add_fibres(Body& body, std::size_t level) {
+  std::vector<Point> directions;
+  for (const FibreAxes& axes : element_fibres(body, body.levels[level], static_cast<int>(level)))
+    directions.push_back(axes[0]);
+  body.levels[level].tet_vectors[fibre_field] = std::move(directions);
 }
 
 std::string volume_name(int level) { return level == 0 ? "volume" : fmt::format("volume_level{}", level); }
@@ -134,6 +145,7 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
   for (const int level : volume_levels_) {
     volume_frames_.emplace_back(folder, volume_name(level), volume_name(level) + ".pvd", frame_times_);
     const auto i = static_cast<std::size_t>(level);
+    if (has_fibres(body_)) add_fibres(body_, i);
     volumes_.push_back({in_input_order(body_.levels[i], numbering_[i]),
                         in_input_order(vertex_masses(body_, level), numbering_[i].input.vertices)});
   }
@@ -199,6 +211,7 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& consta
   const std::vector<int>& order = elements.per_vertex ? vertices : tets;
   fields.emplace_back("von_mises", in_input_order(elements.von_mises, order));
   fields.emplace_back("J", in_input_order(elements.J, order));
+  if (has_fibres(body_)) grid.cell_vectors = {{fibre_field, mesh.tet_vectors.at(fibre_field)}};
   const bool has_numbers = !numbering.tet_ids.empty();  // a reader must not take them for regions
   if (!mesh.region.empty() || has_numbers)
     grid.cell_fields.push_back({"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});

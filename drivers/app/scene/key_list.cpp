@@ -43,6 +43,7 @@ Json schema_of(const Flag&) { return {{"type", "boolean"}}; }
 Json schema_of(const Text&) { return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}}; }
 Json schema_of(const Name& kind) { return {{"enum", names(kind.choices())}}; }
 Json schema_of(const TissueName& kind) { return schema_of(kind.name); }
+Json schema_of(const PresetName& kind) { return schema_of(kind.name); }
 
 Json schema_of(const NamePerLevel& kind) {
   const Json one = schema_of(kind.name);

@@ -6,6 +6,7 @@
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
 #include <plica/drivers/app/scene/units.hpp>
+#include <plica/drivers/solver/presets.hpp>
 #include <plica/drivers/solver/tissues.hpp>
 #include <stdexcept>
 
@@ -129,6 +130,12 @@ void read(const Value& value, const TissueName& kind, MaterialOptions& target) {
   std::string name;
   read(value, kind.name, name);
   target = tissue_material(name);
+}
+
+void read(const Value& value, const PresetName& kind, Problem& target) {
+  std::string name;
+  read(value, kind.name, name);
+  apply_preset(name, target);
 }
 
 void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target) {

@@ -34,6 +34,7 @@ void read(const Value& value, const Flag& kind, bool& target);
 void read(const Value& value, const Text& kind, std::string& target);
 void read(const Value& value, const Name& kind, std::string& target);
 void read(const Value& value, const TissueName& kind, MaterialOptions& target);
+void read(const Value& value, const PresetName& kind, Problem& target);
 void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>& target);
 void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target);
 void read(const Value& value, const Shares& kind, const Shares::Target& target);

@@ -269,6 +269,7 @@ class HimStepper final : public Stepper<B> {
     const State<B>& x = level.state;
     combine_free<B>(exec, "plica::him_drift", inverse_mass, static_cast<Real>(t / 2), x.v, 1, x.u, x.u);
     prescribe(exec, level, level.state, time + t / 2);
+    level.remember(time + t / 2);
     h[0].evaluate_without_contact(level.state, time + t / 2, level.f);
     h.clock.time("turn", 0, [&] { kick(exec, level, t); });
     h.clock.time("answer", 0, [&] { answer(exec, level.model, p_, a_); });

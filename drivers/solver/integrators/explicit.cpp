@@ -22,6 +22,7 @@ class EulerStep final : public Integrator<B> {
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     const Update update{level.model, level.f, level.state.u, level.state.v, static_cast<typename B::Real>(h)};
     for (int s = 0; s < steps; ++s) {
+      level.remember(time + s * h);
       level.evaluate(level.state, time + s * h, level.f, Update::contact(h), h);
       update_vertices<B>(level.exec(), Update::label, level.model.vertices, update);
       prescribe(level.exec(), level, level.state, time + (s + 1) * h);
@@ -44,6 +45,7 @@ class CentralDifferenceStep final : public Integrator<B> {
     const int n = level.model.vertices;
     const auto half = static_cast<Real>(h / 2);
     const ContactStep contact{.span = h, .entry = h, .damped = h / 2};
+    level.remember(time);
     if (!current_ || level.asks_caller())
       level.evaluate(level.state, time, f_, contact, h / 2);
     else if (level.contact())
@@ -53,6 +55,7 @@ class CentralDifferenceStep final : public Integrator<B> {
       update_vertices<B>(level.exec(), "plica::kick_and_drift", n,
                          HalfKickAndDrift<B>{level.model, f_, level.state, half});
       prescribe(level.exec(), level, level.state, time + (s + 1) * h);
+      level.remember(time + (s + 1) * h);
       level.evaluate(level.state, time + (s + 1) * h, f_, contact, s + 1 < steps ? h : h / 2);
       update_vertices<B>(level.exec(), "plica::kick", n, HalfKick<B>{level.model, f_, level.state.v, half});
     }
@@ -87,6 +90,7 @@ class RungeKuttaStep final : public Integrator<B> {
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     const auto& exec = level.exec();
     for (int s = 0; s < steps; ++s) {
+      level.remember(time + s * h);
       start_.copy(exec, level.state);
       stage_.copy(exec, level.state);
       sum_.copy(exec, level.state);

@@ -70,6 +70,7 @@ class ImplicitStep : public Integrator<B> {
     const bool halves = depth < most_halvings_;
     if (halves) before_[static_cast<std::size_t>(depth)].copy(exec, level.state);
     const long misses = stages_.misses();
+    level.remember(time);
     prescribe(exec, level, level.state, time, h);
     const bool solved = step(level, time, h);
     prescribe(exec, level, level.state, time + h);

@@ -225,7 +225,7 @@ class StageSolver {
   /// Of the state whose forces are in level.f.
   Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
-    level.elasticity().energy(level.exec(), level, level.state.u);
+    level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
                  blocks_, result_);
     double stored = read(level.exec())[0];

@@ -74,6 +74,7 @@ class HierarchyBuilder {
     phase("planning the steps", [&] { plan(); });
     if (starts_deformed(problem_.body.initial)) deform();
     built_.stepper->start(*built_.hierarchy);
+    for (const auto& level : built_.hierarchy->levels) level.remember(0);
     return std::move(built_);
   }
 
@@ -304,6 +305,8 @@ class HierarchyBuilder {
       level.integrator = Kind::template make<B>(level, {implicit, make_solver});
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
+    if (const auto& prony = problem_.body.material.prony; !prony.empty())
+      level.viscosity = std::make_unique<Viscosity<B>>(prony, constants_[i].shape, built_.meshes[i], level);
   }
 
   /// The stepper and what it makes of the levels.

@@ -67,13 +67,29 @@ std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> dens
   return damping;
 }
 
+/// What the constants of the elements' regions are made of, of the values of their parameters.
+ShapeConstants shape_constants(const Body& body, const MaterialInfo& material, const LevelConstants& c,
+                               const std::vector<std::vector<double>>& values) {
+  ShapeConstants shape;
+  if (body.material.prony.empty()) return shape;
+  const bool capped = c.element == Element::nodal && smooths_pressure(body, c.lame);
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    const Lame<double>& lame = c.lame[r];
+    const double bulk = (capped ? capped_lambda(lame) : lame.lambda) + 2 * lame.mu / 3;
+    shape.half.push_back(material.with_shape(values[r], 0.5, bulk));
+    shape.isochoric.push_back(material.with_shape(values[r], 1, 0));
+  }
+  return shape;
+}
+
 }  // namespace
 
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level) {
   LevelConstants c;
   c.element = element_of(body, static_cast<std::size_t>(level));
   const MaterialInfo& material = *find_material(body.material.model);
-  std::vector<double> mass_damping;  // per region
+  std::vector<double> mass_damping;            // per region
+  std::vector<std::vector<double>> values_of;  // likewise
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
   for (std::size_t r = 0; r < regions; ++r) {
     const auto own = mesh.region.empty() ? body.regions.end() : body.regions.find(mesh.region_names[r]);
@@ -82,7 +98,7 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
       throw InputError("body.fibres is missing" +
                        (mesh.region.empty() ? "" : ", and region '" + mesh.region_names[r] + "' has none of its own") +
                        "; expected the direction of its fibres, such as {axis: [0, 0, 1]}");
-    const std::vector<double> values = parameter_values(material, body.material, o);
+    const std::vector<double>& values = values_of.emplace_back(parameter_values(material, body.material, o));
     c.material.push_back(material.kernel_constants(values));
     c.lame.push_back(material.small_strains(values));
     c.capped.push_back(material.with_lambda ? material.with_lambda(values, capped_lambda(c.lame.back()))
@@ -90,6 +106,8 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
     c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
   }
+  if (fibres_vary(body)) c.fibres = element_fibres(body, mesh, level);
+  c.shape = shape_constants(body, material, c, values_of);
   if (*std::max_element(c.stiffness_damping.begin(), c.stiffness_damping.end()) == 0) c.stiffness_damping.clear();
   c.density = region_densities(body, mesh);
   c.mass = lumped_masses(mesh, c.density);
@@ -108,6 +126,7 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
+    if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
     model.shares = model.patches.shares;
   } else {
     const bool smoothed = smooths_pressure(body, c.lame);
@@ -119,7 +138,9 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
     model.rows = build_nodal_rows<B>(placed, constants);
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);
+    if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
     if (beside) model.patches = build_patches<B>(placed, *beside, c.stiffness_damping);
+    if (beside && !c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
   }
   level.partial = zeros<Vectors<B>>("plica::work.partial", std::max(model.shares.rows, model.patches.shares.rows));
   if (!allows_inversion(body.material))

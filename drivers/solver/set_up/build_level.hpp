@@ -3,6 +3,8 @@
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/set_up/fibres.hpp>
+#include <plica/drivers/solver/viscosity.hpp>
 #include <vector>
 
 namespace plica {
@@ -12,6 +14,8 @@ struct LevelConstants {
   std::vector<std::vector<double>> material;  ///< per region, its constants; one entry where the mesh names none
   std::vector<std::vector<double>> capped;    ///< likewise with lambda at most 2 mu, where the material has it
   std::vector<Lame<double>> lame;             ///< per region, of small strains [Pa]
+  ShapeConstants shape;                       ///< of viscous materials: of the elements' constants
+  std::vector<FibreAxes> fibres;              ///< per tetrahedron, where they are not the same everywhere in a region
   Element element = Element::linear;          ///< of this level
   std::vector<double> density;                ///< per region [kg/m^3]
   std::vector<double> mass_damping;           ///< per vertex [1/s]; one entry where it is the same everywhere

@@ -20,6 +20,12 @@ std::string shown(const std::vector<std::string>& values) {
       values.begin(), values.end(), std::string(),
       [](const std::string& all, const std::string& one) { return all.empty() ? one : all + ", " + one; });
 }
+std::string shown(const std::vector<PronyTerm>& terms) {
+  std::string all;
+  for (const PronyTerm& term : terms)
+    all += (all.empty() ? "" : ", ") + std::to_string(term.alpha) + " over " + std::to_string(term.tau) + " s";
+  return all.empty() ? "left out" : all;
+}
 std::string shown(const std::optional<bool>& value) { return !value ? "left out" : *value ? "true" : "false"; }
 std::string shown(const std::optional<std::string>& value) { return value.value_or("left out"); }
 
@@ -38,6 +44,7 @@ void expect_alike(const NamedBody& first, const NamedBody& other) {
   same("material.volume", a.material.volume, b.material.volume);
   same("material.convention", a.material.convention, b.material.convention);
   same("material.allow_inversion", a.material.allow_inversion, b.material.allow_inversion);
+  same("material.prony", a.material.prony, b.material.prony);
 }
 
 void expect_joinable(const std::vector<NamedBody>& bodies) {
@@ -64,7 +71,7 @@ void expect_joinable(const std::vector<NamedBody>& bodies) {
 }
 
 /// What a part of a body is made of, all of it said.
-RegionOptions made_of(const Body& body, const RegionOptions& own) {
+RegionOptions made_of(const Body& body, const RegionOptions& own, const Point& shift) {
   const MaterialInfo& law = *find_material(body.material.model);
   const auto takes = [&](const MaterialParameter& p) {
     return std::any_of(law.parameters.begin(), law.parameters.end(),
@@ -80,6 +87,7 @@ RegionOptions made_of(const Body& body, const RegionOptions& own) {
   all.parameters.insert(body.material.parameters.begin(), body.material.parameters.end());
   if (own.terms.empty()) all.terms = body.material.terms;
   if (!own.fibres) all.fibres = body.material.fibres;
+  if (all.fibres && all.fibres->around) all.fibres->around->point += shift;
   return all;
 }
 
@@ -109,15 +117,31 @@ class Joiner {
       add_selections(name, body, mesh, static_cast<int>(level));
       add_mesh(name, mesh, shift, all_.levels[level]);
     }
-    all_.regions[name] = made_of(body, {});
-    for (const auto& [region, own] : body.regions) all_.regions[name + "/" + region] = made_of(body, own);
+    all_.regions[name] = made_of(body, {}, shift);
+    for (const auto& [region, own] : body.regions) all_.regions[name + "/" + region] = made_of(body, own, shift);
     keep_selections(name, body);
     const int points = body.surface ? static_cast<int>(body.surface->vertices.size()) : 0;
     if (body.surface) add_surface(*body.surface, shift);
     all_.parts.push_back({name, body.material, points});
   }
 
+  /// What elements have, after that of those `before`; where nothing is said, `none`.
+  template <class Value>
+  static void append(std::vector<Value>& all, std::size_t before, const std::vector<Value>& more, std::size_t count,
+                     const Value& none) {
+    all.resize(before, none);
+    all.insert(all.end(), more.begin(), more.end());
+    all.resize(before + count, none);
+  }
+
   static void add_mesh(const std::string& name, const TetMesh& mesh, const Point& shift, TetMesh& to) {
+    const std::size_t before = to.tets.size(), count = mesh.tets.size();
+    if (!to.filled.empty() || !mesh.filled.empty()) append(to.filled, before, mesh.filled, count, 1.0);
+    for (const auto& [field, vectors] : mesh.tet_vectors) to.tet_vectors.try_emplace(field);
+    for (auto& [field, all] : to.tet_vectors) {
+      const auto own = mesh.tet_vectors.find(field);
+      append(all, before, own == mesh.tet_vectors.end() ? std::vector<Point>{} : own->second, count, Point(0, 0, 0));
+    }
     const int vertices = static_cast<int>(to.vertices.size()), regions = static_cast<int>(to.region_names.size());
     for (const Point& x : mesh.vertices) to.vertices.emplace_back(x + shift);
     for (auto tet : mesh.tets) {

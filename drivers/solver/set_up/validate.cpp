@@ -8,6 +8,7 @@
 #include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/fibres.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
@@ -71,6 +72,14 @@ class Checker {
   void alternative(const char* key, Variant& target, const Case<T>&, const char*) const {
     if (auto* held = std::get_if<T>(&target)) inside(path_ + "." + key, Group{}, *held);
   }
+  template <class T>
+  void alternative(const char* key, std::optional<T>& target, const Case<T>&, const char*) const {
+    inside(path_ + "." + key, Group{}, target);
+  }
+  void alternative(const char* key, Point& target, const Direction& kind, const char*) const {
+    kind.check(path_ + "." + key, target);
+  }
+  void alternative(const char*, std::string&, const Text&, const char*) const {}
   template <class Variant, auto Member, class Kind>
   void alternative(const char* key, Variant& target, const As<Member, Kind>& as, const char*) const {
     if (auto* held = std::get_if<typename As<Member, Kind>::Type>(&target))
@@ -298,6 +307,15 @@ void check_coarsen(const Problem& problem, std::size_t levels) {
   }
 }
 
+/// Whether fields have a direction at every element.
+void check_fibres(const Body& body) {
+  for (std::size_t i = 0; i < body.levels.size() && fibres_vary(body); ++i) {
+    TetMesh mesh = body.levels[i];
+    add_regions(mesh, body.regions, static_cast<int>(i));
+    element_fibres(body, mesh, static_cast<int>(i));
+  }
+}
+
 /// Once the mesh is there.
 void check_points(const Body& body) {
   if (!body.coarsen || body.coarsen->empty()) return;
@@ -331,6 +349,7 @@ void validate(const Problem& problem) {
   check_regions(body);
   validate_options(problem, body.levels.size());
   check_points(body);
+  check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
   check_contact(problem);
 }

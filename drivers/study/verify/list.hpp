@@ -47,6 +47,7 @@ VerifyRows cook_membrane(const VerifyContext&);
 VerifyRows free_cube(const VerifyContext&);
 VerifyRows tapered_membrane(const VerifyContext&);
 VerifyRows laws_of_tissue(const VerifyContext&);
+VerifyRows relaxation(const VerifyContext&);
 VerifyRows bending_heart_muscle(const VerifyContext&);
 VerifyRows twisting_column(const VerifyContext&);
 VerifyRows free_spin(const VerifyContext&);
@@ -84,6 +85,7 @@ inline constexpr VerifyProblem verify_list[] = {
     {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)", tapered_membrane},
     {"laws_of_tissue", "stretched and sheared boxes of every law of tissue, in closed form, of both elements",
      laws_of_tissue},
+    {"relaxation", "steps, ramps and sines of viscous materials, in closed form, of both elements", relaxation},
     {"bending_heart_muscle",
      "a beam bent by a pressure that follows it (Land et al. 2015, problem 1), of nodal elements",
      bending_heart_muscle},

@@ -196,6 +196,13 @@ TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
   EXPECT_EQ(m.fibres->axis, Point(0, 0, 2));
 }
 
+TEST(Scene, PresetsGiveOptionsThatOtherKeysOverride) {
+  const Scene scene = scene_of(damaged("gravity: [0, 0, -9.81]", "preset: tled"));
+  EXPECT_EQ(scene.problem.preset, "tled");
+  EXPECT_EQ(scene.problem.body.element, std::vector<std::string>{"linear"});
+  EXPECT_EQ(scene.problem.integration.integrator, std::vector<std::string>{"central_difference"});
+}
+
 struct Damage {
   const char* name;
   const char* piece;
@@ -246,6 +253,21 @@ const Damage damages[] = {
      "the body or of every region"},
     {"FibreOfNoLength", "{model: neo_hookean, young_modulus: 50 kPa}",
      "{tissue: heart_muscle}\n  fibres: {axis: [0, 0, 0]}", "a.yaml:8: body.fibres.axis: expected a direction, got "},
+    {"FibresTwice", "{model: neo_hookean, young_modulus: 50 kPa}",
+     "{tissue: heart_muscle}\n  fibres: {axis: [0, 0, 1], field: a}", "a.yaml:8: body.fibres: "},
+    {"FibreFieldIsNotThere", "{model: neo_hookean, young_modulus: 50 kPa}",
+     "{tissue: heart_muscle}\n  fibres: {field: fibre}",
+     "a.yaml:8: body.fibres.field: the mesh of level 0 has no field of vectors; expected 'fibre' among those of its "
+     "cells "
+     "or points"},
+    {"PronySum", "young_modulus: 50 kPa", "prony: [{alpha: 0.6, tau: 1 s}, {alpha: 0.5, tau: 2 s}]",
+     "a.yaml:7: body.material.prony: the sum of alpha is 1.1; expected one below 1"},
+    {"PronyTime", "young_modulus: 50 kPa", "prony: [{alpha: 0.6, tau: 0 s}]",
+     "a.yaml:7: body.material.prony.0.tau: expected a time (s) > 0, got '0 s'"},
+    {"PronyOfALawWithoutShape", "neo_hookean", "corotational, prony: [{alpha: 0.6, tau: 1 s}]",
+     "a.yaml:7: body.material.prony: corotational does not split shape from volume"},
+    {"UnknownPreset", "gravity: [0, 0, -9.81]", "preset: led",
+     "a.yaml:2: preset: unknown preset 'led'; did you mean 'tled'? (choices: tled)"},
     {"UnknownTissue", "{model: neo_hookean, young_modulus: 50 kPa}", "{tissue: heart}",
      "a.yaml:7: body.material.tissue: unknown tissue 'heart' (choices: heart_muscle, artery_adventitia)"},
     {"UnknownVolume", "{model: neo_hookean, young_modulus: 50 kPa}", "{model: mooney_rivlin, volume: log}",

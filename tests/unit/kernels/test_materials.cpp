@@ -358,6 +358,26 @@ TEST(MaterialParameters, AreRefusedOutOfTheirRangeAndByAWrongName) {
             "body.regions.liver.bulk: unknown parameter of linear 'bulk' (choices: young_modulus, poisson_ratio)");
 }
 
+TEST(MaterialParameters, OfRelaxationAreRefusedWhereNothingWouldBeLeft) {
+  Body body;
+  const auto with = [&](const char* model, const std::vector<PronyTerm>& prony) {
+    body.material.prony = prony;
+    return refusal_of(*find_material(model), body);
+  };
+  EXPECT_EQ(with("neo_hookean", {{0.3, 1}, {0.69, 0.1}}), "");
+  EXPECT_EQ(
+      with("neo_hookean", {{0.3, 1}, {0.7, 0.1}}),
+      "body.material.prony: the sum of alpha is 1; expected one below 1: what is left of 1 is the part that never "
+      "relaxes");
+  EXPECT_EQ(with("mooney_rivlin", {{0.3, 0}}), "body.material.prony.0.tau is 0 s; expected a time (s) > 0");
+  EXPECT_EQ(with("mooney_rivlin", {{0.3, 1}, {-0.1, 1}}),
+            "body.material.prony.1.alpha is -0.1; expected a number in (0, 1)");
+  EXPECT_EQ(with("neo_hookean", std::vector<PronyTerm>(7, {0.1, 1})), "body.material.prony: 7 terms; expected 1 to 6");
+  EXPECT_EQ(with("corotational", {{0.3, 1}}).substr(0, 128),
+            "body.material.prony: corotational does not split shape from volume, and only shape relaxes; expected no "
+            "prony, or one of the model");
+}
+
 TEST(MaterialParameters, OfTissueAreRefusedWhereTheyDoNotMakeABody) {
   Body body;
   const auto with = [&](const char* model, const MaterialOptions& options) {
@@ -386,6 +406,9 @@ TEST(MaterialParameters, OfTissueAreRefusedWhereTheyDoNotMakeABody) {
             "body.material.terms.0.alpha is 0; expected a number other than 0");
   EXPECT_EQ(with("linear", {.volume = "quadratic"}),
             "body.material.volume is quadratic; linear has its own, expected none");
+  EXPECT_EQ(with("costa", {.fibres = FibreOptions{.sheet = Point::UnitX(), .around = FibreWinding{}}}),
+            "body.fibres.sheet: fibres around a line have their sheets on cylinders about it; expected none");
+  EXPECT_EQ(with("costa", {.fibres = FibreOptions{.around = FibreWinding{}}}), "");
   EXPECT_EQ(with("costa", complete({.model = "costa"})), "");
   body.material = {}, body.regions["wall"].fibres = FibreOptions{Point::UnitX(), Point::UnitY()};
   EXPECT_EQ(refusal_of(*find_material("costa"), body), "");  // every region has its own

@@ -159,6 +159,26 @@ TEST(Formats, GroupsKeepTheirNumbersAndTriangles) {
   EXPECT_EQ(read_mesh(vtk).region_names, (std::vector<std::string>{"region_2", "region_71"}));
 }
 
+TEST(Formats, VectorsOfCellsAndPointsAreKept) {
+  TetMesh mesh = read_mesh(sample("blocks_zlib.vtu"));
+  auto& vectors = mesh.tet_vectors["the fibres"];
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) vectors.push_back(Point(1, static_cast<double>(t), -0.1));
+  for (const char* name : {"m.vtk", "m.vtu"})
+    for (const bool binary : {false, true}) {
+      if (binary && name == std::string("m.vtu")) continue;
+      const TetMesh again = read_mesh(write_mesh(name, mesh, "", binary).files.front());
+      ASSERT_TRUE(again.tet_vectors.contains("the_fibres")) << name;
+      EXPECT_EQ(again.tet_vectors.at("the_fibres"), vectors);
+      EXPECT_EQ(again.region, mesh.region);
+    }
+  const std::string points =
+      "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n9 9 9 0 0 0 1 0 0 0 1 0 0 0 "
+      "1\n"
+      "CELLS 1 5\n4 1 2 3 4\nCELL_TYPES 1\n10\nPOINT_DATA 5\nVECTORS a double\n9 9 9 4 0 0 0 4 0 0 0 4 0 0 8\n";
+  const TetMesh one = read_mesh(MemoryFile{"m.vtk", points});
+  EXPECT_EQ(one.tet_vectors.at("a"), std::vector<Point>{Point(1, 1, 3)}) << "the mean of its corners";
+}
+
 TEST(Formats, EverySurfaceOfTheBlocksIsTheSame) {
   for (const char* name : {"blocks.ply", "blocks_binary.ply", "blocks.off", "blocks.vtp", "blocks_polydata_51.vtk",
                            "blocks_polydata_42.vtk"}) {

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/set_up/fibres.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/meshes/embedding.hpp>
+
+namespace plica {
+
+namespace {
+
+Point centroid(const TetMesh& mesh, std::size_t tet) {
+  Point sum = Point::Zero();
+  for (const int v : mesh.tets[tet]) sum += mesh.vertices[static_cast<std::size_t>(v)];
+  return sum / 4;
+}
+
+FibreAxes orthonormal(const Point& axis, const std::optional<Point>& sheet) {
+  const Point a = axis.normalized();
+  Point s = sheet.value_or(a.unitOrthogonal());
+  s -= a.dot(s) * a;
+  return {a, s.norm() > 1e-6 ? Point(s.normalized()) : a.unitOrthogonal()};
+}
+
+bool varies(const std::optional<FibreOptions>& o) {
+  return o && (o->around || !o->field.empty() || !o->sheet_field.empty());
+}
+
+/// The fields that directions of a level are taken from.
+class FibreFields {
+ public:
+  FibreFields(const Body& body, const TetMesh& mesh, int level)
+      : finest_(body.levels.front()), mesh_(mesh), level_(level) {}
+
+  Point at(const std::string& path, const std::string& name, std::size_t tet) {
+    const auto own = mesh_.tet_vectors.find(name), first = finest_.tet_vectors.find(name);
+    if (own != mesh_.tet_vectors.end()) return checked(path, name, level_, tet, own->second[tet]);
+    if (first == finest_.tet_vectors.end()) {
+      std::vector<std::string> known;
+      for (const auto& [field, vectors] : finest_.tet_vectors) known.push_back(field);
+      throw InputError(path + ": " +
+                       (known.empty() ? "the mesh of level 0 has no field of vectors; expected '" + name +
+                                            "' among those of its cells or points"
+                                      : unknown_name("field of vectors of the mesh of level 0", name, known)));
+    }
+    if (!locator_) locator_ = std::make_unique<TetLocator>(finest_);
+    const auto near = static_cast<std::size_t>(locator_->locate(centroid(mesh_, tet)).tet);
+    return checked(path, name, 0, near, first->second[near]);
+  }
+
+ private:
+  const TetMesh &finest_, &mesh_;
+  int level_;
+  std::unique_ptr<TetLocator> locator_;
+
+  static const Point& checked(const std::string& path, const std::string& name, int level, std::size_t tet,
+                              const Point& vector) {
+    if (vector.allFinite() && vector.norm() > 0) return vector;
+    throw InputError(path + ": field '" + name + "' has " + (vector.allFinite() ? "length 0" : "no finite number") +
+                     " at element " + std::to_string(tet) + " of level " + std::to_string(level) +
+                     "; expected a direction at every element");
+  }
+};
+
+}  // namespace
+
+FibreAxes fibre_axes(const FibreOptions& o, const Point& at) {
+  if (!o.around) return orthonormal(o.axis, o.sheet);
+  const Point along = o.around->axis.normalized();
+  Point out = at - o.around->point;
+  out -= along.dot(out) * along;
+  if (!(out.norm() > 0)) out = along.unitOrthogonal();  // on the line
+  const Point round = along.cross(out.normalized());
+  const double c = std::cos(o.around->angle), s = std::sin(o.around->angle);
+  return {c * round + s * along, c * along - s * round};
+}
+
+bool has_fibres(const Body& body) {
+  return body.material.fibres ||
+         std::ranges::any_of(body.regions, [](const auto& region) { return region.second.fibres.has_value(); });
+}
+
+bool fibres_vary(const Body& body) {
+  return varies(body.material.fibres) ||
+         std::ranges::any_of(body.regions, [](const auto& region) { return varies(region.second.fibres); });
+}
+
+std::vector<FibreAxes> element_fibres(const Body& body, const TetMesh& mesh, int level) {
+  std::vector<FibreAxes> all;
+  FibreFields fields(body, mesh, level);
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    const std::string region = mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[e])];
+    const auto own = body.regions.find(region);
+    const bool of_region = own != body.regions.end() && own->second.fibres;
+    if (!of_region && !body.material.fibres) return {};
+    FibreOptions o = of_region ? *own->second.fibres : *body.material.fibres;
+    const std::string path = of_region ? "body.regions." + region + ".fibres" : "body.fibres";
+    if (!o.field.empty()) o.axis = fields.at(path + ".field", o.field, e);
+    if (!o.sheet_field.empty()) o.sheet = fields.at(path + ".sheet_field", o.sheet_field, e);
+    all.push_back(fibre_axes(o, centroid(mesh, e)));
+  }
+  return all;
+}
+
+template <class B>
+Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>& of_tets) {
+  const auto element = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches.element);
+  std::vector<typename B::Real> all;
+  for (std::size_t slot = 0; slot < element.extent(0); ++slot) {
+    const FibreAxes axes = element(slot) < 0 ? FibreAxes{Point::UnitX(), Point::UnitY()}
+                                             : of_tets[static_cast<std::size_t>(element(slot))];
+    for (const Point& a : axes)
+      for (int k = 0; k < 3; ++k) all.push_back(static_cast<typename B::Real>(a[k]));
+  }
+  return to_device<Scalars<B>>("patches.fibres", all);
+}
+
+template <class B>
+Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh, const std::vector<FibreAxes>& of_tets) {
+  // sums of V a a^T: opposite directions are the same fibre
+  struct Sum {
+    Eigen::Matrix3d axis = Eigen::Matrix3d::Zero(), sheet = Eigen::Matrix3d::Zero();
+  };
+  std::map<std::pair<int, int>, Sum> sums;  // region, vertex
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
+    const auto& t = mesh.tets[e];
+    const auto x = [&](std::size_t c) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[c])]; };
+    const double volume = tet_volume(x(0), x(1), x(2), x(3));
+    const auto& [axis, sheet] = of_tets[e];
+    for (const int v : t) {
+      Sum& sum = sums[{mesh.region.empty() ? 0 : mesh.region[e], v}];
+      sum.axis += volume * axis * axis.transpose(), sum.sheet += volume * sheet * sheet.transpose();
+    }
+  }
+  const auto main_direction = [](const Eigen::Matrix3d& sum) {
+    return Point(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2));
+  };
+  const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+  const auto vertex = host(rows.vertex), region = host(rows.region);
+  std::vector<typename B::Real> all;
+  for (int slot = 0; slot < rows.slots(); ++slot) {
+    FibreAxes axes{Point::UnitX(), Point::UnitY()};
+    if (vertex(slot) >= 0) {
+      const Sum& sum = sums.at({region(slot / NodalRows<B>::height), vertex(slot)});
+      const Point axis = main_direction(sum.axis);
+      const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+      axes = orthonormal(axis, main_direction(across * sum.sheet * across));
+    }
+    for (const Point& a : axes)
+      for (int k = 0; k < 3; ++k) all.push_back(static_cast<typename B::Real>(a[k]));
+  }
+  return to_device<Scalars<B>>("rows.fibres", all);
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                        \
+  template Scalars<Backend<Real, Exec>> device_fibres(const Patches<Backend<Real, Exec>>&,                   \
+                                                      const std::vector<FibreAxes>&);                        \
+  template Scalars<Backend<Real, Exec>> device_fibres(const NodalRows<Backend<Real, Exec>>&, const TetMesh&, \
+                                                      const std::vector<FibreAxes>&);
+PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+
+}  // namespace plica
