@@ -198,8 +198,7 @@ void check_pairs(const Problem& problem) {
     if (bool implicit = false;
         Integrators::visit(name, [&](auto it) { implicit = !decltype(it)::is_explicit; }), implicit)
       throw InputError("integration.integrator is " + name + ", but surfaces touch each other (" + key +
-                       "), which explicit steps and cycle him alone can have; expected an explicit integrator, or " +
-                       key + ": false");
+                       "), which only explicit steps and cycle him take; expected one of these, or " + key + ": false");
 }
 
 void check_contact(const Problem& problem) {

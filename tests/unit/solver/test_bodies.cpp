@@ -188,9 +188,8 @@ TEST(Bodies, CollideWithTheMomentaTheyHad) {
       depth = std::max(depth, deepest(p, s));
       const Momenta now = momenta(s, mass);
       EXPECT_LE((now.linear - before.linear).norm(), round_off<double>(2000, size)) << integrator;
-      if (integrator != "rk4") {
-        EXPECT_LE((now.angular - before.angular).norm(), round_off<double>(2000, 0.1 * size)) << integrator;
-      }
+      const double turned = (now.angular - before.angular).norm();
+      EXPECT_TRUE(integrator == "rk4" || turned <= round_off<double>(2000, 0.1 * size)) << integrator << " " << turned;
     }
     EXPECT_LE(most, 1.02 * energy) << integrator;
     EXPECT_LE(depth, 0.05 * mean_edge_length(p.body.levels[0])) << integrator;
@@ -306,8 +305,12 @@ TEST(Bodies, GiveTheSameBitsForOneThreadAndTwo) {
     p.contact.friction = 0.3, p.contact.self = true;
     const auto result = [&](int threads) {
       Simulation<Backend<double, Kokkos::OpenMP>> s(p, Kokkos::OpenMP(threads));
-      advance(s, 60);
-      EXPECT_GT(s.energies().contact, 0);
+      bool touched = false;
+      for (int n = 0; n < 60; ++n) {
+        advance(s, 1);
+        touched = touched || s.wrenches()[0].force.norm() > 0;
+      }
+      EXPECT_TRUE(touched) << cycle;
       return s.positions();
     };
     EXPECT_TRUE(same_bits(result(1), result(2))) << cycle;
