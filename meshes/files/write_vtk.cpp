@@ -17,7 +17,7 @@ WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
 }
 
 // What both formats can take for a name
-std::string plain(std::string name) {
+std::string written_name(std::string name) {
   for (char& c : name)
     if (c <= ' ' || std::string_view("\"'<>&\x7f").find(c) != std::string_view::npos) c = '_';
   return name;
@@ -63,7 +63,7 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
     out.text(end);
   }
   for (const auto& [name, vectors] : mesh.tet_vectors) {
-    out.text("VECTORS " + plain(name) + " double\n");
+    out.text("VECTORS " + written_name(name) + " double\n");
     for (const Point& vector : vectors) out.real64(vector).end();
     out.text(end);
   }
@@ -105,7 +105,7 @@ WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh, co
   for (const auto& [name, vectors] : mesh.tet_vectors) {
     std::vector<double> numbers;
     for (const Point& p : vectors) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
-    out << appended.array("Float64", plain(name).c_str(), 3, numbers);
+    out << appended.array("Float64", written_name(name).c_str(), 3, numbers);
   }
   if (has_data) out << "</CellData>\n";
   out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" << appended.bytes()
