@@ -40,9 +40,9 @@ Problem everything() {
   return p;
 }
 
-const std::vector<std::string> optional_parts = {"contact",  "surface", "prescribe", "restrict", "interpol", "start",
-                                                 "previous", "drift",   "implicit",  "cg",       "stage",    "damped",
-                                                 "flags",    "invert",  "rk4",       "load",     "grid"};
+const std::vector<std::string> optional_parts = {
+    "contact", "surface", "prescribe", "restrict", "interpol", "start", "previous", "drift",     "implicit", "cg",
+    "stage",   "damped",  "flags",     "invert",   "rk4",      "load",  "grid",     "viscosity", "remember", "lost"};
 
 TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
   Problem p = small_cube();
@@ -119,7 +119,8 @@ TYPED_TEST(LeftOut, PartsSayIt) {
     EXPECT_FALSE(part.reason.empty()) << name;
   }
   for (const auto& [name, part] : most)
-    if (name != "fixed vertices" && name != "hierarchical inverse mass") {  // the latter: see below
+    // the latter two: see below, and test_viscosity.cpp
+    if (name != "fixed vertices" && name != "hierarchical inverse mass" && name != "viscosity") {
       EXPECT_TRUE(part.in) << name;
       const bool no_memory = name == "gravity" || name == "mass damping" || name == "friction";
       EXPECT_EQ(part.bytes > 0, !no_memory) << name;
