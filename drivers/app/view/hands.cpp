@@ -54,12 +54,12 @@ void Hands<B>::Follower::aim(const Point& goal, double reach, double step) {
 template <class B>
 void Hands<B>::hold(const Controls& controls, double time) {
   const bool anew = controls.pull && (!controls_.pull || controls.pull->at != controls_.pull->at);
-  if (anew) ++grips_, hand_.place = controls.pull->target;
+  if (anew) ++grips_, placed_ = false;
   if (controls.tool && !controls_.tool) ball_.place = controls.tool->centre;
   controls_ = controls, start_ = time;
   more_gravity_ = down_ * controls.gravity - scene_gravity_;
   pull_ = push_ = Point::Zero();
-  if (controls.pull) hand_.aim(controls.pull->target, hand_speed * size_ * macro_step_, macro_step_);
+  if (controls.pull && placed_) hand_.aim(controls.pull->target, hand_speed * size_ * macro_step_, macro_step_);
   if (controls.tool) ball_.aim(controls.tool->centre, ball_speed * size_ * macro_step_, macro_step_);
   tool_ = controls.tool;
   if (tool_) tool_->centre = ball_.place;
@@ -94,7 +94,7 @@ void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
   level.grip = grips_;
   level.held.clear(), level.weight.clear(), level.offset.clear();
   const double radius = std::max(patch * size_, 1.2 * level.edge);
-  double sum = 0;
+  double sum = 1e-300;  // nothing may be near
   Point middle = Point::Zero();
   for (std::size_t i = 0; i < level.mass.size(); ++i) {
     const double w = 1 - (row(request.rest, i) - controls_.pull->at).norm() / radius;
@@ -103,6 +103,7 @@ void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
     level.offset.push_back(row(request.rest, i) + row(request.displacement, i));
     sum += w, middle += w * level.offset.back();
   }
+  if (!placed_ && !level.held.empty()) hand_.place = middle / sum, placed_ = true;  // wherever the mouse is by now
   for (std::size_t j = 0; j < level.held.size(); ++j) level.weight[j] /= sum, level.offset[j] -= middle / sum;
 }
 

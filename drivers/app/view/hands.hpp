@@ -59,6 +59,7 @@ class Hands {
   Controls controls_;
   double start_ = 0;  // of the macro step [s]
   long grips_ = 0;
+  bool placed_ = false;  // whether the hand is where it took hold
   Follower hand_, ball_;
   std::optional<BallTool> tool_;
   Point pull_ = Point::Zero(), push_ = Point::Zero();
