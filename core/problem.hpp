@@ -31,9 +31,9 @@ struct FibreOptions {
 
 /// A part of the stress of shape that relaxes: of a step of strain, alpha e^(-t/tau) of it is left after a time t.
 struct PronyTerm {
-  double alpha = 0;  ///< part of the stress at once
-  double tau = 0;    ///< [s]
-  bool operator==(const PronyTerm&) const = default;
+  double alpha = 0;                                   ///< part of the stress at once
+  double tau = 0;                                     ///< [s]
+  bool operator==(const PronyTerm&) const = default;  ///< of both numbers
 };
 
 /// One of the sum that Ogden's law is.

@@ -36,14 +36,24 @@ bool reaches_into(const std::array<Point, 3>& t, double half) {
   return !apart((t[1] - t[0]).cross(t[2] - t[0]));
 }
 
+}  // namespace
+
+void check_cell_size(const std::vector<Point>& points, double size) {
+  const Box box = bounding_box(points);
+  const Point extent = box.max - box.min;
+  if (size > extent.maxCoeff())
+    throw InputError(text("the size of cells, ", number(size), " m, is larger than the body, ", number(extent[0], 4),
+                          " x ", number(extent[1], 4), " x ", number(extent[2], 4), " m"));
+}
+
+namespace {
+
 class Lattice {
  public:
   Lattice(const std::vector<Point>& points, double size) : size_(checked_size("the size of cells", size)) {
     const Box box = bounding_box(points);
     const Point extent = box.max - box.min;
-    if (size > extent.maxCoeff())
-      throw InputError(text("the size of cells, ", number(size), " m, is larger than the body, ", number(extent[0], 4),
-                            " x ", number(extent[1], 4), " x ", number(extent[2], 4), " m"));
+    check_cell_size(points, size);
     double all = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       const double along = std::max(1.0, std::ceil(extent[static_cast<int>(a)] / size - 1e-6));

@@ -4,6 +4,9 @@
 
 namespace plica {
 
+/// InputError for cells of a `size` [m] that is larger than a body with these points.
+void check_cell_size(const std::vector<Point>& points, double size);
+
 /// A lattice of cubes with edges of `size` [m] over a closed surface, around its bounding box's centre: every cube that the body or its
 /// surface reaches into, cut into six tetrahedra. Where several unconnected parts of the body lie in one cube, they become connected.
 /// @param surface  closed, counter-clockwise seen from outside

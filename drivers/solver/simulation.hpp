@@ -38,10 +38,10 @@ enum class LevelKind {
 
 /// What was decided for one level.
 struct LevelReport {
-  LevelKind kind = LevelKind::mesh;
-  int vertices = 0;      ///< of its mesh; points of a coarse space
-  int tets = 0;          ///< of its mesh; a coarse space has none
-  double filled = 1;     ///< the body's part of its volume
+  LevelKind kind = LevelKind::mesh;  ///< what it is made of
+  int vertices = 0;                  ///< of its mesh; points of a coarse space
+  int tets = 0;                      ///< of its mesh; a coarse space has none
+  double filled = 1;                 ///< the body's part of its volume
   double nonzeros = 0;   ///< of a coarse space: weights per row of its interpolation to the next finer level
   double mean_edge = 0;  ///< [m]
   double mass = 0;       ///< [kg]

@@ -80,11 +80,16 @@ std::string_view TextLines::word(std::size_t word, std::string_view what) const 
   return words_[word];
 }
 
-double TextLines::number(std::size_t word, std::string_view what) const {
+double TextLines::any_number(std::size_t word, std::string_view what) const {
   const std::string_view text = this->word(word, what);
   double value = 0.0;
   if (!parse(text, value)) fail(std::string(what) + " is " + shown(text) + "; it must be a number");
-  if (!std::isfinite(value)) fail(std::string(what) + " is " + shown(text) + "; it must be finite");
+  return value;
+}
+
+double TextLines::number(std::size_t word, std::string_view what) const {
+  const double value = any_number(word, what);
+  if (!std::isfinite(value)) fail(std::string(what) + " is " + shown(words_[word]) + "; it must be finite");
   return value;
 }
 
@@ -174,6 +179,11 @@ double TextNumbers::number(NumberType, std::string_view what) {
   return lines_.number(word_++, what);
 }
 
+double TextNumbers::any_number(NumberType, std::string_view what) {
+  go_to_word(what);
+  return lines_.any_number(word_++, what);
+}
+
 void TextNumbers::skip(std::int64_t count, NumberType, std::string_view what) {
   for (std::int64_t i = 0; i < count; ++i) {
     go_to_word(what);
@@ -213,8 +223,12 @@ std::int64_t ByteNumbers::integer(NumberType type, std::string_view what) {
   });
 }
 
+double ByteNumbers::any_number(NumberType type, std::string_view what) {
+  return with_type(type, [&](auto zero) { return static_cast<double>(take<decltype(zero)>(what)); });
+}
+
 double ByteNumbers::number(NumberType type, std::string_view what) {
-  const double value = with_type(type, [&](auto zero) { return static_cast<double>(take<decltype(zero)>(what)); });
+  const double value = any_number(type, what);
   if (!std::isfinite(value)) fail(std::string(what) + " is " + std::to_string(value) + "; it must be finite");
   return value;
 }

@@ -36,7 +36,8 @@ class TextLines {
   Place place() const { return place_; }
 
   /// A word as a number; InputError with `what` it was to be, when it is missing, no number, or not finite.
-  double number(std::size_t word, std::string_view what) const;
+  double number(std::size_t word, std::string_view what) const;      ///< finite
+  double any_number(std::size_t word, std::string_view what) const;  ///< which may be infinite or none
   std::int64_t integer(std::size_t word, std::string_view what) const;
 
   /// InputError at this line.
@@ -77,7 +78,8 @@ class Numbers {
   virtual void end(std::string_view what) = 0;
 
   virtual std::int64_t integer(NumberType type, std::string_view what) = 0;
-  virtual double number(NumberType type, std::string_view what) = 0;  ///< finite
+  virtual double number(NumberType type, std::string_view what) = 0;      ///< finite
+  virtual double any_number(NumberType type, std::string_view what) = 0;  ///< which may be infinite or none
   virtual void skip(std::int64_t count, NumberType type, std::string_view what) = 0;
 
   virtual Place place() const = 0;                  ///< of the last number
@@ -105,6 +107,7 @@ class TextNumbers final : public Numbers {
   void end(std::string_view what) override;
   std::int64_t integer(NumberType type, std::string_view what) override;
   double number(NumberType type, std::string_view what) override;
+  double any_number(NumberType type, std::string_view what) override;
   void skip(std::int64_t count, NumberType type, std::string_view what) override;
   Place place() const override { return lines_.place(); }
   std::int64_t room(NumberType type) const override;
@@ -130,6 +133,7 @@ class ByteNumbers final : public Numbers {
   void end(std::string_view) override {}
   std::int64_t integer(NumberType type, std::string_view what) override;
   double number(NumberType type, std::string_view what) override;
+  double any_number(NumberType type, std::string_view what) override;
   void skip(std::int64_t count, NumberType type, std::string_view what) override;
   Place place() const override;
   std::int64_t room(NumberType type) const override;

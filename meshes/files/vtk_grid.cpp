@@ -60,7 +60,7 @@ void VtkGrid::read_vectors(const std::string& name, std::int64_t tuples, NumberT
                            Numbers& numbers) {
   RawVectors field{name, of_points, std::vector<Point>(static_cast<std::size_t>(tuples))};
   for (Point& value : field.values)
-    for (int k = 0; k < 3; ++k) value[k] = numbers.number(type, "a component of a vector");
+    for (int k = 0; k < 3; ++k) value[k] = numbers.any_number(type, "a component of a vector");
   vectors.push_back(std::move(field));
 }
 

@@ -47,6 +47,7 @@ ExitStatus write_new(const MakeMeshArguments& arguments, const TetMesh& mesh, co
 
 // Gmsh is asked where it is named or installed; what it cannot do a lattice can
 TetMesh filled(const TriangleSurface& surface, double size, const std::string& with) {
+  check_cell_size(surface.vertices, size);
   if (with == "lattice") return lattice_mesh(surface, size);
   std::string why = "there is no gmsh on PATH";
   if (has_gmsh()) {

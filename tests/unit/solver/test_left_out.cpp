@@ -28,6 +28,7 @@ TYPED_TEST_SUITE(LeftOut, EachBackend);
 Problem everything() {
   Problem p = cube_levels(3, 4, "rsv");
   p.body.material.model = "neo_hookean";
+  p.body.material.prony = {{0.3, 0.1}};
   p.gravity = {0, 0, -9.81};
   p.body.damping = {1, 1e-6};
   p.body.prescribed = {{left_face(), Point(0, 0, 0.1)}};
@@ -53,7 +54,7 @@ TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
   for (const std::string& label : watch.about(optional_parts))
     EXPECT_EQ(label, "plica::lanczos_start") << "allocated or launched without need";
   EXPECT_EQ(watch.regions.count("plica: building the levels"), 1);
-  EXPECT_EQ(watch.regions.count("plica: preparing the obstacles"), 0);
+  EXPECT_EQ(watch.regions.count("plica: preparing contact"), 0);
 }
 
 TYPED_TEST(LeftOut, FullSceneHasItAll) {  // that the words above are those of the labels
@@ -64,7 +65,7 @@ TYPED_TEST(LeftOut, FullSceneHasItAll) {  // that the words above are those of t
     if (part != "rk4") {
       EXPECT_FALSE(watch.about({part}).empty()) << part;
     }
-  EXPECT_EQ(watch.regions.count("plica: preparing the obstacles"), 1);
+  EXPECT_EQ(watch.regions.count("plica: preparing contact"), 1);
 }
 
 TYPED_TEST(LeftOut, StepOfTheMinimalSceneIsThreeKernels) {
