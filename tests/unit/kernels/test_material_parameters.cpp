@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/bodies.hpp"
 #include "support/refusal.hpp"
 #include "support/three_constants.hpp"
 
