@@ -142,7 +142,7 @@ the reason; "start" goes back to the beginning. On explicit levels springs and b
 than asked for. From another machine: ssh -L 8642:localhost:8642 HOST, and the same address.
 
 Examples:
-  plica view drivers/scenes/ball_in_bowl_hybrid.yaml
+  plica view drivers/scenes/press.yaml
   plica view liver.yaml --set integration.cycle=auto --port 9000 --no-browser
 
 Exit status: 0 ended by Ctrl-C, 1 failure, 2 bad input, or the port is in use, 130 interrupted while it was set up)";

@@ -9,6 +9,7 @@ namespace plica::app {
 namespace {
 
 constexpr double patch = 0.06;        // radius of what is held, over the body's size
+constexpr double longest_pull = 0.1;  // a spring pulls no more than at this length, over the body's size
 constexpr double hand_speed = 2;      // the body's sizes per second; simulated
 constexpr double ball_speed = 1;      // likewise
 constexpr double pull_limit = 0.1;    // h^2 k / m of a vertex; with its own stiffness it has to stay below 4
@@ -131,7 +132,9 @@ void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
     const double k = std::min(level.weight[j] * controls_.stiffness,
                               pull_limit * most_stiffness(level, request, i, std::max(patch * size_, level.edge)));
     const double c = 2 * damping_ratio * std::sqrt(k * level.mass[i]);
-    const Point force = k * (target + level.offset[j] - x) - c * (v - hand_.velocity);
+    const Point way = target + level.offset[j] - x;
+    const Point held = way * std::min(1.0, longest_pull * size_ / std::max(way.norm(), 1e-300));
+    const Point force = k * held - c * (v - hand_.velocity);
     add<B>(request.force, i, force);
     if (request.stiffness.extent(0) > 0)
       for (int b = 0; b < 3; ++b) request.stiffness(i, b) += static_cast<Real>(k + c / request.step);

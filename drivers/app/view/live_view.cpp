@@ -162,7 +162,7 @@ class LiveView {
     const LiveJson data = {{"title", scene_.name},
                            {"up", problem.gravity.norm() > 0 ? three_of(-problem.gravity) : LiveJson({0, 0, 1})},
                            {"gravity", problem.gravity.norm()},
-                           {"stiffness", 0.1 * young * size},
+                           {"stiffness", 0.03 * young * size},
                            {"size", size},
                            {"method", options_.method},
                            {"tets", tets},
