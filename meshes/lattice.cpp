@@ -19,7 +19,7 @@ namespace {
 constexpr double most_cells = 8e6;
 constexpr double inner_part = 1 - 1e-6;  // of a cube's edge: a face that only touches a cube is not in it
 constexpr int fewest_vertices = 30;
-constexpr double least_part = 0.001;  // of a tetrahedron that is body
+constexpr double least_part = 0.02;  // of a tetrahedron that is body
 
 // Whether a triangle reaches into a cube around the origin with edges of 2 half: no plane of 13 keeps them apart (Akenine-Moeller,
 // Fast 3D triangle-box overlap testing, Journal of Graphics Tools 6, 2001)
@@ -99,15 +99,23 @@ class Lattice {
     });
   }
 
-  // The body's part of each tetrahedron of mesh(); counts the cells that hold several parts of it
-  std::vector<double> filled(const TriangleSurface& surface, int& shared) const {
+  // The body's part of each tetrahedron of mesh(), without cells that are all but empty: what hangs on them alone would turn inside out
+  // long before the body does. Counts the cells that hold several parts of the body
+  std::vector<double> filled(const TriangleSurface& surface, int& shared) {
     const CellContents contents(surface, low_, size_, cells_);
     std::vector<double> parts;
     for_cells([&](int i, int j, int k) {
-      if (!kept_[index(i, j, k)]) return;
-      if (!marked_[index(i, j, k)]) return void(parts.insert(parts.end(), 6, 1.0));
+      const std::size_t c = index(i, j, k);
+      if (!kept_[c]) return;
+      if (!marked_[c]) return void(parts.insert(parts.end(), 6, 1.0));
       const CellContents::Contents here = contents.of(i, j, k);
-      for (const double part : here.filled) parts.push_back(std::max(part, least_part));
+      double whole = 0, above = 0;  // of the cell; above what each gets at least
+      for (const double part : here.filled) whole += part, above += std::max(part - least_part, 0.0);
+      kept_[c] = whole > 6 * least_part;
+      if (!kept_[c]) return;
+      for (const double part : here.filled)  // the cell's whole is kept
+        parts.push_back(
+            std::min(1.0, least_part + std::max(part - least_part, 0.0) * (whole - 6 * least_part) / above));
       shared += here.parts > 1;
     });
     return parts;
@@ -170,9 +178,11 @@ Lattice lattice_over(const TriangleSurface& surface, double size) {
 TetMesh lattice_mesh(const TriangleSurface& surface, double size) { return lattice_over(surface, size).mesh(); }
 
 WeightedLattice weighted_lattice(const TriangleSurface& surface, double size) {
-  const Lattice lattice = lattice_over(surface, size);
-  WeightedLattice result{lattice.mesh()};
-  result.mesh.filled = lattice.filled(surface, result.shared_cells);
+  Lattice lattice = lattice_over(surface, size);
+  WeightedLattice result;
+  const std::vector<double> filled = lattice.filled(surface, result.shared_cells);
+  result.mesh = lattice.mesh();
+  result.mesh.filled = filled;
   return result;
 }
 

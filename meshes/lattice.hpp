@@ -17,7 +17,7 @@ TetMesh lattice_mesh(const TriangleSurface& surface, double size);
 /// A lattice whose tetrahedra are filled by the part of them that is body (TetMesh::filled), so that all of it has the body's mass and
 /// stiffness where the body is. An element's frequency does not depend on its part, and neither does the critical step.
 struct WeightedLattice {
-  TetMesh mesh;          ///< no part is below 0.001: a vertex has some mass, whatever reaches into its cells
+  TetMesh mesh;          ///< no part is below 0.02, and cells with less than that are left out
   int shared_cells = 0;  ///< that hold several unconnected parts of the body: there they are connected
 };
 /// The arguments are those of lattice_mesh().

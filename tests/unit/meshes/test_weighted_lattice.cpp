@@ -82,9 +82,9 @@ TEST(WeightedLattice, HasTheBodysVolumeAndCentroid) {
     for (const double size : {0.9, 0.3, 0.1}) {
       const WeightedLattice lattice = weighted_lattice(*surface, size);
       const MeshSize found = size_of(lattice.mesh);
-      EXPECT_NEAR(found.volume / enclosed_volume(*surface), 1, 0.01) << size;
+      EXPECT_NEAR(found.volume / enclosed_volume(*surface), 1, size > 0.5 ? 0.02 : 0.01) << size;  // by 8 lines a cell
       EXPECT_LT((found.centroid - centre).norm(), 0.004) << size;
-      EXPECT_GE(std::ranges::min(lattice.mesh.filled), 0.001);
+      EXPECT_GE(std::ranges::min(lattice.mesh.filled), 0.0199);
       EXPECT_LE(std::ranges::max(lattice.mesh.filled), 1.0);
     }
 }
