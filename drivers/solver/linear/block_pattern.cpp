@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/kernels/elastic/elastic_blocks.hpp>
 #include <tuple>
 #include <utility>
@@ -9,8 +10,6 @@
 namespace plica {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One block of one element: the pair of vertices it is for, first < second, whether it is for them turned round, and where it stands
 /// among the patch's element blocks.
@@ -112,15 +111,15 @@ class PatternBuilder {
   }
 
   void make_rows() {
-    std::vector<std::vector<int>> rows(at(vertices_));
-    for (int a = 0; a < vertices_; ++a) rows[at(a)].push_back(a);
+    std::vector<std::vector<int>> rows(index_of(vertices_));
+    for (int a = 0; a < vertices_; ++a) rows[index_of(a)].push_back(a);
     for (const PairOfPatch& pair : pair_) {
-      if (is_free(pair.first)) rows[at(pair.first)].push_back(pair.second);
-      if (is_free(pair.second)) rows[at(pair.second)].push_back(pair.first);
+      if (is_free(pair.first)) rows[index_of(pair.first)].push_back(pair.second);
+      if (is_free(pair.second)) rows[index_of(pair.second)].push_back(pair.first);
     }
     first_.push_back(0);
     for (int a = 0; a < vertices_; ++a) {
-      std::vector<int>& row = rows[at(a)];
+      std::vector<int>& row = rows[index_of(a)];
       std::sort(row.begin(), row.end());
       row.erase(std::unique(row.begin(), row.end()), row.end());
       diagonal_.push_back(first_.back() + static_cast<int>(std::lower_bound(row.begin(), row.end(), a) - row.begin()));
@@ -132,8 +131,8 @@ class PatternBuilder {
   /// Of block (a, b) in the matrix; -1 where row a is empty.
   int place_of(int a, int b) const {
     if (!is_free(a)) return -1;
-    const auto row = column_.begin() + first_[at(a)];
-    return static_cast<int>(std::lower_bound(row, column_.begin() + first_[at(a + 1)], b) - column_.begin());
+    const auto row = column_.begin() + first_[index_of(a)];
+    return static_cast<int>(std::lower_bound(row, column_.begin() + first_[index_of(a + 1)], b) - column_.begin());
   }
   /// Of one of the two blocks of a pair.
   int place_of(const PairOfPatch& pair) const {
@@ -142,18 +141,19 @@ class PatternBuilder {
 
   void count_patches() {
     patches_of_.resize(column_.size());
-    for (const PairOfPatch& pair : pair_) ++patches_of_[at(place_of(pair))];
+    for (const PairOfPatch& pair : pair_) ++patches_of_[index_of(place_of(pair))];
   }
 
   /// Those that other patches have too last; then by how many blocks they have, so that a processor foresees the ends of their sums.
   void sort_pairs(int p) {
-    const auto first = pair_.begin() + first_pair_[at(p)], last = pair_.begin() + first_pair_[at(p + 1)];
+    const auto first = pair_.begin() + first_pair_[index_of(p)], last = pair_.begin() + first_pair_[index_of(p + 1)];
     const auto key = [&](const PairOfPatch& a) {
-      return std::tuple(patches_of_[at(place_of(a))] > 1, a.straight - a.begin, a.end - a.begin, a.first, a.second);
+      return std::tuple(patches_of_[index_of(place_of(a))] > 1, a.straight - a.begin, a.end - a.begin, a.first,
+                        a.second);
     };
     std::sort(first, last, [&](const PairOfPatch& a, const PairOfPatch& b) { return key(a) < key(b); });
     const auto shared =
-        std::find_if(first, last, [&](const PairOfPatch& a) { return patches_of_[at(place_of(a))] > 1; });
+        std::find_if(first, last, [&](const PairOfPatch& a) { return patches_of_[index_of(place_of(a))] > 1; });
     first_shared_.push_back(static_cast<int>(shared - pair_.begin()));
     for (auto pair = first; pair != last; ++pair) {
       for (std::size_t i = pair->begin; i < pair->end; ++i) slot_.push_back(static_cast<std::uint16_t>(block_[i].slot));
@@ -170,15 +170,15 @@ class PatternBuilder {
       const PairOfPatch& pair = pair_[s];
       const int block = place_of(pair), upper = place_of(pair.first, pair.second);
       const int lower = place_of(pair.second, pair.first);
-      if (patches_of_[at(block)] == 1) {
+      if (patches_of_[index_of(block)] == 1) {
         upper_[s] = upper, lower_[s] = lower;
         continue;
       }
-      int& share = first_share[at(block)];
+      int& share = first_share[index_of(block)];
       if (share < 0) {
         share = first_share_.back();
         shared_upper_.push_back(upper), shared_lower_.push_back(lower);
-        first_share_.push_back(share + patches_of_[at(block)]);
+        first_share_.push_back(share + patches_of_[index_of(block)]);
       }
       upper_[s] = share++, lower_[s] = -1;
     }

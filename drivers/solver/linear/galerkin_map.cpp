@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 
 namespace plica {
 
 namespace {
-
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One term of a coarse block of some row: weight times a block of A.
 struct Term {
@@ -17,8 +16,9 @@ struct Term {
 std::vector<Term> terms_of_row(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt, int row) {
   std::vector<Term> terms;
   for (RowMatrix::InnerIterator i(Pt, row); i; ++i)
-    for (int s = A.first[at(static_cast<int>(i.col()))]; s < A.first[at(static_cast<int>(i.col()) + 1)]; ++s)
-      for (RowMatrix::InnerIterator j(P, A.column[at(s)]); j; ++j)
+    for (int s = A.first[index_of(static_cast<int>(i.col()))]; s < A.first[index_of(static_cast<int>(i.col()) + 1)];
+         ++s)
+      for (RowMatrix::InnerIterator j(P, A.column[index_of(s)]); j; ++j)
         if (j.col() >= row) terms.push_back({static_cast<int>(j.col()), s, i.value() * j.value()});
   std::sort(terms.begin(), terms.end(),
             [](const Term& a, const Term& b) { return std::pair(a.column, a.fine) < std::pair(b.column, b.fine); });
@@ -29,7 +29,7 @@ HostPattern both_halves(const std::vector<std::vector<int>>& upper) {
   std::vector<std::vector<int>> rows(upper.size());
   for (std::size_t a = 0; a < upper.size(); ++a)
     for (const int b : upper[a]) {
-      if (static_cast<int>(a) != b) rows[at(b)].push_back(static_cast<int>(a));
+      if (static_cast<int>(a) != b) rows[index_of(b)].push_back(static_cast<int>(a));
       rows[a].push_back(b);
     }
   HostPattern pattern;
@@ -42,7 +42,7 @@ HostPattern both_halves(const std::vector<std::vector<int>>& upper) {
 }
 
 int place_of(const HostPattern& A, int a, int b) {
-  const auto first = A.column.begin() + A.first[at(a)], last = A.column.begin() + A.first[at(a + 1)];
+  const auto first = A.column.begin() + A.first[index_of(a)], last = A.column.begin() + A.first[index_of(a + 1)];
   return static_cast<int>(std::lower_bound(first, last, b) - A.column.begin());
 }
 
@@ -73,7 +73,7 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   std::vector<int> first{0}, fine;
   std::vector<typename B::Real> weight;
   for (int a = 0; a < static_cast<int>(P.cols()); ++a) {
-    std::vector<int>& row = upper[at(a)];
+    std::vector<int>& row = upper[index_of(a)];
     row.push_back(a);
     for (const Term& term : terms_of_row(A, P, Pt, a)) {
       if (term.column != row.back()) {
@@ -90,7 +90,7 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   made.matrix = block_matrix<B>("multigrid", made.pattern);
   std::vector<int> to_upper, to_lower;
   for (int a = 0; a < static_cast<int>(upper.size()); ++a)
-    for (const int b : upper[at(a)])
+    for (const int b : upper[index_of(a)])
       to_upper.push_back(place_of(made.pattern, a, b)), to_lower.push_back(place_of(made.pattern, b, a));
   made.map = {to_device<Indices<B>>("galerkin.first", first), to_device<Indices<B>>("galerkin.fine", fine),
               to_device<Scalars<B>>("galerkin.weight", weight), to_device<Indices<B>>("galerkin.upper", to_upper),

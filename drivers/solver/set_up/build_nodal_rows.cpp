@@ -4,12 +4,11 @@
 #include <array>
 #include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 
 namespace plica {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// What a domain has with a neighbour; see NodalRows.
 struct Pair {
@@ -70,14 +69,15 @@ class Domains {
   void add_tet(std::size_t e) {
     const auto& t = mesh_.tets[e];
     Eigen::Matrix3d edges;
-    for (int c = 0; c < 3; ++c) edges.col(c) = mesh_.vertices[at(t[at(c + 1)])] - mesh_.vertices[at(t[0])];
+    for (int c = 0; c < 3; ++c)
+      edges.col(c) = mesh_.vertices[index_of(t[index_of(c + 1)])] - mesh_.vertices[index_of(t[0])];
     const Eigen::Matrix3d inverse = edges.inverse();
     const double volume = mesh_.part(e) * edges.determinant() / 6;
     std::array<Point, 4> g;
-    for (int c = 0; c < 3; ++c) g[at(c + 1)] = inverse.row(c).transpose();
+    for (int c = 0; c < 3; ++c) g[index_of(c + 1)] = inverse.row(c).transpose();
     g[0] = -(g[1] + g[2] + g[3]);
     for (std::size_t a = 0; a < 4; ++a) {
-      Domain& domain = all[at(corners_[e][a])];
+      Domain& domain = all[index_of(corners_[e][a])];
       domain.volume += volume / 4;
       for (std::size_t b = 0; b < 4; ++b) {
         if (a == b) continue;
@@ -100,11 +100,11 @@ std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
     const std::size_t first = order.size();
     for (std::size_t d = begin; d < end; ++d) order.push_back(static_cast<int>(d));
     std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(), [&](int a, int b) {
-      const Domain &x = domains[at(a)], &y = domains[at(b)];
+      const Domain &x = domains[index_of(a)], &y = domains[index_of(b)];
       return std::pair(x.surface_pairs(), x.pairs.size()) > std::pair(y.surface_pairs(), y.pairs.size());
     });
     if (end == domains.size() || domains[end].region != domains[begin].region)
-      while (order.size() % at(height) != 0) order.push_back(-1);
+      while (order.size() % index_of(height) != 0) order.push_back(-1);
     begin = end;
   }
   return order;
@@ -124,7 +124,7 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
   const std::vector<int> order = row_order(domains, Rows::height);
   std::vector<int> slot_of(domains.size());
   for (std::size_t s = 0; s < order.size(); ++s)
-    if (order[s] >= 0) slot_of[at(order[s])] = static_cast<int>(s);
+    if (order[s] >= 0) slot_of[index_of(order[s])] = static_cast<int>(s);
 
   std::vector<int> first{0}, first_surface{0}, region, vertex;
   std::vector<Real> volume, inverse;
@@ -138,10 +138,10 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
     std::size_t entries = 0, surface = 0;
     for (std::size_t row = 0; row < H; ++row) {
       const int d = order[begin + row];
-      const Domain domain = d >= 0 ? domains[at(d)] : Domain{};
+      const Domain domain = d >= 0 ? domains[index_of(d)] : Domain{};
       std::vector<Pair> pairs = domain.pairs;
-      std::ranges::sort(pairs, {}, [&](const Pair& p) { return slot_of[at(p.neighbour)]; });
-      const std::size_t e0 = at(first.back()), s0 = at(first_surface.back());
+      std::ranges::sort(pairs, {}, [&](const Pair& p) { return slot_of[index_of(p.neighbour)]; });
+      const std::size_t e0 = index_of(first.back()), s0 = index_of(first_surface.back());
       entries = std::max(entries, pairs.size());
       neighbour.resize(std::max(neighbour.size(), e0 + entries), self);
       gradient.resize(neighbour.size(), {}), coupling.resize(neighbour.size(), {});
@@ -149,14 +149,14 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
       std::size_t on_surface = 0;
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Pair& p = pairs[i];
-        neighbour[e0 + i][row] = slot_of[at(p.neighbour)];
+        neighbour[e0 + i][row] = slot_of[index_of(p.neighbour)];
         for (std::size_t k = 0; k < 3; ++k)
           gradient[e0 + i][k][row] = static_cast<Real>(p.gradient[static_cast<int>(k)]);
         coupling[e0 + i][row] = static_cast<Real>(p.coupling), smoothing[e0 + i][row] = static_cast<Real>(p.smoothing);
         if (p.surface == Point::Zero()) continue;
         const std::size_t s = s0 + on_surface++;
         if (s >= surface_neighbour.size()) surface_neighbour.push_back(self), surface_gradient.push_back({});
-        surface_neighbour[s][row] = slot_of[at(p.neighbour)];
+        surface_neighbour[s][row] = slot_of[index_of(p.neighbour)];
         for (std::size_t k = 0; k < 3; ++k)
           surface_gradient[s][k][row] = static_cast<Real>(p.surface[static_cast<int>(k)]);
       }
@@ -164,9 +164,9 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
       vertex.push_back(domain.vertex);
       volume.push_back(static_cast<Real>(domain.volume));
       inverse.push_back(d >= 0 ? static_cast<Real>(1 / domain.volume) : Real(0));
-      if (d >= 0) slots[at(domain.vertex)].push_back(static_cast<int>(begin + row));
+      if (d >= 0) slots[index_of(domain.vertex)].push_back(static_cast<int>(begin + row));
     }
-    region.push_back(domains[at(order[begin])].region);
+    region.push_back(domains[index_of(order[begin])].region);
     first.push_back(static_cast<int>(neighbour.size()));
     first_surface.push_back(static_cast<int>(surface_neighbour.size()));
   }

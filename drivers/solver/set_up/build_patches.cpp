@@ -6,6 +6,7 @@
 #include <numeric>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <utility>
 
 namespace plica {
@@ -85,15 +86,13 @@ std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements
 
 namespace {
 
-constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// The host's copy of Patches, filled patch by patch.
 template <class B>
 class PatchBuilder {
   using Real = typename B::Real;
   static constexpr int W = B::lanes;
   template <class T>
-  using Lanes = std::array<T, at(W)>;
+  using Lanes = std::array<T, index_of(W)>;
 
  public:
   PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
@@ -117,10 +116,10 @@ class PatchBuilder {
     }
     first_pack_.push_back(static_cast<int>(shape_.size()));
     first_vertex_.push_back(static_cast<int>(vertex_.size()));
-    const int region = mesh_.region.empty() ? 0 : mesh_.region[at(elements.front())];
-    for (const double c : constants_[at(region)]) device_constants_.push_back(static_cast<Real>(c));
-    if (!damping_.empty()) device_damping_.push_back(static_cast<Real>(damping_[at(region)]));
-    for (std::size_t i = v0; i < vertex_.size(); ++i) local_[at(vertex_[i])] = -1;
+    const int region = mesh_.region.empty() ? 0 : mesh_.region[index_of(elements.front())];
+    for (const double c : constants_[index_of(region)]) device_constants_.push_back(static_cast<Real>(c));
+    if (!damping_.empty()) device_damping_.push_back(static_cast<Real>(damping_[index_of(region)]));
+    for (std::size_t i = v0; i < vertex_.size(); ++i) local_[index_of(vertex_[i])] = -1;
   }
 
   Patches<B> finish() {
@@ -165,28 +164,29 @@ class PatchBuilder {
   void add_vertices(const std::vector<int>& elements) {
     const std::size_t v0 = vertex_.size();
     for (int e : elements)
-      for (int v : mesh_.tets[at(e)])
-        if (std::exchange(local_[at(v)], 0) < 0) vertex_.push_back(v);
+      for (int v : mesh_.tets[index_of(e)])
+        if (std::exchange(local_[index_of(v)], 0) < 0) vertex_.push_back(v);
     std::sort(vertex_.begin() + static_cast<std::ptrdiff_t>(v0), vertex_.end());
     for (std::size_t i = v0; i < vertex_.size(); ++i) {
-      local_[at(vertex_[i])] = static_cast<int>(i - v0);
-      copies_[at(vertex_[i])].push_back(static_cast<int>(i));
+      local_[index_of(vertex_[i])] = static_cast<int>(i - v0);
+      copies_[index_of(vertex_[i])].push_back(static_cast<int>(i));
     }
   }
 
   void add_element(int e, std::size_t pack, std::size_t lane, std::size_t q0,
                    std::vector<std::vector<std::uint16_t>>& slots) {
-    const auto& t = mesh_.tets[at(e)];
+    const auto& t = mesh_.tets[index_of(e)];
     Eigen::Matrix3d edges;
-    for (int c = 0; c < 3; ++c) edges.col(c) = mesh_.vertices[at(t[at(c + 1)])] - mesh_.vertices[at(t[0])];
+    for (int c = 0; c < 3; ++c)
+      edges.col(c) = mesh_.vertices[index_of(t[index_of(c + 1)])] - mesh_.vertices[index_of(t[0])];
     const Eigen::Matrix3d inverse = edges.inverse();
     auto& shape = shape_[q0 + pack];
-    for (int k = 0; k < 9; ++k) shape[at(k)][lane] = static_cast<Real>(inverse(k / 3, k % 3));
-    shape[9][lane] = static_cast<Real>(mesh_.part(at(e)) * edges.determinant() / 6);
+    for (int k = 0; k < 9; ++k) shape[index_of(k)][lane] = static_cast<Real>(inverse(k / 3, k % 3));
+    shape[9][lane] = static_cast<Real>(mesh_.part(index_of(e)) * edges.determinant() / 6);
     for (std::size_t c = 0; c < 4; ++c) {
-      const int v = local_[at(t[c])];
+      const int v = local_[index_of(t[c])];
       corner_[q0 + pack][c][lane] = static_cast<std::uint16_t>(v);
-      slots[at(v)].push_back(static_cast<std::uint16_t>((pack * 4 + c) * 3 * W + lane));
+      slots[index_of(v)].push_back(static_cast<std::uint16_t>((pack * 4 + c) * 3 * W + lane));
     }
     element_[(q0 + pack) * W + lane] = e;
   }

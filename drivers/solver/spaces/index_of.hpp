@@ -4,7 +4,7 @@
 
 namespace plica {
 
-/// A vertex' number as an index.
-constexpr std::size_t index_of(int vertex) { return static_cast<std::size_t>(vertex); }
+/// A number of a vertex, an element or an entry, as an index.
+constexpr std::size_t index_of(int number) { return static_cast<std::size_t>(number); }
 
 }  // namespace plica
