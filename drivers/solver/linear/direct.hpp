@@ -78,6 +78,7 @@ struct Direct {
       double* value = lower_.valuePtr();
       for (const auto& [block, entry] : entries_) *value++ = static_cast<double>(A.value(block, entry));
       factor_.factorize(lower_);
+      nonzeros_ = factor_.matrixL().nestedExpression().nonZeros();
     }
 
     void analyse(const BlockMatrix<B>& A) {
@@ -95,7 +96,6 @@ struct Direct {
         entries_.emplace_back(place / 9, place % 9);
       }
       factor_.analyzePattern(lower_);
-      nonzeros_ = factor_.matrixL().nestedExpression().nonZeros();
     }
   };
 };
