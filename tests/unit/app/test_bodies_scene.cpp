@@ -67,4 +67,17 @@ TEST(BodiesScene, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(said("duration: 1\nbodies: {}").find("at least one body"), std::string::npos);
 }
 
+// One of them known by its surface alone, which lattices fill
+TEST(BodiesScene, LatticesStandBesideMeshes) {
+  const std::string box = "[{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]\n    initial",
+                    surface = "surface: " PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk, sizes: ";
+  const Scene scene = scene_of(with(box, "{" + surface + "[2 cm, 4 cm]}\n    initial"));
+  const TetMesh& mesh = scene.problem.body.levels[0];
+  ASSERT_EQ(mesh.filled.size(), mesh.tets.size());
+  EXPECT_EQ(mesh.filled.front(), 1);
+  EXPECT_LT(mesh.filled.back(), 1);
+  const std::string said = refusal([&] { scene_of(with(box, "{" + surface + "[2 cm]}\n    initial")); });
+  EXPECT_NE(said.find("bodies.right.levels.sizes are 1; expected 2"), std::string::npos) << said;
+}
+
 }  // namespace
