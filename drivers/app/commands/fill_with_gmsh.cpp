@@ -26,7 +26,7 @@ constexpr double same_volume = 0.1;  // edges of the size cut corners
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "plica-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / ("plica-" + std::string(6, 'X'))).string();
     if (mkdtemp(name.data()) == nullptr) throw FileError("cannot make a folder for temporary files: " + name);
     path_ = name;
   }
