@@ -27,8 +27,7 @@ std::vector<int> regions_of_sets(const TetMesh& mesh, const Level<B>& level) {
     for (std::size_t r = 0; r < count; ++r) regions.push_back(static_cast<int>(r));
     return regions;
   }
-  const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
-  const auto first = host(level.model.patches.first_pack), element = host(level.model.patches.element);
+  const auto first = on_host(level.model.patches.first_pack), element = on_host(level.model.patches.element);
   for (int p = 0; p < level.model.patches.count; ++p) {
     const auto tet = static_cast<std::size_t>(element(first(p) * B::lanes));
     regions.push_back(mesh.region.empty() ? 0 : mesh.region[tet]);

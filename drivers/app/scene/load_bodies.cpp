@@ -31,10 +31,7 @@ std::string renamed(std::string message, const std::string& name) {
 
 Scene load_one(const Tree& tree, const std::string& name) {
   try {
-    Scene scene = read_scene(tree);
-    check_scene(scene, tree);
-    build_meshes(scene, tree);
-    return scene;
+    return load_body(tree);
   } catch (const InputError& error) {
     throw InputError(renamed(error.what(), name));
   }

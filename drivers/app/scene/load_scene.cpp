@@ -251,16 +251,12 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<Override>&
   return load_scene(tree);
 }
 
-namespace {
-
 Scene load_body(const Tree& tree) {
   Scene scene = read_scene(tree);
   check_scene(scene, tree);
   build_meshes(scene, tree);
   return scene;
 }
-
-}  // namespace
 
 Scene load_scene(const Tree& tree) {
   Scene scene = tree.find("bodies") != nullptr ? load_bodies(tree) : load_body(tree);

@@ -37,6 +37,9 @@ double generated_bytes(const Scene& scene);
 TetMesh finer_mesh(const Scene& scene);
 /// The meshes and the embedded surface, and the names of groups and regions checked against them.
 void build_meshes(Scene& scene, const Tree& tree);
+
+/// These three, of a scene with `body`; the whole problem is validated after that.
+Scene load_body(const Tree& tree);
 /// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is taken to the surface.
 void check_probes(Scene& scene, const Tree& tree);
 

@@ -107,7 +107,7 @@ std::vector<FibreAxes> element_fibres(const Body& body, const TetMesh& mesh, int
 
 template <class B>
 Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>& of_tets) {
-  const auto element = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), patches.element);
+  const auto element = on_host(patches.element);
   std::vector<typename B::Real> all;
   for (std::size_t slot = 0; slot < element.extent(0); ++slot) {
     const FibreAxes axes = element(slot) < 0 ? FibreAxes{Point::UnitX(), Point::UnitY()}
@@ -138,8 +138,7 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh, const st
   const auto main_direction = [](const Eigen::Matrix3d& sum) {
     return Point(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(2));
   };
-  const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
-  const auto vertex = host(rows.vertex), region = host(rows.region);
+  const auto vertex = on_host(rows.vertex), region = on_host(rows.region);
   std::vector<typename B::Real> all;
   for (int slot = 0; slot < rows.slots(); ++slot) {
     FibreAxes axes{Point::UnitX(), Point::UnitY()};
