@@ -63,13 +63,13 @@ def pull_the_body(page, picture):
     drag(page, (x, y), (120, 0))
     check(page.run("live.held && !live.held.ball"), "the mouse holds the body")
     asked = page.run("dot(minus(live.held.target, live.held.place), right)")
-    wait_for(page, f"dot(minus(where(), before), right) > {0.3 * asked}", "the body follows the mouse")
+    wait_for(page, f"dot(minus(where(), before), right) > {0.1 * asked}", "the body follows the mouse")
     check(page.run("live.frame.pull") > 0, "the page says how strong the pull is")
     check(page.run("live.view.azimuth") == -17.6, "the view is not turned")
     if picture:
         page.picture(picture)
     page.mouse("released", x + 120, y)
-    wait_for(page, f"Math.abs(dot(minus(where(), before), right)) < {0.1 * asked}", "it goes back when it is let go")
+    wait_for(page, f"Math.abs(dot(minus(where(), before), right)) < {0.03 * asked}", "it goes back when it is let go")
     check(page.run("live.frame.pull") == 0, "nothing pulls any more")
 
 
