@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <plica/core/error.hpp>
 #include <plica/core/level.hpp>
@@ -139,9 +138,13 @@ void check_structure(const MaterialInfo& info, const std::string& path, const st
 }
 
 /// Whether the directions across the fibres matter.
-bool needs_sheet(const MaterialInfo& info, const std::vector<double>& p) {
-  if (info.name == "holzapfel_gasser_ogden") return std::sin(2 * p[4]) != 0;
-  return info.name == "costa" && (p[2] != p[3] || p[2] != p[6] || p[4] != p[5]);
+bool needs_sheet(const MaterialInfo& info, const std::vector<double>& values) {
+  bool needed = false;
+  IsochoricLaws::for_each([&](auto law) {
+    if constexpr (requires { law.needs_sheet(values.data()); })
+      if (info.name == law.name) needed = law.needs_sheet(values.data());
+  });
+  return needed;
 }
 
 /// What `where`, "body.material" or "body.regions.NAME", is to be at rest.

@@ -29,6 +29,7 @@ struct Costa : Isochoric<Costa> {
       parameter::strain_weight("b_fn", "of costa: between fibre and normal, counted twice", 3.5),
       parameter::strain_weight("b_sn", "of costa: between sheet and normal, counted twice", 2.5),
       parameter::bulk_modulus};
+  static bool needs_sheet(const double* p) { return p[2] != p[3] || p[2] != p[6] || p[4] != p[5]; }
   static Constants<double> kernel_constants(const double* p) {
     return constants(p + parameters.size(), p[7], p[0] * *std::max_element(p + 1, p + 7) / 2,
                      {p[0], p[1], p[2], p[3], p[4], p[5], p[6]});

@@ -21,6 +21,7 @@ struct HolzapfelGasserOgden : Isochoric<HolzapfelGasserOgden> {
           "kappa", {keys::plain, {.min = 0, .max = 1.0 / 3}}, "of holzapfel_gasser_ogden: fibres' dispersion", 0},
       MaterialParameter{"angle", {keys::angle}, "of holzapfel_gasser_ogden: of both families from the axis", 0.6},
       parameter::bulk_modulus};
+  static bool needs_sheet(const double* p) { return std::sin(2 * p[4]) != 0; }
   static Constants<double> kernel_constants(const double* p) {
     const double aligned = 1 - 3 * p[3];  // of small strains: see transversely_isotropic
     Constants<double> c = constants(p + parameters.size(), p[5], p[0] + 8.0 / 3 * p[1] * aligned * aligned,

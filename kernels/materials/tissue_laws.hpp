@@ -3,6 +3,7 @@
 #include <plica/core/type_list.hpp>
 #include <plica/kernels/materials/arruda_boyce.hpp>
 #include <plica/kernels/materials/costa.hpp>
+#include <plica/kernels/materials/gent.hpp>
 #include <plica/kernels/materials/holzapfel_gasser_ogden.hpp>
 #include <plica/kernels/materials/mooney_rivlin.hpp>
 #include <plica/kernels/materials/ogden.hpp>
@@ -13,8 +14,8 @@
 namespace plica {
 
 /// The laws that share the kernels of TissueLaws. One more: its file above, its name here.
-using IsochoricLaws = TypeList<MooneyRivlin, Polynomial, Ogden, VerondaWestmann, ArrudaBoyce, TransverselyIsotropic,
-                               HolzapfelGasserOgden, Costa>;
+using IsochoricLaws = TypeList<MooneyRivlin, Polynomial, Ogden, VerondaWestmann, ArrudaBoyce, Gent,
+                               TransverselyIsotropic, HolzapfelGasserOgden, Costa>;
 
 /// f(law{}) for the one at a place of the list.
 template <class... Laws, class F>

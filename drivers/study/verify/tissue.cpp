@@ -63,6 +63,7 @@ std::array<double, 2> by_invariants(const Law& law, double I1, double I2) {
                          519 * std::pow(I1 / N, 4) / 134750),
             0};
   }
+  if (law.name == "gent") return {law["mu"] / 2 / (1 - x / law["j_m"]), 0};
   return {law[law.name == "transversely_isotropic" ? "mu" : "c"] / 2, 0};
 }
 

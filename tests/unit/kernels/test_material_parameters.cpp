@@ -47,6 +47,19 @@ TEST(MaterialParameters, AreRefusedOutOfTheirRangeAndByAWrongName) {
             "body.regions.liver.bulk: unknown parameter of linear 'bulk' (choices: young_modulus, poisson_ratio)");
 }
 
+// A scene has one key of a name: laws that share it share its range, its help and its standard value
+TEST(MaterialParameters, OfOneNameAreOne) {
+  const std::vector<MaterialParameter> keys = material_parameters();
+  for (const MaterialInfo& info : material_list())
+    for (const MaterialParameter& p : info.parameters)
+      for (const MaterialParameter& key : keys)
+        if (std::string(p.name) == key.name) {
+          EXPECT_STREQ(p.help, key.help) << info.name << " " << p.name;
+          EXPECT_EQ(p.kind.expects(), key.kind.expects()) << info.name << " " << p.name;
+          EXPECT_EQ(p.standard, key.standard) << info.name << " " << p.name;
+        }
+}
+
 TEST(MaterialParameters, OfRelaxationAreRefusedWhereNothingWouldBeLeft) {
   Body body;
   const auto with = [&](const char* model, const std::vector<PronyTerm>& prony) {

@@ -326,4 +326,17 @@ TEST(OgdenMaterial, IsSmoothWhereStretchesMeet) {
   }
 }
 
+// Along a stretch l that keeps the volume: 2 W' (l^2 - 1/l) with W' = mu/2 / (1 - x/J_m), x = I1 - 3, on its tangent from x = 15/16 J_m
+TEST(GentMaterial, GoesOnBeyondItsLock) {
+  const auto c = sample_constants<Gent>();  // mu 5 kPa, J_m 2
+  const auto slope = [&](double l) {
+    const Eigen::Matrix3d F = Eigen::Vector3d(l, 1 / std::sqrt(l), 1 / std::sqrt(l)).asDiagonal();
+    const Mat3<double> sigma = cauchy_stress<Gent>(mat3<double>(F), c);
+    return (sigma[0][0] - sigma[1][1]) / (2 * (l * l - 1 / l));
+  };
+  EXPECT_NEAR(slope(1.9), 2500 / (1 - (1.9 * 1.9 + 2 / 1.9 - 3) / 2), 1e-6);
+  EXPECT_NEAR(slope(2), 40e3 + (2 - 1.875) * 320e3, 1e-6);     // x = 2: its lock
+  EXPECT_NEAR(slope(4), 40e3 + (13.5 - 1.875) * 320e3, 1e-4);  // x = 13.5
+}
+
 }  // namespace

@@ -37,6 +37,7 @@ Matrix isochoric_stress(const std::string& material, const Matrix& C) {
     return by_invariants(
         5e3 * (0.5 + z / 10 + 11 * z * z / 350 + 19 * z * z * z / 1750 + 519 * std::pow(z, 4) / 134750), 0);
   }
+  if (material == "gent") return by_invariants(2500 / (1 - x / 2), 0);
   if (material == "transversely_isotropic") return 5e3 * I + 4e3 * (f.dot(C * f) - 1) * f * f.transpose();
   if (material == "holzapfel_gasser_ogden") {
     Matrix S = 5e3 * I;
