@@ -92,6 +92,11 @@ def cylinder(shape):
                                                       numpy.array([0, radius, radius, 0])))
 
 
+def cone(shape):
+    return round_solid(shape, lambda length, radius: (numpy.array([0, 0, length, length]),
+                                                      numpy.array([0, radius, shape["to_radius"], 0])))
+
+
 def box(shape):
     """Its rotation is an axis times an angle (Rodrigues)."""
     corners = numpy.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * shape["size"]
@@ -111,7 +116,7 @@ def surface(shape):
     return box({"centre": (low + high) / 2, "size": high - low, "rotation": [0, 0, 0]})
 
 
-SHAPES = {"sphere": sphere, "capsule": capsule, "cylinder": cylinder, "box": box, "surface": surface}
+SHAPES = {"sphere": sphere, "capsule": capsule, "cylinder": cylinder, "cone": cone, "box": box, "surface": surface}
 
 
 def motion(entry):

@@ -5,6 +5,7 @@
 #include <plica/kernels/contact/shapes/block.hpp>
 #include <plica/kernels/contact/shapes/bowl.hpp>
 #include <plica/kernels/contact/shapes/capsule.hpp>
+#include <plica/kernels/contact/shapes/cone.hpp>
 #include <plica/kernels/contact/shapes/cylinder.hpp>
 #include <plica/kernels/contact/shapes/plane.hpp>
 #include <plica/kernels/contact/shapes/sampled_surface.hpp>
@@ -22,7 +23,7 @@
 namespace plica {
 
 /// Every obstacle shape there is. One more: its file above, its name here.
-using ObstacleShapes = TypeList<Plane, Sphere, Bowl, Capsule, Block, Cylinder, SampledSurface>;
+using ObstacleShapes = TypeList<Plane, Sphere, Bowl, Capsule, Block, Cylinder, Cone, SampledSurface>;
 
 /// f(S{}, options) for the shape S whose options these are, completed; false where there is none.
 template <class F>

@@ -41,6 +41,7 @@ const SHAPES = {
     return [(i < 17 ? 0 : length) - o.radius * Math.cos(turn), o.radius * Math.sin(turn)];
   })),
   cylinder: (o) => round_solid(o, (length) => [[0, 0], [0, o.radius], [length, o.radius], [length, 0]]),
+  cone: (o) => round_solid(o, (length) => [[0, 0], [0, o.radius], [length, o.to_radius], [length, 0]]),
   box({centre, size, rotation}) { // its rotation is an axis times an angle (Rodrigues)
     const angle = Math.hypot(...rotation), k = unit(rotation), c = Math.cos(angle), s = Math.sin(angle);
     const points = corners_of(times(size, -0.5), times(size, 0.5)).flatMap((p) =>

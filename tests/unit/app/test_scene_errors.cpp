@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/solver/registry.hpp>
 #include <string>
 
 #include "unit/app/scene_text.hpp"
@@ -13,14 +14,17 @@ struct Damage {
   const char* name;
   const char* piece;
   const char* replacement;
-  const char* message;  // all of it, or its beginning
+  const char* message;  // all of it, or its beginning; SHAPES: the obstacles' shapes
 };
 
 class SceneError : public testing::TestWithParam<Damage> {};
 
 TEST_P(SceneError, SaysWhereWhatAndWhatInstead) {
   const auto& [name, piece, replacement, message] = GetParam();
-  EXPECT_EQ(error_of(damaged(piece, replacement)).substr(0, std::string(message).size()), message);
+  std::string expected = message, shapes;
+  for (const std::string& shape : names(obstacle_shapes())) shapes += (shapes.empty() ? "" : ", ") + shape;
+  if (const auto at = expected.find("SHAPES"); at != std::string::npos) expected.replace(at, 6, shapes);
+  EXPECT_EQ(error_of(damaged(piece, replacement)).substr(0, expected.size()), expected);
 }
 
 const Damage damages[] = {
@@ -104,11 +108,9 @@ const Damage damages[] = {
     {"UnknownName", "neo_hookean", "neohookean",
      "a.yaml:7: body.material.model: unknown material 'neohookean'; did you mean 'neo_hookean'? (choices: "},
     {"TwoAlternatives", "{plane: {point: [0, 0, -0.1]}, ", "{plane: {}, sphere: {radius: 1}, ",
-     "a.yaml:14: contact.obstacles.0: expected only one of plane, sphere, bowl, capsule, box, cylinder, surface, got "
-     "a map (plane, sphere, friction)"},
+     "a.yaml:14: contact.obstacles.0: expected only one of SHAPES, got a map (plane, sphere, friction)"},
     {"NoAlternative", "{plane: {point: [0, 0, -0.1]}, friction: 0.2}", "{friction: 0.2}",
-     "a.yaml:14: contact.obstacles.0: expected one of plane, sphere, bowl, capsule, box, cylinder, surface, got a "
-     "map (friction)"},
+     "a.yaml:14: contact.obstacles.0: expected one of SHAPES, got a map (friction)"},
     {"EmptyList", "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}", "[]",
      "a.yaml:14: contact.obstacles: expected at least one entry, got a list of 0"},
     {"AutoMisspelt", "1 ms", "automatic",

@@ -23,6 +23,9 @@ const Bowl::Shape<double> shallow{V{0.1, 0, 0.2}, 1.0, -0.6}, full{V{0, 0, 0}, 1
 const Capsule::Shape<double> capsule{V{-0.5, 0.1, -0.2}, V{0.6, 0, 0.8}, 1.0, 0.3};
 const Block::Shape<double> block{V{0.1, -0.2, 0.1}, {V{0.6, 0, 0.8}, V{0, 1, 0}, V{-0.8, 0, 0.6}}, V{0.7, 0.4, 0.2}};
 const Cylinder::Shape<double> cylinder{V{0.1, 0.1, -0.1}, V{0, 0.6, 0.8}, 0.5, 0.4};
+Cone::Shape<double> cone(double radius, double to_radius) {
+  return Cone::shape<double>({{-0.5, 0.1, -0.4}, {0.1, 0.1, 0.4}, radius, to_radius});
+}
 
 struct SampledBall {
   TriangleSurface surface = sphere_surface({0.1, -0.1, 0.2}, 0.7, 5);
@@ -47,6 +50,9 @@ std::vector<Bowl::Shape<double>> examples(Bowl) { return {shallow, full}; }
 std::vector<Capsule::Shape<double>> examples(Capsule) { return {capsule}; }
 std::vector<Block::Shape<double>> examples(Block) { return {block}; }
 std::vector<Cylinder::Shape<double>> examples(Cylinder) { return {cylinder}; }
+std::vector<Cone::Shape<double>> examples(Cone) {
+  return {cone(0.7, 0), cone(0.3, 0.6), cone(0.8, 0.5), cone(0.5, 0.5)};
+}
 std::vector<SampledSurface::Shape<double>> examples(SampledSurface) { return {sampled().shape()}; }
 
 // How far the slope of the distance may be from the normal: the sampled one's is that of its interpolation.
@@ -166,6 +172,13 @@ TEST(ObstacleShapes, DistancesThatOneCanSee) {
   EXPECT_DOUBLE_EQ(disc(V{5, 0, -5}).distance, 5);
   EXPECT_DOUBLE_EQ(disc(V{0, 0, -0.75}).distance, -0.25);
   EXPECT_NEAR(disc(V{1.9, 0, 0}).distance, -0.1, 1e-15);
+  const auto needle = Cone::shape<double>({{0, 0, 0}, {0, 0, 4}, 3, 0});  // its side: 4 across to 3 along, 5 long
+  EXPECT_DOUBLE_EQ(needle(V{0, 0, 6}).distance, 2);
+  EXPECT_DOUBLE_EQ(needle(V{0, -3, 4}).distance, 2.4);
+  EXPECT_DOUBLE_EQ(needle(V{0, 0, 2}).distance, -1.2);
+  EXPECT_DOUBLE_EQ(needle(V{0, 1, 0.25}).distance, -0.25);
+  EXPECT_DOUBLE_EQ(needle(V{6, 0, -4}).distance, 5);
+  EXPECT_DOUBLE_EQ(needle(V{1, 0, -4}).distance, 4);
 }
 
 // Nodes hold the exact distance, and nobody is told to be farther away than he is.

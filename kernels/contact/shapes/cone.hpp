@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cmath>
+#include <plica/core/keys.hpp>
+#include <plica/kernels/contact/gap.hpp>
+
+namespace plica {
+
+/// A solid cone with flat ends, or one of them a tip.
+struct ConeOptions {
+  Point from = Point::Zero();  ///< centre of one end [m]
+  Point to = Point::UnitZ();   ///< of the other, another point [m]
+  double radius = 1;           ///< at from [m]
+  double to_radius = 0;        ///< at to, 0: a tip [m]
+};
+
+/// Its parameters, named, with kind, unit, range and meaning.
+template <class V>
+void describe(V& v, ConeOptions& o) {
+  using namespace keys;
+  v.required("from", o.from, Vector{length}, "centre of one end");
+  v.required("to", o.to, Vector{length}, "centre of the other end: its tip, where to_radius is 0");
+  v.required("radius", o.radius, Quantity{length, positive}, "at from");
+  v("to_radius", o.to_radius, Quantity{length, not_negative}, "at to; 0: a tip");
+}
+
+/// A cone with flat ends or a tip.
+struct Cone {
+  static constexpr const char* name = "cone";
+  static constexpr const char* summary = "a cone with a tip or flat ends";
+  static Point origin(const ConeOptions& o) { return (o.from + o.to) / 2; }
+  using Options = ConeOptions;
+  template <class Real>
+  struct Shape {
+    Vec3<Real> from, axis;           ///< axis: a unit vector
+    Real length, radius, to_radius;  ///< radius: at from
+    Real side, widening, rising;     ///< its side's length; the unit vector along it, across the axis and along it
+
+    KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
+      const Vec3<Real> d = x - from;
+      const Real along = dot(d, axis);
+      const Vec3<Real> across = d - along * axis;
+      const Real r = sqrt(dot(across, across)), beside = r - radius;
+      const Vec3<Real> outward = direction_across(axis, across, r);
+      const bool upper = along > Real(0.5f) * length;  // which end is nearer
+      const Real above = upper ? along - length : -along, end = upper ? to_radius : radius;
+      const Real up_side = beside * widening + along * rising, out = beside * rising - along * widening;
+      if ((above > 0 && r <= end) || (above <= 0 && out <= above)) return {above, (upper ? Real(1) : Real(-1)) * axis};
+      if ((above <= 0 && out <= 0) || (up_side > 0 && up_side < side)) return {out, rising * outward - widening * axis};
+      const Real beyond = up_side > 0 ? r - to_radius : beside, over = up_side > 0 ? along - length : along;
+      const Real l = sqrt(beyond * beyond + over * over);  // from the rim or the tip
+      return {l, (beyond / l) * outward + (over / l) * axis};
+    }
+  };
+
+  static void check(const std::string& path, const Options& o) { check_apart(path, o.from, o.to); }
+
+  template <class Real>
+  static Shape<Real> shape(const Options& o) {
+    const Point along = o.to - o.from;
+    const double length = along.norm(), side = std::hypot(length, o.to_radius - o.radius);
+    const auto real = [](double value) { return static_cast<Real>(value); };
+    return {vec3<Real>(o.from),
+            vec3<Real>(along / length),
+            real(length),
+            real(o.radius),
+            real(o.to_radius),
+            real(side),
+            real((o.to_radius - o.radius) / side),
+            real(length / side)};
+  }
+};
+
+}  // namespace plica
