@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
@@ -384,6 +385,7 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
     for (const double value : values) add(line, value, "linear", [](auto&...) { return true; });
     add(line, values.back(), "nodal", told_by_nodal);
   }
+  if (size == MatrixSize::whole) std::ranges::move(tissue_cases(), std::back_inserter(cases));
   return cases;
 }
 

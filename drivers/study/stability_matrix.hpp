@@ -103,6 +103,9 @@ bool forbids_inversion(const std::string& material);
 /// Every case, from one table; the outcome that each must have follows from rules that are stated there.
 std::vector<MatrixCase> stability_matrix(MatrixSize size = MatrixSize::whole);
 
+/// Every tissue and law of tissue, fibres, softening and relaxation, of linear and nodal elements; the whole matrix ends with them.
+std::vector<MatrixCase> tissue_cases();
+
 /// Runs one. A state that the caller could write and that is not finite, a diagnosis that does not say where, or a kind that
 /// cannot be are never what was expected.
 MatrixRow run_case(const MatrixCase& one);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <plica/core/error.hpp>
+#include <plica/core/keys.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/study/stability.hpp>
@@ -175,6 +176,18 @@ std::vector<std::string> materials_and_nodal() {
 
 INSTANTIATE_TEST_SUITE_P(Materials, Matrix, testing::ValuesIn(materials_and_nodal()),
                          [](const auto& end) { return end.param; });
+
+TEST(Matrix, TissuesEndAsTheyMust) {
+  std::set<std::string> tissue_names;
+  for (const MatrixCase& one : tissue_cases()) {
+    const MatrixRow row = run_case(one);
+    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected " << row.expected
+                        << ". " << row.detail;
+    EXPECT_TRUE(row.why.empty()) << row.name << " has one right outcome";
+    tissue_names.insert(one.problem.body.material.tissue);
+  }
+  EXPECT_EQ(tissue_names.size(), tissues().size() + 1) << "all of them, and materials that are none";
+}
 
 TEST(Matrix, BodiesInOtherWordsMoveAlike) {
   for (const auto& run : invariance_cases(MatrixSize::small)) {
