@@ -302,6 +302,8 @@ ExitStatus guarded(const std::vector<std::string>& words) {
     return command_line.explain_error(error);
   } catch (const InputError& error) {
     return failed(error.what(), ExitStatus::bad_input);
+  } catch (const FolderError& error) {
+    return failed(error.what(), ExitStatus::bad_input);
   } catch (const std::exception& error) {
     return failed(error.what(), ExitStatus::failed);
   }

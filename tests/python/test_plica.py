@@ -154,6 +154,11 @@ def test_a_scene_in_keywords_with_units():
     assert any(key["path"] == "body.material.young_modulus" and "Pa" in key["expects"] for key in plica.keys())
 
 
+def test_a_simulation_in_keywords():
+    with plica.Simulation(**CUBE) as by_keywords:
+        assert np.array_equal(by_keywords.step().positions(), plica.Simulation(CUBE).step().positions())
+
+
 def shuffled_cube():
     mesh = plica.Scene(CUBE).mesh()
     order = np.random.default_rng(1).permutation(len(mesh.points))
@@ -272,7 +277,8 @@ def test_what_a_force_raises_comes_out(cube):
     (lambda s: plica.Scene(CUBE, gravity=object()), "got object"),
     (lambda s: plica.Scene(3), "expected the name of a YAML file or a dict, got int"),
     (lambda s: plica.Simulation(CUBE, precision="half"), "unknown precision 'half'"),
-    (lambda s: plica.Simulation(s.scene, duration=1), "made already"),
+    (lambda s: plica.Simulation(s.scene, duration=1), "Simulation: the scene is made already"),
+    (lambda s: plica.study(s.scene, duration=1), "study: the scene is made already"),
     (lambda s: s.positions(1), "there is no level 1; the simulation has 1"),
     (lambda s: s.run(-1), "duration: expected a time"),
     (lambda s: s.run("10 steps"), "step\\(\\) takes macro steps"),
@@ -293,6 +299,14 @@ def test_bad_input_says_what_was_expected(cube, make, message):
     with pytest.raises(plica.InputError, match=message):
         make(cube)
     assert issubclass(plica.InputError, ValueError)
+
+
+@pytest.mark.parametrize("kind", [plica.Scene, plica.Simulation])
+def test_what_was_refused_can_be_shown(kind):
+    refused = kind.__new__(kind)  # as debuggers and tracebacks with locals meet it
+    with pytest.raises(plica.InputError):
+        refused.__init__(CUBE, gravity=[0, 0])
+    assert repr(refused) == f"<plica.{kind.__name__}: refused>"
 
 
 def test_a_closed_simulation_says_so(cube):

@@ -34,6 +34,13 @@ void put_in_place(const std::filesystem::path& file) {
   throw FileError("cannot write " + file.string() + ": " + error.message());
 }
 
+std::filesystem::path nearest_existing(std::filesystem::path path) {
+  std::error_code unknown;
+  for (path = std::filesystem::absolute(path); path.has_relative_path(); path = path.parent_path())
+    if (std::filesystem::exists(path, unknown)) break;
+  return path;
+}
+
 }  // namespace
 
 void write_file(const std::filesystem::path& file, const std::string& content, Durable durable) {
@@ -64,8 +71,12 @@ void sync_file(const std::filesystem::path& file) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw FileError("cannot make the folder " + folder.string() + ": " + error.message());
-  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string() + " is not a folder");
+  if (!error && std::filesystem::is_directory(folder)) return;
+  const std::filesystem::path there = nearest_existing(folder);
+  if (!std::filesystem::is_directory(there))
+    throw FolderError("cannot make the folder " + folder.string() + ": " + there.string() + " is a file, not a folder");
+  throw FolderError("cannot make the folder " + folder.string() + ": the system lets none be made in " +
+                    there.string() + " (" + error.message() + "); expected a place to write to");
 }
 
 GrowingFile::GrowingFile(std::filesystem::path file, const std::string& head) : file_(std::move(file)) {

@@ -19,6 +19,12 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A folder for results that cannot be made or is none: what was asked for is wrong, not what became of it.
+class FolderError : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 enum class Durable { no, yes };
 
 /// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old content or the new; where it
@@ -31,7 +37,7 @@ void sync_file(const std::filesystem::path& file);
 /// The same of several that belong together: all are written out before the first is replaced.
 void write_files(const std::vector<MemoryFile>& files);
 
-/// Makes the folder, and those above it, where they are missing.
+/// Makes the folder, and those above it, where they are missing. FolderError says what stands in the way, and why.
 void make_folder(const std::filesystem::path& folder);
 
 /// A text file that grows by whole lines. Whoever looks at it, also after the run was killed, finds whole lines. FileError

@@ -196,13 +196,15 @@ class Catalogue {
   }
   template <class T>
   Json inside(std::vector<T>&, const List&, const std::string& path) {
-    return list<T>(path);
+    Json schema = list<T>(path);
+    schema.erase("minItems");
+    return schema;
   }
   template <class T>
   Json inside(T& member, const ListOrMap&, const std::string& path) {
     Json schema = inside(member.list, List{}, path);  // what it says of items holds for lists only, of keys for objects
     schema.update(inside(member.map, Group{}, path));
-    schema["type"] = {"array", "object"};
+    schema["type"] = {"array", "object"}, schema["minItems"] = 1;
     return schema;
   }
   template <class T>

@@ -120,13 +120,17 @@ class Reader {
   template <class T>
   static void fill(const Value& value, const List&, std::vector<T>& member) {
     const std::size_t size = value.list("a list").size();
-    if (size == 0) value.mismatch("at least one entry");
     for (std::size_t i = 0; i < size; ++i) fill(value.item(i), Group{}, member.emplace_back());
   }
   template <class T>
   static void fill(const Value& value, const ListOrMap&, T& member) {
     if (value.tree.kind == Tree::Kind::map) return fill(value, Group{}, member.map);
-    fill(value, List{}, member.list);
+    fill_some(value, member.list);
+  }
+  template <class T>
+  static void fill_some(const Value& value, std::vector<T>& member) {
+    fill(value, List{}, member);
+    if (member.empty()) value.mismatch("at least one entry");
   }
   template <class T>
   static void fill(const Value& value, const Map&, std::map<std::string, T>& member) {
@@ -147,7 +151,7 @@ class Reader {
   template <auto Member, class Target>
   static void fill(const Value& value, const CaseList<Member>&, Target& target) {
     typename CaseList<Member>::Type made;
-    fill(value, List{}, made.*Member);
+    fill_some(value, made.*Member);
     target = std::move(made);
   }
 

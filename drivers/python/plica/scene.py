@@ -70,6 +70,8 @@ class Scene:
     lists all keys with units, ranges and defaults. InputError names the place, the value, what was expected and the nearest name.
     """
 
+    _scene = None  # until it is read
+
     def __init__(self, source=None, *, set: dict | None = None, **overrides):
         values, file, text = dict(overrides), "", ""
         with tempfile.TemporaryDirectory(prefix="plica_") as folder:
@@ -111,7 +113,18 @@ class Scene:
         return self._scene.surface()
 
     def __repr__(self):
+        if self._scene is None:
+            return "<plica.Scene: refused>"
         return f"<plica.Scene {self.name!r}: {self.duration:g} s, {self.levels} level{'s' * (self.levels != 1)}>"
+
+
+def made(what: str, scene, set: dict | None, overrides: dict) -> Scene:
+    """The scene, or one of it; InputError where `what` was to change one that is made already."""
+    if not isinstance(scene, Scene):
+        return Scene(scene, set=set, **overrides)
+    if set or overrides:
+        raise InputError(f"{what}: the scene is made already; give `set` and keyword arguments to plica.Scene")
+    return scene
 
 
 def _text(value):

@@ -20,7 +20,7 @@ import numpy as np
 from . import _plica
 from ._plica import Diagnosis, Energies, InputError
 from .mesh import checked
-from .scene import Scene
+from .scene import made
 
 _all: weakref.WeakSet = weakref.WeakSet()
 _rounding = 1e-9  # of a macro step
@@ -65,7 +65,7 @@ def report(folder, *, frames: int = 200) -> Path:
     return Path(file)
 
 
-def view(scene, *, port: int = 8642, browser: bool = True, precision: str = "double", set: dict | None = None, **overrides) -> Simulation:
+def view(scene=None, *, port: int = 8642, browser: bool = True, precision: str = "double", set: dict | None = None, **overrides) -> Simulation:
     """Simulates a scene while a page in a browser shows it, until Ctrl-C; see Simulation.view(). Returns the simulation.
 
     scene: a plica.Scene, or what makes one.
@@ -135,14 +135,10 @@ class Simulation:
     threads of Python run. Use it in a `with` statement, or close() it, to free its memory at once.
     """
 
-    def __init__(self, scene, *, precision: str = "double", set: dict | None = None, **overrides):
-        if isinstance(scene, Scene):
-            if set or overrides:
-                raise InputError("Simulation: the scene is made already; give `set` and keyword arguments to plica.Scene")
-            self.scene = scene
-        else:
-            self.scene = Scene(scene, set=set, **overrides)
-        self._simulation = self._folder = None
+    scene = _simulation = _folder = None  # until they are made
+
+    def __init__(self, scene=None, *, precision: str = "double", set: dict | None = None, **overrides):
+        self.scene = made("Simulation", scene, set, overrides)
         self._simulation = _plica.simulate(self.scene._scene, precision)
         _all.add(self)
 
@@ -341,6 +337,8 @@ class Simulation:
         return self._simulation
 
     def __repr__(self):
+        if self.scene is None:
+            return "<plica.Simulation: refused>"
         if self._simulation is None:
             return f"<plica.Simulation of {self.scene.name!r}: closed>"
         return f"<plica.Simulation of {self.scene.name!r}: at {self.time:g} s, macro step {self.macro_step:g} s>"

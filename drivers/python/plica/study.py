@@ -6,11 +6,11 @@ from __future__ import annotations
 import io
 
 from . import _plica
-from .scene import Scene
+from .scene import made
 from .simulation import _interval
 
 
-def study(scene, *, budget: float | str | None = None, set: dict | None = None, **overrides):
+def study(scene=None, *, budget: float | str | None = None, set: dict | None = None, **overrides):
     """Measures methods' errors against their run times, as `plica study` does: a pandas.DataFrame, a row per method and macro step.
 
     scene: a plica.Scene, or what makes one; its section `study` says what is compared.
@@ -19,6 +19,6 @@ def study(scene, *, budget: float | str | None = None, set: dict | None = None, 
     """
     import pandas
 
-    scene = scene if isinstance(scene, Scene) else Scene(scene, set=set, **overrides)
+    scene = made("study", scene, set, overrides)
     seconds = None if budget is None else _interval(budget, "budget")[0]
     return pandas.read_csv(io.StringIO(_plica.study(scene._scene, seconds)))

@@ -149,7 +149,7 @@ TEST_F(SchemaByPython, TakesWhatTheReaderTakes) {
         "integration.integrator=[symplectic_euler, implicit_euler]", "body.surface={boundary: true}",
         "output={every: 10 steps, volume: [0, 1], probes: {tip: [0.1, 2 cm, 20 mm]}, probe_every: 1 ms}",
         "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]", "study.truth=true",
-        "study.truth={refinements: 1}", "body.jitter=0.2"}) {
+        "study.truth={refinements: 1}", "body.jitter=0.2", "contact.obstacles=[]"}) {
     scenes.push_back(parse_tree(sound_scene, set));
     override_value(scenes.back(), set, set);
     EXPECT_NO_THROW(check_scene(read_scene(scenes.back()), scenes.back())) << set;

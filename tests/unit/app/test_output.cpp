@@ -55,8 +55,8 @@ TEST(WriteFile, FailsWithTheName) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_file(folder / "no/such/folder", "x"), FileError);
   write_file(folder / "a", "a file");
-  EXPECT_THROW(make_folder(folder / "a/b"), FileError);
-  EXPECT_THROW(make_folder(folder / "a"), FileError);
+  EXPECT_THROW(make_folder(folder / "a/b"), FolderError);
+  EXPECT_THROW(make_folder(folder / "a"), FolderError);
 }
 
 // a region that the scene selects weighs what it says, in every file

@@ -102,12 +102,21 @@ TEST_F(Program, RefusedStepIs2) {
   EXPECT_FALSE(std::filesystem::exists(out)) << "files of a run that was refused";
 }
 
-TEST_F(Program, FailureIs1) {
+TEST_F(Program, FolderInTheWrongPlaceIs2) {
   std::ofstream(folder / "file") << "in the way";
   const Child run = plica({"run", scene, "-o", folder / "file/out"});
-  EXPECT_EQ(run.status, 1);
-  EXPECT_NE(run.errors.find("cannot make the folder " + (folder / "file/out").string()), std::string::npos)
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.errors.find("cannot make the folder " + (folder / "file/out").string() + ": " +
+                            (folder / "file").string() + " is a file, not a folder"),
+            std::string::npos)
       << run.errors;
+  const Child nowhere = plica({"run", scene, "-o", "/proc/x"});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_NE(
+      nowhere.errors.find("cannot make the folder /proc/x: the system lets none be made in /proc (No such file or "
+                          "directory); expected a place to write to"),
+      std::string::npos)
+      << nowhere.errors;
 }
 
 TEST_F(Program, DivergedIs3) {

@@ -209,6 +209,12 @@ TEST(Scene, EmptyIsAnError) {
   EXPECT_EQ(error_of("- a list\n").substr(0, 10), "a.yaml:1: ");
 }
 
+TEST(Scene, MayTouchNothing) {
+  const std::string obstacle = "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}";
+  EXPECT_TRUE(scene_of(damaged(obstacle, "[]")).problem.contact.obstacles.empty());
+  EXPECT_EQ(error_of(sound_scene, {"contact.obstacles=[]", "body.fixed=[]", "body.loads=[]"}), "no error");
+}
+
 TEST(Scene, MissingFileIsAnError) {
   EXPECT_THROW(load_scene("/nowhere/at/all.yaml"), InputError);
   EXPECT_THROW(load_scene(PLICA_SOURCE_DIR), InputError);

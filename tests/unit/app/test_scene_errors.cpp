@@ -111,8 +111,10 @@ const Damage damages[] = {
      "a.yaml:14: contact.obstacles.0: expected only one of SHAPES, got a map (plane, sphere, friction)"},
     {"NoAlternative", "{plane: {point: [0, 0, -0.1]}, friction: 0.2}", "{friction: 0.2}",
      "a.yaml:14: contact.obstacles.0: expected one of SHAPES, got a map (friction)"},
-    {"EmptyList", "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}", "[]",
-     "a.yaml:14: contact.obstacles: expected at least one entry, got a list of 0"},
+    {"NoLevels",
+     "    - {box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}\n    - {box: {size: [10 cm, 10 cm, 10 cm], cells: [2, 2, "
+     "2]}}\n",
+     "    []\n", "a.yaml:5: body.levels: expected at least one entry, got a list of 0"},
     {"AutoMisspelt", "1 ms", "automatic",
      "a.yaml:11: integration.macro_step: expected a time (s) > 0, or auto, got 'automatic', not a number"},
     {"Substeps", "macro_step: 1 ms", "substeps: 0",
