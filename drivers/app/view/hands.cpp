@@ -16,6 +16,11 @@ constexpr double pull_limit = 0.1;    // h^2 k / m of a vertex; with its own sti
 constexpr double push_limit = 0.25;   // likewise
 constexpr double ball_stiffness = 2;  // of a touched vertex, over Young's modulus times an edge
 constexpr double damping_ratio = 0.3;
+constexpr double whole_pull = 0.6;  // while no element has less than this of its volume
+constexpr double no_pull = 0.25;    // where one has no more than this
+constexpr double least_grip = 1e-3;
+constexpr double regained = 1.02;  // a step
+constexpr double look_every = 4;   // critical steps of the finest level
 
 template <class Rows>
 Point row(const Rows& rows, std::size_t i) {
@@ -33,7 +38,10 @@ Hands<B>::Hands(const Scene& scene, const Simulation<B>& simulation, double size
     : scene_gravity_(scene.problem.gravity),
       size_(size),
       young_(stiffness_at_rest(scene.problem.body.material)),
-      macro_step_(simulation.macro_step()) {
+      macro_step_(simulation.macro_step()),
+      mesh_(scene.problem.body.levels.front()),
+      nodal_(simulation.levels().front().element == "nodal"),
+      between_(look_every * simulation.levels().front().critical_step) {
   if (scene_gravity_.norm() > 0) down_ = scene_gravity_.normalized();
   const auto& levels = simulation.levels();
   for (std::size_t i = 0; i < std::min(levels.size(), scene.problem.body.levels.size()); ++i) {
@@ -67,9 +75,38 @@ void Hands<B>::hold(const Controls& controls, double time) {
 }
 
 template <class B>
+bool Hands<B>::give_way() {
+  grip_ *= 0.5;
+  return controls_.pull && grip_ > least_grip;
+}
+
+template <class B>
 void Hands<B>::advance() {
+  grip_ = std::min(1.0, grip_ * regained);
   for (Follower* one : {&hand_, &ball_}) one->place += macro_step_ * one->velocity, one->velocity.setZero();
   if (tool_) tool_->centre = ball_.place;
+}
+
+// By the volumes of level 0's tetrahedra, or of nodal elements of those around a vertex together
+template <class B>
+double Hands<B>::bearing(const ForceRequest<B>& request) const {
+  std::vector<double> rest(nodal_ ? mesh_.vertices.size() : 0), now(rest);
+  double least = 1;
+  for (const auto& tet : mesh_.tets) {
+    std::array<Eigen::Matrix3d, 2> edges;
+    const auto corner = [&](int c) { return static_cast<std::size_t>(tet[static_cast<std::size_t>(c)]); };
+    for (int k = 0; k < 3; ++k) {
+      edges[0].col(k) = row(request.rest, corner(k + 1)) - row(request.rest, corner(0));
+      edges[1].col(k) =
+          edges[0].col(k) + row(request.displacement, corner(k + 1)) - row(request.displacement, corner(0));
+    }
+    const double before = edges[0].determinant(), after = edges[1].determinant();
+    if (!nodal_) least = std::min(least, after / before);
+    for (int c = 0; nodal_ && c < 4; ++c) rest[corner(c)] += before, now[corner(c)] += after;
+  }
+  for (std::size_t v = 0; v < rest.size(); ++v)
+    if (rest[v] > 0) least = std::min(least, now[v] / rest[v]);
+  return std::clamp((least - no_pull) / (whole_pull - no_pull), 0.0, 1.0);
 }
 
 template <class B>
@@ -85,6 +122,8 @@ void Hands<B>::operator()(const ForceRequest<B>& request) {
     LevelParts& level = levels_[static_cast<std::size_t>(request.level)];
     if (more_gravity_ != Point::Zero())
       for (std::size_t i = 0; i < level.mass.size(); ++i) add<B>(request.force, i, level.mass[i] * more_gravity_);
+    if (controls_.pull && request.level == 0 && !(std::abs(request.time - looked_) < between_))
+      bears_ = bearing(request), looked_ = request.time;
     if (controls_.pull) add_pull(level, request);
     if (controls_.tool) add_push(level, request);
   }
@@ -129,7 +168,8 @@ void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
     const std::size_t i = level.held[j];
     const Point v = row(request.velocity, i),
                 x = row(request.rest, i) + row(request.displacement, i) + request.ahead * v;
-    const double k = std::min(level.weight[j] * controls_.stiffness,
+    const double k = grip_ * bears_ *
+                     std::min(level.weight[j] * controls_.stiffness,
                               pull_limit * most_stiffness(level, request, i, std::max(patch * size_, level.edge)));
     const double c = 2 * damping_ratio * std::sqrt(k * level.mass[i]);
     const Point way = target + level.offset[j] - x;

@@ -20,6 +20,9 @@ class Hands {
   void hold(const Controls& controls, double time);
   /// After that step.
   void advance();
+  /// After a step that the body did not bear and that was taken back: pulls half as strongly, and comes back to all of it in time.
+  /// Whether that may help: false where nothing pulls, or hardly.
+  bool give_way();
   /// Adds the forces, on the host.
   void operator()(const ForceRequest<B>& request);
 
@@ -47,6 +50,8 @@ class Hands {
 
   void take_hold(LevelParts& level, const ForceRequest<B>& request);
   void add_pull(LevelParts& level, const ForceRequest<B>& request);
+  // How much of a pull the body bears, 0 to 1
+  double bearing(const ForceRequest<B>& request) const;
   void add_push(const LevelParts& level, const ForceRequest<B>& request);
   // That explicit steps bear on a vertex, where a patch of this radius is pushed
   double most_stiffness(const LevelParts& level, const ForceRequest<B>& request, std::size_t vertex,
@@ -55,11 +60,15 @@ class Hands {
 
   Point down_ = Point(0, 0, -1), scene_gravity_, more_gravity_ = Point::Zero();
   double size_, young_, macro_step_;
+  const TetMesh& mesh_;  // of level 0
+  bool nodal_;           // its elements
   std::vector<LevelParts> levels_;
   Controls controls_;
   double start_ = 0;  // of the macro step [s]
   long grips_ = 0;
-  bool placed_ = false;  // whether the hand is where it took hold
+  bool placed_ = false;                          // whether the hand is where it took hold
+  double grip_ = 1;                              // how much of it there is, see give_way()
+  double bears_ = 1, looked_ = 0, between_ = 0;  // what it bore when it was last looked at [s], and how long that holds
   Follower hand_, ball_;
   std::optional<BallTool> tool_;
   Point pull_ = Point::Zero(), push_ = Point::Zero();

@@ -138,6 +138,7 @@ class LiveView {
     hands_.hold(controls, time);
     if (const auto bad = simulation_.step_checked()) {
       simulation_.return_to_last_good();
+      if (hands_.give_way()) return true;
       words_ = in_input_numbers(*bad, scene_).text();
       return false;
     }
