@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/bodies.hpp"
+#include "support/device_memory.hpp"
 
 // What a device is asked for in one macro step: kernels, and nothing that makes the host wait. Kokkos's callbacks report it on any
 // backend, so that this is known without a GPU.
@@ -62,6 +63,18 @@ struct Method {
   std::size_t waits = 0;  ///< a solve ends with a look at how it went
 };
 
+std::vector<Method> methods() {
+  return {{"single", "symplectic_euler", "linear", 1, Method::falling, 3},
+          {"single", "symplectic_euler", "linear", 1, Method::touching, 21},
+          {"single", "symplectic_euler", "nodal", 1, Method::falling, 5},
+          {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
+          {"rsv", "symplectic_euler", "linear", 4, Method::touching, 98},
+          {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
+          {"him", "symplectic_euler", "linear", 3, Method::falling, 88},
+          {"him", "symplectic_euler", "linear", 3, Method::hanging, 74},
+          {"single", "implicit_euler", "linear", 1, Method::falling, 97, 1}};
+}
+
 Problem problem_of(const Method& m) {
   Problem p = cube_levels(m.levels, 5, m.cycle);
   p.body.element = {m.element};
@@ -86,16 +99,7 @@ std::string lines(const std::vector<std::string>& list) {
 
 TEST(Launches, AStepIsFewAndNeverWaits) {
   using B = Backend<double, Kokkos::DefaultExecutionSpace>;
-  const Method methods[] = {{"single", "symplectic_euler", "linear", 1, Method::falling, 3},
-                            {"single", "symplectic_euler", "linear", 1, Method::touching, 21},
-                            {"single", "symplectic_euler", "nodal", 1, Method::falling, 5},
-                            {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
-                            {"rsv", "symplectic_euler", "linear", 4, Method::touching, 98},
-                            {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
-                            {"him", "symplectic_euler", "linear", 3, Method::falling, 88},
-                            {"him", "symplectic_euler", "linear", 3, Method::hanging, 74},
-                            {"single", "implicit_euler", "linear", 1, Method::falling, 97, 1}};
-  for (const Method& m : methods) {
+  for (const Method& m : methods()) {
     SCOPED_TRACE(m.cycle + " " + m.integrator + " " + m.element + " " + std::to_string(m.scene));
     Simulation<B> simulation(problem_of(m));
     for (int i = 0; i < 3; ++i) simulation.step();
@@ -103,6 +107,39 @@ TEST(Launches, AStepIsFewAndNeverWaits) {
     const Asked asked = asked_by([&] { simulation.step(); });
     EXPECT_EQ(asked.waits.size(), m.waits) << lines(asked.waits);
     EXPECT_LE(asked.launches.size(), m.most) << lines(asked.launches);
+  }
+}
+
+struct FillWithNumbers {
+  Kokkos::View<double*, Kokkos::HostSpace> view;
+  void operator()(int i) const { view(i) = i; }
+};
+
+TEST(DeviceMemory, KnowsWhoTouchesIt) {
+  using Exec = Kokkos::DefaultHostExecutionSpace;
+  DeviceMemory memory;
+  const Kokkos::View<double*, Kokkos::HostSpace> seen("seen", 5), other("other", 5000);
+  const auto in_kernels = [&] {
+    Kokkos::parallel_for("fill", Kokkos::RangePolicy<Exec>(0, 5), FillWithNumbers{seen});
+    Kokkos::deep_copy(Exec(), other, 1.0);
+  };
+  EXPECT_EQ(memory.touched_by(in_kernels), std::vector<std::string>{});
+  double sum = 0;
+  EXPECT_EQ(memory.touched_by([&] { sum += other(4000); }), std::vector<std::string>{"other"});
+  EXPECT_EQ(memory.touched_by([&] { seen(3) += 1; }), std::vector<std::string>{"seen"});
+  EXPECT_EQ(sum + seen(3), 5);  // what touches it goes on
+}
+
+// As on a device, where the host has no access to it
+TEST(DeviceMemory, NoStepTouchesItFromTheHost) {
+  using B = Backend<double, Kokkos::DefaultHostExecutionSpace>;
+  for (const Method& m : methods()) {
+    SCOPED_TRACE(m.cycle + " " + m.integrator + " " + m.element + " " + std::to_string(m.scene));
+    DeviceMemory memory;
+    Simulation<B> simulation(problem_of(m));
+    for (int i = 0; i < 3; ++i) simulation.step();
+    const auto touched = memory.touched_by([&] { simulation.step(); });
+    EXPECT_EQ(touched.size(), m.waits) << lines(touched);
   }
 }
 
