@@ -44,6 +44,7 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
   const int n = level.surface.points;
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
   law.entry = static_cast<Real>(step.entry);
+  law.points.span = law.h;
   find(exec, level, state, time, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
   sum_up(exec, static_cast<double>(law.bounding()));

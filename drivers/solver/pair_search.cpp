@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <plica/drivers/solver/pair_search.hpp>
 #include <plica/kernels/contact/find_pairs.hpp>
 
@@ -17,7 +16,8 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.x = zeros<Vectors<B>>("plica::pairs.x", n);
   grid_.built = to_device<Vectors<B>>(
       "pairs.built", std::vector<std::array<Real, 3>>(n, {Real(1e15), Real(1e15), Real(1e15)}));  // far from anything
-  grid_.moved = zeros<Doubles<B>>("plica::pairs.moved", 1);
+  grid_.moved = zeros<Doubles<B>>("plica::pairs.moved", 2);
+  grid_.reach = zeros<Scalars<B>>("plica::pairs.reach", 1);
   grid_.stale = zeros<Doubles<B>>("plica::pairs.stale", 1);
   grid_.radius = zeros<Doubles<B>>("plica::pairs.radius", 1);
   grid_.width = zeros<Scalars<B>>("plica::pairs.width", 1);
@@ -32,10 +32,10 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
 template <class B>
 void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
                          const TouchingPoints<B>& points, const BlockSums<B>& blocks) const {
-  const FindPairs<B> find{surface, state, grid_, points, std::numeric_limits<Real>::max()};
-  reduce<B, 1, PlacePoints<B>, Sums<1, 1>>(exec, "plica::pairs_moved", points.points,
-                                           PlacePoints<B>{surface, state.u, grid_}, blocks, grid_.moved);
-  update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_});
+  const FindPairs<B> find{surface, state, grid_, points};
+  reduce<B, 2, PlacePoints<B>, Sums<2, 2>>(exec, "plica::pairs_moved", points.points,
+                                           PlacePoints<B>{surface, state, grid_}, blocks, grid_.moved);
+  update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_, points.span});
   make_grid(exec, points);
   where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, MarkClose<B>{find});
   reduce<B, 1>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find}, blocks, near_);

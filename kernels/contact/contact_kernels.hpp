@@ -38,7 +38,8 @@ template <class B>
 struct TouchingPoints {
   using Real = typename B::Real;
   int points = 0, obstacles = 0;
-  Real reach = 0;  ///< a point further than that outside an obstacle is not looked at [m]
+  Real reach = 0;  ///< a point further than that outside an obstacle is not looked at, but where it is fast [m]
+  Real span = 0;   ///< of the step [s]
   PointLaws<B> law;
   PairedPoints<B> pairs;  ///< empty where the surface does not touch itself
   Vectors<B> normal;      ///< [records][3] out of the obstacle, or of the triangle
@@ -51,7 +52,8 @@ struct TouchingPoints {
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 1 : 0); }
   KOKKOS_INLINE_FUNCTION int record(int row, int p) const { return row * points + p; }
-  KOKKOS_INLINE_FUNCTION bool near(int r) const { return depth(r) > -reach; }
+  static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
+  KOKKOS_INLINE_FUNCTION bool near(int r) const { return depth(r) > -nowhere(); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> force_on_point(int p) const {
     if (pairs.triangles > 0) return vector_at<B>(pairs.sum, p);
     Vec3<Real> sum;

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/kernels/contact/nearest_on_triangle.hpp>
 #include <plica/kernels/contact/pair_grid.hpp>
+#include <plica/kernels/contact/path_to.hpp>
 
 // The narrow phase of pairs: each point's nearest triangle, and on which side of it the point is.
 namespace plica {
@@ -14,10 +15,10 @@ struct FindPairs {
   State<B> state;
   PairGrid<B> grid;
   TouchingPoints<B> points;
-  Real nowhere;  ///< the depth of what is near nothing, negative: further than any reach [m]
 
   KOKKOS_INLINE_FUNCTION int corner(int t, int c) const { return points.pairs.corner(3 * t + c); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> x(int p) const { return vector_at<B>(grid.x, p); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const { return value_at<B>(surface.embedding, state.v, p); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> rest(int p) const { return vector_at<B>(surface.rest, p); }
   KOKKOS_INLINE_FUNCTION bool one_body(int p, int t) const {
     const PointLaws<B>& of = points.law;
@@ -50,6 +51,12 @@ struct FindPairs {
     while (c < 2 && corner(t, c) != q) ++c;
     const Vec3<Real> at = x(q), d = unit(x(corner(t, (c + 1) % 3)) - at), e = unit(x(corner(t, (c + 2) % 3)) - at);
     return Kokkos::acos(Kokkos::max(Real(-1), Kokkos::min(Real(1), dot(d, e))));
+  }
+  /// Out of the surface around one of its points, not normalised.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> outward_at(int p) const {
+    Vec3<Real> sum;
+    for (int s = points.pairs.first(p); s < points.pairs.first(p + 1); ++s) sum += face(points.pairs.triangle(s));
+    return sum;
   }
   KOKKOS_INLINE_FUNCTION bool has(int t, int q) const {
     return corner(t, 0) == q || corner(t, 1) == q || corner(t, 2) == q;
@@ -84,51 +91,115 @@ struct MarkClose {
   }
 };
 
-/// Each point's record of its nearest triangle, the one with the lowest number where several are; counts those within reach.
+/// Each point's record of its nearest triangle, the one with the lowest number where several are; counts them. What is fast looks as
+/// far as it may get, and is near only what its path leads through.
 template <class B>
 struct NearestTriangles {
   using Real = typename B::Real;
+  /// A triangle, the point's distance to it and the weights of its corners there.
+  struct Nearest {
+    int triangle = -1;
+    Real square;
+    Vec3<Real> weight;
+  };
   FindPairs<B> find;
+
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     const TouchingPoints<B>& points = find.points;
     const int r = points.record(points.obstacles, p);
-    points.depth(r) = -find.nowhere;
+    points.depth(r) = -points.nowhere();
     points.pairs.partner(p) = -1;
     if (find.grid.close(p) == 0) return {};
-    const Real reach = find.grid.limits.reach;
-    Real least = reach * reach;
-    int nearest = -1;
-    Vec3<Real> weight;
-    const Vec3<Real> at = find.x(p);
-    find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
-      if (!find.allowed(p, t)) return;
-      const Vec3<Real> a = find.x(find.corner(t, 0)), b = find.x(find.corner(t, 1)), c = find.x(find.corner(t, 2));
-      const Vec3<Real> w = nearest_on_triangle(at, a, b, c), d = at - (w[0] * a + w[1] * b + w[2] * c);
-      const Real square = dot(d, d);
-      if (!(square < least || (square == least && t < nearest)) || !find.may_touch(p, t)) return;
-      least = square, nearest = t, weight = w;
-    });
-    if (nearest < 0 || !record(p, r, nearest, weight)) return {};
+    const Nearest found = partner(p);
+    if (found.triangle < 0 || !record(p, r, found)) return {};
     return {{1}};
   }
 
-  KOKKOS_INLINE_FUNCTION bool record(int p, int r, int t, const Vec3<Real>& w) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> corner(int t, int c) const { return find.x(find.corner(t, c)); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> away_from(int p, const Nearest& n) const {
+    Vec3<Real> d = find.x(p);
+    for (int c = 0; c < 3; ++c) d -= n.weight[c] * corner(n.triangle, c);
+    return d;
+  }
+  /// Velocity of a point against a place on a triangle.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> speed(int p, int t, const Vec3<Real>& weight) const {
+    Vec3<Real> v = find.v(p);
+    for (int c = 0; c < 3; ++c) v -= weight[c] * find.v(find.corner(t, c));
+    return v;
+  }
+  KOKKOS_INLINE_FUNCTION Nearest near(int p, int t) const {
+    Nearest n{t, 0, nearest_on_triangle(find.x(p), corner(t, 0), corner(t, 1), corner(t, 2))};
+    const Vec3<Real> d = away_from(p, n);
+    n.square = dot(d, d);
+    return n;
+  }
+  KOKKOS_INLINE_FUNCTION void take_nearer(int p, int t, Nearest& nearest) const {
+    if (!find.allowed(p, t)) return;
+    const Nearest n = near(p, t);
+    if ((n.square < nearest.square || (n.square == nearest.square && t < nearest.triangle)) && find.may_touch(p, t))
+      nearest = n;
+  }
+
+  KOKKOS_INLINE_FUNCTION Nearest partner(int p) const {
+    const PairGrid<B>& grid = find.grid;
+    const Real ordinary = grid.limits.reach, far = grid.closing(find.points.span);
+    const bool fast = far > Real(0.5) * ordinary;
+    Nearest nearest;
+    nearest.square = fast ? Kokkos::max(far * far, ordinary * ordinary) : ordinary * ordinary;
+    const Vec3<Real> built = vector_at<B>(grid.built, p);
+    grid.around(built, [&](int t) { take_nearer(p, t, nearest); });
+    if (nearest.triangle < 0) return nearest;
+    if (fast) return on_path(p, nearest);
+    return facing(p, nearest);
+  }
+
+  /// What a fast point is near: if it will be held before its path leads through anything, what it is nearest to, else what it leads
+  /// through first.
+  KOKKOS_INLINE_FUNCTION Nearest on_path(int p, const Nearest& nearest) const {
+    constexpr Real third = Real(1) / 3, little = Real(0.05);
+    const Real h = find.points.span, ordinary = find.grid.limits.reach;
+    const Vec3<Real> at = find.x(p), d = away_from(p, nearest);
+    if (dot(d, find.outward(nearest.triangle, nearest.weight)) < 0) return facing(p, nearest);
+    Real when = 2;
+    int first = -1;
+    find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
+      const Vec3<Real> path = h * speed(p, t, {third, third, third});
+      const Real time = time_of_crossing(at, path, corner(t, 0), corner(t, 1), corner(t, 2));
+      if (!(time < when || (time == when && t < first)) || time > 1 || !find.may_touch(p, t)) return;
+      when = time, first = t;
+    });
+    if (first < 0) return nearest.square < ordinary * ordinary ? nearest : Nearest{};
+    const Real closing = when * h * dot(d, speed(p, nearest.triangle, nearest.weight));
+    return nearest.square + closing <= little * nearest.square ? nearest : near(p, first);
+  }
+
+  /// A point that is inside came through a triangle that its own surface faces: so it does not leave a thin body on the far side.
+  KOKKOS_INLINE_FUNCTION Nearest facing(int p, const Nearest& nearest) const {
+    const int own = nearest.triangle;
+    if (find.one_body(p, own) || !(dot(away_from(p, nearest), find.outward(own, nearest.weight)) < 0)) return nearest;
+    const Vec3<Real> out = find.outward_at(p);
+    if (!(dot(out, find.face(own)) > 0)) return nearest;
+    Nearest other;
+    other.square = find.grid.limits.reach * find.grid.limits.reach;
+    find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
+      if (!find.one_body(p, t) && dot(out, find.face(t)) < 0) take_nearer(p, t, other);
+    });
+    if (other.triangle < 0 || !(dot(away_from(p, other), find.face(other.triangle)) < 0)) return nearest;
+    return other;
+  }
+
+  KOKKOS_INLINE_FUNCTION bool record(int p, int r, const Nearest& found) const {
     constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
     const TouchingPoints<B>& points = find.points;
-    Vec3<Real> d = find.x(p), speed = value_at<B>(find.surface.embedding, find.state.v, p);
-    for (int c = 0; c < 3; ++c) {
-      const int q = find.corner(t, c);
-      d -= w[c] * find.x(q);
-      speed -= w[c] * value_at<B>(find.surface.embedding, find.state.v, q);
-    }
-    const Vec3<Real> out = find.outward(t, w);
+    const int t = found.triangle;
+    const Vec3<Real>&w = found.weight, d = away_from(p, found), out = find.outward(t, w);
     const bool inside = dot(d, out)<0, on_face = w[0]> 0 && w[1] > 0 && w[2] > 0;
     const Real distance = Kokkos::sqrt(dot(d, d)), limit = find.grid.limits.reach;
     // The far side of a thin part of its own body is no partner
     if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
     points.depth(r) = inside ? distance : -distance;
     set_vector<B>(points.normal, r, on_face || distance < tiny * limit ? out : ((inside ? -1 : 1) / distance) * d);
-    set_vector<B>(points.velocity, r, speed);
+    set_vector<B>(points.velocity, r, speed(p, t, w));
     set_vector<B>(points.pairs.weight, p, w);
     points.pairs.partner(p) = t;
     return true;

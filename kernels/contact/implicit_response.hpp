@@ -3,6 +3,7 @@
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/path_to.hpp>
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
 
@@ -47,13 +48,15 @@ struct FindTouching {
   TouchingPoints<B> points;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
-    const Gap<Real> gap = shape(x - offset);
+    const Vec3<Real> speed = value_at<B>(surface.embedding, state.v, p) - velocity;
+    const Gap<Real> gap = gap_along(shape, x - offset, points.span * speed, points.reach);
     watch.look(p, gap.distance);
     const int r = first + p;
-    points.depth(r) = -gap.distance;
-    if (!points.near(r)) return;
+    const bool near = gap.distance < points.reach || gap.distance + points.span * dot(gap.normal, speed) < 0;
+    points.depth(r) = near ? -gap.distance : -points.nowhere();
+    if (!near) return;
     set_vector<B>(points.normal, r, gap.normal);
-    set_vector<B>(points.velocity, r, value_at<B>(surface.embedding, state.v, p) - velocity);
+    set_vector<B>(points.velocity, r, speed);
   }
 };
 

@@ -4,13 +4,14 @@
 
 // The broad phase of pairs: triangles in the cells of a uniform grid, by their centroids. A cell is as wide as what is to be found
 // around a point, so that 27 of them hold all of it, and cells share a table by a hash. The grid stays while nothing has moved by more
-// than half of `margin`; the device decides that, and leaves out the work.
+// than half of `margin` and nothing is so fast that it meets in one step what is further away; the device decides that, and leaves
+// out the work.
 namespace plica {
 
 /// What the search goes by.
 template <class Real>
 struct PairLimits {
-  Real reach = 0;        ///< a triangle further than that outside is not looked for [m]
+  Real reach = 0;        ///< a triangle further than that outside is not looked for, but by what is fast [m]
   Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
   Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
   bool between = false;  ///< bodies
@@ -24,7 +25,8 @@ struct PairGrid {
   int buckets = 0;    ///< a power of two
   Vectors<B> x;       ///< [points][3] now [m]
   Vectors<B> built;   ///< [points][3] when the grid was made [m]
-  Doubles<B> moved;   ///< [1] largest squared distance between these [m^2]
+  Doubles<B> moved;   ///< [2] largest squared distance between these [m^2], and largest squared speed [m^2/s^2]
+  Scalars<B> reach;   ///< [1] what it was made for [m]
   Doubles<B> stale;   ///< [1] above 0: the grid is being made
   Doubles<B> radius;  ///< [1] largest squared distance of a corner from its centroid, then [m^2]
   Scalars<B> width;   ///< [1] of a cell [m]
@@ -34,6 +36,11 @@ struct PairGrid {
   Vectors<B> centre;  ///< [items][3] their centroids when the grid was made [m]
   Indices<B> close;   ///< [points] 1: something may come within reach before the grid is made anew
 
+  /// How far two points can move against each other in a step of h [s]; bounded where a state is no longer sound.
+  KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
+    constexpr Real most = 32;  // times the reach: 16 edges
+    return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), most * limits.reach);
+  }
   KOKKOS_INLINE_FUNCTION int cell(Real coordinate) const {
     constexpr Real most = Real(1 << 30);
     return static_cast<int>(Kokkos::floor(Kokkos::max(-most, Kokkos::min(most, coordinate / width(0)))));
@@ -61,27 +68,32 @@ struct PairGrid {
   }
 };
 
-/// x of a state; its squared distance from where the grid was made.
+/// x of a state; its squared distance from where the grid was made, and the squared speed.
 template <class B>
 struct PlacePoints {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
-  Vectors<B> u;
+  State<B> state;
   PairGrid<B> grid;
-  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int p) const {
-    const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+  KOKKOS_INLINE_FUNCTION Sums<2, 2> operator()(int p) const {
+    const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
+    const Vec3<Real> d = x - vector_at<B>(grid.built, p), v = value_at<B>(surface.embedding, state.v, p);
     set_vector<B>(grid.x, p, x);
-    const Vec3<Real> d = x - vector_at<B>(grid.built, p);
-    return {{static_cast<double>(dot(d, d))}};
+    return {{static_cast<double>(dot(d, d)), static_cast<double>(dot(v, v))}};
   }
 };
 
 template <class B>
 struct JudgeGrid {
+  using Real = typename B::Real;
   PairGrid<B> grid;
+  Real h;  ///< step [s]
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const double half = 0.5 * static_cast<double>(grid.limits.margin);
-    grid.stale(0) = grid.moved(0) <= half * half ? 0 : 1;
+    const Real least = grid.limits.reach, needed = Kokkos::max(least, grid.closing(h));
+    const bool fits = needed <= grid.reach(0) && grid.reach(0) <= Kokkos::max(least, 4 * needed);
+    if (!fits) grid.reach(0) = needed > least ? Real(1.5) * needed : least;
+    grid.stale(0) = fits && grid.moved(0) <= half * half ? 0 : 1;
   }
 };
 
@@ -115,7 +127,7 @@ struct SetWidth {
   using Real = typename B::Real;
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
-    grid.width(0) = static_cast<Real>(Kokkos::sqrt(grid.radius(0))) + grid.limits.reach + grid.limits.margin;
+    grid.width(0) = static_cast<Real>(Kokkos::sqrt(grid.radius(0))) + grid.reach(0) + grid.limits.margin;
   }
 };
 
