@@ -26,7 +26,9 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.item = zeros<Indices<B>>("plica::pairs.item", triangles);
   grid_.centre = zeros<Vectors<B>>("plica::pairs.centre", triangles);
   grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
+  grid_.listed = zeros<Indices<B>>("plica::pairs.listed", n * static_cast<std::size_t>(PairGrid<B>::longest));
   count_ = zeros<Indices<B>>("plica::pairs.count", triangles);
+  Kokkos::deep_copy(points.pairs.partner, -1);
 }
 
 template <class B>
@@ -37,7 +39,7 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
                                            PlacePoints<B>{surface, state, grid_}, blocks, grid_.moved);
   update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_, points.span});
   make_grid(exec, points);
-  where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, MarkClose<B>{find});
+  where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, ListClose<B>{find});
   reduce<B, 1>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find}, blocks, near_);
   list_partners(exec, points.pairs);
 }
@@ -75,7 +77,8 @@ void PairSearch<B>::list_partners(const Exec& exec, const PairedPoints<B>& pairs
 template <class B>
 std::size_t PairSearch<B>::bytes() const {
   return (grid_.x.span() + grid_.built.span() + grid_.centre.span()) * sizeof(Real) +
-         (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + count_.span()) *
+         (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + grid_.listed.span() +
+          count_.span()) *
              sizeof(int);
 }
 

@@ -18,6 +18,25 @@ struct FindPairs {
 
   KOKKOS_INLINE_FUNCTION int corner(int t, int c) const { return points.pairs.corner(3 * t + c); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> x(int p) const { return vector_at<B>(grid.x, p); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> nearest(const Vec3<Real>& at, int t) const {
+    return nearest_on_triangle(at, x(corner(t, 0)), x(corner(t, 1)), x(corner(t, 2)));
+  }
+  /// From a place on a triangle.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> off(Vec3<Real> at, int t, const Vec3<Real>& weight) const {
+    for (int c = 0; c < 3; ++c) at -= weight[c] * x(corner(t, c));
+    return at;
+  }
+  /// look(triangle) for all that p may touch and that may be near, in any order; some come twice.
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
+    if (grid.close(p) <= grid.longest) {
+      for (int i = 0; i < grid.close(p); ++i) look(grid.listed(p * grid.longest + i));
+      return;
+    }
+    grid.around(vector_at<B>(grid.built, p), [&](int t) {
+      if (may_touch(p, t)) look(t);
+    });
+  }
   KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const { return value_at<B>(surface.embedding, state.v, p); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> rest(int p) const { return vector_at<B>(surface.rest, p); }
   KOKKOS_INLINE_FUNCTION bool one_body(int p, int t) const {
@@ -79,15 +98,24 @@ struct FindPairs {
   }
 };
 
-/// Which points something may come near to while the grid stays.
+/// Lists what may come near each point while the grid stays.
 template <class B>
-struct MarkClose {
+struct ListClose {
   using Real = typename B::Real;
   FindPairs<B> find;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    bool close = false;
-    find.grid.around(find.x(p), [&](int t) { close = close || find.may_touch(p, t); });
-    find.grid.close(p) = close ? 1 : 0;
+    const PairGrid<B>& grid = find.grid;
+    const Vec3<Real> at = find.x(p);
+    const Real far = grid.reach(0) + grid.limits.margin;
+    int count = 0;
+    grid.around(at, [&](int t) {
+      if (!find.allowed(p, t)) return;
+      const Vec3<Real> d = find.off(at, t, find.nearest(at, t));
+      if (dot(d, d) > far * far || !find.may_touch(p, t)) return;
+      if (count < grid.longest) grid.listed(p * grid.longest + count) = t;
+      ++count;
+    });
+    grid.close(p) = count;
   }
 };
 
@@ -108,18 +136,17 @@ struct NearestTriangles {
     const TouchingPoints<B>& points = find.points;
     const int r = points.record(points.obstacles, p);
     points.depth(r) = -points.nowhere();
+    const int last = points.pairs.partner(p);
     points.pairs.partner(p) = -1;
     if (find.grid.close(p) == 0) return {};
-    const Nearest found = partner(p);
+    const Nearest found = partner(p, last);
     if (found.triangle < 0 || !record(p, r, found)) return {};
     return {{1}};
   }
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> corner(int t, int c) const { return find.x(find.corner(t, c)); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> away_from(int p, const Nearest& n) const {
-    Vec3<Real> d = find.x(p);
-    for (int c = 0; c < 3; ++c) d -= n.weight[c] * corner(n.triangle, c);
-    return d;
+    return find.off(find.x(p), n.triangle, n.weight);
   }
   /// Velocity of a point against a place on a triangle.
   KOKKOS_INLINE_FUNCTION Vec3<Real> speed(int p, int t, const Vec3<Real>& weight) const {
@@ -128,26 +155,39 @@ struct NearestTriangles {
     return v;
   }
   KOKKOS_INLINE_FUNCTION Nearest near(int p, int t) const {
-    Nearest n{t, 0, nearest_on_triangle(find.x(p), corner(t, 0), corner(t, 1), corner(t, 2))};
+    Nearest n{t, 0, find.nearest(find.x(p), t)};
     const Vec3<Real> d = away_from(p, n);
     n.square = dot(d, d);
     return n;
   }
+  /// Whether all of a triangle is further away than that, by the box around it.
+  KOKKOS_INLINE_FUNCTION bool is_beyond(const Vec3<Real>& at, int t, Real square) const {
+    const Vec3<Real> a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+    Real sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Real low = Kokkos::min(a[k], Kokkos::min(b[k], c[k])), high = Kokkos::max(a[k], Kokkos::max(b[k], c[k]));
+      const Real d = Kokkos::max(Real(0), Kokkos::max(low - at[k], at[k] - high));
+      sum += d * d;
+    }
+    return sum > square;
+  }
   KOKKOS_INLINE_FUNCTION void take_nearer(int p, int t, Nearest& nearest) const {
-    if (!find.allowed(p, t)) return;
     const Nearest n = near(p, t);
-    if ((n.square < nearest.square || (n.square == nearest.square && t < nearest.triangle)) && find.may_touch(p, t))
-      nearest = n;
+    if (n.square < nearest.square || (n.square == nearest.square && t < nearest.triangle)) nearest = n;
   }
 
-  KOKKOS_INLINE_FUNCTION Nearest partner(int p) const {
+  /// `last`: the one of the last step, or -1
+  KOKKOS_INLINE_FUNCTION Nearest partner(int p, int last) const {
     const PairGrid<B>& grid = find.grid;
     const Real ordinary = grid.limits.reach, far = grid.closing(find.points.span);
     const bool fast = far > Real(0.5) * ordinary;
     Nearest nearest;
     nearest.square = fast ? Kokkos::max(far * far, ordinary * ordinary) : ordinary * ordinary;
-    const Vec3<Real> built = vector_at<B>(grid.built, p);
-    grid.around(built, [&](int t) { take_nearer(p, t, nearest); });
+    if (last >= 0) take_nearer(p, last, nearest);
+    const Vec3<Real> at = find.x(p);
+    find.each_near(p, [&](int t) {
+      if (!is_beyond(at, t, nearest.square)) take_nearer(p, t, nearest);
+    });
     if (nearest.triangle < 0) return nearest;
     if (fast) return on_path(p, nearest);
     return facing(p, nearest);
@@ -162,10 +202,10 @@ struct NearestTriangles {
     if (dot(d, find.outward(nearest.triangle, nearest.weight)) < 0) return facing(p, nearest);
     Real when = 2;
     int first = -1;
-    find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
+    find.each_near(p, [&](int t) {
       const Vec3<Real> path = h * speed(p, t, {third, third, third});
       const Real time = time_of_crossing(at, path, corner(t, 0), corner(t, 1), corner(t, 2));
-      if (!(time < when || (time == when && t < first)) || time > 1 || !find.may_touch(p, t)) return;
+      if (!(time < when || (time == when && t < first)) || time > 1) return;
       when = time, first = t;
     });
     if (first < 0) return nearest.square < ordinary * ordinary ? nearest : Nearest{};
@@ -181,7 +221,7 @@ struct NearestTriangles {
     if (!(dot(out, find.face(own)) > 0)) return nearest;
     Nearest other;
     other.square = find.grid.limits.reach * find.grid.limits.reach;
-    find.grid.around(vector_at<B>(find.grid.built, p), [&](int t) {
+    find.each_near(p, [&](int t) {
       if (!find.one_body(p, t) && dot(out, find.face(t)) < 0) take_nearer(p, t, other);
     });
     if (other.triangle < 0 || !(dot(away_from(p, other), find.face(other.triangle)) < 0)) return nearest;

@@ -3,7 +3,8 @@
 #include <plica/kernels/contact/contact_kernels.hpp>
 
 // The broad phase of pairs: triangles in the cells of a uniform grid, by their centroids. A cell is as wide as what is to be found
-// around a point, so that 27 of them hold all of it, and cells share a table by a hash. The grid stays while nothing has moved by more
+// around a point, so that 27 of them hold all of it, and cells share a table by a hash. With the grid each point gets a list of the
+// triangles that may come near; where there are more than it holds, it asks the grid itself. Both stay while nothing has moved by more
 // than half of `margin` and nothing is so fast that it meets in one step what is further away; the device decides that, and leaves
 // out the work.
 namespace plica {
@@ -34,12 +35,14 @@ struct PairGrid {
   Indices<B> filled;  ///< [buckets] items of each
   Indices<B> item;    ///< [triangles] of one cell after the other
   Vectors<B> centre;  ///< [items][3] their centroids when the grid was made [m]
-  Indices<B> close;   ///< [points] 1: something may come within reach before the grid is made anew
+  static constexpr int longest = 32;  ///< list of triangles
+  Indices<B> close;   ///< [points] how many triangles may come within reach before the grid is made anew
+  Indices<B> listed;  ///< [points * longest] these
 
   /// How far two points can move against each other in a step of h [s]; bounded where a state is no longer sound.
   KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
-    constexpr Real most = 32;  // times the reach: 16 edges
-    return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), most * limits.reach);
+    constexpr Real reaches = 32;  // 16 edges
+    return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), reaches * limits.reach);
   }
   KOKKOS_INLINE_FUNCTION int cell(Real coordinate) const {
     constexpr Real most = Real(1 << 30);
