@@ -133,18 +133,29 @@ struct RowVolumes {
   }
 };
 
-/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1) and excess S dJ.
+/// The pressures excess (J~ - 1), before they are smoothed, that an implicit stage carries beside the displacement, one a slot behind
+/// work.pressure; empty: none. Its tangent and its potential take these instead of those of the volumes; see carried_pressures.hpp.
+template <class B>
+Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work) {
+  const auto slots = static_cast<std::size_t>(rows.slots());
+  return work.pressure.extent(0) > 2 * slots ? Scalars<B>(work.pressure.data() + 2 * slots, slots) : Scalars<B>();
+}
+
+/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1), or what is carried, and excess S dJ.
 template <class B, int fields, bool first>
 struct SmoothRows {
   NodalRows<B> rows;
-  Scalars<B> from, to;
+  Scalars<B> from, to, carried{};
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     using T = RowPack<B>;
     const RowsAt<B> at(item);
     const T excess = T(rows.excess(rows.region(at.slice)));
     for (int k = 0; k < fields; ++k) {
       T x = smoothed<B>(rows, from.data() + k, fields, at);
-      if constexpr (first) x = excess * (k == 0 ? x - T(1) : x);
+      if constexpr (first) {
+        x = excess * (k == 0 ? x - T(1) : x);
+        if (k == 0 && carried.extent(0) > 0) x = load_rows<B>(&carried(at.slot));
+      }
       for (int l = 0; l < B::lanes; ++l) to((at.slot + l) * fields + k) = lane(x, l);
     }
   }
@@ -152,9 +163,10 @@ struct SmoothRows {
 
 /// work.pressure of the fields that have been laid out.
 template <class B, int fields>
-void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, const NodalWork<B>& work) {
+void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, const NodalWork<B>& work,
+                      const Scalars<B>& carried = {}) {
   for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, fields>{rows, work});
-  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records});
+  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records, carried});
   for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, false>{rows, work.records, work.pressure});
 }
 
@@ -194,7 +206,7 @@ void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Ve
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u, p});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
-    if constexpr (smoothed) smooth_pressures<B, 2>(exec, rows, level.nodal);
+    if constexpr (smoothed) smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
     launch_rows<B>(exec, "plica::nodal_tangent", level,
                    NodalTangent<B, Material, Tangent, smoothed>{
                        RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}});
@@ -208,6 +220,7 @@ struct NodalEnergy {
   NodalRows<B> rows;
   NodalWork<B> work;
   Vectors<B> partial;
+  Scalars<B> carried;
 
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
@@ -230,7 +243,14 @@ struct NodalEnergy {
                half * T(rows.stabiliser(region)) * (half * spread - volume * inner(G[0], G[0]));
     if constexpr (Smoothed) {
       const T x = smoothed<B>(rows, work.ratio.data(), 1, at) - T(1);
-      energy += half * T(rows.excess(region)) * volume * x * x;
+      const T excess = T(rows.excess(region));
+      if (carried.extent(0) > 0) {  // the augmented Lagrangian, which has its minimum where the energy has it
+        const T q = load_rows<B>(&carried(at.slot)), away = x - q / excess;
+        const T augmented = T(Kokkos::min(rows.excess(region), 100 * rows.stabiliser(region)));
+        energy += volume * (q * x + half * augmented * away * away);
+      } else {
+        energy += half * excess * volume * x * x;
+      }
     }
     for (int l = 0; l < B::lanes; ++l) {
       partial(at.slot + l, 0) = lane(energy, l);
@@ -245,8 +265,9 @@ void nodal_energy(const typename B::Exec& exec, const Level<B>& level, const Vec
   lay_out<B>(exec, rows, level.nodal, {u});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed) for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, 1>{rows, level.nodal});
-    for_rows<B>(exec, "plica::nodal_energy", rows,
-                NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial});
+    for_rows<B>(
+        exec, "plica::nodal_energy", rows,
+        NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial, carried_pressures<B>(rows, level.nodal)});
   });
 }
 

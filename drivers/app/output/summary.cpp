@@ -79,13 +79,14 @@ std::string elements_text(const Body& body, const Plan& plan) {
   lame.push_back(material.small_strains(parameter_values(material, body.material, {})));
   for (const auto& [name, region] : body.regions)
     lame.push_back(material.small_strains(parameter_values(material, body.material, region)));
+  const bool smoothed = smooths_pressure(body, lame);
   std::string text;
   for (const LevelReport& level : plan.levels) {
     if (!has_elements(level)) continue;
     text += (text.empty() ? "" : ", ") + level.element;
     if (level.element == name_of(Element::nodal))
-      text += fmt::format(" (stabilisation {:g}{})", body.stabilisation,
-                          smooths_pressure(body, lame) ? ", pressures smoothed" : "");
+      text += fmt::format(" (stabilisation {:g}{}{})", body.stabilisation, smoothed ? ", pressures smoothed" : "",
+                          smoothed && !level.explicit_integrator ? " and carried by implicit steps" : "");
   }
   return text + fmt::format("; about {:.2g} across the thickness of level 0", elements_across(body.levels.front()));
 }
@@ -351,6 +352,27 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
   return json_text(json);
 }
 
+namespace {
+
+// "20 linear systems, 211 iterations each, 0 not solved; 60 of Newton's iterations, 0 steps not solved"; empty: none
+std::string solves_text(const Summary& s) {
+  const auto count = [&](const char* name) {
+    const auto found = s.counters.find(name);
+    return found == s.counters.end() ? 0L : found->second;
+  };
+  const long solves = count("linear_solves");
+  if (solves == 0) return "";
+  std::string text =
+      fmt::format("{}, {:.3g} iterations each, {} not solved", counted(solves, "linear system"),
+                  static_cast<double>(count("cg_iterations")) / static_cast<double>(solves), count("cg_misses"));
+  if (const long newtons = count("newton_iterations"); newtons > 0)
+    text +=
+        fmt::format("; {} of Newton's method, {} not solved", counted(newtons, "iteration"), count("newton_misses"));
+  return text;
+}
+
+}  // namespace
+
 std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {
   const double wall = s.wall_time;
   std::string speed;
@@ -369,7 +391,7 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
                                  ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
                                                100 * *s.wait_share, s.threads > 1 ? ", --threads 1 may be faster" : "")
                                  : "";
-  const std::vector<std::vector<std::string>> rows = {
+  std::vector<std::vector<std::string>> rows = {
       {"simulated", fmt::format("{:.5g} s in {} of {}{}", s.simulated_time, counted(s.macro_steps, "macro step"),
                                 in_units(s.macro_step, "s"), beyond)},
       {"stepping", in_units(wall, "s") + speed + waited},
@@ -377,6 +399,7 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
                             counted(static_cast<long>(s.frames), "frame"), last_good)},
       {"to look at", "plica report " + folder}};
+  if (const std::string solves = solves_text(s); !solves.empty()) rows.insert(rows.begin() + 2, {"solving", solves});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
+#include <plica/kernels/elastic/carried_pressures.hpp>
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/explicit/updates.hpp>
 #include <plica/kernels/implicit/stage_kernels.hpp>
@@ -16,7 +17,8 @@ namespace plica {
 
 /// Solves the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a level's state, by one linear solve
 /// about the start of the step (linearly implicit: Baraff & Witkin 1998) or by Newton's method with a line search on the
-/// incremental potential (Nocedal & Wright, Numerical Optimization, alg. 3.1; Gast et al. 2015).
+/// incremental potential (Nocedal & Wright, Numerical Optimization, alg. 3.1; Gast et al. 2015). Where nodal elements smooth their
+/// pressures, it carries these from solve to solve: kernels/elastic/carried_pressures.hpp.
 template <class B>
 class StageSolver {
  public:
@@ -29,6 +31,12 @@ class StageSolver {
         base_("stage.base", level.model.vertices),
         right_side_("plica::stage.right_side", level.model.vertices),
         change_("plica::stage.change", level.model.vertices) {
+    const auto slots = static_cast<std::size_t>(level.model.rows.slots());
+    if (level.model.rows.excess.extent(0) > 0) {
+      carrying_ = zeros<Scalars<B>>("plica::stage.pressure", 3 * slots);
+      carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
+      if (iterates()) last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
+    }
     if (!iterates()) return;
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
     blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
@@ -42,10 +50,16 @@ class StageSolver {
   /// get there.
   bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     prescribe(level.exec(), level, base_, time + ahead);
-    level.linearise(level.state, time, weights, ahead, level.f);
-    if (iterates()) return newton(level, time + ahead, weights);
-    correct(level, weights, true, options_.tangent == "positive");
-    return true;
+    if (!carries()) return solve_stage(level, time, ahead, weights);
+    const Scalars<B> pressure = std::exchange(level.nodal.pressure, carrying_);
+    if (fresh_) {
+      Kokkos::deep_copy(level.exec(), change_, Real(0));
+      carry_pressures<B>(level.exec(), level, level.state.u, change_);
+      fresh_ = 0;
+    }
+    const bool solved = solve_stage(level, time, ahead, weights);
+    level.nodal.pressure = pressure;
+    return solved;
   }
 
   /// Of the last stage that Newton's method did not solve: its residual over its first one.
@@ -66,13 +80,18 @@ class StageSolver {
                 {"cg_indefinite", indefinite_}});
     if (iterates())
       all.insert({{"newton_iterations", newtons_}, {"newton_misses", unfinished_}, {"line_searches", searches_}});
+    if (carries()) all.insert({"pressure_updates", updates_});
     return all;
   }
-  std::size_t bytes() const { return solver_->bytes() + (iterates() ? 5 : 4) * 3 * sizeof(Real) * change_.extent(0); }
+  std::size_t bytes() const {
+    return solver_->bytes() + (iterates() ? 5 : 4) * 3 * sizeof(Real) * change_.extent(0) +
+           sizeof(Real) * (carrying_.extent(0) + last_carried_.extent(0));
+  }
   void persist(StateArchive<B>& archive) {
     for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
       archive.number(*count);
     archive.number(residual_);
+    if (carries()) archive.number(updates_), archive.number(fresh_), archive.field("the carried pressures", carried_);
     solver_->persist(archive);
   }
 
@@ -84,9 +103,12 @@ class StageSolver {
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
   Vectors<B> right_side_, change_, dead_;
+  Scalars<B> carrying_, carried_,
+      last_carried_;  ///< with room for the pressures, these, and those before the last solve
   BlockSums<B> blocks_;
   Kokkos::View<double*, typename B::Memory> result_;
   long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
+  long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;
 
   /// A state on the way.
@@ -100,8 +122,16 @@ class StageSolver {
   };
 
   bool iterates() const { return options_.newton_iterations > 1; }
+  bool carries() const { return carried_.extent(0) > 0; }
   StageAt<B> at(const Level<B>& level, const ImplicitWeights& w) const {
     return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
+  }
+
+  bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
+    level.linearise(level.state, time, weights, ahead, level.f);
+    if (iterates()) return newton(level, time + ahead, weights);
+    correct(level, weights, true, options_.tangent == "positive");
+    return true;
   }
 
   /// One linear solve at the linearised state, and the state that follows from it.
@@ -123,6 +153,11 @@ class StageSolver {
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     residual_ = std::max(residual_, out.relative_residual);
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
+    if (carries()) {
+      if (iterates()) Kokkos::deep_copy(level.exec(), last_carried_, carried_);
+      carry_pressures<B>(level.exec(), level, level.state.u, change_);
+      ++updates_;
+    }
     return out;
   }
 
@@ -164,13 +199,23 @@ class StageSolver {
     bool projected = options_.tangent == "positive";
     double slope = descend(level, w, first, moving, projected);
     for (;;) {
-      if (auto next = shorten(level, end, w, now, slope, moving)) return next;
+      if (auto next = shorten(level, end, w, before(level, end, w, now), slope, moving)) return next;
       if (projected || options_.tangent != "auto") return {};
       projected = true;
       level.linearise(level.state, end, w, 0, level.f);
       correct(level, w, false, true);
       slope = vertex_terms(level, w, 1)[2];
     }
+  }
+
+  /// What `now` was before the last change, with the pressures that are carried since.
+  Potential before(SolverLevel<B>& level, double end, const ImplicitWeights& w, Potential now) const {
+    if (!carries()) return now;
+    now.value = vertex_terms(level, w, 1)[0];
+    retreat(level, w, 1);
+    now.value += stored(level, end);
+    retreat(level, w, -1);
+    return now;
   }
 
   /// Shortens the change that the state has made until it leads down; none, and the change is undone, where it never does.
@@ -189,7 +234,7 @@ class StageSolver {
       part /= 2;
       retreat(level, w, part);
     }
-    retreat(level, w, part);
+    undo(level, w, part);
     return {};
   }
 
@@ -200,7 +245,7 @@ class StageSolver {
     const double slope = vertex_terms(level, w, 1)[2];
     if (options_.tangent != "auto" || moving || (!out.indefinite && !(slope >= 0))) return slope;
     projected = true;
-    retreat(level, w, 1);
+    undo(level, w, 1);
     correct(level, w, false, true);
     return vertex_terms(level, w, 1)[2];
   }
@@ -208,6 +253,12 @@ class StageSolver {
   void retreat(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
     update_vertices<B>(level.exec(), "plica::stage_retreat", level.model.vertices,
                        StageRetreat<B>{at(level, w), change_, static_cast<Real>(part)});
+  }
+
+  /// Takes back what is left of a change.
+  void undo(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
+    retreat(level, w, part);
+    if (carries()) Kokkos::deep_copy(level.exec(), carried_, last_carried_);
   }
 
   std::array<double, 4> read(const Exec& exec) const {
@@ -225,12 +276,16 @@ class StageSolver {
   /// Of the state whose forces are in level.f.
   Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
+    const double energy = stored(level, end);
+    return {terms[0] + energy, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(energy)};
+  }
+  /// Of elements and contact at the level's state [J].
+  double stored(const SolverLevel<B>& level, double end) const {
     level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
                  blocks_, result_);
-    double stored = read(level.exec())[0];
-    if (level.contact()) stored += level.contact()->energy(level.exec(), level, end, true, blocks_);
-    return {terms[0] + stored, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(stored)};
+    const double elastic = read(level.exec())[0];
+    return level.contact() ? elastic + level.contact()->energy(level.exec(), level, end, true, blocks_) : elastic;
   }
 };
 

@@ -18,16 +18,18 @@ constexpr double multigrid_reach = 1.3;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
-/// A mesh at rest with its constrained vertices.
+/// A mesh at rest with its constrained vertices, and Lame's constants of its regions.
 struct RestMesh {
   TetMesh mesh;
   std::vector<char> constrained;
+  std::vector<Lame<double>> lame;
 };
 
 RestMesh rest_mesh(const Body& body, std::size_t level) {
-  RestMesh made{body.levels[level], {}};
+  RestMesh made{body.levels[level], {}, {}};
   add_regions(made.mesh, body.regions, static_cast<int>(level));
-  made.constrained = level_constants(body, made.mesh, Point::Zero(), static_cast<int>(level)).constrained;
+  LevelConstants constants = level_constants(body, made.mesh, Point::Zero(), static_cast<int>(level));
+  made.constrained = std::move(constants.constrained), made.lame = std::move(constants.lame);
   return made;
 }
 
@@ -86,6 +88,11 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
         "integration.implicit: level " + std::to_string(level) +
         " has nodal elements, whose matrix is not assembled; expected solver conjugate_gradients or auto, and "
         "matrix free or auto");
+  if (o.solver == VCycleSolver::name && nodal && smooths_pressure(body, rest_mesh(body, level).lame))
+    throw InputError(
+        "level " + std::to_string(level) +
+        " is nearly incompressible (its nodal elements smooth their pressures), which one V-cycle of elements "
+        "that do not lock cannot answer; expected implicit_euler, solved by conjugate gradients");
   if (o.solver == VCycleSolver::name && !multigrid) {  // the cycle of one level is the coarsest one's answer
     if (!on_host || unknowns(body.levels[level]) > static_cast<std::size_t>(most_dense_unknowns))
       throw InputError("level " + std::to_string(level) +
