@@ -75,11 +75,14 @@ template <class V>
 void describe(V& v, FibreOptions& o) {
   v("sheet", o.sheet, Direction{}, "across them: in the plane of their sheets, or of two families");
   v("sheet_field", o.sheet_field, Text{}, "the same, of each element: vectors of the mesh file by their name");
+  v("to", o.to, Group{}, "with `from`: vertices that the fibres run to");
   v.one_of();
   v.alternative("axis", o.axis, Direction{}, "along the fibres everywhere; its length does not matter");
   v.alternative("around", o.around, Case<FibreWinding>{}, "round a line, as in vessels; their sheets are cylinders");
   v.alternative("field", o.field, Text{},
                 "of each element: vectors of the mesh file, of its cells or points, by their name");
+  v.alternative("from", o.from, Case<Selection>{},
+                "vertices that the fibres run from, to those of `to`, as heat would flow between them");
 }
 
 template <class V>
@@ -121,6 +124,7 @@ void describe(V& v, RegionOptions& o) {
   v("where", o.where, Group{}, "its elements, by their centroids; left out: the mesh file's volume of that name");
   describe_constants(v, o);
   v("terms", o.terms, List{}, "of ogden: 1 to 6");
+  v("prony", o.prony, List{}, "relaxation: 1 to 6 terms instead of the body's");
   v("fibres", o.fibres, Group{}, "instead of the body's");
   v("damping", o.damping, Group{}, "instead of the body's");
 }

@@ -40,18 +40,12 @@ struct FollowerLoad {
   LoadCourse course;
 };
 
-/// How a Prony series goes on over a time t: H_i <- keep H_i + gain (S - S before) with keep = e^(-t/tau), gain = (1 - keep) tau/t.
-template <class Real>
-struct RelaxationStep {
-  static constexpr int most_terms = 6;
-  int terms = 0;
-  Real keep[most_terms] = {}, gain[most_terms] = {};
-};
-
 /// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A symmetric matrix is xx yy zz xy xz yz.
 template <class B>
 struct StressMemory {
-  int terms = 0;      ///< of the Prony series
+  int terms = 0;      ///< of the longest Prony series of a region
+  Indices<B> region;  ///< [slots / lanes]
+  Scalars<B> step;    ///< [regions][terms][2] keep and gain of H_i <- keep H_i + gain (S - S before) over a step
   Scalars<B> memory;  ///< [slots][1 + terms][6] isochoric second Piola stress: elastic, and of each term [Pa]
   Scalars<B> lost;    ///< [slots][6] what relaxation takes off the second Piola stress where it is looked at [Pa]
 };

@@ -10,6 +10,11 @@ bool damps_by_mass(const Body& body) {
          });
 }
 
+bool is_viscous(const Body& body) {
+  return !body.material.prony.empty() ||
+         std::ranges::any_of(body.regions, [](const auto& region) { return !region.second.prony.empty(); });
+}
+
 bool damps_by_stiffness(const Body& body) {
   return body.damping.stiffness > 0 || std::any_of(body.regions.begin(), body.regions.end(), [](const auto& region) {
            return region.second.damping.stiffness.value_or(0) > 0;

@@ -25,15 +25,16 @@ struct FibreOptions {
   Point axis = Point::UnitX();              ///< along them; its length does not matter
   std::optional<Point> sheet = {};          ///< across them, in the plane of their sheets or families
   std::optional<FibreWinding> around = {};  ///< instead of `axis` and `sheet`
+  std::optional<Selection> from = {};       ///< instead of `axis`: from these vertices of level 0 the shortest way ...
+  std::optional<Selection> to = {};         ///< ... to these: see flow_directions()
   std::string field = {};                   ///< instead of `axis`: the vectors of this name in TetMesh::tet_vectors
   std::string sheet_field = {};             ///< instead of `sheet`, likewise
 };
 
 /// A part of the stress of shape that relaxes: of a step of strain, alpha e^(-t/tau) of it is left after a time t.
 struct PronyTerm {
-  double alpha = 0;                                   ///< part of the stress at once
-  double tau = 0;                                     ///< [s]
-  bool operator==(const PronyTerm&) const = default;  ///< of both numbers
+  double alpha = 0;  ///< part of the stress at once
+  double tau = 0;    ///< [s]
 };
 
 /// One of the sum that Ogden's law is.
@@ -73,6 +74,7 @@ struct RegionOptions {
   RegionDamping damping;                          ///< likewise
   std::map<std::string, double> parameters = {};  ///< of the material, likewise
   std::vector<OgdenTerm> terms = {};              ///< instead of the body's, where there are any
+  std::vector<PronyTerm> prony = {};              ///< likewise
   std::optional<FibreOptions> fibres = {};        ///< instead of the body's
 };
 
@@ -226,6 +228,9 @@ struct Problem {
   ContactOptions contact;          ///< with obstacles
   bool surface_forces = false;     ///< the caller will put forces of its own on the surface: embed it in every level
 };
+
+/// Whether any of it relaxes.
+bool is_viscous(const Body& body);
 
 /// Whether its surface touches its surface: bodies each other, or one of them itself.
 bool has_pairs(const Problem& problem);

@@ -32,10 +32,9 @@ class Elasticity {
   /// von Mises' stress [Pa] and J: of linear elements per tetrahedron of the mesh, of nodal ones per vertex.
   virtual void stress(const Exec&, const Level<B>&, const Vectors<B>& u, const Scalars<B>& von_mises,
                       const Scalars<B>& J) const = 0;
-  /// Takes level.stress.memory a step further, to the stress of shape of a displacement. `constants`: as the model's, without a
+  /// Takes level.stress.memory further by level.stress.step, to the stress of shape of a displacement. `constants`: as the model's, without a
   /// stiffness of the volume. Of materials with a shape of their own, see StressMemory.
-  virtual void remember(const Exec&, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& constants,
-                        const RelaxationStep<typename B::Real>& step) const = 0;
+  virtual void remember(const Exec&, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& constants) const = 0;
 };
 
 /// Throws InputError for a name that is not in kernels/materials/list.hpp.

@@ -44,9 +44,9 @@ class LinearElasticity final : public Elasticity<B> {
               const Scalars<B>& J) const override {
     elastic_stress<B, Material>(exec, level.model.patches, u, von_mises, J, level.stress.lost);
   }
-  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& constants,
-                const RelaxationStep<typename B::Real>& step) const override {
-    if constexpr (requires { Material::splits_shape; }) remember_elements<B, Material>(exec, level, u, constants, step);
+  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                const Scalars<B>& constants) const override {
+    if constexpr (requires { Material::splits_shape; }) remember_elements<B, Material>(exec, level, u, constants);
   }
 };
 

@@ -132,7 +132,10 @@ void check_structure(const MaterialInfo& info, const std::string& path, const st
                      "fibres.sheet: fibres around a line have their sheets on cylinders about it; expected none");
   if (fibres->sheet && !fibres->sheet_field.empty())
     throw InputError(path + "fibres.sheet is given twice: as sheet and as sheet_field");
-  if (fibres->field.empty() && !fibres->around && fibres->sheet &&
+  if (fibres->from.has_value() != fibres->to.has_value())
+    throw InputError(path + "fibres." + (fibres->from ? "to" : "from") +
+                     " is missing; fibres run from one set of vertices to another, expected both");
+  if (fibres->field.empty() && !fibres->around && !fibres->from && fibres->sheet &&
       fibres->axis.normalized().cross(fibres->sheet->normalized()).norm() < 1e-6)
     throw InputError(path + "fibres.sheet is along the axis; expected a direction across it");
 }
@@ -163,10 +166,9 @@ void check_at_rest(const MaterialInfo& info, const std::string& where, const Mat
                      " differs across its fibres: expected a direction across them");
 }
 
-void check_prony(const MaterialInfo& info, const std::vector<PronyTerm>& terms) {
+void check_prony(const MaterialInfo& info, const std::string& path, const std::vector<PronyTerm>& terms) {
   if (terms.empty()) return;
-  const std::string path = "body.material.prony";
-  const auto most = static_cast<std::size_t>(RelaxationStep<double>::most_terms);
+  constexpr std::size_t most = 6;
   if (!info.with_shape) {
     std::string able;
     for (const MaterialInfo& one : material_list())
@@ -242,7 +244,8 @@ void check_parameters(const MaterialInfo& info, const Body& body) {
   };
   check("body.material.", {});
   for (const auto& [name, region] : body.regions) check("body.regions." + name + ".", region);
-  check_prony(info, body.material.prony);
+  check_prony(info, "body.material.prony", body.material.prony);
+  for (const auto& [name, region] : body.regions) check_prony(info, "body.regions." + name + ".prony", region.prony);
   check_tissue(info, body);
 }
 

@@ -44,9 +44,9 @@ class NodalElasticity final : public Elasticity<B> {
               const Scalars<B>& J) const override {
     nodal_stress<B, Material>(exec, level, u, von_mises, J);
   }
-  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& constants,
-                const RelaxationStep<typename B::Real>& step) const override {
-    if constexpr (requires { Material::splits_shape; }) remember_domains<B, Material>(exec, level, u, constants, step);
+  void remember(const Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                const Scalars<B>& constants) const override {
+    if constexpr (requires { Material::splits_shape; }) remember_domains<B, Material>(exec, level, u, constants);
   }
 
  private:

@@ -46,6 +46,15 @@ std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+std::string viscous_parts(const Body& body) {
+  std::string all =
+      body.material.prony.empty() ? "" : "body.material.prony: " + counted(body.material.prony.size(), "term");
+  for (const auto& [name, region] : body.regions)
+    if (!region.prony.empty())
+      all += (all.empty() ? "" : "; ") + ("body.regions." + name) + ".prony: " + counted(region.prony.size(), "term");
+  return all;
+}
+
 }  // namespace
 
 template <class B>
@@ -90,8 +99,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       sum([](const L& l) { return bytes(l.model.damping.of_vertex); }));
   add("stiffness damping", damps_by_stiffness(body), "body.damping.stiffness: a tangent product with every force",
       "zero", sum([](const L& l) { return bytes(l.model.patches.damping); }));
-  add("viscosity", !body.material.prony.empty(), "body.material.prony: " + counted(body.material.prony.size(), "term"),
-      "body.material has no prony", sum([](const L& l) { return l.viscosity ? l.viscosity->bytes(l) : 0; }));
+  add("viscosity", is_viscous(body), viscous_parts(body), "neither body.material nor a region has prony",
+      sum([](const L& l) { return l.viscosity ? l.viscosity->bytes(l) : 0; }));
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);
   add("prescribed motion", !body.prescribed.empty(), counted(body.prescribed.size(), "motion"), "none asked for",
       sum([](const L& l) {

@@ -182,7 +182,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport&
   const LevelReport& finest = built.reports.front();
   const double edge_speed = least_edge * finest.mean_edge / built.macro_step;
   const double allowed = 2 * put_in + 0.5 * finest.mass * edge_speed * edge_speed;
-  const bool stores = retries() && problem.body.material.prony.empty();  // else the elastic energy is not all there
+  const bool stores = retries() && !is_viscous(problem.body);  // else the elastic energy is not all there
   if (budget_known && e.kinetic + (stores ? meter.all(time).elastic : 0) > allowed) return failure("energy", motion);
   // An explicit sub-step is about the time that sound takes across half an element. What leaves the body as a whole by more
   // than an edge in it is faster than sound: elements there are passed through within a step, whatever the forces say.
@@ -299,7 +299,7 @@ void Simulation<B>::Inside::keep() {
 
 template <class B>
 void Simulation<B>::Inside::keep_stress(std::vector<KeptStress<B>>& to) {
-  if (problem.body.material.prony.empty()) return;
+  if (!is_viscous(problem.body)) return;
   to.resize(hierarchy().levels.size());
   for (std::size_t i = 0; i < to.size(); ++i)
     hierarchy().levels[i].viscosity->keep(hierarchy().exec(), hierarchy().levels[i], to[i]);

@@ -13,9 +13,12 @@ namespace {
 /// constants = whole + 2 share (half - whole)
 template <class B>
 struct ScaleShape {
-  Scalars<B> whole, half, to;
-  typename B::Real share;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const { to(i) = whole(i) + 2 * share * (half(i) - whole(i)); }
+  Scalars<B> whole, half, to, share;
+  Indices<B> set_region;
+  int of_set;  ///< constants
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    to(i) = whole(i) + 2 * share(set_region(i / of_set)) * (half(i) - whole(i));
+  }
 };
 
 /// Of each set of the level's constants its region.
@@ -45,70 +48,96 @@ Scalars<B> constants_of_sets(const char* name, const std::vector<int>& regions,
   return to_device<Scalars<B>>(name, all);
 }
 
-/// (1 - e^-x) / x
-double mean_decay(double x) { return x > 0 ? -std::expm1(-x) / x : 1; }
+/// Of each pack of elements or rows its region.
+template <class B>
+std::vector<int> regions_of_packs(const TetMesh& mesh, const Level<B>& level) {
+  std::vector<int> regions;
+  const NodalRows<B>& rows = level.model.rows;
+  if (rows.slices > 0) {
+    const auto region = on_host(rows.region);
+    for (int slot = 0; slot < rows.slots(); slot += B::lanes) regions.push_back(region(slot / NodalRows<B>::height));
+    return regions;
+  }
+  const auto first = on_host(level.model.patches.first_pack);
+  const std::vector<int> of_patch = regions_of_sets(mesh, level);
+  for (std::size_t p = 0; p < of_patch.size(); ++p) regions.resize(static_cast<std::size_t>(first(p + 1)), of_patch[p]);
+  return regions;
+}
+
+template <class B>
+RelaxationSteps<B> relaxation_steps(const std::vector<std::vector<PronyTerm>>& prony) {
+  RelaxationSteps<B> steps;
+  for (const auto& series : prony) steps.terms = std::max(steps.terms, static_cast<int>(series.size()));
+  std::vector<double> alpha, tau;
+  for (std::vector<PronyTerm> series : prony) {
+    series.resize(static_cast<std::size_t>(steps.terms), {0, 1});
+    for (const PronyTerm& term : series) alpha.push_back(term.alpha), tau.push_back(term.tau);
+  }
+  steps.alpha = to_device<Doubles<B>>("viscosity.alpha", alpha),
+  steps.tau = to_device<Doubles<B>>("viscosity.tau", tau);
+  steps.step = Scalars<B>("plica::viscosity.step", 2 * alpha.size());
+  steps.weight = Scalars<B>("plica::viscosity.weight", alpha.size() + prony.size());
+  steps.share = Scalars<B>("plica::viscosity.share", prony.size());
+  return steps;
+}
 
 }  // namespace
 
 template <class B>
-Viscosity<B>::Viscosity(const std::vector<PronyTerm>& terms, const ShapeConstants& constants, const TetMesh& mesh,
-                        Level<B>& level)
-    : terms_(terms) {
+Viscosity<B>::Viscosity(const ShapeConstants& constants, const TetMesh& mesh, Level<B>& level)
+    : steps_(relaxation_steps<B>(constants.prony)) {
   const bool nodal = level.model.rows.slices > 0;
   const std::vector<int> regions = regions_of_sets(mesh, level);
   constants_ = nodal ? level.model.rows.constants : level.model.patches.constants;
+  set_region_ = to_device<Indices<B>>("viscosity.set_region", regions);
   whole_ = Scalars<B>("plica::viscosity.whole", constants_.extent(0));
   Kokkos::deep_copy(whole_, constants_);
   half_ = constants_of_sets<B>("viscosity.half", regions, constants.half);
   isochoric_ = constants_of_sets<B>("viscosity.isochoric", regions, constants.isochoric);
   const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots() : level.model.patches.packs * B::lanes);
-  level.stress.terms = static_cast<int>(terms.size());
-  level.stress.memory = zeros<Scalars<B>>("plica::viscosity.memory", slots * 6 * (1 + terms.size()));
-  level.stress.lost = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
+  StressMemory<B>& stress = level.stress;
+  stress.terms = steps_.terms, stress.step = steps_.step;
+  stress.region = to_device<Indices<B>>("viscosity.region", regions_of_packs(mesh, level));
+  stress.memory = zeros<Scalars<B>>("plica::viscosity.memory", slots * 6 * static_cast<std::size_t>(1 + stress.terms));
+  stress.lost = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
+  steps_.t = none;
 }
 
+/// What depends on the time from the memory's alone.
 template <class B>
-RelaxationStep<typename B::Real> Viscosity<B>::step_over(double t) const {
-  RelaxationStep<Real> step;
-  for (const PronyTerm& term : terms_) {
-    const double x = t / term.tau;
-    step.keep[step.terms] = static_cast<Real>(std::exp(-x));
-    step.gain[step.terms++] = static_cast<Real>(mean_decay(x));
-  }
-  return step;
+void Viscosity<B>::step_over(const Exec& exec, double t) {
+  if (t == steps_.t) return;
+  steps_.t = t;
+  update_vertices<B>(exec, "plica::relaxation_steps", static_cast<int>(steps_.share.extent(0)), steps_);
 }
 
 template <class B>
 void Viscosity<B>::remember(const Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
                             const Vectors<B>& u, double time) {
-  elasticity.remember(exec, level, u, isochoric_, step_over(std::max(0.0, time - time_)));
+  step_over(exec, std::max(0.0, time - time_));
+  elasticity.remember(exec, level, u, isochoric_);
   time_ = time, looked_ = none;
 }
 
 template <class B>
 void Viscosity<B>::look_at(const Exec& exec, const Level<B>& level, double time) {
   const double t = std::max(0.0, time - time_);
-  double share = 0, elastic = 0;
-  CombineMemory<B> combine{level.stress, 0, {}};
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const auto& [alpha, tau] = terms_[i];
-    const double gain = mean_decay(t / tau);
-    share += alpha * (1 - gain), elastic += alpha * gain;
-    combine.term[i] = static_cast<Real>(alpha * std::exp(-t / tau));
-  }
-  set_share(exec, share);
+  take_share(exec, t);
   if (t == looked_) return;
-  combine.elastic = static_cast<Real>(elastic);
-  update_vertices<B>(exec, "plica::combine_memory", static_cast<int>(level.stress.lost.extent(0)), combine);
+  step_over(exec, t);
+  update_vertices<B>(exec, "plica::combine_memory", static_cast<int>(level.stress.lost.extent(0)),
+                     CombineMemory<B>{level.stress, steps_.weight});
   looked_ = t;
 }
 
+/// The constants' energy of shape is without what is lost over that time.
 template <class B>
-void Viscosity<B>::set_share(const Exec& exec, double share) {
-  if (share == share_) return;
-  share_ = share;
-  update_vertices<B>(exec, "plica::scale_shape", static_cast<int>(constants_.extent(0)),
-                     ScaleShape<B>{whole_, half_, constants_, static_cast<Real>(share)});
+void Viscosity<B>::take_share(const Exec& exec, double t) {
+  if (t == shared_) return;
+  step_over(exec, t), shared_ = t;
+  const auto sets = static_cast<int>(set_region_.extent(0)), count = static_cast<int>(constants_.extent(0));
+  update_vertices<B>(exec, "plica::scale_shape", count,
+                     ScaleShape<B>{whole_, half_, constants_, steps_.share, set_region_, count / sets});
 }
 
 template <class B>
@@ -134,7 +163,7 @@ void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level, cons
 template <class B>
 std::size_t Viscosity<B>::bytes(const Level<B>& level) const {
   const std::size_t numbers = level.stress.memory.extent(0) + level.stress.lost.extent(0) + whole_.extent(0) +
-                              half_.extent(0) + isochoric_.extent(0);
+                              half_.extent(0) + isochoric_.extent(0) + level.stress.region.extent(0);
   return numbers * sizeof(Real);
 }
 

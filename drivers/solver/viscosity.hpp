@@ -4,12 +4,14 @@
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
+#include <plica/kernels/elastic/relaxation_steps.hpp>
 
 namespace plica {
 
-/// Kernel constants per region, of which those of a viscous material's steps are made. They are linear in the energy of shape, so
-/// that two of them say all.
+/// Per region the Prony series and kernel constants of which those of a viscous material's steps are made. They are linear in the
+/// energy of shape, so that two of them say all.
 struct ShapeConstants {
+  std::vector<std::vector<PronyTerm>> prony;
   std::vector<std::vector<double>> half;       ///< half of the energy of shape
   std::vector<std::vector<double>> isochoric;  ///< all of it, and none of the volume
 };
@@ -23,14 +25,14 @@ class Viscosity {
   using Exec = typename B::Exec;
 
   /// Of a level that is built: makes level.stress.
-  Viscosity(const std::vector<PronyTerm>& terms, const ShapeConstants& constants, const TetMesh& mesh, Level<B>& level);
+  Viscosity(const ShapeConstants& constants, const TetMesh& mesh, Level<B>& level);
 
   /// The displacements u are the body's at `time` [s].
   void remember(const Exec&, const Level<B>&, const Elasticity<B>&, const Vectors<B>& u, double time);
   /// Constants and level.stress.lost for forces at `time` [s].
   void look_at(const Exec&, const Level<B>&, double time);
   /// The constants of the material at once.
-  void look_at_once(const Exec& exec) { set_share(exec, 0); }
+  void look_at_once(const Exec& exec) { take_share(exec, 0); }
   /// The clock is set to another time [s].
   void set_time(double time) { time_ = time, looked_ = none; }
 
@@ -48,16 +50,17 @@ class Viscosity {
   using Real = typename B::Real;
   static constexpr double none = -1;
 
-  std::vector<PronyTerm> terms_;
+  RelaxationSteps<B> steps_;
   Scalars<B> constants_;     ///< the model's own
+  Indices<B> set_region_;    ///< of each set of these
   Scalars<B> whole_, half_;  ///< with all of the energy of shape and half of it
   Scalars<B> isochoric_;
   double time_ = 0;       ///< of the memory [s]
-  double share_ = 0;      ///< of the energy of shape that the model's constants lack
-  double looked_ = none;  ///< time from the memory's that level.stress.lost is for [s]
+  double shared_ = 0;     ///< time from the memory's that the model's constants are for [s]
+  double looked_ = none;  ///< likewise level.stress.lost
 
-  RelaxationStep<Real> step_over(double t) const;
-  void set_share(const Exec& exec, double share);
+  void step_over(const Exec& exec, double t);
+  void take_share(const Exec& exec, double t);
 };
 
 }  // namespace plica

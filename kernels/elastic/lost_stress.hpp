@@ -12,13 +12,14 @@ template <class B>
 struct CombineMemory {
   using Real = typename B::Real;
   StressMemory<B> stress;
-  Real elastic;                                          ///< weight of S_n
-  Real term[RelaxationStep<Real>::most_terms];           ///< of each H_i
+  Scalars<B> weight;                                     ///< [regions][1 + terms] of S_n and of each -H_i
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {  // number i of `lost`
     constexpr int six = 6 * B::lanes;
-    const Real* const at = &stress.memory(i / six * six * (1 + stress.terms) + i % six);
-    Real sum = elastic * at[0];
-    for (int k = 0; k < stress.terms; ++k) sum -= term[k] * at[(1 + k) * six];
+    const int count = 1 + stress.terms;
+    const Real* const at = &stress.memory(i / six * six * count + i % six);
+    const Real* const w = &weight(stress.region(i / six) * count);
+    Real sum = w[0] * at[0];
+    for (int k = 1; k < count; ++k) sum -= w[k] * at[k * six];
     stress.lost(i) = sum;
   }
 };

@@ -10,18 +10,19 @@ namespace plica {
 /// Takes the memory at `slot` to the stress at F, S = F^-1 P of the law without a stiffness of the volume: finite for any F, as the
 /// law is, with 1/J as volume_ratio.hpp continues it.
 template <class B, class Material, class T>
-KOKKOS_INLINE_FUNCTION void remember_stress(const StressMemory<B>& stress, const RelaxationStep<typename B::Real>& step,
-                                            const Mat3<T>& F, const typename Material::template Constants<T>& c,
-                                            int slot) {
+KOKKOS_INLINE_FUNCTION void remember_stress(const StressMemory<B>& stress, const Mat3<T>& F,
+                                            const typename Material::template Constants<T>& c, int slot) {
   const int count = 6 * (1 + stress.terms);
   const Mat3<T> H = cofactor(F);
   const VolumeRatio<T> v(dot(F[0], H[0]));
   const SymMat3<T> S = six_of(v.slope() * (transpose(H) * Material::stress(F, c)));
   const SymMat3<T> before = load_symmetric<B, T>(stress.memory, slot, 0, count);
   store_symmetric<B>(S, stress.memory, slot, 0, count);
+  const int first_step = stress.region(slot / B::lanes) * stress.terms * 2;
   for (int i = 0; i < stress.terms; ++i) {
+    const T keep(stress.step(first_step + 2 * i)), gain(stress.step(first_step + 2 * i + 1));
     SymMat3<T> h = load_symmetric<B, T>(stress.memory, slot, 6 * (1 + i), count);
-    for (int k = 0; k < 6; ++k) h.a[k] = T(step.keep[i]) * h.a[k] + T(step.gain[i]) * (S.a[k] - before.a[k]);
+    for (int k = 0; k < 6; ++k) h.a[k] = keep * h.a[k] + gain * (S.a[k] - before.a[k]);
     store_symmetric<B>(h, stress.memory, slot, 6 * (1 + i), count);
   }
 }
@@ -36,7 +37,6 @@ struct RememberElements {
   StressMemory<B> stress;
   Vectors<B> u;
   Scalars<B> constants;
-  RelaxationStep<Real> step;
 
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
     return Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
@@ -57,20 +57,20 @@ struct RememberElements {
     Mat3<T> G[1];
     load_pack<B, 1>(patches, pack, local, shape, G);
     const int slot = pack * B::lanes;
-    remember_stress<B, Material>(stress, step, Mat3<T>::identity() + G[0],
+    remember_stress<B, Material>(stress, Mat3<T>::identity() + G[0],
                                  load_constants<Material, T>(constants, p, patches.fibres, slot), slot);
   }
 };
 
 template <class B, class Material>
 void remember_elements(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                       const Scalars<B>& constants, const RelaxationStep<typename B::Real>& step) {
+                       const Scalars<B>& constants) {
   using Kernel = RememberElements<B, Material>;
   const Patches<B>& patches = level.model.patches;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
   Kokkos::parallel_for("plica::remember_elements",
                        policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
-                       Kernel{patches, level.stress, u, constants, step});
+                       Kernel{patches, level.stress, u, constants});
 }
 
 /// Of nodal elements.
@@ -81,13 +81,12 @@ struct RememberDomains {
   NodalWork<B> work;
   StressMemory<B> stress;
   Scalars<B> constants;
-  RelaxationStep<typename B::Real> step;
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
     Vec3<T> own[1];
     Mat3<T> G[1];
     row_gradients<B, 1>(rows, work.near, at, own, G);
-    remember_stress<B, Material>(stress, step, Mat3<T>::identity() + G[0],
+    remember_stress<B, Material>(stress, Mat3<T>::identity() + G[0],
                                  load_constants<Material, T>(constants, rows.region(at.slice), rows.fibres, at.slot),
                                  at.slot);
   }
@@ -95,11 +94,11 @@ struct RememberDomains {
 
 template <class B, class Material>
 void remember_domains(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
-                      const Scalars<B>& constants, const RelaxationStep<typename B::Real>& step) {
+                      const Scalars<B>& constants) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
   for_rows<B>(exec, "plica::remember_domains", rows,
-              RememberDomains<B, Material>{rows, level.nodal, level.stress, constants, step});
+              RememberDomains<B, Material>{rows, level.nodal, level.stress, constants});
 }
 
 }  // namespace plica

@@ -8,7 +8,8 @@
 //
 //   P = P_elastic(F) - F sum_i alpha_i (S - H_i),     H_i' = S' - H_i / tau_i,     H_i = S at the start.
 //
-// From a time where S_n and H_i are known, over t, with S linear in between: H_i = keep_i H_i + gain_i (S - S_n), see RelaxationStep. So
+// From a time where S_n and H_i are known, over t, with S linear in between: H_i = keep_i H_i + gain_i (S - S_n),
+// keep = e^(-t/tau), gain = (1 - keep) tau/t. So
 //
 //   sum_i alpha_i (S - H_i) = share S + lost,   share = sum alpha_i (1 - gain_i),   lost = sum alpha_i (gain_i S_n - keep_i H_i):
 //

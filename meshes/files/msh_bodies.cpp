@@ -46,6 +46,19 @@ void MshGather::add_element(const ElementKind& kind, std::int64_t tag, std::span
     if (g != 0) add_to_group(kind, tag, nodes_, place, groups_[{kind.dimension, g}]);
 }
 
+void MshGather::add_vectors(const std::string& name, bool of_nodes, std::int64_t count, Numbers& numbers) {
+  RawVectors& field = raw_.vectors.emplace_back(RawVectors{name, of_nodes, {}, {}});
+  for (std::int64_t i = 1; i <= count; ++i) {
+    numbers.begin("vector", i, count);
+    const std::int64_t tag = msh_tag(NumberType::int32, "the tag of a vector", numbers);
+    if (!field.place.try_emplace(tag, field.values.size()).second)
+      numbers.fail("tag " + std::to_string(tag) + " has a vector " + shown(name) + " already");
+    Point& value = field.values.emplace_back();
+    for (double& x : value) x = numbers.any_number(NumberType::float64, "a component of a vector");
+    numbers.end("a vector: its tag and three components");
+  }
+}
+
 std::string MshGather::name_of(const Group& group) const {
   const auto found = names_.find(group);
   return found != names_.end() ? found->second : "physical_" + std::to_string(group.second);

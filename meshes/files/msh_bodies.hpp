@@ -52,6 +52,8 @@ class MshGather {
   /// An element of some physical groups, a tetrahedron of one at most (0: none): its nodes follow.
   void add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> groups,
                    NumberType node_type, Numbers& numbers, const Place& place);
+  /// Vectors of nodes or elements: `count` times tag, x, y, z follow.
+  void add_vectors(const std::string& name, bool of_nodes, std::int64_t count, Numbers& numbers);
   /// All of it; to be called once.
   RawMesh take();
 

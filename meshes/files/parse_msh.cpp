@@ -24,6 +24,8 @@ class MshParser {
   void partitioned_entities();
   void nodes();
   void elements();
+  void data();
+  std::vector<std::string> data_heading(const std::string& kind);
   void skip(const std::string& name);
   std::int64_t count_of(const std::string& kind, std::int64_t fewest);
   void end_of(const std::string& section, const std::string& after = "");
@@ -94,6 +96,8 @@ void MshParser::section() {
                                                        {"$Nodes", &MshParser::nodes},
                                                        {"$NOD", &MshParser::nodes},
                                                        {"$ELM", &MshParser::elements},
+                                                       {"$NodeData", &MshParser::data},
+                                                       {"$ElementData", &MshParser::data},
                                                        {"$Elements", &MshParser::elements}};
   const std::string name(lines_.text());
   if (name.front() != '$' || name.starts_with("$End") || name.starts_with("$END"))
@@ -101,7 +105,7 @@ void MshParser::section() {
   if (name == "$ParametricNodes") lines_.fail("$ParametricNodes is not supported: save without parametric coordinates");
   const auto found = known.find(name);
   if (found == known.end()) return skip(name);
-  if (!seen_.insert(name).second) lines_.fail("a second section " + name);
+  if (found->second != &MshParser::data && !seen_.insert(name).second) lines_.fail("a second section " + name);
   (this->*found->second)();
 }
 
@@ -170,6 +174,40 @@ void MshParser::elements() {
     return std::to_string(count) + " elements";
   });
   end_of(version_ == 1 ? "ELM" : "Elements", what);
+}
+
+/// Lines of the heading of a section of data, behind a line that counts them.
+std::vector<std::string> MshParser::data_heading(const std::string& kind) {
+  if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of " + kind + " tags");
+  const std::int64_t count = TextNumbers(lines_).checked_count(lines_.integer(0, "the number of " + kind + " tags"),
+                                                               "the number of " + kind + " tags", NumberType::int8, 1);
+  std::vector<std::string> all;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    if (!lines_.next()) lines_.expected(kind + " tag " + std::to_string(i) + " of " + std::to_string(count));
+    all.emplace_back(lines_.text());
+  }
+  return all;
+}
+
+// Those with three components have a use; the rest is left out, as unknown sections are
+void MshParser::data() {
+  const std::string section(lines_.text());
+  const std::vector<std::string> texts = data_heading("string"), reals = data_heading("real");
+  const Place before = lines_.place();
+  const std::vector<std::string> whole = data_heading("integer");  // time step, components, count
+  if (whole.size() < 3)
+    refuse(file().name, before,
+           section + " has " + std::to_string(whole.size()) +
+               " integer tags; expected 3 or more: time step, components, count");
+  std::string name = texts.empty() ? "" : texts.front();
+  std::erase(name, '"');
+  if (whole[1] != "3" || name.empty()) return skip(section);
+  body([&](Numbers& numbers) {
+    const std::int64_t count =
+        numbers.checked_count(std::atoll(whole[2].c_str()), "the number of vectors", NumberType::int32, 4);
+    return gather_.add_vectors(name, section == "$NodeData", count, numbers), 0;
+  });
+  end_of(section.substr(1), whole[2] + " vectors");
 }
 
 RawMesh MshParser::parse() {

@@ -6,6 +6,12 @@
 
 namespace plica {
 
+Point RawVectors::at(std::int64_t tag) const {
+  if (place.empty()) return values[static_cast<std::size_t>(tag)];
+  const auto found = place.find(tag);
+  return found == place.end() ? Point(Point::Zero()) : values[found->second];
+}
+
 void name_regions(RawMesh& raw, const std::vector<std::int64_t>& numbers,
                   const std::function<std::string(std::int64_t)>& name_of) {
   const std::set<std::int64_t> used(numbers.begin(), numbers.end());

@@ -79,11 +79,15 @@ struct RawGroup {
   std::vector<RawTriangle> elements;  ///< of which the first dimension + 1 vertices count
 };
 
-/// Vectors with a name, of vertices or of cells: number `tag` is that of the vertex or element with this tag.
+/// Vectors with a name, of vertices or of elements.
 struct RawVectors {
   std::string name;
   bool of_vertices = false;
   std::vector<Point> values;
+  std::unordered_map<std::int64_t, std::size_t> place = {};  ///< of a tag's value; empty: tags are the places
+
+  /// The one of a vertex or element; zero where it has none.
+  Point at(std::int64_t tag) const;
 };
 
 /// What a parser of any format gathers, before anything of it is believed.

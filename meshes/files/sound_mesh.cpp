@@ -173,12 +173,11 @@ void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMe
 // Of each tetrahedron, that of its cell or the mean of its corners; of two fields of a name the first. After all numbers are final
 void add_vectors(const RawMesh& raw, TetMesh& mesh, const MeshReport& report) {
   for (const RawVectors& field : raw.vectors) {
-    const auto at = [&](std::int64_t tag) -> const Point& { return field.values[static_cast<std::size_t>(tag)]; };
     const auto [place, is_new] = mesh.tet_vectors.try_emplace(field.name);
     for (std::size_t t = 0; is_new && t < mesh.tets.size(); ++t) {
       Point mean = Point::Zero();
       for (const int v : mesh.tets[t])
-        mean += field.of_vertices ? at(report.vertex_tags[static_cast<std::size_t>(v)]) : at(report.tet_tags[t]);
+        mean += field.at(field.of_vertices ? report.vertex_tags[static_cast<std::size_t>(v)] : report.tet_tags[t]);
       place->second.push_back(mean / 4);
     }
   }

@@ -114,6 +114,16 @@ void write_blocks(const Parts& parts, NumbersOut& out) {
   end_section("Elements", out);
 }
 
+// The same in every version: the tetrahedra are the last elements
+void write_vectors(const Parts& parts, NumbersOut& out) {
+  for (const auto& [name, vectors] : parts.mesh.tet_vectors) {
+    out.text("$ElementData\n1\n\"" + name + "\"\n1\n0\n3\n0\n3\n" + std::to_string(vectors.size()) + "\n");
+    std::int64_t tag = parts.elements - size_of(vectors);
+    for (const Point& vector : vectors) out.int32(++tag).real64(vector).end();
+    end_section("ElementData", out);
+  }
+}
+
 // Version 2.2 gives an element its type and number of tags in text, a whole run of elements in binary
 void write_element22(std::int64_t tag, int type, std::int64_t group, std::span<const int> vertices, NumbersOut& out) {
   out.int32(tag);
@@ -151,6 +161,7 @@ WrittenMesh write22(const std::filesystem::path& path, const TetMesh& mesh, cons
     out.int32(static_cast<std::int64_t>(v + 1)).real64(mesh.vertices[v]).end();
   end_section("Nodes", out);
   write_elements22(parts, out);
+  write_vectors(parts, out);
   written.files = {{path.string(), out.take()}};
   return written;
 }
@@ -168,6 +179,7 @@ WrittenMesh write41(const std::filesystem::path& path, const TetMesh& mesh, cons
   for (const Point& p : mesh.vertices) out.real64(p).end();
   end_section("Nodes", out);
   write_blocks(parts, out);
+  write_vectors(parts, out);
   written.files = {{path.string(), out.take()}};
   return written;
 }

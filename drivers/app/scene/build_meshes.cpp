@@ -271,6 +271,12 @@ void check_names(const Body& body, const Tree& tree) {
     if (region.where) check_names(*region.where, "body.regions." + name + ".where", groups, regions, tree);
   for (const auto& [name, region] : body.regions)
     if (region.where) groups.push_back(name), regions.push_back(name);
+  const auto check_fibres = [&](const std::string& path, const std::optional<FibreOptions>& fibres) {
+    if (fibres && fibres->from) check_names(*fibres->from, path + ".from", groups, regions, tree);
+    if (fibres && fibres->to) check_names(*fibres->to, path + ".to", groups, regions, tree);
+  };
+  check_fibres("body.fibres", body.material.fibres);
+  for (const auto& [name, region] : body.regions) check_fibres("body.regions." + name + ".fibres", region.fibres);
   for (std::size_t i = 0; i < body.fixed.size(); ++i)
     check_names(body.fixed[i], fmt::format("body.fixed.{}", i), groups, regions, tree);
   for (std::size_t i = 0; i < body.prescribed.size(); ++i)

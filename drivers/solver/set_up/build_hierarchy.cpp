@@ -305,8 +305,8 @@ class HierarchyBuilder {
       level.integrator = Kind::template make<B>(level, {implicit, make_solver});
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
-    if (const auto& prony = problem_.body.material.prony; !prony.empty())
-      level.viscosity = std::make_unique<Viscosity<B>>(prony, constants_[i].shape, built_.meshes[i], level);
+    if (is_viscous(problem_.body))
+      level.viscosity = std::make_unique<Viscosity<B>>(constants_[i].shape, built_.meshes[i], level);
   }
 
   /// The stepper and what it makes of the levels.

@@ -69,9 +69,11 @@ std::vector<double> vertex_damping(const TetMesh& mesh, std::vector<double> dens
 
 /// What the constants of the elements' regions are made of, of the values of their parameters.
 ShapeConstants shape_constants(const Body& body, const MaterialInfo& material, const LevelConstants& c,
-                               const std::vector<std::vector<double>>& values) {
+                               const std::vector<std::vector<double>>& values,
+                               std::vector<std::vector<PronyTerm>> prony) {
   ShapeConstants shape;
-  if (body.material.prony.empty()) return shape;
+  if (!is_viscous(body)) return shape;
+  shape.prony = std::move(prony);
   const bool capped = c.element == Element::nodal && smooths_pressure(body, c.lame);
   for (std::size_t r = 0; r < values.size(); ++r) {
     const Lame<double>& lame = c.lame[r];
@@ -90,6 +92,7 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
   const MaterialInfo& material = *find_material(body.material.model);
   std::vector<double> mass_damping;            // per region
   std::vector<std::vector<double>> values_of;  // likewise
+  std::vector<std::vector<PronyTerm>> prony;   // likewise
   const std::size_t regions = mesh.region.empty() ? 1 : mesh.region_names.size();
   for (std::size_t r = 0; r < regions; ++r) {
     const auto own = mesh.region.empty() ? body.regions.end() : body.regions.find(mesh.region_names[r]);
@@ -103,11 +106,12 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
     c.lame.push_back(material.small_strains(values));
     c.capped.push_back(material.with_lambda ? material.with_lambda(values, capped_lambda(c.lame.back()))
                                             : c.material.back());
+    prony.push_back(o.prony.empty() ? body.material.prony : o.prony);
     mass_damping.push_back(o.damping.mass.value_or(body.damping.mass));
     c.stiffness_damping.push_back(o.damping.stiffness.value_or(body.damping.stiffness));
   }
   if (fibres_vary(body)) c.fibres = element_fibres(body, mesh, level);
-  c.shape = shape_constants(body, material, c, values_of);
+  c.shape = shape_constants(body, material, c, values_of, std::move(prony));
   if (*std::max_element(c.stiffness_damping.begin(), c.stiffness_damping.end()) == 0) c.stiffness_damping.clear();
   c.density = region_densities(body, mesh);
   c.mass = lumped_masses(mesh, c.density);

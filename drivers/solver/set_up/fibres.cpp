@@ -5,6 +5,8 @@
 #include <memory>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/fibres.hpp>
+#include <plica/drivers/solver/set_up/flow_directions.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/meshes/embedding.hpp>
 
@@ -26,14 +28,24 @@ FibreAxes orthonormal(const Point& axis, const std::optional<Point>& sheet) {
 }
 
 bool varies(const std::optional<FibreOptions>& o) {
-  return o && (o->around || !o->field.empty() || !o->sheet_field.empty());
+  return o && (o->around || o->from || !o->field.empty() || !o->sheet_field.empty());
+}
+
+/// Level 0 with the regions that are chosen by selections.
+TetMesh finest_with_regions(const Body& body) {
+  TetMesh mesh = body.levels.front();
+  const auto known = [&](const auto& region) {
+    return region.second.where && std::ranges::count(mesh.region_names, region.first) > 0;
+  };
+  if (std::ranges::none_of(body.regions, known)) add_regions(mesh, body.regions, 0);
+  return mesh;
 }
 
 /// The fields that directions of a level are taken from.
 class FibreFields {
  public:
   FibreFields(const Body& body, const TetMesh& mesh, int level)
-      : finest_(body.levels.front()), mesh_(mesh), level_(level) {}
+      : body_(body), finest_(body.levels.front()), mesh_(mesh), level_(level) {}
 
   Point at(const std::string& path, const std::string& name, std::size_t tet) {
     const auto own = mesh_.tet_vectors.find(name), first = finest_.tet_vectors.find(name);
@@ -46,16 +58,28 @@ class FibreFields {
                                             "' among those of its cells or points"
                                       : unknown_name("field of vectors of the mesh of level 0", name, known)));
     }
-    if (!locator_) locator_ = std::make_unique<TetLocator>(finest_);
-    const auto near = static_cast<std::size_t>(locator_->locate(centroid(mesh_, tet)).tet);
+    const std::size_t near = nearest(tet);
     return checked(path, name, 0, near, first->second[near]);
   }
 
+  /// Of a flow through level 0.
+  const Point& flow(const std::string& path, const FibreOptions& o, std::size_t tet) {
+    const auto [found, is_new] = flows_.try_emplace(path);
+    if (is_new) found->second = flow_directions(level_ == 0 ? mesh_ : finest_with_regions(body_), *o.from, *o.to, path);
+    return found->second[level_ == 0 ? tet : nearest(tet)];
+  }
+
  private:
+  const Body& body_;
   const TetMesh &finest_, &mesh_;
   int level_;
   std::unique_ptr<TetLocator> locator_;
+  std::map<std::string, std::vector<Point>> flows_;
 
+  std::size_t nearest(std::size_t tet) {
+    if (!locator_) locator_ = std::make_unique<TetLocator>(finest_);
+    return static_cast<std::size_t>(locator_->locate(centroid(mesh_, tet)).tet);
+  }
   static const Point& checked(const std::string& path, const std::string& name, int level, std::size_t tet,
                               const Point& vector) {
     if (vector.allFinite() && vector.norm() > 0) return vector;
@@ -98,11 +122,31 @@ std::vector<FibreAxes> element_fibres(const Body& body, const TetMesh& mesh, int
     if (!of_region && !body.material.fibres) return {};
     FibreOptions o = of_region ? *own->second.fibres : *body.material.fibres;
     const std::string path = of_region ? "body.regions." + region + ".fibres" : "body.fibres";
+    if (o.from) o.axis = fields.flow(path, o, e);
     if (!o.field.empty()) o.axis = fields.at(path + ".field", o.field, e);
     if (!o.sheet_field.empty()) o.sheet = fields.at(path + ".sheet_field", o.sheet_field, e);
     all.push_back(fibre_axes(o, centroid(mesh, e)));
   }
   return all;
+}
+
+void flows_to_fields(Body& body, const std::string& field) {
+  std::vector<FibreOptions*> flows;
+  const auto add = [&](std::optional<FibreOptions>& fibres) {
+    if (fibres && fibres->from && fibres->to) flows.push_back(&*fibres);
+  };
+  add(body.material.fibres);
+  for (auto& [name, region] : body.regions) add(region.fibres);
+  if (flows.empty()) return;
+  std::vector<std::vector<Point>> of_levels;
+  for (std::size_t i = 0; i < body.levels.size(); ++i) {
+    TetMesh mesh = body.levels[i];
+    add_regions(mesh, body.regions, static_cast<int>(i));
+    std::vector<Point>& directions = of_levels.emplace_back();
+    for (const FibreAxes& axes : element_fibres(body, mesh, static_cast<int>(i))) directions.push_back(axes[0]);
+  }
+  for (std::size_t i = 0; i < of_levels.size(); ++i) body.levels[i].tet_vectors[field] = std::move(of_levels[i]);
+  for (FibreOptions* o : flows) o->from.reset(), o->to.reset(), o->field = field;
 }
 
 template <class B>
@@ -128,7 +172,7 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh, const st
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const auto& t = mesh.tets[e];
     const auto x = [&](std::size_t c) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[c])]; };
-    const double volume = tet_volume(x(0), x(1), x(2), x(3));
+    const double volume = mesh.part(e) * tet_volume(x(0), x(1), x(2), x(3));
     const auto& [axis, sheet] = of_tets[e];
     for (const int v : t) {
       Sum& sum = sums[{mesh.region.empty() ? 0 : mesh.region[e], v}];

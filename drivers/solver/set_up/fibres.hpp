@@ -17,6 +17,9 @@ FibreAxes fibre_axes(const FibreOptions& options, const Point& at);
 /// nearest tetrahedron of level 0. Empty for a body without fibres. InputError for a field that level 0 does not have, or one of length 0.
 std::vector<FibreAxes> element_fibres(const Body& body, const TetMesh& mesh, int level);
 
+/// Turns fibres from one set of vertices to another into this field of every level's mesh, which does not need the sets any more.
+void flows_to_fields(Body& body, const std::string& field);
+
 /// Whether a body, or a region of it, has fibres.
 bool has_fibres(const Body& body);
 

@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/fibres.hpp>
 #include <plica/drivers/solver/set_up/join_bodies.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 
@@ -19,12 +20,6 @@ std::string shown(const std::vector<std::string>& values) {
   return std::accumulate(
       values.begin(), values.end(), std::string(),
       [](const std::string& all, const std::string& one) { return all.empty() ? one : all + ", " + one; });
-}
-std::string shown(const std::vector<PronyTerm>& terms) {
-  std::string all;
-  for (const PronyTerm& term : terms)
-    all += (all.empty() ? "" : ", ") + std::to_string(term.alpha) + " over " + std::to_string(term.tau) + " s";
-  return all.empty() ? "left out" : all;
 }
 std::string shown(const std::optional<bool>& value) { return !value ? "left out" : *value ? "true" : "false"; }
 std::string shown(const std::optional<std::string>& value) { return value.value_or("left out"); }
@@ -44,7 +39,6 @@ void expect_alike(const NamedBody& first, const NamedBody& other) {
   same("material.volume", a.material.volume, b.material.volume);
   same("material.convention", a.material.convention, b.material.convention);
   same("material.allow_inversion", a.material.allow_inversion, b.material.allow_inversion);
-  same("material.prony", a.material.prony, b.material.prony);
 }
 
 void expect_joinable(const std::vector<NamedBody>& bodies) {
@@ -86,6 +80,7 @@ RegionOptions made_of(const Body& body, const RegionOptions& own, const Point& s
   all.damping.stiffness = own.damping.stiffness.value_or(body.damping.stiffness);
   all.parameters.insert(body.material.parameters.begin(), body.material.parameters.end());
   if (own.terms.empty()) all.terms = body.material.terms;
+  if (own.prony.empty()) all.prony = body.material.prony;
   if (!own.fibres) all.fibres = body.material.fibres;
   if (all.fibres && all.fibres->around) all.fibres->around->point += shift;
   return all;
@@ -100,7 +95,7 @@ class Joiner {
     const Body& first = bodies.front().second;
     all_.levels.resize(levels);
     all_.element = first.element, all_.stabilisation = first.stabilisation, all_.pressure = first.pressure;
-    all_.material = first.material;
+    all_.material = first.material, all_.material.prony.clear();  // each part has its own
     for (const NamedBody& one : bodies) add(one.first, one.second);
   }
   Body take() { return std::move(all_); }
@@ -108,7 +103,8 @@ class Joiner {
  private:
   Body all_;
 
-  void add(const std::string& name, const Body& body) {
+  void add(const std::string& name, Body body) {
+    flows_to_fields(body, "fibres of " + name);
     const Box box = bounding_box(body.levels.front().vertices);
     const Point middle = 0.5 * (box.min + box.max), shift = body.initial.position.value_or(middle) - middle;
     for (std::size_t level = 0; level < all_.levels.size(); ++level) {

@@ -196,6 +196,16 @@ TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
   EXPECT_EQ(m.fibres->axis, Point(0, 0, 2));
 }
 
+TEST(Scene, FibresRunFromOneSetToAnother) {
+  const Scene scene =
+      scene_of(damaged("{model: neo_hookean, young_modulus: 50 kPa}",
+                       "{tissue: heart_muscle}\n  fibres: {from: {plane: {}}, to: {nearest: [0, 0, 1]}}"));
+  const FibreOptions& fibres = *scene.problem.body.material.fibres;
+  ASSERT_TRUE(fibres.from && fibres.to);
+  EXPECT_EQ(std::get<HalfSpaceSelection>(*fibres.from).normal, Point(0, 0, 1));
+  EXPECT_EQ(std::get<NearestSelection>(*fibres.to).to, Point(0, 0, 1));
+}
+
 TEST(Scene, PresetsGiveOptionsThatOtherKeysOverride) {
   const Scene scene = scene_of(damaged("gravity: [0, 0, -9.81]", "preset: tled"));
   EXPECT_EQ(scene.problem.preset, "tled");

@@ -171,12 +171,42 @@ TEST(Formats, VectorsOfCellsAndPointsAreKept) {
       EXPECT_EQ(again.tet_vectors.at("the_fibres"), vectors);
       EXPECT_EQ(again.region, mesh.region);
     }
+  for (const char* format : {"msh22", "msh41"})
+    for (const bool binary : {false, true}) {
+      const TetMesh again = read_mesh(write_mesh("m.msh", mesh, format, binary).files.front());
+      ASSERT_TRUE(again.tet_vectors.contains("the fibres")) << format;
+      EXPECT_EQ(again.tet_vectors.at("the fibres"), vectors) << format;
+    }
   const std::string points =
       "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n9 9 9 0 0 0 1 0 0 0 1 0 0 0 "
       "1\n"
       "CELLS 1 5\n4 1 2 3 4\nCELL_TYPES 1\n10\nPOINT_DATA 5\nVECTORS a double\n9 9 9 4 0 0 0 4 0 0 0 4 0 0 8\n";
   const TetMesh one = read_mesh(MemoryFile{"m.vtk", points});
   EXPECT_EQ(one.tet_vectors.at("a"), std::vector<Point>{Point(1, 1, 3)}) << "the mean of its corners";
+}
+
+TEST(Formats, VectorsOfMshNodesAndElements) {
+  const std::string mesh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n7 0 0 0\n8 1 0 0\n9 0 1 0\n10 0 0 1\n11 1 1 1\n$EndNodes\n"
+      "$Elements\n2\n1000000000 4 2 0 1 7 8 9 10\n30 4 2 0 1 8 9 10 11\n$EndElements\n";
+  const auto data = [](const std::string& section, const std::string& name, const std::string& rest) {
+    return "$" + section + "\n1\n\"" + name + "\"\n1\n0\n" + rest + "$End" + section + "\n";
+  };
+  const std::string of_cells = data("ElementData", "f", "3\n0\n3\n2\n30 0 2 0\n1000000000 1 0 -1\n"),
+                    of_nodes = data("NodeData", "g", "4\n0\n3\n4\n0\n7 4 0 0\n8 0 4 0\n9 0 0 4\n10 4 4 4\n"),
+                    scalars = data("NodeData", "p", "3\n0\n1\n1\n7 3.5\n");
+  const auto read = [&](const std::string& more) { return read_mesh(MemoryFile{"m.msh", mesh + more}); };
+  const TetMesh both = read(of_cells + scalars + of_nodes);
+  EXPECT_EQ(both.tet_vectors.size(), 2u) << "scalars are left out";
+  EXPECT_EQ(both.tet_vectors.at("f"), (std::vector<Point>{{1, 0, -1}, {0, 2, 0}}));
+  EXPECT_EQ(both.tet_vectors.at("g"), (std::vector<Point>{{2, 2, 2}, {1, 2, 2}})) << "means; node 11 has none";
+  const auto refused = [&](const std::string& more, const char* line, const char* part) {
+    expect_refused(MemoryFile{"m.msh", mesh + data("NodeData", "f", more)}, line, {part});
+  };
+  refused("1\n0\n", "m.msh:21", "$NodeData has 1 integer tags; expected 3 or more");
+  refused("3\n0\n3\n9999\n7 1 0 0\n", "m.msh:25", "the number of vectors is 9999");
+  refused("3\n0\n3\n2\n7 1 0 0\n7 1 0 0\n", "m.msh:27", "tag 7 has a vector 'f' already");
+  refused("3\n0\n3\n1\n7 1 0\n", "m.msh:26", "a component of a vector");
 }
 
 TEST(Formats, EverySurfaceOfTheBlocksIsTheSame) {

@@ -95,6 +95,85 @@ TEST(Fibres, OfACoarserLevelAreThoseOfTheNearestElement) {
   }
 }
 
+constexpr double inner = 0.02, outer = 0.05;
+
+/// A quarter of a pipe: the temperature between its walls is the logarithm of the radius, between its ends the angle.
+TetMesh quarter_of_a_pipe(const std::array<int, 3>& cells) {
+  TetMesh mesh = box_mesh({{inner, 0, 0}, {outer, turn / 4, 0.03}}, cells);
+  for (Point& p : mesh.vertices) p = {p[0] * std::cos(p[1]), p[0] * std::sin(p[1]), p[2]};
+  return mesh;
+}
+
+double worst_angle(const Body& body, int level, const std::function<Point(const Point&)>& known) {
+  const TetMesh& mesh = body.levels[static_cast<std::size_t>(level)];
+  const auto fibres = element_fibres(body, mesh, level);
+  double worst = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    Point middle = Point::Zero();
+    for (const int v : mesh.tets[t]) middle += mesh.vertices[static_cast<std::size_t>(v)] / 4;
+    worst = std::max(worst, fibres[t][0].cross(known(middle)).norm());
+  }
+  return worst;
+}
+
+TEST(Fibres, FromOneSetToAnotherFollowTheFlowBetweenThem) {
+  Problem p = body_of({quarter_of_a_pipe({8, 16, 3}), quarter_of_a_pipe({3, 6, 2})}, "transversely_isotropic");
+  const auto radial = [](const Point& x) { return Point(x[0], x[1], 0).normalized(); };
+  const auto around = [](const Point& x) { return Point(-x[1], x[0], 0).normalized(); };
+  const Selection first_end = HalfSpaceSelection{Point::Zero(), Point::UnitY()},
+                  last_end = HalfSpaceSelection{Point::Zero(), Point::UnitX()};
+  p.body.material.fibres = FibreOptions{.from = first_end, .to = last_end};
+  EXPECT_LT(worst_angle(p.body, 0, around), 0.1);
+  EXPECT_LT(worst_angle(p.body, 1, around), 0.3) << "of the nearest element of level 0";
+  TetMesh& fine = p.body.levels[0];
+  for (std::size_t v = 0; v < fine.vertices.size(); ++v) {  // sets that the coarse mesh does not have
+    const double r = fine.vertices[v].head<2>().norm();
+    if (r < inner * 1.0001) fine.vertex_sets["inside"].push_back(static_cast<int>(v));
+    if (r > outer * 0.9999) fine.vertex_sets["outside"].push_back(static_cast<int>(v));
+  }
+  p.body.material.fibres = FibreOptions{.from = GroupSelection{"inside"}, .to = GroupSelection{"outside"}};
+  EXPECT_LT(worst_angle(p.body, 0, radial), 0.15);
+  EXPECT_LT(worst_angle(p.body, 1, radial), 0.3);
+  Body fields = p.body;
+  flows_to_fields(fields, "f");
+  EXPECT_FALSE(fields.material.fibres->from);
+  for (const int level : {0, 1}) EXPECT_EQ(worst_angle(fields, level, radial), worst_angle(p.body, level, radial));
+  EXPECT_EQ(refusal([&] { Simulation<Host> simulation(p); }), "");
+}
+
+// Straight from face to face, whatever the mesh; where a whole element lies in a set its neighbours say
+TEST(Fibres, OfAFlowThroughABoxAreStraight) {
+  Problem p = body_of({jittered_box(decimetre, {4, 4, 4})}, "transversely_isotropic");
+  p.body.material.fibres = FibreOptions{.from = Box{{-1, -1, -1}, {1, 1, 0}}, .to = Box{{-1, -1, 0.07}, {1, 1, 1}}};
+  EXPECT_LT(worst_angle(p.body, 0, [](const Point&) { return Point(0, 0, 1); }), 0.3);
+  p.body.material.fibres->to = Box{{-1, -1, 0.1}, {1, 1, 1}};
+  EXPECT_LT(worst_angle(p.body, 0, [](const Point&) { return Point(0, 0, 1); }), 1e-6);
+}
+
+TEST(Fibres, BetweenSetsThatAreNotThereAreRefused) {
+  Problem p = fibrous("linear", {.sheet = Point::UnitZ()});
+  FibreOptions& o = *p.body.material.fibres;
+  const auto refused = [&] { return refusal([&] { Simulation<Host> simulation(p); }); };
+  o.from = Box{{-1, -1, -1}, {0, 1, 1}};
+  EXPECT_EQ(refused(), "body.fibres.to is missing; fibres run from one set of vertices to another, expected both");
+  o.to = GroupSelection{"apex"};
+  EXPECT_NE(refused().find("body.fibres.to: unknown group on level 0 'apex'"), std::string::npos) << refused();
+  o.to = Box{{-1, -1, -1}, {1, 0, 1}};
+  EXPECT_NE(refused().find("of level 0 is in `from` as well; expected sets apart"), std::string::npos) << refused();
+  o.to = Box{{5, 5, 5}, {6, 6, 6}};
+  EXPECT_NE(refused().find("body.fibres.to: the box from [5, 5, 5]"), std::string::npos) << refused();
+  TetMesh& mesh = p.body.levels[0];
+  const TetMesh other = box_mesh({{1, 0, 0}, {1.1, 0.1, 0.1}}, {2, 2, 2});
+  const int before = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (auto tet : other.tets) {
+    for (int& v : tet) v += before;
+    mesh.tets.push_back(tet);
+  }
+  o.to = Box{{0.1, -1, -1}, {0.2, 1, 1}};
+  EXPECT_NE(refused().find("touches only one of `from` and `to`, or none"), std::string::npos) << refused();
+}
+
 TEST(Fibres, FromFieldsThatAreNotThereAreRefused) {
   Problem p = fibrous("linear", {.sheet = Point::UnitZ(), .field = "fiber"});
   const auto refused = [&] { return refusal([&] { Simulation<Host> simulation(p); }); };

@@ -80,6 +80,44 @@ TYPED_TEST(Viscosity_, GoesBackWithTheState) {
   for (std::size_t a = 0; a < first.size(); ++a) EXPECT_LE((other.positions()[a] - first[a]).norm(), 1e-7);
 }
 
+// Two halves that share no vertex: each relaxes by its own terms
+TYPED_TEST(Viscosity_, OfARegionIsItsOwn) {
+  for (const char* element : {"linear", "nodal"}) {
+    SCOPED_TRACE(element);
+    TetMesh mesh = box_mesh(decimetre, {2, 2, 1});
+    const auto count = static_cast<int>(mesh.vertices.size());
+    const std::size_t tets = mesh.tets.size();
+    mesh.region_names = {"left", "right"}, mesh.region.assign(tets, 0);
+    for (int v = 0; v < count; ++v)
+      mesh.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)] + Point(1, 0, 0));
+    for (std::size_t t = 0; t < tets; ++t) {
+      mesh.tets.push_back(mesh.tets[t]), mesh.region.push_back(1);
+      for (int& v : mesh.tets.back()) v += count;
+    }
+    Problem p = body_of({mesh}, "neo_hookean");
+    p.body.element = {element};
+    p.body.regions["right"].prony = terms;
+    p.body.regions["left"].prony = {{0.5, 0.02}};
+    const Box low{{-1, -1, -1}, {2, 1, 0.01}}, high{{-1, -1, 0.09}, {2, 1, 1}};
+    p.body.fixed = {low};
+    p.body.prescribed = {{high, PathMotion{{{0, Point(0.01, 0, 0.02)}}}}};
+    p.integration.macro_step = 1e-2, p.integration.allow_unstable = true;
+    Simulation<TypeParam> simulation(p);
+    const auto start = simulation.element_fields().von_mises;
+    advance(simulation, 5);
+    const auto now = simulation.element_fields().von_mises;
+    const double right = 1 - 0.3 * (1 - std::exp(-50)) - 0.4 * (1 - std::exp(-1)),
+                 left = 1 - 0.5 * (1 - std::exp(-2.5));
+    for (std::size_t t = 0; t < now.size(); ++t)
+      EXPECT_NEAR(now[t] / start[t], t < now.size() / 2 ? left : right, 1e-5) << t;
+    p.body.regions.erase("left");  // elastic
+    Simulation<TypeParam> half(p);
+    advance(half, 5);
+    EXPECT_NEAR(half.element_fields().von_mises[0] / start[0], 1, 1e-5);
+    EXPECT_NEAR(half.element_fields().von_mises.back() / start.back(), right, 1e-5);
+  }
+}
+
 // A body that nothing holds back is as stiff as its series says: softer steps, longer oscillations
 TYPED_TEST(Viscosity_, RelaxesTheStressThatIsReported) {
   for (const char* element : {"linear", "nodal"}) {
