@@ -21,6 +21,7 @@ class CommandLine {
   CommandLine() {
     app_.require_subcommand(1);
     app_.set_version_flag("--version", version_text);
+    app_.failure_message(fault_of_words);
     app_.footer(
         "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the standard error.\n"
         "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
@@ -45,6 +46,7 @@ class CommandLine {
     const auto is_kokkos = [](const std::string& word) { return word.starts_with("--kokkos-"); };
     std::copy_if(words.begin() + 1, words.end(), std::back_inserter(arguments_.kokkos.pass_through), is_kokkos);
     std::erase_if(words, is_kokkos);
+    if (words.size() > 1 && words[1] == "help") words[1] = "--help";
     check_command(words);
     app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
     for (const std::string& set : sets_) arguments_.overrides.push_back({set, "--set " + set});
@@ -66,6 +68,25 @@ class CommandLine {
     command->footer(manual_of(name));
     command->callback([this, action] { action_ = action; });
     return command;
+  }
+
+  /// What CLI11 says; of an unknown option the nearest one, and where a command is missing all that there are.
+  static std::string fault_of_words(const CLI::App* app, const CLI::Error& error) {
+    const std::vector<std::string> extra = app->remaining(true);
+    std::string text = error.what(), command = app->get_name();
+    for (; !app->get_subcommands().empty(); command += " " + app->get_name()) app = app->get_subcommands().front();
+    const auto option = std::ranges::find_if(extra, [](const std::string& word) { return word.starts_with('-'); });
+    const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+    if (option != extra.end()) {
+      std::vector<std::string> known;
+      for (const CLI::Option* one : app->get_options())
+        for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
+      text = unknown_name("option", option->substr(0, option->find('=')), known);
+    } else if (!commands.empty()) {
+      text = "expected a command: ";
+      for (const CLI::App* one : commands) text += (one == commands.front() ? "" : ", ") + one->get_name();
+    }
+    return coloured("error: ", Colour::red) + text + "\nsee " + command + " --help\n";
   }
 
   void check_command(const std::vector<std::string>& words) const {

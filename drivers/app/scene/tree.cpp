@@ -114,6 +114,20 @@ Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
   return made;
 }
 
+// What a YAML library says of a text, behind what that often comes of.
+std::string fault_of(const std::string& text, const YAML::Exception& error) {
+  std::istringstream lines(text);
+  std::string line, likely;
+  for (int n = 0; n <= error.mark.line; ++n) std::getline(lines, line);
+  if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != line.npos)
+    likely = "a tab begins the line; expected spaces";
+  else if (error.msg.ends_with("flow not found"))
+    likely = "a bracket is still open";
+  else if (error.msg == "illegal map value")
+    likely = "expected quotes around a text with ': ' in it, and all keys of a map in one column";
+  return "not YAML: " + (likely.empty() ? error.msg : likely + " (" + error.msg + ")");
+}
+
 }  // namespace
 
 const Tree* Tree::find(std::string_view name) const {
@@ -140,7 +154,7 @@ Tree parse_tree(const std::string& text, const std::string& file) {
     if (document.IsNull()) throw InputError("the scene is empty", {file});
     return Conversion(file)(document);
   } catch (const YAML::Exception& error) {
-    throw InputError("not YAML: " + error.msg, place(file, error.mark));
+    throw InputError(fault_of(text, error), place(file, error.mark));
   }
 }
 
@@ -162,7 +176,7 @@ void override_value(Tree& root, const std::string& assignment, const std::string
   try {
     value = Conversion(where.file)(YAML::Load(assignment.substr(equals + 1)));
   } catch (const YAML::Exception& error) {
-    throw InputError("not YAML: " + error.msg, where);
+    throw InputError(fault_of(assignment.substr(equals + 1), error), where);
   }
   Tree* target = &root;
   std::istringstream path(valid_utf8(assignment.substr(0, equals)));

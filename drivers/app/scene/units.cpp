@@ -165,6 +165,7 @@ Measured measure(std::string_view text) {
   if (length_read == 0) throw std::invalid_argument("not a number");
   const std::string_view unit = trimmed(text.substr(length_read));
   if (unit.empty()) return {value, std::nullopt};
+  if (unit.starts_with(',')) throw std::invalid_argument("a comma; expected a point before decimals");
   const Measured product = unit_product(unit);
   return {value * product.value, product.dimension};
 }

@@ -223,6 +223,15 @@ TEST(Units, SuggestsTheNearestUnit) {
   }
 }
 
+TEST(Units, SaysThatDecimalsTakeAPoint) {
+  try {
+    measure("0,6 s");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "a comma; expected a point before decimals");
+  }
+}
+
 TEST(Units, NamesDimensions) {
   EXPECT_EQ(name_of(pressure), "a pressure");
   EXPECT_EQ(unit_of(pressure), "Pa");

@@ -92,6 +92,11 @@ TEST_F(Program, ErrorsNameTheNearest) {
             std::string::npos)
       << check.errors;
   EXPECT_EQ(check.output, "");
+  EXPECT_EQ(
+      plica({"run", scene, "--thread", "2"}).errors.find("error: unknown option '--thread'; did you mean '--threads'?"),
+      0);
+  EXPECT_EQ(plica({"mesh"}).errors,
+            "error: expected a command: info, convert, repair, fill, coarsen\nsee plica mesh --help\n");
 }
 
 TEST_F(Program, RefusedStepIs2) {
@@ -165,6 +170,8 @@ TEST_F(Program, HelpAndVersionAreResults) {
     EXPECT_NE(help.output.find("Usage"), std::string::npos);
     EXPECT_EQ(help.errors, "");
   }
+  EXPECT_EQ(plica({"help"}).output, plica({"--help"}).output);
+  EXPECT_EQ(plica({"help", "run"}).output, plica({"run", "--help"}).output);
   const Child version = plica({"--version"});
   EXPECT_EQ(version.status, 0);
   for (const char* part : {"plica", "Kokkos", "back ends", "compiler", "git"})
