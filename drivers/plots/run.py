@@ -46,7 +46,9 @@ def draw_bodies(figure, run, view, box):
     colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, 1e3 * largest), body.BODY_MAP)
     middle = (bottom + top) / 2
     bar = figure.colorbar(colours, cax=figure.add_axes((right - 0.06, middle - 0.14, 0.012, 0.28)), extend="max")
-    bar.set_label("displacement [mm]" if run.held else "deformation: distance from the best rigid fit [mm]", fontsize=9)
+    what = "displacement" if run.held else "deformation: distance from the best rigid fit"
+    most = 1e3 * max(values.max() for values in moved.values())
+    bar.set_label(f"{what} [mm], at most {most:.3g}", fontsize=9)
 
 
 def draw_energies(axes, run):
