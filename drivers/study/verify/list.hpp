@@ -55,6 +55,8 @@ VerifyRows squash(const VerifyContext&);
 VerifyRows manufactured_solution(const VerifyContext&);
 VerifyRows time_order(const VerifyContext&);
 VerifyRows friction_on_a_slope(const VerifyContext&);
+VerifyRows hertz_contact(const VerifyContext&);
+VerifyRows collision(const VerifyContext&);
 
 /// A problem with a known answer.
 struct VerifyProblem {
@@ -96,6 +98,8 @@ inline constexpr VerifyProblem verify_list[] = {
     {"manufactured_solution", "a chosen motion and the body force that it takes: order in space of both elements",
      manufactured_solution},
     {"time_order", "the order in time of every integrator on a nonlinear problem", time_order},
-    {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope}};
+    {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope},
+    {"hertz", "force against approach of a sphere on a plane and on its like, of nodal elements", hertz_contact},
+    {"collision", "momenta of two equal balls that collide askew", collision}};
 
 }  // namespace plica
