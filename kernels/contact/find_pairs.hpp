@@ -120,7 +120,7 @@ struct ListClose {
 };
 
 /// Each point's record of its nearest triangle, the one with the lowest number where several are; counts them. What is fast looks as
-/// far as it may get, and is near only what its path leads through.
+/// far as it may get, and is near what its path leads through.
 template <class B>
 struct NearestTriangles {
   using Real = typename B::Real;
