@@ -303,11 +303,22 @@ void describe(V& v, Problem& o) {
   v("gravity", o.gravity, Vector{acceleration}, "acceleration of everything that is free");
 }
 
+template <class V>
+void describe(V& v, CouplingOptions& o) {
+  v("stiffness", o.stiffness, Quantity{{.mass = 1, .time = -2}, not_negative},
+    "of the spring to where its motion asks it to be; 0: none");
+  v("damping", o.damping, AutoQuantity{{{.mass = 1, .time = -1}, not_negative}},
+    "against the velocity of its motion; auto: critical, 2 sqrt(stiffness mass)");
+}
+
 /// But for its shape.
 template <class V>
 void describe(V& v, ObstacleOptions& o) {
   v("name", o.name, Text{}, "what results call it; left out: obstacle_0, obstacle_1, ... in order");
   v("friction", o.friction, Quantity{plain, not_negative}, "Coulomb's coefficient; left out: frictionless");
+  v("mass", o.mass, Quantity{{.mass = 1}, positive},
+    "the body pushes it, its coupling pulls it to its motion; left out: it is where its motion says");
+  v("coupling", o.coupling, Group{}, "of an obstacle with mass, to its motion");
   v.at_most_one();
   describe(v, o.motion);
 }
@@ -318,6 +329,8 @@ void describe(V& v, ContactOptions& o) {
   v("bodies", o.bodies, Flag{}, "false: several bodies pass through each other");
   v("self", o.self, Flag{}, "true: a body's surface touches itself, where it folds");
   v("friction", o.friction, Quantity{plain, not_negative}, "of both, Coulomb's coefficient; left out: frictionless");
+  v("whole_surface", o.whole_surface, Name{"rule", whole_surface_rules},
+    "which obstacles touch the surface between its points, too");
   v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive},
     "times the penalty stiffness 64 E A / h, E A / h where a level is implicit");
   v("damping_scale", o.damping_scale, Quantity{plain, not_negative}, "times the damping of the approach");

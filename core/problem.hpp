@@ -211,6 +211,7 @@ struct ContactOptions {
   bool bodies = true;                      ///< where there are several, they touch each other
   bool self = false;                       ///< a body's surface touches itself
   std::optional<double> friction = {};     ///< of these two; none: frictionless
+  std::string whole_surface = "auto";      ///< of whole_surface_rules()
   double stiffness_scale = 1;              ///< of the penalty
   double damping_scale = 1;                ///< of the approach
   double tangential_damping_scale = 1;     ///< caps what friction can do at small sliding speed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
@@ -17,7 +18,17 @@ namespace {
 // inside an obstacle, the next must not throw out.
 constexpr double most_stiffening = 64;
 
-constexpr double pair_reach = 0.5, pair_margin = 0.25;  // of an edge
+constexpr double pair_reach = 0.5, pair_margin = 0.25, face_reach = 0.25;  // of an edge
+
+double mean_edge(const TriangleSurface& surface) {
+  double sum = 0;
+  for (const auto& t : surface.triangles)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto x = [&](std::size_t k) { return surface.vertices[static_cast<std::size_t>(t[k % 3])]; };
+      sum += (x(c + 1) - x(c)).norm();
+    }
+  return sum / static_cast<double>(3 * surface.triangles.size());
+}
 
 }  // namespace
 
@@ -28,12 +39,29 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
       deepest_(surface.size),
       lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
   const DepthWatch<B> watch{lost_, static_cast<Real>(deepest_)};
-  for (const ObstacleOptions& o : options.obstacles) obstacles_.push_back(make_obstacle<B>(o, watch));
+  const auto& all = options.obstacles;
+  if (std::any_of(all.begin(), all.end(), [](const ObstacleOptions& o) { return o.mass.has_value(); }))
+    tools_ = zeros<Doubles<B>>("plica::contact.tools", ObstaclePlace<B>::numbers * all.size());
+  for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, tools_, obstacles()));
   make_laws(options, surface, stiff ? most_stiffening : 1);
+  if (stiff) choose_whole(options.whole_surface, surface.surface);
+  if (pairs || whole() > 0) connect(surface.surface, pairs);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge), static_cast<Real>(pair_margin * surface.edge),
              static_cast<Real>(surface.edge), options.bodies, options.self};
-  connect(surface.surface);
+}
+
+/// Not of implicit levels, whose matrices couple the points of one tetrahedron alone.
+template <class B>
+void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& surface) {
+  const double edge = mean_edge(surface);
+  for (const auto& obstacle : obstacles_)
+    whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < edge));
+}
+
+template <class B>
+int Contact<B>::whole() const {
+  return static_cast<int>(std::count(whole_.begin(), whole_.end(), true));
 }
 
 /// A row of laws for every obstacle and one for pairs; in it one for every body.
@@ -75,9 +103,9 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
   implicit_laws_.law = to_device<decltype(laws_.law)>("contact.implicit_laws", implicit_laws);
 }
 
-/// The surface's triangles, and those around each point.
+/// The surface's triangles, and those around each point: for pairs, for thin obstacles.
 template <class B>
-void Contact<B>::connect(const TriangleSurface& surface) {
+void Contact<B>::connect(const TriangleSurface& surface, bool pairs) {
   std::vector<std::vector<int>> around(surface.vertices.size());
   std::vector<int> corner, first{0}, triangle;
   for (const auto& t : surface.triangles)
@@ -89,10 +117,13 @@ void Contact<B>::connect(const TriangleSurface& surface) {
     triangle.insert(triangle.end(), list.begin(), list.end());
     first.push_back(static_cast<int>(triangle.size()));
   }
-  pairs_.triangles = static_cast<int>(surface.triangles.size());
-  pairs_.corner = to_device<Indices<B>>("contact.corner", corner);
-  pairs_.first = to_device<Indices<B>>("contact.first", first);
-  pairs_.triangle = to_device<Indices<B>>("contact.triangle", triangle);
+  const int triangles = static_cast<int>(surface.triangles.size());
+  pairs_.triangles = pairs ? triangles : 0;
+  faces_.triangles = whole() > 0 ? triangles : 0;
+  faces_.reach = static_cast<Real>(face_reach * reach_);
+  faces_.corner = pairs_.corner = to_device<Indices<B>>("contact.corner", corner);
+  faces_.first = pairs_.first = to_device<Indices<B>>("contact.first", first);
+  faces_.triangle = pairs_.triangle = to_device<Indices<B>>("contact.triangle", triangle);
 }
 
 template <class B>
@@ -101,19 +132,22 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   TouchingPoints<B> points;
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
   points.law = implicit ? implicit_laws_ : laws_;
-  points.pairs = pairs_;
+  points.pairs = pairs_, points.faces = faces_;
   if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
     points.pairs.partner = zeros<Indices<B>>("plica::contact.partner", n);
     points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);
     points.pairs.from = zeros<Indices<B>>("plica::contact.from", triangles + 1);
     points.pairs.point = zeros<Indices<B>>("plica::contact.point", n);
-    points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);
   }
-  const std::size_t records = n * static_cast<std::size_t>(points.rows());
+  const auto faces = static_cast<std::size_t>(points.obstacles) * static_cast<std::size_t>(faces_.triangles);
+  if (pairs_.triangles > 0 || faces > 0) points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);
+  points.faces.weight = zeros<Vectors<B>>("plica::contact.face_weight", faces);
+  const std::size_t records = n * static_cast<std::size_t>(points.rows()) + faces;
   points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
   points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
   points.force = zeros<Vectors<B>>("plica::contact.force", records);
   points.depth = zeros<Scalars<B>>("plica::contact.depth", records);
+  Kokkos::deep_copy(points.depth, std::numeric_limits<Real>::lowest());  // what no kernel looks at
   points.mobility = zeros<Scalars<B>>("plica::contact.mobility", records);
   points.count = zeros<Doubles<B>>("plica::contact.count", 1);
   if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", n);
@@ -125,6 +159,8 @@ void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s
                       const TouchingPoints<B>& points) const {
   for (int o = 0; o < obstacles(); ++o)
     obstacles_[static_cast<std::size_t>(o)]->find(exec, level.surface, s, time, o, points);
+  for (std::size_t o = 0; o < whole_.size(); ++o)
+    if (whole_[o]) obstacles_[o]->find_on_faces(exec, level.surface, s, time, static_cast<int>(o), points);
 }
 
 template <class B>
@@ -170,6 +206,11 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
     total += host_values(exec, result)[0];
   }
   return total;
+}
+
+template <class B>
+void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double end, double span) const {
+  for (int o = 0; o < obstacles(); ++o) obstacles_[static_cast<std::size_t>(o)]->move(exec, wrench, o, end, span);
 }
 
 template <class B>

@@ -27,18 +27,25 @@ class Obstacle {
   /// Its gap to every point of a state.
   virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                     const TouchingPoints<B>&) const = 0;
+  /// Where it is deepest in each triangle; after find().
+  virtual void find_on_faces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
+                             const TouchingPoints<B>&) const = 0;
   /// Energy stored in its penalties by these laws [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                       const PointLaws<B>&, const BlockSums<B>&, const Doubles<B>& result) const = 0;
-  /// Its origin [m], which moves with it: what torques are about.
-  virtual Point origin(double time) const = 0;
+  virtual ObstaclePlace<B> place(double time) const = 0;
+  /// One with mass takes a macro step that ends at `end`, pushed by the opposite of its wrench.
+  virtual void move(const Exec&, const Doubles<B>& wrench, int number, double end, double span) const = 0;
+  /// Of the largest ball in it [m].
+  virtual double radius() const = 0;
   /// Device memory of its own.
   virtual std::size_t bytes() const = 0;
 };
 
-/// Launches the kernels of the shape that the options name.
+/// Launches the kernels of the shape that the options name. `tools`: of all obstacles, where one has mass; this is number `number`.
 template <class B>
-std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch);
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
+                                           const Doubles<B>& tools, int number);
 
 /// What contact needs to know of the surface, and of the bodies that it belongs to.
 struct TouchingSurface {
@@ -66,7 +73,7 @@ class Contact {
 
   /// Work arrays of one level; blocks on an implicit one only.
   TouchingPoints<B> make_points(bool implicit) const;
-  /// The gaps of a state.
+  /// The gaps of a state, on the whole surface of thin obstacles.
   void find(const Exec&, const Level<B>&, const State<B>&, double time, const TouchingPoints<B>&) const;
   /// f += the forces of a stage, linearised about a state
   void linearise(const Exec&, const Level<B>&, const State<B>&, double time, const ImplicitWeights&, double ahead,
@@ -87,8 +94,16 @@ class Contact {
   double stiffness() const { return stiffness_; }  ///< of a point of the first body, on explicit levels [N/m]
   double damping() const { return damping_; }      ///< along the normal, likewise [N s/m]
   int points() const { return points_; }
+  int sites() const { return points_ + faces_.triangles; }
+  int whole() const;  ///< obstacles that touch the surface between its points
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
-  Point origin(int obstacle, double time) const { return obstacles_[static_cast<std::size_t>(obstacle)]->origin(time); }
+  ObstaclePlace<B> place(int obstacle, double time) const {
+    return obstacles_[static_cast<std::size_t>(obstacle)]->place(time);
+  }
+  /// See ObstaclePlace; empty where none has mass.
+  const Doubles<B>& tools() const { return tools_; }
+  /// Tools with mass take a macro step that ends at `end`.
+  void move_tools(const Exec&, const Doubles<B>& wrench, double end, double span) const;
   std::size_t grid_bytes() const;  ///< of sampled distances
   const PairLimits<Real>& limits() const { return limits_; }
   int touching_bodies() const { return pairs_.triangles > 0 && laws_.bodies > 1 ? laws_.bodies : 0; }
@@ -99,12 +114,16 @@ class Contact {
   double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
   PointLaws<B> laws_, implicit_laws_;
+  Doubles<B> tools_;
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
+  std::vector<bool> whole_;  ///< of obstacles: they touch the surface between its points
+  FaceSites<B> faces_;
   PairedPoints<B> pairs_;  ///< what levels share of them
   PairLimits<Real> limits_;
 
   void make_laws(const ContactOptions& options, const TouchingSurface& surface, double stiffening);
-  void connect(const TriangleSurface& surface);
+  void choose_whole(const std::string& rule, const TriangleSurface& surface);
+  void connect(const TriangleSurface& surface, bool pairs);
 };
 
 }  // namespace plica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 #include <plica/drivers/solver/contact_response.hpp>
+#include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/find_pairs.hpp>
 
 namespace plica {
@@ -15,7 +16,7 @@ template <class B>
 ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices, bool implicit)
     : contact_(std::move(contact)),
       points_(contact_->make_points(implicit)),
-      blocks_(contact_->points()),
+      blocks_(contact_->sites()),
       smooth_(zeros<Vectors<B>>("plica::contact.smooth", static_cast<std::size_t>(vertices))),
       answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(vertices))),
       sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
@@ -30,10 +31,10 @@ void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const Sta
   if (search_) search_->find(exec, level.surface, state, points, blocks_);
 }
 
-/// See SumPointForces.
+/// Where points get forces from triangles, see SumPointForces.
 template <class B>
 void ContactResponse<B>::sum_up(const Exec& exec, double reaction) const {
-  if (search_)
+  if (points_.pairs.sum.extent(0) > 0)
     where_touching<B>(exec, points_.count, "plica::contact_sum", contact_->points(),
                       SumPointForces<B>{points_, static_cast<Real>(reaction)});
 }
@@ -41,7 +42,7 @@ void ContactResponse<B>::sum_up(const Exec& exec, double reaction) const {
 template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
-  const int n = level.surface.points;
+  const int n = contact_->sites();
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
   law.entry = static_cast<Real>(step.entry);
   law.points.span = law.h;
@@ -79,11 +80,8 @@ template <class B>
 void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                      double weight) const {
   for (int o = 0; o < contact_->obstacles(); ++o) {
-    const Point about = contact_->origin(o, time);
-    reduce<B, 6>(
-        exec, "plica::contact_wrench", level.surface.points,
-        ObstacleWrench<B>{level.surface, state.u, points_, points_.record(o, 0), {about[0], about[1], about[2]}},
-        blocks_, sums_);
+    reduce<B, 6>(exec, "plica::contact_wrench", contact_->sites(),
+                 ObstacleWrench<B>{level.surface, state.u, points_, o, contact_->place(o, time)}, blocks_, sums_);
     update_vertices<B>(exec, "plica::contact_impulse", 6, AddImpulse<B>{sums_, impulse_, 6 * o, weight});
   }
   for (int b = 0; b < contact_->touching_bodies(); ++b) {
@@ -104,9 +102,18 @@ double ContactResponse<B>::pair_energy(const Exec& exec, const Level<B>& level) 
 }
 
 template <class B>
+double ContactResponse<B>::face_energy(const Exec& exec, const Level<B>& level, double time) const {
+  if (contact_->whole() == 0) return 0;
+  contact_->find(exec, level, level.state, time, points_);
+  const auto result = zeros<Doubles<B>>("plica::face_energy", 1);
+  reduce<B, 1>(exec, "plica::face_energy", points_.faces.triangles, FaceEnergy<B>{points_}, blocks_, result);
+  return host_values(exec, result)[0];
+}
+
+template <class B>
 std::size_t ContactResponse<B>::bytes() const {
-  const std::size_t reals =
-      3 * points_.normal.span() + 2 * points_.depth.span() + points_.block.span() + smooth_.span() + answer_.span();
+  const std::size_t reals = 3 * points_.normal.span() + points_.faces.weight.span() + 2 * points_.depth.span() +
+                            points_.block.span() + smooth_.span() + answer_.span();
   return reals * sizeof(Real) + (search_ ? search_->bytes() : 0);
 }
 

@@ -38,6 +38,8 @@ class ContactResponse {
   const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
   /// Energy stored in the pairs' penalties of the level's state [J]. Waits.
   double pair_energy(const Exec& exec, const Level<B>& level) const;
+  /// The same of thin obstacles between the points. Waits.
+  double face_energy(const Exec& exec, const Level<B>& level, double time) const;
 
   const TouchingPoints<B>& points() const { return points_; }
   std::size_t bytes() const;

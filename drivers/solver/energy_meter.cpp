@@ -54,7 +54,7 @@ Energies EnergyMeter<B>::all(double time) const {
   e.elastic = read()[0];
   if (level.contact())
     e.contact = level.contact()->energy(exec, level, time, level.response().points().block.extent(0) > 0, blocks_) +
-                level.response().pair_energy(exec, level);
+                level.response().pair_energy(exec, level) + level.response().face_energy(exec, level, time);
   return e;
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
+#include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
@@ -18,55 +22,78 @@ class ObstacleOf final : public Obstacle<B> {
   using Exec = typename B::Exec;
   Shape shape_;
   Scalars<B> storage_;  // of the shape
-  Point origin_;        // at t = 0
+  Vec3<double> origin_;
+  double radius_;
+  ObstacleOptions options_;
   std::vector<PathKnot> knots_;
   Path path_;
   DepthWatch<B> watch_;
+  Doubles<B> tools_;  // with mass only
+  int first_;         // its own of them
 
-  PathPoint at(double time, double ahead) const { return path_step(path_, knots_.data(), time, ahead); }
-  static Vec3<Real> rounded(const Vec3<double>& x) {
-    return {static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])};
+  ObstaclePlace<B> at(double time, double ahead) const {
+    const PathPoint now = path_step(path_, knots_.data(), time, ahead);
+    return {origin_, now.displacement, now.velocity, time, tools_, first_};
   }
 
  public:
-  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, const Motion& motion,
-             const DepthWatch<B>& watch)
-      : shape_(shape), storage_(storage), origin_(origin), path_(make_path(motion, knots_)), watch_(watch) {}
+  ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
+             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& tools, int number)
+      : shape_(shape),
+        storage_(storage),
+        origin_{origin[0], origin[1], origin[2]},
+        radius_(radius),
+        options_(options),
+        path_(make_path(options.motion, knots_)),
+        watch_(watch),
+        tools_(options.mass ? tools : Doubles<B>()),
+        first_(ObstaclePlace<B>::numbers * number) {
+    options_.shape.reset();
+  }
 
   void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
                  const ImplicitWeights& w, double ahead, int number, const TouchingPoints<B>& points) const override {
-    const PathPoint now = at(time, ahead);
-    update_vertices<B>(exec, "plica::contact_forces", surface.points,
-                       ObstacleContact<B, Shape>{surface, s.u, s.v, shape_, rounded(now.displacement),
-                                                 rounded(now.velocity), watch_, static_cast<Real>(ahead),
-                                                 static_cast<Real>(w.a), static_cast<Real>(w.b), number, points});
+    update_vertices<B>(
+        exec, "plica::contact_forces", surface.points,
+        ObstacleContact<B, Shape>{surface, s.u, s.v, shape_, at(time, ahead), watch_, static_cast<Real>(ahead),
+                                  static_cast<Real>(w.a), static_cast<Real>(w.b), number, points});
   }
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
             const TouchingPoints<B>& points) const override {
-    const PathPoint now = at(time, 0);
-    update_vertices<B>(exec, "plica::contact_find", surface.points,
-                       FindTouching<B, Shape>{surface, s, shape_, rounded(now.displacement), rounded(now.velocity),
-                                              watch_, points.record(number, 0), points});
+    update_vertices<B>(
+        exec, "plica::contact_find", surface.points,
+        FindTouching<B, Shape>{surface, s, shape_, place(time), watch_, points.record(number, 0), points});
+  }
+  void find_on_faces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
+                     const TouchingPoints<B>& points) const override {
+    update_vertices<B>(
+        exec, "plica::contact_faces", points.faces.triangles,
+        FindOnFaces<B, Shape>{surface, s, shape_, place(time), number, points, std::numeric_limits<Real>::lowest()});
   }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
               const PointLaws<B>& law, const BlockSums<B>& blocks, const Doubles<B>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
-                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, rounded(at(time, 0).displacement), law, number},
-                 blocks, result);
+                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time), law, number}, blocks, result);
   }
-  Point origin(double time) const override {
-    const Vec3<double> moved = at(time, 0).displacement;
-    return origin_ + Point(moved[0], moved[1], moved[2]);
+  ObstaclePlace<B> place(double time) const override { return at(time, 0); }
+  void move(const Exec& exec, const Doubles<B>& wrench, int number, double end, double span) const override {
+    if (!options_.mass) return;
+    const double m = *options_.mass, k = options_.coupling.stiffness;
+    update_vertices<B>(exec, "plica::contact_tool", 3,
+                       MoveTool<B>{place(end), path_step(path_, knots_.data(), end + span, 0), wrench, 6 * number, span,
+                                   m, k, options_.coupling.damping.value_or(2 * std::sqrt(k * m))});
   }
+  double radius() const override { return radius_; }
   std::size_t bytes() const override { return storage_.span() * sizeof(Real); }
 };
 
-/// The shape as kernels evaluate it; `storage` is what it points to, for its owner to keep.
+/// The shape as kernels evaluate it; `storage` is what it points to, for its owner to keep. `radius`: of the largest ball in it.
 template <class B, class S>
-auto device_shape(S, const typename S::Options& o, Scalars<B>& storage) {
+auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& radius) {
   using Real = typename B::Real;
   if constexpr (std::is_same_v<S, SampledSurface>) {
     const DistanceGrid grid = sample_distance(o.surface, o.cells);
+    radius = -*std::min_element(grid.value.begin(), grid.value.end());
     storage = to_device<Scalars<B>>("contact.distance_grid", std::vector<Real>(grid.value.begin(), grid.value.end()));
     return SampledSurface::Shape<Real>{storage.data(),
                                        {grid.nodes[0], grid.nodes[1], grid.nodes[2]},
@@ -74,19 +101,22 @@ auto device_shape(S, const typename S::Options& o, Scalars<B>& storage) {
                                        static_cast<Real>(grid.cell),
                                        static_cast<Real>(grid.margin)};
   } else {
+    radius = S::radius(o);
     return S::template shape<Real>(o);
   }
 }
 
 template <class B>
-std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch) {
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
+                                           const Doubles<B>& tools, int number) {
   std::unique_ptr<Obstacle<B>> obstacle;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     Scalars<B> storage;
-    const auto made = device_shape<B>(shape, its, storage);
+    double radius = 0;
+    const auto made = device_shape<B>(shape, its, storage, radius);
     using Shape = std::decay_t<decltype(made)>;
-    obstacle =
-        std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), options.motion, watch);
+    obstacle = std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), radius, options,
+                                                      watch, tools, number);
   });
   return obstacle;
 }

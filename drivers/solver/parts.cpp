@@ -83,6 +83,9 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   if (pairs && problem.contact.bodies && body.parts.size() > 1)
     touched += ", " + std::to_string(body.parts.size()) + " bodies";
   if (pairs && problem.contact.self) touched += ", itself";
+  const Contact<B>* touching = (*built.hierarchy)[0].contact();
+  if (touching && touching->whole() > 0)
+    touched += ", " + std::to_string(touching->whole()) + " of them between points";
   const std::size_t variations = sum([](const L& l) { return bytes_of(l.start) + bytes_of(l.previous); });
   const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
   const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.element, l.flags.J); });
@@ -125,7 +128,6 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
       sum([](const L& l) { return bytes_of(l.surface); }));
   add("contact", contact, touched, "no obstacle", sum([](const L& l) { return l.response().bytes(); }));
-  const Contact<B>* touching = (*built.hierarchy)[0].contact();
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);

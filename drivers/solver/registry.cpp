@@ -60,6 +60,12 @@ std::vector<Choice> preconditioner_choices() {
   return list;
 }
 
+std::vector<Choice> whole_surface_rules() {
+  return {{"auto", "those with a radius below the surface's mean edge; none where a level is implicit"},
+          {"always", "all of them"},
+          {"never", "none: what fits between points passes"}};
+}
+
 std::vector<Choice> matrix_choices() {
   return {{"free", "element by element, at every product"},
           {"assembled", "3x3 blocks by rows"},

@@ -33,6 +33,7 @@
 #include <limits>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/solver/move_obstacles.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 
@@ -69,14 +70,16 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
     : problem(steppable(p)),
       built(build_hierarchy<B>(problem, exec)),
       meter(*built.hierarchy, built.meshes.front(), p.gravity) {
+  check_couplings(p.contact, built.macro_step);
   problem.body.levels.clear();
   rest.resize(built.hierarchy->levels.size());
   for (const auto& level : built.hierarchy->levels) kept.emplace_back("kept", level.model.vertices);
   budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                  std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
-                              [](const ObstacleOptions& o) { return moves(o.motion); });
+                              [](const ObstacleOptions& o) { return o.mass || moves(o.motion); });
   if (const std::size_t count = wrench_names(p).size(); count > 0)
     wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
+  if (const Contact<B>* contact = hierarchy()[0].contact()) tools = contact->tools();
   linear = !find_material(p.body.material.model)->rotation_invariant;
   keep();
   open_budget();
@@ -121,16 +124,9 @@ template <class B>
 void Simulation<B>::Inside::advance(double from, double span) {
   hierarchy().begin_macro_step();
   built.stepper->step(hierarchy(), from, span);
-  if (hierarchy()[0].contact()) sum_impulses(span);
+  move_obstacles(hierarchy(), wrench, from + span, span);
   for (const auto& level : hierarchy().levels) residual = std::max(residual, level.integrator->residual());
   worst_residual = std::max(worst_residual, residual);
-}
-
-template <class B>
-void Simulation<B>::Inside::sum_impulses(double span) {
-  for (int i = 0; i < hierarchy().count(); ++i)
-    update_vertices<B>(hierarchy().exec(), "plica::contact_impulses", static_cast<int>(wrench.extent(0)),
-                       SumImpulses<B>{hierarchy()[i].response().impulse(), wrench, 1 / span, i == 0});
 }
 
 template <class B>
@@ -259,6 +255,8 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, 
     before.emplace_back("before", level.model.vertices).copy(hierarchy().exec(), level.state);
   std::vector<KeptStress<B>> stress_before;
   keep_stress(stress_before);
+  Doubles<B> tools_before;
+  copy_tools(hierarchy().exec(), tools, tools_before);
   const double put_in_before = put_in;
   const Point drift_before = drift;
   advance(from, span);
@@ -266,7 +264,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, 
   if (!bad) return {};
   ++rejected;
   if (left == 0) return bad;
-  put_back(before, stress_before);
+  put_back(before, stress_before, tools_before);
   put_in = put_in_before, drift = drift_before;
   return halves(from, span, left);
 }
@@ -294,6 +292,7 @@ template <class B>
 void Simulation<B>::Inside::keep() {
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].state);
   keep_stress(kept_stress);
+  copy_tools(hierarchy().exec(), tools, kept_tools);
   kept_time = time, kept_steps = steps, kept_put_in = put_in, kept_drift = drift;
 }
 
@@ -313,13 +312,15 @@ void Simulation<B>::Inside::remember() {
 
 template <class B>
 void Simulation<B>::Inside::go_back() {
-  put_back(kept, kept_stress);
+  put_back(kept, kept_stress, kept_tools);
   time = kept_time, steps = kept_steps, put_in = kept_put_in, drift = kept_drift;
 }
 
 /// All levels' states; coarser ones start from level 0's anew.
 template <class B>
-void Simulation<B>::Inside::put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses) {
+void Simulation<B>::Inside::put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses,
+                                     const Doubles<B>& places) {
+  copy_tools(hierarchy().exec(), places, tools);
   for (std::size_t i = 0; i < states.size(); ++i) hierarchy().levels[i].state.copy(hierarchy().exec(), states[i]);
   for (std::size_t i = 0; i < stresses.size(); ++i)
     hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i], stresses[i]);

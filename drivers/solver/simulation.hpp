@@ -91,6 +91,13 @@ struct Wrench {
   Point torque = Point::Zero();  ///< about the obstacle's origin, which moves with it, or about the scene's [N m]
 };
 
+/// Where an obstacle with mass is.
+struct ToolState {
+  std::string obstacle;                ///< its name
+  Point displacement = Point::Zero();  ///< from where its shape says [m]
+  Point velocity = Point::Zero();      ///< [m/s]
+};
+
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
   std::string kind;                  ///< non_finite | inverted | energy | speed | contact | solver | stability
@@ -166,7 +173,8 @@ class Simulation {
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
   std::vector<Wrench> wrenches() const;            ///< of obstacles, then bodies, of the last macro step; waits
-  /// The same as the device holds it, force and torque of one after the other, 6 numbers each; step() updates it in
+  std::vector<ToolState> tools() const;            ///< of obstacles with mass; waits
+  /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers each; step() updates it in
   /// place.
   Doubles<B> wrench() const;
   std::map<std::string, double> stages()

@@ -45,6 +45,7 @@ struct Simulation<B>::Inside {
   // The last state that was kept
   std::vector<State<B>> kept;
   std::vector<KeptStress<B>> kept_stress;  // likewise, of viscous materials only
+  Doubles<B> tools, kept_tools;            // likewise, of obstacles with mass only
   double kept_time = 0, kept_put_in = 0;
   long kept_steps = 0;
   Point kept_drift = Point::Zero();
@@ -60,7 +61,6 @@ struct Simulation<B>::Inside {
   bool reaches_end() const;
   double next_span() const;
   void advance(double from, double span);
-  void sum_impulses(double span);
   void arrive();
 
   // Checks; `part`: of a macro step, that the last step covered
@@ -73,7 +73,8 @@ struct Simulation<B>::Inside {
   void keep_at_times();
   void keep();
   void go_back();
-  void put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses);
+  void put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses,
+                const Doubles<B>& places);
   void keep_stress(std::vector<KeptStress<B>>& to);
   void remember();
   void restart();

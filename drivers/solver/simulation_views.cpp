@@ -57,6 +57,20 @@ Doubles<B> Simulation<B>::wrench() const {
   return inside_->wrench;
 }
 template <class B>
+std::vector<ToolState> Simulation<B>::tools() const {
+  const std::vector<double> all = host_values(inside_->hierarchy().exec(), inside_->tools);
+  const auto& obstacles = inside_->problem.contact.obstacles;
+  std::vector<ToolState> tools;
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    if (!obstacles[o].mass) continue;
+    const double* own = all.data() + o * ObstaclePlace<B>::numbers;
+    tools.push_back(
+        {obstacle_name(inside_->problem.contact, o), Point(own[0], own[1], own[2]), Point(own[3], own[4], own[5])});
+  }
+  return tools;
+}
+
+template <class B>
 std::vector<Wrench> Simulation<B>::wrenches() const {
   const std::vector<double> w = host_values(inside_->hierarchy().exec(), inside_->wrench);
   const std::vector<std::string> names = wrench_names(inside_->problem);
@@ -200,6 +214,8 @@ void persist(Inside& s, StateArchive<B>& archive) {
   }
   s.built.stepper->persist(archive);
   archive.field("the obstacles' wrenches", s.wrench);
+  archive.field("the tools", s.tools);
+  archive.field("the kept tools", s.kept_tools);
   archive.finish();
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
+#include <plica/kernels/contact/face_sites.hpp>
+#include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/contact/paired_points.hpp>
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/exchange.hpp>
@@ -33,7 +35,7 @@ struct PointLaws {
 };
 
 /// Contact of a level's surface points, on the device: a row of records for every obstacle, and with pairs one more; a record for
-/// every point in it.
+/// every point in it. Then come records for the surface's faces, a row for every obstacle. A site is a point, or then a face.
 template <class B>
 struct TouchingPoints {
   using Real = typename B::Real;
@@ -42,22 +44,53 @@ struct TouchingPoints {
   Real span = 0;   ///< of the step [s]
   PointLaws<B> law;
   PairedPoints<B> pairs;  ///< empty where the surface does not touch itself
+  FaceSites<B> faces;     ///< empty where no obstacle is thin
   Vectors<B> normal;      ///< [records][3] out of the obstacle, or of the triangle
   Vectors<B> velocity;    ///< of the point relative to it [m/s]
   Scalars<B> depth;       ///< > 0 inside [m]
-  Scalars<B> mobility;    ///< rho [1/kg]; 0: it does not touch
+  Scalars<B> mobility;    ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
   Vectors<B> force;       ///< on the point [N]
   Blocks<B> block;        ///< [points][6] kg, of all obstacles, on implicit levels only
   Doubles<B> count;       ///< [1] records that touch
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 1 : 0); }
-  KOKKOS_INLINE_FUNCTION int record(int row, int p) const { return row * points + p; }
+  KOKKOS_INLINE_FUNCTION int sites() const { return points + faces.triangles; }
+  KOKKOS_INLINE_FUNCTION int rows_of(int site) const { return site < points ? rows() : obstacles; }
+  KOKKOS_INLINE_FUNCTION int record(int row, int site) const {
+    return site < points ? row * points + site : rows() * points + faces.site(row, site - points);
+  }
+  KOKKOS_INLINE_FUNCTION const PenaltyLaw<Real>& law_of(int row, int site) const {
+    return law(row, site < points ? site : faces.corner(3 * (site - points)));
+  }
+  /// What a field has at a site.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row,
+                                          int site) const {
+    return site < points ? value_at<B>(surface.embedding, x, site) : faces.value(surface, x, row, site - points);
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> place(const EmbeddedSurface<B>& surface, const Vectors<B>& u, int row,
+                                          int site) const {
+    Vec3<Real> x = value(surface, u, row, site);
+    if (site < points) return x + vector_at<B>(surface.rest, site);
+    const int t = site - points;
+    for (int c = 0; c < 3; ++c)
+      x += faces.weight(faces.site(row, t), c) * vector_at<B>(surface.rest, faces.corner(3 * t + c));
+    return x;
+  }
   static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
-  KOKKOS_INLINE_FUNCTION bool near(int r) const { return depth(r) > -nowhere(); }
+  KOKKOS_INLINE_FUNCTION bool near(int r) const { return mobility(r) > 0; }
   KOKKOS_INLINE_FUNCTION Vec3<Real> force_on_point(int p) const {
-    if (pairs.triangles > 0) return vector_at<B>(pairs.sum, p);
+    return pairs.sum.extent(0) > 0 ? vector_at<B>(pairs.sum, p) : force_of_obstacles(p);
+  }
+  /// On point p, its part of what the faces around it touch included.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> force_of_obstacles(int p) const {
     Vec3<Real> sum;
     for (int o = 0; o < obstacles; ++o) sum += vector_at<B>(force, record(o, p));
+    if (faces.triangles == 0) return sum;
+    for (int s = faces.first(p); s < faces.first(p + 1); ++s)
+      for (int o = 0; o < obstacles; ++o) {
+        const int t = faces.triangle(s);
+        sum += faces.weight_of(o, t, p) * vector_at<B>(force, record(o, points + t));
+      }
     return sum;
   }
   /// On the i-th touched vertex of the surface, its points in order.
@@ -69,8 +102,8 @@ struct TouchingPoints {
   }
 };
 
-/// The force on each point with pairs: what it touches, and what touches triangles around it. `reaction`: what a triangle gets of a
-/// pair's force, -1; 1 where rows of W A W^T are bounded.
+/// The force on each point with pairs or faces: what it touches, and what touches triangles around it. `reaction`: what a triangle
+/// gets of a pair's force, -1; 1 where rows of W A W^T are bounded.
 template <class B>
 struct SumPointForces {
   using Real = typename B::Real;
@@ -78,8 +111,13 @@ struct SumPointForces {
   Real reaction;
   KOKKOS_INLINE_FUNCTION void operator()(int q) const {
     const PairedPoints<B>& pairs = points.pairs;
-    Vec3<Real> sum;
-    for (int row = 0; row < points.rows(); ++row) sum += vector_at<B>(points.force, points.record(row, q));
+    Vec3<Real> sum = points.force_of_obstacles(q);
+    if (pairs.triangles > 0) add_pairs(q, sum);
+    set_vector<B>(pairs.sum, q, sum);
+  }
+  KOKKOS_INLINE_FUNCTION void add_pairs(int q, Vec3<Real>& sum) const {
+    const PairedPoints<B>& pairs = points.pairs;
+    sum += vector_at<B>(points.force, points.record(points.obstacles, q));
     for (int s = pairs.first(q); s < pairs.first(q + 1); ++s) {
       const int t = pairs.triangle(s);
       for (int i = pairs.from(t); i < pairs.from(t + 1); ++i) {
@@ -87,7 +125,6 @@ struct SumPointForces {
         sum += (reaction * pairs.weight_of(p, t, q)) * vector_at<B>(points.force, points.record(points.obstacles, p));
       }
     }
-    set_vector<B>(pairs.sum, q, sum);
   }
 };
 
@@ -100,7 +137,7 @@ struct ObstacleContact {
   EmbeddedSurface<B> surface;
   Vectors<B> u, v;
   Shape shape;
-  Vec3<Real> offset, velocity;  ///< of the obstacle at the time of the state
+  ObstaclePlace<B> place;  ///< at the time of the state
   DepthWatch<B> watch;
   Real ahead, a, b;
   int obstacle;
@@ -109,10 +146,10 @@ struct ObstacleContact {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
-    const Gap<Real> gap = shape(x - offset);
+    const Gap<Real> gap = shape(x - place.offset());
     watch.look(p, gap.distance);
     const PenaltyLaw<Real>& law = points.law(obstacle, p);
-    const PointContact<Real> c = penalty_contact(law, gap, speed - velocity, ahead);
+    const PointContact<Real> c = penalty_contact(law, gap, speed - place.velocity(), ahead);
     set_vector<B>(points.force, points.record(obstacle, p), c.force);
     const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
                across = c.active ? b * c.drag : Real(0);
@@ -202,14 +239,14 @@ struct ContactEnergy {
   EmbeddedSurface<B> surface;
   Vectors<B> u, v;
   Shape shape;
-  Vec3<Real> offset;
+  ObstaclePlace<B> place;
   PointLaws<B> law;
   int obstacle;
 
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
-    const Real penetration = max(-shape(x - offset).distance, Real(0));
+    const Real penetration = max(-shape(x - place.offset()).distance, Real(0));
     return {{0.5 * static_cast<double>(law(obstacle, p).stiffness * penetration * penetration)}};
   }
 };

@@ -135,7 +135,7 @@ struct NearestTriangles {
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     const TouchingPoints<B>& points = find.points;
     const int r = points.record(points.obstacles, p);
-    points.depth(r) = -points.nowhere();
+    points.depth(r) = -points.nowhere(), points.mobility(r) = 0;
     const int last = points.pairs.partner(p);
     points.pairs.partner(p) = -1;
     if (find.grid.close(p) == 0) return {};
@@ -237,7 +237,7 @@ struct NearestTriangles {
     const Real distance = Kokkos::sqrt(dot(d, d)), limit = find.grid.limits.reach;
     // The far side of a thin part of its own body is no partner
     if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
-    points.depth(r) = inside ? distance : -distance;
+    points.depth(r) = inside ? distance : -distance, points.mobility(r) = 1;
     set_vector<B>(points.normal, r, on_face || distance < tiny * limit ? out : ((inside ? -1 : 1) / distance) * d);
     set_vector<B>(points.velocity, r, speed(p, t, w));
     set_vector<B>(points.pairs.weight, p, w);

@@ -42,18 +42,18 @@ struct FindTouching {
   EmbeddedSurface<B> surface;
   State<B> state;
   Shape shape;
-  Vec3<Real> offset, velocity;  ///< of the obstacle
+  ObstaclePlace<B> place;
   DepthWatch<B> watch;
   int first;  ///< its first record
   TouchingPoints<B> points;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
-    const Vec3<Real> speed = value_at<B>(surface.embedding, state.v, p) - velocity;
-    const Gap<Real> gap = gap_along(shape, x - offset, points.span * speed, points.reach);
+    const Vec3<Real> speed = value_at<B>(surface.embedding, state.v, p) - place.velocity();
+    const Gap<Real> gap = gap_along(shape, x - place.offset(), points.span * speed, points.reach);
     watch.look(p, gap.distance);
     const int r = first + p;
     const bool near = gap.distance < points.reach || gap.distance + points.span * dot(gap.normal, speed) < 0;
-    points.depth(r) = near ? -gap.distance : -points.nowhere();
+    points.depth(r) = -gap.distance, points.mobility(r) = near ? Real(1) : Real(0);
     if (!near) return;
     set_vector<B>(points.normal, r, gap.normal);
     set_vector<B>(points.velocity, r, speed);
@@ -70,9 +70,9 @@ struct TouchLaw {
   Real h, ahead, entry;
   bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
-  /// The point's value, in the row of pairs with `reaction` times the triangle's.
+  /// The site's value, in the row of pairs with `reaction` times the triangle's.
   KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int row, int p, Real reaction = -1) const {
-    Vec3<Real> value = value_at<B>(surface.embedding, x, p);
+    Vec3<Real> value = points.value(surface, x, row, p);
     if (row == points.obstacles) value += reaction * points.pairs.across(surface, x, p);
     return value;
   }
@@ -101,7 +101,7 @@ struct TouchLaw {
   }
 };
 
-/// A unit force on every point that would be inside an obstacle; counts them.
+/// A unit force on every site that would be inside an obstacle; counts them.
 template <class B>
 struct StartTouching {
   using Real = typename B::Real;
@@ -109,13 +109,14 @@ struct StartTouching {
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     const TouchingPoints<B>& points = law.points;
     double count = 0;
-    for (int row = 0; row < points.rows(); ++row) {
+    for (int row = 0; row < points.rows_of(p); ++row) {
       const int r = points.record(row, p);
+      const bool near = points.near(r);
       points.mobility(r) = 0;
       Vec3<Real> unit;
-      if (points.near(r)) {
+      if (near) {
         const Vec3<Real> e = law.at(law.smooth, row, p);
-        if (law.depth(r, e) > 0 && law.pressure(points.law(row, p), r, e) > 0) {
+        if (law.depth(r, e) > 0 && law.pressure(points.law_of(row, p), r, e) > 0) {
           unit = law.isotropic ? Vec3<Real>{Real(1), Real(0), Real(0)} : law.normal(r);
           count += 1;
         }
@@ -134,7 +135,7 @@ struct SweepTouching {
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const TouchingPoints<B>& points = law.points;
-    for (int row = 0; row < points.rows(); ++row) {
+    for (int row = 0; row < points.rows_of(p); ++row) {
       const int r = points.record(row, p);
       const Vec3<Real> force = vector_at<B>(points.force, r);
       if (!(first ? dot(force, force) > 0 : points.mobility(r) > 0)) continue;
@@ -146,7 +147,7 @@ struct SweepTouching {
       } else {
         e += answer;
       }
-      sweep(points.law(row, p), r, first ? Vec3<Real>{} : force, e);
+      sweep(points.law_of(row, p), r, first ? Vec3<Real>{} : force, e);
     }
   }
 
@@ -204,11 +205,9 @@ struct AnswerByMass {
 
 // What obstacles do to the body.
 
-/// A force on a surface point, and its torque about another point.
-template <class B>
-KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const EmbeddedSurface<B>& surface, const Vectors<B>& u, int p,
-                                         const Vec3<typename B::Real>& f, const Vec3<double>& about) {
-  const Vec3<typename B::Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+/// A force at a place, and its torque about another.
+template <class Real>
+KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const Vec3<Real>& x, const Vec3<Real>& f, const Vec3<double>& about) {
   Vec3<double> arm, force;
   for (int k = 0; k < 3; ++k) {
     arm[k] = static_cast<double>(x[k]) - about[k];
@@ -225,11 +224,12 @@ struct ObstacleWrench {
   EmbeddedSurface<B> surface;
   Vectors<B> u;
   TouchingPoints<B> points;
-  int first;  ///< the obstacle's first record
-  Vec3<double> about;
-  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
-    if (!(points.count(0) > 0) || !(points.mobility(first + p) > 0)) return {};
-    return wrench_at(surface, u, p, vector_at<B>(points.force, first + p), about);
+  int obstacle;
+  ObstaclePlace<B> at;
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int site) const {
+    const int r = points.record(obstacle, site);
+    if (!(points.count(0) > 0) || !(points.mobility(r) > 0)) return {};
+    return wrench_at(points.place(surface, u, obstacle, site), vector_at<B>(points.force, r), at.about());
   }
 };
 
@@ -243,9 +243,8 @@ struct BodyWrench {
   int body;
   KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
     if (!(points.count(0) > 0) || points.law.body(p) != body) return {};
-    Vec3<Real> by_pairs = points.force_on_point(p);
-    for (int o = 0; o < points.obstacles; ++o) by_pairs -= vector_at<B>(points.force, points.record(o, p));
-    return wrench_at(surface, u, p, by_pairs, {});
+    const Vec3<Real> by_pairs = points.force_on_point(p) - points.force_of_obstacles(p);
+    return wrench_at(points.place(surface, u, 0, p), by_pairs, {});
   }
 };
 

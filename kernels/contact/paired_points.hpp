@@ -16,7 +16,7 @@ struct PairedPoints {
   Indices<B> partner;          ///< [points] the triangle it is near; -1: none
   Vectors<B> weight;           ///< [points][3] of that one's corners, where it is nearest
   Indices<B> from, point;      ///< [triangles + 1] into the points near each triangle, ascending
-  Vectors<B> sum;              ///< [points][3] all forces on each point [N]
+  Vectors<B> sum;              ///< [points][3] all forces on each point, also of faces without pairs [N]
 
   /// Of a field, the triangle's value that point p is near.
   KOKKOS_INLINE_FUNCTION Vec3<Real> across(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int p) const {

@@ -18,6 +18,7 @@
 ///     may move;
 ///   * `shape<Real>(options)`, which makes one of them;
 ///   * `origin(options)`, what torques on it are about at t = 0: its centre, of a surface the file's own origin;
+///   * `radius(options)`, of the largest ball in it [m]; of a surface its distances tell;
 ///   * where it takes them, `check(path, options)`, InputError for values that do not fit each other, and
 ///     `complete(options)`, which puts values where the options leave them open.
 namespace plica {

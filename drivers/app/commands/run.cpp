@@ -58,6 +58,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.counters = simulation.counters();
   summary.residual = simulation.worst_residual();
   summary.wrenches = simulation.wrenches();
+  summary.tools = simulation.tools();
   summary.diagnosis = end.diagnosis;
   return summary;
 }

@@ -24,19 +24,23 @@ constexpr const char* head =
     "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
     "com_x,com_y,com_z,max_speed,rms_speed";
 
-std::string history_head(bool retries, const std::vector<std::string>& wrenches) {
+std::string history_head(bool retries, const Problem& problem) {
   std::string all = std::string(head) + (retries ? ",halvings" : "");
-  for (const std::string& name : wrenches)
-    for (const char* column : {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"})
-      all += fmt::format(",{}.{}", name, column);
+  const auto add = [&](const std::string& name, std::initializer_list<const char*> quantities) {
+    for (const char* quantity : quantities)
+      for (const char axis : {'x', 'y', 'z'}) all += fmt::format(",{}.{}_{}", name, quantity, axis);
+  };
+  for (const std::string& name : wrench_names(problem)) add(name, {"force", "torque"});
+  for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
+    if (problem.contact.obstacles[o].mass) add(obstacle_name(problem.contact, o), {"displacement", "velocity"});
   return all + "\n";
 }
 
 }  // namespace
 
-History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
-                 const std::vector<std::string>& wrenches, std::optional<std::uint64_t> kept)
-    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, wrenches))),
+History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries, const Problem& problem,
+                 std::optional<std::uint64_t> kept)
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, problem))),
       masses_(std::move(masses)),
       retries_(retries) {}
 
@@ -56,8 +60,9 @@ void History::write(const Snapshot& s) {
                                 e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(),
                                 centre.z(), std::sqrt(max_square), std::sqrt(sum_square / mass));
   if (retries_) row += fmt::format(",{}", s.halvings);
-  for (const Wrench& w : s.wrenches)
-    for (const Point* p : {&w.force, &w.torque}) row += fmt::format(",{:.9g},{:.9g},{:.9g}", p->x(), p->y(), p->z());
+  const auto add = [&](const Point& p) { row += fmt::format(",{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z()); };
+  for (const Wrench& w : s.wrenches) add(w.force), add(w.torque);
+  for (const ToolState& t : s.tools) add(t.displacement), add(t.velocity);
   file_.add(row + "\n");
 }
 
@@ -139,7 +144,7 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
       frame_times_(from ? from->frame_times : std::vector<double>{}),
       surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
       history_(folder / "history.csv", vertex_masses(body_), scene.problem.integration.retry.halvings > 0,
-               wrench_names(scene.problem), from ? std::optional(from->history_bytes) : std::nullopt) {
+               scene.problem, from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
   for (const int level : volume_levels_) {

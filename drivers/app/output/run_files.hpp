@@ -28,6 +28,7 @@ struct Snapshot {
   Energies energies;
   long halvings = 0;             ///< of macro steps so far
   std::vector<Wrench> wrenches;  ///< of the obstacles, of the macro step that ends here
+  std::vector<ToolState> tools;  ///< obstacles with mass
 };
 
 /// Of macro steps so far; 0 where bad ones are not retried.
@@ -48,7 +49,8 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     {},
                     simulation.energies(),
                     halvings_of(simulation),
-                    simulation.wrenches()};
+                    simulation.wrenches(),
+                    simulation.tools()};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
@@ -59,12 +61,12 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
-/// one was halved so far; and what each of wrench_names() does or feels, over the macro step that ends there.
+/// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; and where obstacles with mass are.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
-  History(const std::filesystem::path& file, std::vector<double> masses, bool retries,
-          const std::vector<std::string>& wrenches, std::optional<std::uint64_t> kept = {});
+  History(const std::filesystem::path& file, std::vector<double> masses, bool retries, const Problem& problem,
+          std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
   const GrowingFile& file() const { return file_; }
 

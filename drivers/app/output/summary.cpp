@@ -266,10 +266,18 @@ Json diagnosis_json(const std::optional<Diagnosis>& diagnosis, const std::vector
           {"remedy", diagnosis->remedy}};
 }
 
+Json three(const Point& p) { return {p[0], p[1], p[2]}; }
+
 Json wrenches_json(const std::vector<Wrench>& wrenches) {
   Json all = Json::object();
-  const auto three = [](const Point& p) { return Json{p[0], p[1], p[2]}; };
   for (const Wrench& w : wrenches) all[w.obstacle] = {{"force", three(w.force)}, {"torque", three(w.torque)}};
+  return all;
+}
+
+Json tools_json(const std::vector<ToolState>& tools) {
+  Json all = Json::object();
+  for (const ToolState& t : tools)
+    all[t.obstacle] = {{"displacement", three(t.displacement)}, {"velocity", three(t.velocity)}};
   return all;
 }
 
@@ -348,7 +356,8 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"last_good_time", s.last_good_time},
                      {"diagnosis", diagnosis_json(s.diagnosis, s.diagnosed)},
                      {"obstacles", obstacles_json(scene.problem.contact)},
-                     {"wrenches", wrenches_json(s.wrenches)}};
+                     {"wrenches", wrenches_json(s.wrenches)},
+                     {"tools", tools_json(s.tools)}};
   return json_text(json);
 }
 

@@ -34,6 +34,7 @@ struct Summary {
   double residual = 0;  ///< the worst an implicit solve ended with
   std::optional<Diagnosis> diagnosis;
   std::vector<Wrench> wrenches;  ///< of the last macro step
+  std::vector<ToolState> tools;  ///< obstacles with mass, at the end
   std::vector<Point> diagnosed;  ///< where its element's corners, or its vertex, are in the last good state [m]
 };
 

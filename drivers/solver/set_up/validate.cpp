@@ -138,6 +138,8 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   });
   if (!known) throw InputError(path + " has no shape; expected the options of one, such as SphereOptions");
   check_values(path, o);
+  if (!o.mass && (o.coupling.stiffness > 0 || o.coupling.damping))
+    throw InputError(path + ".coupling is of an obstacle with mass; expected " + path + ".mass, or no coupling");
 }
 
 void check_closed(const std::string& option, const TriangleSurface& surface) {
@@ -180,6 +182,15 @@ void check_regions(const Body& body) {
       throw InputError(unknown_name("region", name, all));
 }
 
+/// Contact that the matrices of implicit levels do not have.
+void refuse_implicit(const Problem& problem, const std::string& contact, const std::string& instead) {
+  for (const std::string& name : problem.integration.integrator)
+    if (bool implicit = false;
+        Integrators::visit(name, [&](auto it) { implicit = !decltype(it)::is_explicit; }), implicit)
+      throw InputError("integration.integrator is " + name + ", but " + contact +
+                       ", which only explicit steps and cycle him take; expected one of these, or " + instead);
+}
+
 void check_pairs(const Problem& problem) {
   const Body& body = problem.body;
   const std::string key = problem.contact.self ? "contact.self" : "contact.bodies";
@@ -191,11 +202,7 @@ void check_pairs(const Problem& problem) {
                        ": it has no surface, which touching other bodies needs; expected bodies." + part.name +
                        ".surface, or contact.bodies: false");
   check_closed("body.surface", *body.surface);
-  for (const std::string& name : problem.integration.integrator)
-    if (bool implicit = false;
-        Integrators::visit(name, [&](auto it) { implicit = !decltype(it)::is_explicit; }), implicit)
-      throw InputError("integration.integrator is " + name + ", but surfaces touch each other (" + key +
-                       "), which only explicit steps and cycle him take; expected one of these, or " + key + ": false");
+  refuse_implicit(problem, "surfaces touch each other (" + key + ")", key + ": false");
 }
 
 void check_contact(const Problem& problem) {
@@ -205,6 +212,9 @@ void check_contact(const Problem& problem) {
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
   if (!obstacles.empty() && problem.body.surface->triangles.empty())
     throw InputError("body.surface has no triangle; contact needs its area");
+  if (!obstacles.empty() && problem.contact.whole_surface == "always")
+    refuse_implicit(problem, "obstacles touch the surface between its points (contact.whole_surface: always)",
+                    "contact.whole_surface: auto");
   std::map<std::string, std::size_t> named;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const std::string name = obstacle_name(problem.contact, i),

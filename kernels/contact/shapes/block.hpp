@@ -26,6 +26,7 @@ struct Block {
   static constexpr const char* name = "box";
   static constexpr const char* summary = "a solid box";
   static Point origin(const BlockOptions& o) { return o.centre; }
+  static double radius(const BlockOptions& o) { return o.size.minCoeff() / 2; }
   using Options = BlockOptions;
   template <class Real>
   struct Shape {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
@@ -28,6 +29,7 @@ struct Bowl {
   static constexpr const char* name = "bowl";
   static constexpr const char* summary = "the inside of a spherical shell, up to a rim";
   static Point origin(const BowlOptions& o) { return o.centre; }
+  static double radius(const BowlOptions&) { return std::numeric_limits<double>::infinity(); }
   using Options = BowlOptions;
   template <class Real>
   struct Shape {

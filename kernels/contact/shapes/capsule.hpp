@@ -26,6 +26,7 @@ struct Capsule {
   static constexpr const char* name = "capsule";
   static constexpr const char* summary = "a cylinder with round ends";
   static Point origin(const CapsuleOptions& o) { return (o.from + o.to) / 2; }
+  static double radius(const CapsuleOptions& o) { return o.radius; }
   using Options = CapsuleOptions;
   template <class Real>
   struct Shape {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
@@ -26,6 +27,7 @@ struct Cylinder {
   static constexpr const char* name = "cylinder";
   static constexpr const char* summary = "a cylinder with flat ends";
   static Point origin(const CylinderOptions& o) { return (o.from + o.to) / 2; }
+  static double radius(const CylinderOptions& o) { return std::min(o.radius, (o.to - o.from).norm() / 2); }
   using Options = CylinderOptions;
   template <class Real>
   struct Shape {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <plica/core/keys.hpp>
 #include <plica/kernels/contact/gap.hpp>
 
@@ -24,6 +25,7 @@ struct Plane {
   static constexpr const char* name = "plane";
   static constexpr const char* summary = "the half-space below a plane";
   static Point origin(const PlaneOptions& o) { return o.point; }
+  static double radius(const PlaneOptions&) { return std::numeric_limits<double>::infinity(); }
   using Options = PlaneOptions;
   template <class Real>
   struct Shape {

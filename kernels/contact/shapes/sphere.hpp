@@ -24,6 +24,7 @@ struct Sphere {
   static constexpr const char* name = "sphere";
   static constexpr const char* summary = "a solid sphere";
   static Point origin(const SphereOptions& o) { return o.centre; }
+  static double radius(const SphereOptions& o) { return o.radius; }
   using Options = SphereOptions;
   template <class Real>
   struct Shape {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <limits>
+#include <plica/core/error.hpp>
+#include <plica/core/keys.hpp>
+#include <plica/drivers/solver/hierarchy.hpp>
+
+// What obstacles did in a macro step, and where those with mass then are.
+namespace plica {
+
+/// The wrenches of a macro step that ends at `end`, from the levels' impulses; tools with mass take it.
+template <class B>
+void move_obstacles(Hierarchy<B>& hierarchy, const Doubles<B>& wrench, double end, double span) {
+  const Contact<B>* contact = hierarchy[0].contact();
+  if (!contact) return;
+  for (int i = 0; i < hierarchy.count(); ++i)
+    update_vertices<B>(hierarchy.exec(), "plica::contact_impulses", static_cast<int>(wrench.extent(0)),
+                       SumImpulses<B>{hierarchy[i].response().impulse(), wrench, 1 / span, i == 0});
+  contact->move_tools(hierarchy.exec(), wrench, end, span);
+}
+
+/// to = from, where there is any
+template <class Exec, class View>
+void copy_tools(const Exec& exec, const View& from, View& to) {
+  if (from.extent(0) == 0) return;
+  if (to.extent(0) == 0) to = View("plica::contact.kept_tools", from.extent(0));
+  Kokkos::deep_copy(exec, to, from);
+}
+
+/// A tool with mass takes one step of its coupling in every macro step: no more than the spring turns in it.
+inline void check_couplings(const ContactOptions& contact, double step) {
+  for (std::size_t i = 0; i < contact.obstacles.size(); ++i) {
+    const ObstacleOptions& o = contact.obstacles[i];
+    const double most = o.mass.value_or(std::numeric_limits<double>::infinity()) / (step * step);
+    if (o.coupling.stiffness <= most) continue;
+    const keys::Quantity stiffness{{.mass = 1, .time = -2}}, time{keys::duration};
+    throw InputError("contact.obstacles." + std::to_string(i) + ".coupling.stiffness is " +
+                     stiffness.shown(o.coupling.stiffness) + "; expected at most " + stiffness.shown(most) +
+                     ", which is its mass over the square of the macro step, " + time.shown(step) +
+                     ": a softer coupling, more mass, or a shorter integration.macro_step");
+  }
+}
+
+}  // namespace plica

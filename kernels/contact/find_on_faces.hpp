@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/deepest_on_triangle.hpp>
+
+// Contact of a tool that fits between a surface's points.
+namespace plica {
+
+/// The record of each triangle near an obstacle, after those of the points: where the triangle is deepest, unless a corner is as deep.
+/// Its depth is what it is beyond the depths of the corners, so that nothing is pushed twice: all of it where they are outside,
+/// nothing where the obstacle is flat.
+template <class B, class Shape>
+struct FindOnFaces {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  State<B> state;
+  Shape shape;
+  ObstaclePlace<B> place;
+  int obstacle;
+  TouchingPoints<B> points;
+  Real nowhere;  ///< the depth of what does not touch, negative [m]
+
+  KOKKOS_INLINE_FUNCTION void operator()(int t) const {
+    constexpr Real from_corner = Real(0.6),  // no place is further from all corners, over the longest edge: 1 / sqrt 3
+        as_deep = Real(1e-3);                // over the longest edge
+    const FaceSites<B>& faces = points.faces;
+    const int r = points.record(obstacle, points.points + t);
+    points.depth(r) = nowhere, points.mobility(r) = 0;
+    Vec3<Real> x[3], depth;
+    Real deepest = nowhere;
+    const Vec3<Real> offset = place.offset();
+    for (int c = 0; c < 3; ++c) {
+      depth[c] = points.depth(points.record(obstacle, faces.corner(3 * t + c)));
+      deepest = Kokkos::max(deepest, depth[c]);
+    }
+    for (int c = 0; c < 3; ++c) {
+      const int p = faces.corner(3 * t + c);
+      x[c] = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p)) - offset;
+    }
+    const Vec3<Real> ab = x[1] - x[0], bc = x[2] - x[1], ca = x[0] - x[2];
+    const Real size = Kokkos::sqrt(Kokkos::max(dot(ab, ab), Kokkos::max(dot(bc, bc), dot(ca, ca))));
+    if (!(deepest > -faces.reach - from_corner * size)) return;
+    const Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
+    const Gap<Real> gap = shape(w[0] * x[0] + w[1] * x[1] + w[2] * x[2]);
+    if (!(-gap.distance > deepest + as_deep * size)) return;
+    points.depth(r) = -gap.distance;
+    for (int c = 0; c < 3; ++c) points.depth(r) -= w[c] * Kokkos::max(depth[c], Real(0));
+    points.mobility(r) = 1;
+    set_vector<B>(faces.weight, faces.site(obstacle, t), w);
+    set_vector<B>(points.normal, r, out_of(gap.normal, cross(ab, ca)));
+    set_vector<B>(points.velocity, r, faces.value(surface, state.v, obstacle, t) - place.velocity());
+  }
+
+  /// The obstacle's normal. Where that is along the triangle, which a thin tool pierces, the triangle's own: `inward` the body.
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal, const Vec3<Real>& inward) {
+    const Real along = dot(normal, inward), square = dot(inward, inward);
+    if (!(square > 0) || 4 * along * along > square) return normal;
+    return (1 / Kokkos::sqrt(square)) * inward;
+  }
+};
+
+/// Energy of the penalties at the sites of one triangle [J].
+template <class B>
+struct FaceEnergy {
+  TouchingPoints<B> points;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int t) const {
+    const int site = points.points + t;
+    double sum = 0;
+    for (int o = 0; o < points.obstacles; ++o) {
+      const auto depth = points.depth(points.record(o, site));
+      if (depth > 0) sum += 0.5 * static_cast<double>(points.law_of(o, site).stiffness * depth * depth);
+    }
+    return {{sum}};
+  }
+};
+
+}  // namespace plica

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/fields.hpp>
+#include <plica/core/path.hpp>
+#include <plica/core/small.hpp>
+
+namespace plica {
+
+/// Where an obstacle is at a time, and how fast: where its motion says, or as a tool with mass goes, which the device knows.
+template <class B>
+struct ObstaclePlace {
+  using Real = typename B::Real;
+  static constexpr int numbers = 7;  ///< of a tool: displacement [m] and velocity [m/s] at a time [s]
+
+  Vec3<double> origin;               ///< at t = 0, what torques are about [m]
+  Vec3<double> displacement, speed;  ///< by its motion [m], [m/s]
+  double time = 0;                   ///< [s]
+  Doubles<B> tools;                  ///< [numbers of each obstacle]; empty: it has no mass
+  int first = 0;                     ///< its own of them
+
+  KOKKOS_INLINE_FUNCTION Vec3<double> moved() const {
+    if (tools.extent(0) == 0) return displacement;
+    const double since = time - tools(first + 6);
+    Vec3<double> x;
+    for (int k = 0; k < 3; ++k) x[k] = tools(first + k) + since * tools(first + 3 + k);
+    return x;
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<double> about() const { return origin + moved(); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> offset() const { return rounded(moved()); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> velocity() const {
+    if (tools.extent(0) == 0) return rounded(speed);
+    return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});
+  }
+
+ private:
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> rounded(const Vec3<double>& x) {
+    return {static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])};
+  }
+};
+
+/// A tool with mass m after a macro step T, in which it went on with its velocity: m dv/dt = F + k (x* - x) + c (v* - v) by implicit
+/// Euler for the coupling, stable for any k and c, with the mean contact force F of that step. x* and v* are where its motion asks it
+/// to be at the end of the next step and how fast it gets there.
+template <class B>
+struct MoveTool {
+  ObstaclePlace<B> place;  ///< at the end of the step
+  PathPoint asked;         ///< at the end of the next
+  Doubles<B> wrench;       ///< on the body
+  int force;               ///< its first number in it
+  double span, mass, stiffness, damping;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int k) const {
+    const int x = place.first + k, v = x + 3;
+    const double T = span, now = place.tools(x) + T * place.tools(v);
+    const double pull = -wrench(force + k) + stiffness * (asked.displacement[k] - now) + damping * asked.velocity[k];
+    place.tools(v) = (place.tools(v) + T / mass * pull) / (1 + T / mass * (damping + T * stiffness));
+    place.tools(x) = now;
+    if (k == 0) place.tools(place.first + 6) = place.time;
+  }
+};
+
+}  // namespace plica
