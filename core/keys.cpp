@@ -38,6 +38,8 @@ constexpr std::array named_dimensions = {Named{plain, "a number", "numbers", ""}
                                          Named{{.length = 2}, "an area", "areas", "m^2"},
                                          Named{{.length = 3}, "a volume", "volumes", "m^3"},
                                          Named{force, "a force", "forces", "N"},
+                                         Named{{.mass = 1, .time = -2}, "a stiffness", "stiffnesses", "N/m"},
+                                         Named{{.mass = 1, .time = -1}, "a damping", "dampings", "kg/s"},
                                          Named{{.mass = 1, .length = 2, .time = -2}, "an energy", "energies", "J"}};
 
 const Named* find_name(const Dimension& dimension) {

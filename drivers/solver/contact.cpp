@@ -20,7 +20,7 @@ constexpr double most_stiffening = 64;
 
 constexpr double pair_reach = 0.5, pair_margin = 0.25, face_reach = 0.25;  // of an edge
 
-double mean_edge(const TriangleSurface& surface) {
+double mean_surface_edge(const TriangleSurface& surface) {
   double sum = 0;
   for (const auto& t : surface.triangles)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -54,7 +54,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
 /// Not of implicit levels, whose matrices couple the points of one tetrahedron alone.
 template <class B>
 void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& surface) {
-  const double edge = mean_edge(surface);
+  const double edge = mean_surface_edge(surface);
   for (const auto& obstacle : obstacles_)
     whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < edge));
 }

@@ -22,33 +22,58 @@ struct FindOnFaces {
 
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
     constexpr Real from_corner = Real(0.6),  // no place is further from all corners, over the longest edge: 1 / sqrt 3
-        as_deep = Real(1e-3);                // over the longest edge
+        as_deep = Real(1e-3),                // over the longest edge
+        stretch = 4;                         // what is stretched more may be found late
     const FaceSites<B>& faces = points.faces;
     const int r = points.record(obstacle, points.points + t);
     points.depth(r) = nowhere, points.mobility(r) = 0;
     Vec3<Real> x[3], depth;
     Real deepest = nowhere;
-    const Vec3<Real> offset = place.offset();
-    for (int c = 0; c < 3; ++c) {
-      depth[c] = points.depth(points.record(obstacle, faces.corner(3 * t + c)));
-      deepest = Kokkos::max(deepest, depth[c]);
-    }
     for (int c = 0; c < 3; ++c) {
       const int p = faces.corner(3 * t + c);
-      x[c] = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p)) - offset;
+      depth[c] = points.depth(points.record(obstacle, p));
+      deepest = Kokkos::max(deepest, depth[c]);
+      x[c] = vector_at<B>(surface.rest, p);
     }
-    const Vec3<Real> ab = x[1] - x[0], bc = x[2] - x[1], ca = x[0] - x[2];
-    const Real size = Kokkos::sqrt(Kokkos::max(dot(ab, ab), Kokkos::max(dot(bc, bc), dot(ca, ca))));
-    if (!(deepest > -faces.reach - from_corner * size)) return;
+    if (!(deepest + stretch * from_corner * longest(x) > -faces.reach)) return;
+    for (int c = 0; c < 3; ++c)
+      x[c] = value_at<B>(surface.embedding, state.u, faces.corner(3 * t + c), x[c]) - place.offset();
+    const Real size = longest(x);
+    const Real enough = Kokkos::max(-faces.reach, deepest + as_deep * size);  // less is not looked at
+    if (!(deepest + from_corner * size > enough) || !(most(x) > enough)) return;
     const Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
     const Gap<Real> gap = shape(w[0] * x[0] + w[1] * x[1] + w[2] * x[2]);
-    if (!(-gap.distance > deepest + as_deep * size)) return;
+    if (!(-gap.distance > enough)) return;
     points.depth(r) = -gap.distance;
     for (int c = 0; c < 3; ++c) points.depth(r) -= w[c] * Kokkos::max(depth[c], Real(0));
     points.mobility(r) = 1;
     set_vector<B>(faces.weight, faces.site(obstacle, t), w);
-    set_vector<B>(points.normal, r, out_of(gap.normal, cross(ab, ca)));
+    set_vector<B>(points.normal, r, out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2])));
     set_vector<B>(points.velocity, r, faces.value(surface, state.v, obstacle, t) - place.velocity());
+  }
+
+  static KOKKOS_INLINE_FUNCTION Real longest(const Vec3<Real>* x) {
+    Real square = 0;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3<Real> d = x[(c + 1) % 3] - x[c];
+      square = Kokkos::max(square, dot(d, d));
+    }
+    return Kokkos::sqrt(square);
+  }
+
+  /// What is no less than any depth on the triangle: in a convex solid the least that follows from the distances' tangents in its
+  /// corners and its middle.
+  KOKKOS_INLINE_FUNCTION Real most(const Vec3<Real>* x) const {
+    Real bound = -nowhere;
+    if constexpr (Shape::convex)
+      for (int i = 0; i < 4; ++i) {
+        const Vec3<Real> at = i < 3 ? x[i] : Real(1) / 3 * (x[0] + x[1] + x[2]);
+        const Gap<Real> gap = shape(at);
+        Real least = 0;
+        for (int c = 0; c < 3; ++c) least = Kokkos::min(least, dot(gap.normal, x[c] - at));
+        bound = Kokkos::min(bound, -gap.distance - least);
+      }
+    return bound;
   }
 
   /// The obstacle's normal. Where that is along the triangle, which a thin tool pierces, the triangle's own: `inward` the body.

@@ -15,7 +15,7 @@
 ///   * a struct of options, in SI, and their table: names, kinds with unit and range, meaning (see core/describe.hpp);
 ///   * `name` and `summary`, as scenes and lists show them;
 ///   * `Shape<Real>`, the pointwise signed distance for kernels: Gap operator()(x), with x relative to the obstacle, which
-///     may move;
+///     may move; whether the solid is `convex`;
 ///   * `shape<Real>(options)`, which makes one of them;
 ///   * `origin(options)`, what torques on it are about at t = 0: its centre, of a surface the file's own origin;
 ///   * `radius(options)`, of the largest ball in it [m]; of a surface its distances tell;

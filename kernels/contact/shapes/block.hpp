@@ -30,6 +30,7 @@ struct Block {
   using Options = BlockOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = true;
     Vec3<Real> centre;
     Mat3<Real> axes;  ///< its rows are the directions of the edges
     Vec3<Real> half;  ///< of the edges' lengths

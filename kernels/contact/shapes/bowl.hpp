@@ -33,6 +33,7 @@ struct Bowl {
   using Options = BowlOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = false;
     Vec3<Real> centre;
     Real radius;
     Real top;  ///< of the rim's plane above the centre, rim - radius <= 0

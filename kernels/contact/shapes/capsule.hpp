@@ -30,6 +30,7 @@ struct Capsule {
   using Options = CapsuleOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = true;
     Vec3<Real> from, axis;  ///< axis: a unit vector
     Real length, radius;
 

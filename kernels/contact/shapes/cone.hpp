@@ -32,6 +32,7 @@ struct Cone {
   using Options = ConeOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = true;
     Vec3<Real> from, axis;           ///< axis: a unit vector
     Real length, radius, to_radius;  ///< radius: at from
     Real side, widening, rising;     ///< its side's length; the unit vector along it, across the axis and along it

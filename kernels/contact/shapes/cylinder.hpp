@@ -31,6 +31,7 @@ struct Cylinder {
   using Options = CylinderOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = true;
     Vec3<Real> centre, axis;  ///< axis: a unit vector
     Real half, radius;        ///< half: of the length
 

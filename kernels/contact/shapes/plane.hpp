@@ -29,6 +29,7 @@ struct Plane {
   using Options = PlaneOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = true;
     Vec3<Real> point, normal;
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const { return {dot(normal, x - point), normal}; }
   };

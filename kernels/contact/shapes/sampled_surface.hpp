@@ -29,6 +29,7 @@ struct SampledSurface {
   using Options = SurfaceOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = false;
     const Real* value;  ///< [nodes of z][of y][of x] m, in the memory of whoever asks
     int nodes[3];       ///< along x, y, z; each at least 2
     Vec3<Real> origin;  ///< the lowest node

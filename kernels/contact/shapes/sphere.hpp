@@ -28,6 +28,7 @@ struct Sphere {
   using Options = SphereOptions;
   template <class Real>
   struct Shape {
+    static constexpr bool convex = true;
     Vec3<Real> centre;
     Real radius;
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
