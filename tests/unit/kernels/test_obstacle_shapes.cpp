@@ -179,6 +179,7 @@ TEST(ObstacleShapes, DistancesThatOneCanSee) {
   EXPECT_DOUBLE_EQ(needle(V{0, 1, 0.25}).distance, -0.25);
   EXPECT_DOUBLE_EQ(needle(V{6, 0, -4}).distance, 5);
   EXPECT_DOUBLE_EQ(needle(V{1, 0, -4}).distance, 4);
+  EXPECT_EQ(Cone::radius({{0, 0, 0}, {0, 0, 4}, 3, 1}), 1);
 }
 
 // Nodes hold the exact distance, and nobody is told to be farther away than he is.
