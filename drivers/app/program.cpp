@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
+#include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/program.hpp>
@@ -26,7 +27,8 @@ class CommandLine {
         "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the standard error.\n"
         "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
     add_run();
-    add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); });
+    add_study_option(
+        add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); }));
     add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
     add_study();
     add_stability();
@@ -54,6 +56,9 @@ class CommandLine {
     if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
       throw CLI::RequiredError("SCENE, or --resume FOLDER,");
     if (app_.got_subcommand("stability")) check_stability();
+    if (!study_folder_.empty())
+      for (const Override& chosen : settings_of_study(study_folder_, arguments_.scene, arguments_.overrides))
+        arguments_.overrides.push_back(chosen);
     return action_();
   }
 
@@ -138,10 +143,17 @@ class CommandLine {
         ->type_name("every=N|TIME");
     CLI::Option* resume =
         command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint");
-    resume->type_name("FOLDER")->excludes(folder);
+    resume->type_name("FOLDER")->excludes(folder)->excludes(add_study_option(command));
     command->add_flag("--force", arguments_.force, "replace the run that is in the folder")->excludes(resume);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
     command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
+  }
+
+  CLI::Option* add_study_option(CLI::App* command) {
+    return command
+        ->add_option("--study", study_folder_,
+                     "as the study of the scene in this folder chose for integration.error_class, by error and time")
+        ->type_name("FOLDER");
   }
 
   void add_study() {
@@ -304,6 +316,7 @@ class CommandLine {
   ViewArguments view_;
   std::vector<std::string> sets_;
   std::string duration_, family_, shell_;
+  std::filesystem::path study_folder_;  // empty: none
   MeshInfoArguments mesh_;
   ConvertArguments convert_;
   MakeMeshArguments make_;

@@ -52,7 +52,8 @@ far [s] the motion is behind the reference on the mean. With --growth, `spectral
 which small motions about rest grow in the long run, `growth_per_second` its logarithm per simulated second.
 
 Files in the folder, SI units throughout; rows are written as they finish:
-  study.json       machine, reference, rows (one per method and macro step; diverged and refused ones too), what was left out
+  study.json       machine, reference, choices (what to take for each error class: plica run SCENE --study FOLDER),
+                   rows (one per method and macro step; diverged and refused ones too), what was left out
   study.csv        the rows
   reference.bin    what errors are measured against
 The same command goes on with what it finds there. `plica report FOLDER` makes a page of it,

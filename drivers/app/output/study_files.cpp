@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
+#include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/study_files.hpp>
 #include <plica/drivers/app/output/truth_report.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -172,6 +173,7 @@ StudyFiles::StudyFiles(const Scene& scene, const StudyOptions& options, const st
   head_.scene = scene.file, head_.name = scene.name;
   head_.duration = options.duration, head_.samples = options.samples;
   for (const TetMesh& mesh : scene.problem.body.levels) head_.tets.push_back(mesh.tets.size());
+  head_.levels = level_entries(scene.source);
   head_.digest = fmt::format("{:016x}", study_digest(scene, options, machine_, reference_digest_));
 }
 

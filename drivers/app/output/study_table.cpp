@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <plica/drivers/app/output/json_parts.hpp>
+#include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/study_table.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/truth_report.hpp>
@@ -111,6 +112,7 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine, const
                {"machine", machine_json(machine)},
                {"digest", head.digest},
                {"reference", reference_json(result)},
+               {"choices", choices_json(result, head.levels)},
                {"rows", Json::array()},
                {"left_out", Json::array()}};
   for (const StudyRow& row : result.rows) json["rows"].push_back(row_json(row));
@@ -155,7 +157,6 @@ std::string study_csv(const std::vector<StudyRow>& rows) {
 
 namespace {
 
-constexpr double thresholds[] = {0.05, 0.01, 0.001};
 constexpr std::size_t width = text_width;
 
 // With what tells it from other rows of its name
@@ -235,19 +236,14 @@ std::string growth_text(const StudyResult& result) {
   return wrapped(text, width, "");
 }
 
-std::string fastest_text(const StudyResult& result, double threshold) {
-  const std::string head = fmt::format("Under {:g} % error: ", 100 * threshold);
-  if (!resolves(result.reference, threshold))
-    return wrapped(
-        head + fmt::format("unknown: the error of the reference itself is {}.", percent(result.reference.own_error)),
-        width, "");
-  const StudyRow* fastest = fastest_below(result.rows, threshold);
-  if (fastest == nullptr) return head + "none.\n";
-  std::string text =
-      head + fmt::format("{} at {}, {} for {}.", name_of(*fastest, result), in_units(*fastest->macro_step, "s"),
-                         in_units(*fastest->wall_time, "s"), percent(*fastest->judged()));
-  if (fastest->method.starts_with("coarse/")) text += " A coarser mesh alone is enough here.";
-  return wrapped(text, width, "");
+std::string choice_text(const StudyResult& result, const StudyChoice& choice) {
+  std::string text = fmt::format("Under {:g} % error ({}): ", 100 * choice.allowed, choice.error_class);
+  if (const StudyRow* row = choice.row) {
+    text += fmt::format("{} at {}, {} for {}. ", name_of(*row, result), in_units(*row->macro_step, "s"),
+                        in_units(*row->wall_time, "s"), percent(*row->judged()));
+    if (row->method.starts_with("coarse/")) text += "A coarser mesh alone is enough here. ";
+  }
+  return wrapped(text + choice.reason, width, "");
 }
 
 std::string missing_text(const StudyResult& result) {
@@ -277,9 +273,11 @@ std::string study_text(const Scene& scene, const StudyResult& result, const std:
   std::string text = fmt::format("{}: {}{}\n", scene.name, counted(static_cast<long>(result.rows.size()), "row"),
                                  result.stopped ? ", interrupted: the same command goes on with them" : "");
   text += reference_text(result) + pareto_text(result);
-  for (const double threshold : thresholds) text += fastest_text(result, threshold);
+  for (const StudyChoice& choice : choices_of(result)) text += choice_text(result, choice);
   text += growth_text(result) + missing_text(result);
-  return text + fmt::format("Files: {0}: study.json, study.csv. To look at: plica report {0}\n", folder);
+  return text + fmt::format("Files: {0}: study.json, study.csv. To look at: plica report {0}\n", folder) +
+         fmt::format("To run what is chosen: plica run {} --study {} --set integration.error_class=CLASS\n", scene.file,
+                     folder);
 }
 
 }  // namespace plica::app

@@ -11,8 +11,9 @@ struct StudyHead {
   std::string scene, name;
   double duration = 0;  ///< [s]
   int samples = 0;
-  std::vector<std::size_t> tets;  ///< of each level
-  std::string digest;             ///< studies with another are not gone on with
+  std::vector<std::size_t> tets;               ///< of each level
+  std::string digest;                          ///< studies with another are not gone on with
+  std::vector<nlohmann::ordered_json> levels;  ///< see level_entries()
 };
 
 /// study.json; status: completed | interrupted | unfinished. `stopped`: the case that was interrupted; empty: none.

@@ -64,7 +64,7 @@ TEST_F(StudyCommand, WritesWhatTheInterfaceSays) {
                                                "cycle/rs", "cycle/rs"}));
   EXPECT_EQ(study["rows"][0]["work"], 1.0);
   EXPECT_EQ(study["rows"][4]["distribution"], "equal");
-  for (const char* words : {"Reference: single/rk4", "Under 5 % error: ", "coarse/1", "plica report "})
+  for (const char* words : {"Reference: single/rk4", "Under 5 % error (interactive): ", "coarse/1", "plica report "})
     EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
   const std::string csv = content_of(folder / "out/study.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);

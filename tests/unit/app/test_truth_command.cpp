@@ -89,6 +89,37 @@ TEST_F(TruthCommand, IsAKeyOfTheScene) {
     EXPECT_TRUE(row["element"] == "nodal" && row["space_error"].is_null() && row["total_error"].is_null());
 }
 
+// Level 1 alone is the fastest row within 5 %, and none is within 0.1 %
+TEST_F(TruthCommand, ARunTakesWhatTheStudyChose) {
+  ASSERT_EQ(study({"--truth", "--set", "body.levels.1.box.cells=[9, 2, 2]", "--set", "study.methods=coarse"}).status,
+            0);
+  const Json chosen = json()["choices"][0];
+  EXPECT_EQ(chosen["error_class"], "interactive");
+  EXPECT_EQ(chosen["case"].get<std::string>().find("coarse/1"), 0u) << chosen;
+  EXPECT_LT(chosen["error"].get<double>() + json()["reference"]["own_error"].get<double>(), 0.05);
+  EXPECT_TRUE(json()["choices"][2]["case"].is_null());
+  const auto chosen_run = [&](const std::string& error_class, const std::string& of) {
+    return run_child({PLICA_EXECUTABLE, "run", of, "--study", out, "--set", "integration.error_class=" + error_class,
+                      "-o", folder / "run"},
+                     folder);
+  };
+  const Child run = chosen_run("interactive", scene);
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find("interactive: coarse/1"), std::string::npos) << run.errors;
+  const Json summary = Json::parse(content_of(folder / "run/summary.json"));
+  ASSERT_EQ(summary["levels"].size(), 1u);
+  EXPECT_EQ(summary["levels"][0]["tets"], 6 * 9 * 2 * 2);
+  EXPECT_EQ(summary["levels"][0]["element"], "nodal");
+  const auto refuses = [&](const Child& child, const char* words) {
+    EXPECT_EQ(child.status, 2);
+    EXPECT_NE(child.errors.find(words), std::string::npos) << child.errors;
+  };
+  refuses(chosen_run("accurate", scene), "nothing to take for integration.error_class accurate");
+  refuses(chosen_run("sloppy", scene), "unknown error class 'sloppy'");
+  std::filesystem::copy_file(scene, folder / "other.yaml");
+  refuses(chosen_run("interactive", folder / "other.yaml"), "other.yaml");
+}
+
 TEST_F(TruthCommand, BadInputIs2) {
   const auto refuses = [&](const std::vector<std::string>& more, const std::string& words) {
     const Child run = study(more);
