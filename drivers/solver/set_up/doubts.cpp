@@ -67,6 +67,7 @@ std::vector<std::string> doubts(const Problem& problem) {
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
   if (levels.size() > 1) doubt_levels(problem, sentences);
   doubt_elements(problem.body, sentences);
+  for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);
   if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
     const TetMesh& mesh = levels.front();
     const std::string inverted =

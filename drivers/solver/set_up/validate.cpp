@@ -358,6 +358,7 @@ void validate(const Problem& problem) {
   check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
   check_contact(problem);
+  starts_in_obstacles(problem);
 }
 
 }  // namespace plica

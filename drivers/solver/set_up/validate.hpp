@@ -24,6 +24,9 @@ void validate_shares(const IntegrationOptions& options, std::size_t levels);
 /// every vertex used, a region for every tetrahedron. InputError otherwise, with level and number.
 void validate_mesh(const TetMesh& mesh, int level);
 
+/// Of each obstacle that the body starts deep in: where and how deep. InputError where one contains the whole body.
+std::vector<std::string> starts_in_obstacles(const Problem& problem);
+
 /// What is allowed, but hardly meant: a sentence each. Of a problem that is valid.
 std::vector<std::string> doubts(const Problem& problem);
 

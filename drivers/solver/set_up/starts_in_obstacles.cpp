@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <plica/core/error.hpp>
+#include <plica/core/text.hpp>
+#include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/mesh_quality.hpp>
+
+namespace plica {
+
+namespace {
+
+constexpr double bearable_depth = 0.5;  // of an edge
+
+std::vector<Point> places_at_start(const Body& body) {
+  const TetMesh& mesh = body.levels.front();
+  const Box box = bounding_box(mesh.vertices);
+  const Point shift = body.initial.position ? Point(*body.initial.position - (box.min + box.max) / 2) : Point::Zero();
+  std::vector<Point> places = initial_displacement(body.initial, mesh, box);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] += mesh.vertices[i] + shift;
+  return places;
+}
+
+/// The deepest of some places in a solid, and how many are in it.
+struct Deepest {
+  std::size_t place = 0, inside = 0;
+  double depth = 0;  ///< [m]
+};
+
+/// A sampled surface is looked at when it has been sampled.
+Deepest deepest_in(const ShapeOptions& options, const std::vector<Point>& places) {
+  Deepest found;
+  visit_shape(options, [&](auto shape, const auto& its) {
+    if constexpr (requires { shape.template shape<double>(its); }) {
+      const auto gap = shape.template shape<double>(its);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double depth = -gap(vec3<double>(places[i])).distance;
+        if (depth > 0) ++found.inside;
+        if (depth > found.depth) found.depth = depth, found.place = i;
+      }
+    }
+  });
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> starts_in_obstacles(const Problem& problem) {
+  std::vector<std::string> sentences;
+  const std::vector<ObstacleOptions>& obstacles = problem.contact.obstacles;
+  if (obstacles.empty() || starts_deformed(problem.body.initial)) return sentences;
+  const std::vector<Point> places = places_at_start(problem.body);
+  const double edge = mean_edge_length(problem.body.levels.front());
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const Deepest found = deepest_in(obstacles[i].shape, places);
+    const std::string path = "contact.obstacles." + std::to_string(i);
+    if (found.inside == places.size())
+      throw InputError(path + " contains the whole body at the start; expected a body outside");
+    if (!(found.depth > bearable_depth * edge)) continue;
+    const Point& x = places[found.place];
+    sentences.push_back(text(path, ": the body starts inside it, ", number(found.depth, 3), " m deep at [",
+                             number(x[0], 4), ", ", number(x[1], 4), ", ", number(x[2], 4), "] m, ",
+                             number(found.depth / edge, 2),
+                             " of a mean edge: it is thrown out; expected a body outside"));
+  }
+  return sentences;
+}
+
+}  // namespace plica
