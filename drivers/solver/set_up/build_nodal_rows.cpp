@@ -110,97 +110,120 @@ std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
   return order;
 }
 
+/// The rows, slice by slice.
+template <class B>
+class SlicedRows {
+  using Real = typename B::Real;
+  using Rows = NodalRows<B>;
+  static constexpr auto H = static_cast<std::size_t>(Rows::height);
+  using Integers = std::array<int, H>;
+  using Numbers = std::array<Real, H>;
+  using Gradients = std::array<Numbers, 3>;
+
+ public:
+  SlicedRows(const std::vector<Domain>& domains, std::size_t vertices)
+      : domains_(domains), order_(row_order(domains, Rows::height)), slot_of_(domains.size()), slots_(vertices) {
+    for (std::size_t s = 0; s < order_.size(); ++s)
+      if (order_[s] >= 0) slot_of_[index_of(order_[s])] = static_cast<int>(s);
+    for (std::size_t begin = 0; begin < order_.size(); begin += H) add_slice(begin);
+  }
+
+  Rows on_device(bool smoothed) const {
+    Rows rows;
+    rows.slices = static_cast<int>(region_.size()), rows.domains = static_cast<int>(domains_.size());
+    rows.first = to_device<Indices<B>>("rows.first", first_);
+    rows.region = to_device<Indices<B>>("rows.region", region_);
+    rows.vertex = to_device<Indices<B>>("rows.vertex", vertex_);
+    rows.volume = to_device<Scalars<B>>("rows.volume", volume_);
+    rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse_);
+    rows.neighbour = to_device<decltype(rows.neighbour)>("rows.neighbour", neighbour_);
+    rows.gradient = to_device<decltype(rows.gradient)>("rows.gradient", gradient_);
+    rows.coupling = to_device<decltype(rows.coupling)>("rows.coupling", coupling_);
+    if (smoothed) rows.smoothing = to_device<decltype(rows.smoothing)>("rows.smoothing", smoothing_);
+    rows.first_surface = to_device<Indices<B>>("rows.first_surface", first_surface_);
+    rows.surface_neighbour = to_device<decltype(rows.neighbour)>("rows.surface_neighbour", surface_neighbour_);
+    rows.surface_gradient = to_device<decltype(rows.gradient)>("rows.surface_gradient", surface_gradient_);
+    std::vector<int> first{0}, row;
+    for (const std::vector<int>& of_vertex : slots_) {
+      row.insert(row.end(), of_vertex.begin(), of_vertex.end());
+      first.push_back(static_cast<int>(row.size()));
+    }
+    rows.shares.rows = rows.slots();
+    rows.shares.first = to_device<Indices<B>>("shares.first", first);
+    rows.shares.row = to_device<Indices<B>>("shares.row", row);
+    return rows;
+  }
+
+ private:
+  const std::vector<Domain>& domains_;
+  std::vector<int> order_, slot_of_;
+  std::vector<std::vector<int>> slots_;  // of each vertex
+  std::vector<int> first_{0}, first_surface_{0}, region_, vertex_;
+  std::vector<Real> volume_, inverse_;
+  std::vector<Integers> neighbour_, surface_neighbour_;
+  std::vector<Gradients> gradient_, surface_gradient_;
+  std::vector<Numbers> coupling_, smoothing_;
+
+  void add_slice(std::size_t begin) {
+    Integers self;
+    for (std::size_t row = 0; row < H; ++row) self[row] = static_cast<int>(begin + row);
+    for (std::size_t row = 0; row < H; ++row) {
+      const int d = order_[begin + row];
+      const Domain domain = d >= 0 ? domains_[index_of(d)] : Domain{};
+      add_pairs(domain.pairs, row, self);
+      vertex_.push_back(domain.vertex);
+      volume_.push_back(static_cast<Real>(domain.volume));
+      inverse_.push_back(d >= 0 ? static_cast<Real>(1 / domain.volume) : Real(0));
+      if (d >= 0) slots_[index_of(domain.vertex)].push_back(self[row]);
+    }
+    region_.push_back(domains_[index_of(order_[begin])].region);
+    first_.push_back(static_cast<int>(neighbour_.size()));
+    first_surface_.push_back(static_cast<int>(surface_neighbour_.size()));
+  }
+
+  // In the order of their slots; `self`: what rows with fewer pairs point to
+  void add_pairs(std::vector<Pair> pairs, std::size_t row, const Integers& self) {
+    std::ranges::sort(pairs, {}, [&](const Pair& p) { return slot_of_[index_of(p.neighbour)]; });
+    std::size_t e = index_of(first_.back()), s = index_of(first_surface_.back());
+    neighbour_.resize(std::max(neighbour_.size(), e + pairs.size()), self);
+    gradient_.resize(neighbour_.size(), {}), coupling_.resize(neighbour_.size(), {});
+    smoothing_.resize(neighbour_.size(), {});
+    for (const Pair& p : pairs) {
+      neighbour_[e][row] = slot_of_[index_of(p.neighbour)];
+      put(p.gradient, gradient_[e], row);
+      coupling_[e][row] = static_cast<Real>(p.coupling), smoothing_[e][row] = static_cast<Real>(p.smoothing);
+      ++e;
+      if (p.surface == Point::Zero()) continue;
+      if (s >= surface_neighbour_.size()) surface_neighbour_.push_back(self), surface_gradient_.push_back({});
+      surface_neighbour_[s][row] = slot_of_[index_of(p.neighbour)];
+      put(p.surface, surface_gradient_[s], row);
+      ++s;
+    }
+  }
+
+  static void put(const Point& from, Gradients& to, std::size_t row) {
+    for (std::size_t k = 0; k < 3; ++k) to[k][row] = static_cast<Real>(from[static_cast<int>(k)]);
+  }
+};
+
 }  // namespace
 
 template <class B>
 NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants) {
   using Real = typename B::Real;
-  using Rows = NodalRows<B>;
-  constexpr auto H = static_cast<std::size_t>(Rows::height);
-  using Integers = std::array<int, H>;
-  using Numbers = std::array<Real, H>;
-  using Gradients = std::array<Numbers, 3>;
+  const auto on_device = [](const char* name, const std::vector<double>& values) {
+    return to_device<Scalars<B>>(name, std::vector<Real>(values.begin(), values.end()));
+  };
   const std::vector<Domain> domains = Domains(mesh).all;
-  const std::vector<int> order = row_order(domains, Rows::height);
-  std::vector<int> slot_of(domains.size());
-  for (std::size_t s = 0; s < order.size(); ++s)
-    if (order[s] >= 0) slot_of[index_of(order[s])] = static_cast<int>(s);
-
-  std::vector<int> first{0}, first_surface{0}, region, vertex;
-  std::vector<Real> volume, inverse;
-  std::vector<Integers> neighbour, surface_neighbour;
-  std::vector<Gradients> gradient, surface_gradient;
-  std::vector<Numbers> coupling, smoothing;
-  std::vector<std::vector<int>> slots(mesh.vertices.size());
-  for (std::size_t begin = 0; begin < order.size(); begin += H) {
-    Integers self;
-    for (std::size_t row = 0; row < H; ++row) self[row] = static_cast<int>(begin + row);
-    std::size_t entries = 0, surface = 0;
-    for (std::size_t row = 0; row < H; ++row) {
-      const int d = order[begin + row];
-      const Domain domain = d >= 0 ? domains[index_of(d)] : Domain{};
-      std::vector<Pair> pairs = domain.pairs;
-      std::ranges::sort(pairs, {}, [&](const Pair& p) { return slot_of[index_of(p.neighbour)]; });
-      const std::size_t e0 = index_of(first.back()), s0 = index_of(first_surface.back());
-      entries = std::max(entries, pairs.size());
-      neighbour.resize(std::max(neighbour.size(), e0 + entries), self);
-      gradient.resize(neighbour.size(), {}), coupling.resize(neighbour.size(), {});
-      smoothing.resize(neighbour.size(), {});
-      std::size_t on_surface = 0;
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const Pair& p = pairs[i];
-        neighbour[e0 + i][row] = slot_of[index_of(p.neighbour)];
-        for (std::size_t k = 0; k < 3; ++k)
-          gradient[e0 + i][k][row] = static_cast<Real>(p.gradient[static_cast<int>(k)]);
-        coupling[e0 + i][row] = static_cast<Real>(p.coupling), smoothing[e0 + i][row] = static_cast<Real>(p.smoothing);
-        if (p.surface == Point::Zero()) continue;
-        const std::size_t s = s0 + on_surface++;
-        if (s >= surface_neighbour.size()) surface_neighbour.push_back(self), surface_gradient.push_back({});
-        surface_neighbour[s][row] = slot_of[index_of(p.neighbour)];
-        for (std::size_t k = 0; k < 3; ++k)
-          surface_gradient[s][k][row] = static_cast<Real>(p.surface[static_cast<int>(k)]);
-      }
-      surface = std::max(surface, on_surface);
-      vertex.push_back(domain.vertex);
-      volume.push_back(static_cast<Real>(domain.volume));
-      inverse.push_back(d >= 0 ? static_cast<Real>(1 / domain.volume) : Real(0));
-      if (d >= 0) slots[index_of(domain.vertex)].push_back(static_cast<int>(begin + row));
-    }
-    region.push_back(domains[index_of(order[begin])].region);
-    first.push_back(static_cast<int>(neighbour.size()));
-    first_surface.push_back(static_cast<int>(surface_neighbour.size()));
-  }
-
-  Rows rows;
-  rows.slices = static_cast<int>(region.size()), rows.domains = static_cast<int>(domains.size());
-  const auto reals = [](const std::vector<double>& values) { return std::vector<Real>(values.begin(), values.end()); };
-  std::vector<Real> material;
+  const bool smoothed = !constants.excess.empty();
+  NodalRows<B> rows = SlicedRows<B>(domains, mesh.vertices.size()).on_device(smoothed);
+  std::vector<double> material;
   for (const std::vector<double>& of_region : constants.material)
     material.insert(material.end(), of_region.begin(), of_region.end());
-  rows.first = to_device<Indices<B>>("rows.first", first);
-  rows.region = to_device<Indices<B>>("rows.region", region);
-  rows.vertex = to_device<Indices<B>>("rows.vertex", vertex);
-  rows.volume = to_device<Scalars<B>>("rows.volume", volume);
-  rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse);
-  rows.neighbour = to_device<decltype(rows.neighbour)>("rows.neighbour", neighbour);
-  rows.gradient = to_device<decltype(rows.gradient)>("rows.gradient", gradient);
-  rows.coupling = to_device<decltype(rows.coupling)>("rows.coupling", coupling);
-  if (!constants.excess.empty()) rows.smoothing = to_device<decltype(rows.smoothing)>("rows.smoothing", smoothing);
-  rows.first_surface = to_device<Indices<B>>("rows.first_surface", first_surface);
-  rows.surface_neighbour = to_device<decltype(rows.neighbour)>("rows.surface_neighbour", surface_neighbour);
-  rows.surface_gradient = to_device<decltype(rows.gradient)>("rows.surface_gradient", surface_gradient);
-  rows.constants = to_device<Scalars<B>>("rows.constants", material);
-  rows.stabiliser = to_device<Scalars<B>>("rows.stabiliser", reals(constants.stabiliser));
-  if (!constants.excess.empty()) rows.excess = to_device<Scalars<B>>("rows.excess", reals(constants.excess));
-  if (!constants.damping.empty()) rows.damping = to_device<Scalars<B>>("rows.damping", reals(constants.damping));
-  std::vector<int> first_share{0}, share;
-  for (const std::vector<int>& of_vertex : slots) {
-    share.insert(share.end(), of_vertex.begin(), of_vertex.end());
-    first_share.push_back(static_cast<int>(share.size()));
-  }
-  rows.shares.rows = rows.slots();
-  rows.shares.first = to_device<Indices<B>>("shares.first", first_share);
-  rows.shares.row = to_device<Indices<B>>("shares.row", share);
+  rows.constants = on_device("rows.constants", material);
+  rows.stabiliser = on_device("rows.stabiliser", constants.stabiliser);
+  if (smoothed) rows.excess = on_device("rows.excess", constants.excess);
+  if (!constants.damping.empty()) rows.damping = on_device("rows.damping", constants.damping);
   return rows;
 }
 
