@@ -288,7 +288,7 @@ TEST(TissueLaws, AreEachLaw) {
         const Mat3<T> Fs = mat3<T>(g.F), Ps = TissueLaws::stress(Fs, four),
                       dPs = TissueLaws::stress_change(Fs, mat3<T>(eigen(D)), four);
         const double E = M::energy(F, one);
-        EXPECT_NEAR(TissueLaws::energy(Fs, four)[3], E, round_off<double>(1e4, std::abs(E))) << g.F;
+        EXPECT_NEAR(TissueLaws::energy(Fs, four)[3], E, round_off<double>(5900, std::abs(E))) << g.F;  // 2916 of ogden
         for (int r = 0; r < 3; ++r)
           for (int k = 0; k < 3; ++k) {
             EXPECT_NEAR(Ps[r][k][3], P(r, k), round_off<double>(1e4, P.norm())) << g.F;
