@@ -56,7 +56,7 @@ TYPED_TEST(Divergence, AboveTheCriticalStepStopsBeforeItIsNotFinite) {
     EXPECT_TRUE(bad->kind == "energy" || (bad->kind == "inverted" && material == "neo_hookean")) << bad->kind;
     EXPECT_EQ(bad->level, 0);
     EXPECT_GE(bad->element, 0);
-    EXPECT_LT(bad->J, 0.7);
+    EXPECT_LT(bad->J, 0.65);  // 0.50 to 0.62: the energy tells before an element is inside out
     EXPECT_NEAR(bad->substep_over_critical, 1.5, 1e-9);
     EXPECT_NE(bad->remedy.find("critical step"), std::string::npos);
     for (const char* part : {"level 0", "element ", "J = ", "1.5 times", "try "})

@@ -344,6 +344,7 @@ TYPED_TEST(CallersForces, OnTheSurfaceDoAsAnObstacleDoes) {
   advance(own, 600);
   EXPECT_EQ(levels, (std::set<int>{0, 1}));
   EXPECT_GT(obstacle.energies().contact, 1e-2);
+  // an obstacle is solved implicitly, the caller's own law is taken where the step starts: they differ by its share of a step
   EXPECT_LE(largest_difference(own.positions(), obstacle.positions()), 5e-5 + round_off<Real>(4000, 0.1));
 }
 
