@@ -141,24 +141,28 @@ Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work)
   return work.pressure.extent(0) > 2 * slots ? Scalars<B>(work.pressure.data() + 2 * slots, slots) : Scalars<B>();
 }
 
-/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1), or what is carried, and excess S dJ.
+/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1) and excess S dJ.
 template <class B, int fields, bool first>
 struct SmoothRows {
   NodalRows<B> rows;
-  Scalars<B> from, to, carried{};
+  Scalars<B> from, to;
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     using T = RowPack<B>;
     const RowsAt<B> at(item);
     const T excess = T(rows.excess(rows.region(at.slice)));
     for (int k = 0; k < fields; ++k) {
       T x = smoothed<B>(rows, from.data() + k, fields, at);
-      if constexpr (first) {
-        x = excess * (k == 0 ? x - T(1) : x);
-        if (k == 0 && carried.extent(0) > 0) x = load_rows<B>(&carried(at.slot));
-      }
+      if constexpr (first) x = excess * (k == 0 ? x - T(1) : x);
       for (int l = 0; l < B::lanes; ++l) to((at.slot + l) * fields + k) = lane(x, l);
     }
   }
+};
+
+/// What is carried, in the place of the pressures of the volumes.
+template <class B, int fields>
+struct TakeCarried {
+  Scalars<B> carried, records;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const { records(slot * fields) = carried(slot); }
 };
 
 /// work.pressure of the fields that have been laid out.
@@ -166,7 +170,10 @@ template <class B, int fields>
 void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, const NodalWork<B>& work,
                       const Scalars<B>& carried = {}) {
   for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, fields>{rows, work});
-  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records, carried});
+  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records});
+  if (carried.extent(0) > 0)
+    Kokkos::parallel_for("plica::nodal_carried", Kokkos::RangePolicy<typename B::Exec>(exec, 0, rows.slots()),
+                         TakeCarried<B, fields>{carried, work.records});
   for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, false>{rows, work.records, work.pressure});
 }
 
