@@ -61,178 +61,6 @@ Json choice_json(const std::optional<CycleChoice>& choice) {
           {"trials", trials}};
 }
 
-namespace {
-
-bool has_elements(const LevelReport& level) {
-  return level.kind == LevelKind::mesh || level.kind == LevelKind::lattice;
-}
-
-const char* name_of(LevelKind kind) {
-  constexpr const char* names[] = {"mesh", "lattice", "space", "slivers"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-// "nodal (stabilisation 0.4), linear; about 8 across the thickness of level 0"
-std::string elements_text(const Body& body, const Plan& plan) {
-  std::vector<Lame<double>> lame;
-  const MaterialInfo& material = *find_material(body.material.model);
-  lame.push_back(material.small_strains(parameter_values(material, body.material, {})));
-  for (const auto& [name, region] : body.regions)
-    lame.push_back(material.small_strains(parameter_values(material, body.material, region)));
-  const bool smoothed = smooths_pressure(body, lame);
-  std::string text;
-  for (const LevelReport& level : plan.levels) {
-    if (!has_elements(level)) continue;
-    text += (text.empty() ? "" : ", ") + level.element;
-    if (level.element == name_of(Element::nodal))
-      text += fmt::format(" (stabilisation {:g}{}{})", body.stabilisation, smoothed ? ", pressures smoothed" : "",
-                          smoothed && !level.explicit_integrator ? " and carried by implicit steps" : "");
-  }
-  return text + fmt::format("; about {:.2g} across the thickness of level 0", elements_across(body.levels.front()));
-}
-
-std::string head_text(const Scene& scene, const Plan& plan) {
-  const MaterialOptions& m = scene.problem.body.material;
-  const IntegrationOptions& i = scene.problem.integration;
-  const std::string shift =
-      i.shift_to_coarsest > 0 ? fmt::format(", {:g} of each to the coarsest", i.shift_to_coarsest) : "";
-  return fmt::format("{} ({})\n", scene.name, scene.file) +
-         text_table(
-             {{"time", fmt::format("{:g} s in {} of {}", scene.duration,
-                                   counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
-                                   in_units(plan.macro_step, "s"))},
-              {"cycle",
-               fmt::format("{}{}", cycle_name(scene, plan.choice),
-                           plan.him || plan.choice ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
-              {"material", material_text(*find_material(m.model), m)},
-              {"elements", elements_text(scene.problem.body, plan)},
-              {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
-             "<<");
-}
-
-// What cycle him does with the levels
-std::string inertia_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows = {
-      {"level", "inertia of its own detail", "limit of that detail", "macro step / limit"}};
-  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
-    const LevelReport& level = plan.levels[i];
-    const double own = level.detail_step;
-    rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia), own > 0 ? in_units(own, "s") : "",
-                    own > 0 ? fmt::format("{:.3g}", plan.macro_step / own) : ""});
-  }
-  return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>>") +
-         fmt::format(
-             "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the levels' own: {:.3f}\n",
-             plan.him->product, plan.him->bound);
-}
-
-// The elements that set a level's critical step, where they are out of the ordinary: below half the median
-std::string slivers_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows = {
-      {"level", "element", "edge / height", "step by itself", "of the median", "region"}};
-  for (std::size_t i = 0; i < plan.levels.size(); ++i)
-    for (const StiffElement& e : plan.levels[i].stiffest)
-      if (const double median = plan.levels[i].typical_element; e.step < named_below * median)
-        rows.push_back({std::to_string(i), std::to_string(e.element), fmt::format("{:.3g}", e.height_ratio),
-                        in_units(e.step, "s"), fmt::format("{:.2g}", e.step / median), e.region});
-  if (rows.size() == 1) return {};
-  return "\nElements that limit the step, at most ten of a level\n" + text_table(rows, ">>>>><");
-}
-
-// Coarse levels that were made of the finest mesh
-std::string spaces_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows = {{"level", "points", "spacing", "weights per row"}};
-  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
-    const LevelReport& level = plan.levels[i];
-    if (!has_elements(level))
-      rows.push_back({std::to_string(i), std::to_string(level.vertices),
-                      level.kind == LevelKind::space ? in_units(level.mean_edge, "m") : "slivers follow",
-                      fmt::format("{:.1f}", level.nonzeros)});
-  }
-  return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0 (body.levels: coarsen)\n" + text_table(rows, ">>>>");
-}
-
-// Two tables: what a level is, then what it does in a macro step
-std::string levels_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> meshes = {
-      {"level", "vertices", "tetrahedra", "mean edge", "mass", "critical step", "element bound"}};
-  std::vector<std::vector<std::string>> steps = {
-      {"level", "share", "time", "sub-steps", "of", "of / critical", "integrator"}};
-  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
-    const LevelReport& level = plan.levels[i];
-    if (!has_elements(level)) continue;
-    const std::string filled =
-        level.kind == LevelKind::lattice ? fmt::format(", {:.1f} % filled", 100 * level.filled) : "";
-    meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets) + filled,
-                      in_units(level.mean_edge, "m"), in_units(level.mass, "kg"),
-                      level.critical_step > 0 ? in_units(level.critical_step, "s") : "",
-                      in_units(level.element_bound, "s")});
-    if (level.share == 0) continue;
-    const double time = level.share * plan.macro_step, substep = time / level.substeps;
-    steps.push_back({std::to_string(i), fmt::format("{:.4f}", level.share), in_units(time, "s"),
-                     std::to_string(level.substeps), in_units(substep, "s"),
-                     fmt::format("{:.2f}", substep / level.critical_step),
-                     level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
-  }
-  const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + spaces_text(plan);
-  if (plan.him) return list + inertia_text(plan);
-  return list + "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
-}
-
-std::string transfers_text(const Plan& plan) {
-  if (plan.levels.size() < 2) return {};
-  std::vector<std::vector<std::string>> rows = {
-      {"levels", "coarse vertices outside", "fine vertices outside", "largest miss / edge"}};
-  for (std::size_t i = 1; i < plan.levels.size(); ++i) {
-    const LevelReport& level = plan.levels[i];
-    if (!has_elements(level)) return {};
-    rows.push_back({fmt::format("{} - {}", i - 1, i), std::to_string(level.outside_down),
-                    std::to_string(level.outside_up), fmt::format("{:.2g}", level.largest_miss)});
-  }
-  return "\nBetween the levels\n" + text_table(rows, ">>>>");
-}
-
-std::string parts_text(const Plan& plan) {
-  std::vector<std::vector<std::string>> rows;
-  std::size_t bytes = 0;
-  for (const Part& part : plan.parts) {
-    rows.push_back({part.in ? "in" : "out", part.name, part.in ? in_bytes(part.bytes) : "", part.reason});
-    bytes += part.bytes;
-  }
-  return fmt::format("\nParts, {} on the device\n", in_bytes(bytes)) + text_table(rows, "<<><");
-}
-
-}  // namespace
-
-std::string plan_text(const Scene& scene, const Plan& plan) {
-  return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") + levels_text(plan) +
-         slivers_text(plan) + transfers_text(plan) + parts_text(plan);
-}
-
-std::string plan_json(const Scene& scene, const Plan& plan) {
-  Json parts = Json::array();
-  for (const Part& part : plan.parts)
-    parts.push_back({{"name", part.name}, {"in", part.in}, {"reason", part.reason}, {"bytes", part.bytes}});
-  const Json json = {{"name", scene.name},
-                     {"scene", scene.file},
-                     {"duration", scene.duration},
-                     {"macro_step", plan.macro_step},
-                     {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
-                     {"cycle", cycle_name(scene, plan.choice)},
-                     {"choice", choice_json(plan.choice)},
-                     {"precision", plan.precision},
-                     {"backend", plan.backend},
-                     {"threads", plan.threads},
-                     {"levels", levels_json(plan.levels)},
-                     {"him", plan.him ? Json{{"product", plan.him->product},
-                                             {"bound", plan.him->bound},
-                                             {"coarsest_vertices", plan.him->coarsest},
-                                             {"all_modes", plan.him->all_modes}}
-                                      : Json(nullptr)},
-                     {"parts", parts}};
-  return json_text(json);
-}
-
 long steps_to_cover(double duration, double macro_step) {
   constexpr double rounding = 1e-9;  // of a step: 3 s are 100 steps of 30 ms
   constexpr double most = 1e12;
@@ -282,6 +110,15 @@ Json tools_json(const std::vector<ToolState>& tools) {
 }
 
 }  // namespace
+
+bool has_elements(const LevelReport& level) {
+  return level.kind == LevelKind::mesh || level.kind == LevelKind::lattice;
+}
+
+const char* name_of(LevelKind kind) {
+  constexpr const char* names[] = {"mesh", "lattice", "space", "slivers"};
+  return names[static_cast<std::size_t>(kind)];
+}
 
 Json levels_json(const std::vector<LevelReport>& levels) {
   Json list = Json::array();

@@ -44,6 +44,10 @@ std::string summary_json(const Scene& scene, const Summary& summary, const std::
 /// The same in a few lines for people.
 std::string summary_text(const Scene& scene, const Summary& summary, const std::string& folder);
 
+/// Whether a level has elements, not points of a coarse space alone.
+bool has_elements(const LevelReport& level);
+/// As summary.json has it.
+const char* name_of(LevelKind kind);
 /// The levels as summary.json and `plica explain --json` print them.
 nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels);
 

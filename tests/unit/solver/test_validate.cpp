@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <functional>
 #include <limits>
 #include <plica/core/error.hpp>
-#include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/generators.hpp>
-#include <plica/meshes/mesh_quality.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -137,26 +134,6 @@ TEST(Validate, DoubtsLevelsThatDoNotCoarsen) {
             "body.levels: level 1 is not coarser than level 0: 384 tetrahedra after 384; expected the finest first");
   std::swap(p.body.levels[0], p.body.levels[2]);
   EXPECT_EQ(other_doubts(p).size(), 2);  // 2, 4 and 4 cells a side
-}
-
-TEST(Validate, LooksWhetherTheBodyStartsInAnObstacle) {
-  Problem p = small_cube();
-  const std::vector<Point>& vertices = p.body.levels[0].vertices;
-  const Point top = *std::ranges::max_element(vertices, {}, [](const Point& x) { return x.sum(); });
-  const auto starts_in = [&](double radius) {
-    p.contact.obstacles = {{SphereOptions{top, radius}, {}, {}}};
-    return other_doubts(p);
-  };
-  EXPECT_TRUE(starts_in(1e-6).empty());
-  const double edge = mean_edge_length(p.body.levels[0]);
-  const std::vector<std::string> found = starts_in(0.6 * edge);
-  ASSERT_EQ(found.size(), 1);
-  EXPECT_TRUE(
-      found[0].starts_with("contact.obstacles.0: the body starts inside it, " + number(0.6 * edge, 3) + " m deep"))
-      << found[0];
-  starts_in(100);
-  EXPECT_EQ(refusal([&] { validate(p); }),
-            "contact.obstacles.0 contains the whole body at the start; expected a body outside");
 }
 
 TEST(Validate, DoubtsPathsThatStartElsewhere) {
