@@ -20,27 +20,14 @@ void expect_small(const TetMesh& coarsest, std::size_t level) {
                      ": add a coarser level, of 200 to 350 vertices");
 }
 
-/// The coarser levels as the stepper uses them, finest first: of the body's coarser meshes, or made of the finest one alone.
-struct Coarser {
-  std::vector<RowMatrix> transfers;
-  std::vector<CoarseSpace> made;  ///< of the finest mesh
-};
-
 template <class B>
-Coarser coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
-  const std::vector<TetMesh>& meshes = setup.meshes;
-  const std::vector<LevelConstants>& constants = setup.constants;
-  Coarser result;
-  for (std::size_t i = 1; i < meshes.size(); ++i)
-    result.transfers.push_back(transfer_matrix(meshes[i - 1], constants[i - 1].constrained, meshes[i],
-                                               constants[i].constrained, setup.up[i],
-                                               setup.problem.integration.him.smoothing));
-  if (meshes.size() > 1) return result;
-  const std::vector<char>& constrained = constants[0].constrained;
-  const SpaceOptions options{.sizes = space_sizes(setup.problem.body, constrained), .slivers = true};
-  result.made = coarse_spaces(meshes[0], constrained, constants[0].mass, K, options);
-  for (const CoarseSpace& space : result.made) result.transfers.push_back(space.up);
-  return result;
+LevelsBelow coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
+  std::vector<RestLevel> levels;
+  for (std::size_t i = 0; i < setup.meshes.size(); ++i)
+    levels.push_back({setup.meshes[i], setup.constants[i].constrained, i > 0 ? &setup.up[i] : nullptr});
+  SpaceOptions options{.sizes = {}, .slivers = true};
+  if (levels.size() == 1) options.sizes = space_sizes(setup.problem.body, setup.constants[0].constrained);
+  return levels_below(levels, setup.constants[0].mass, K, options, setup.problem.integration.him.smoothing);
 }
 
 /// What the reports say of spaces: they have no elements.
@@ -64,7 +51,7 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   std::vector<std::array<double, 2>> lame;
   for (const auto& one : constants.lame) lame.push_back({one.lambda, one.mu});
   BlockRows K = rest_stiffness(meshes.front(), lame);
-  const Coarser coarser = coarser_levels<B>(setup, K);
+  const LevelsBelow coarser = coarser_levels<B>(setup, K);
   report_spaces(coarser.made, setup.reports);
   const auto spaces = mass_spaces(coarser.transfers, constants.mass);
   HimParts<B> parts;
@@ -75,8 +62,8 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   if (!spaces.empty()) {
     for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
     modes.emplace(dense_matrix(K), spaces.back().mass);
-    axes = coarser.made.empty() ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
-                                : axes_of_space(meshes.front(), to_finest(spaces), constants.mass);
+    axes = meshes.size() > 1 ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
+                             : axes_of_space(meshes.front(), to_finest(spaces), constants.mass);
   }
   parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
   parts.fitter =

@@ -99,7 +99,7 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::
   for (RowMatrix& P : transfers) {
     M = RowMatrix(RowMatrix(P.transpose()) * M) * P;
     MassSpace& space = spaces.emplace_back(MassSpace{std::move(P), M, inverse_row_sums(M), {}});
-    space.scale = scale_of(space);
+    if (&P != &transfers.back()) space.scale = scale_of(space);  // the last one's modes are its answer
   }
   return spaces;
 }

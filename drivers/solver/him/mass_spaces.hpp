@@ -37,7 +37,8 @@ struct MassSpace {
   RowMatrix up;                          ///< P, [finer level's vertices x vertices]
   RowMatrix mass;                        ///< M = P^T (the finer level's M) P [kg]
   std::vector<double> inverse_diagonal;  ///< of D = sum of |M| along a row [1/kg]; 0: no motion here
-  std::vector<double> scale;             ///< E, by which Q = D^-1 (2 - M D^-1) becomes E Q E: a translation stays one
+  std::vector<double>
+      scale;  ///< E, by which Q = D^-1 (2 - M D^-1) becomes E Q E: a translation stays one; not of the last
 };
 
 /// The coarser levels' spaces, finest first, of their transfers. E solves E Q E M 1 = 1 (Sinkhorn & Knopp 1967): on irregular levels Q alone answers forces that

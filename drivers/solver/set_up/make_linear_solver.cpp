@@ -35,21 +35,13 @@ RestMesh rest_mesh(const Body& body, std::size_t level) {
 
 /// Over the body's coarser meshes, or over spaces made of the level itself where it is the coarsest one.
 std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
-  std::vector<RowMatrix> transfers;
-  RestMesh fine = rest_mesh(body, level);
-  if (level + 1 == body.levels.size()) {
-    const SpaceOptions options{.sizes = space_sizes(body, fine.constrained, multigrid_sizes), .reach = multigrid_reach};
-    for (CoarseSpace& space : coarse_spaces(fine.mesh, fine.constrained, {}, {}, options))
-      transfers.push_back(std::move(space.up));
-    return transfers;
-  }
-  for (std::size_t i = level + 1; i < body.levels.size(); ++i) {
-    RestMesh coarse = rest_mesh(body, i);
-    transfers.push_back(transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained,
-                                        embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate), false));
-    fine = std::move(coarse);
-  }
-  return transfers;
+  std::vector<RestMesh> meshes;
+  for (std::size_t i = level; i < body.levels.size(); ++i) meshes.push_back(rest_mesh(body, i));
+  std::vector<RestLevel> levels;
+  for (const RestMesh& one : meshes) levels.push_back({one.mesh, one.constrained});
+  SpaceOptions options{.sizes = {}, .reach = multigrid_reach};
+  if (levels.size() == 1) options.sizes = space_sizes(body, meshes.front().constrained, multigrid_sizes);
+  return levels_below(levels, {}, {}, options, false).transfers;
 }
 
 bool has_multigrid(const Body& body, std::size_t level) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <plica/drivers/solver/spaces/block_rows.hpp>
 #include <plica/drivers/solver/spaces/index_of.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
@@ -36,6 +37,12 @@ class RowSum {
   std::vector<int> place_;
 };
 
+/// The first entry of a row in this column or behind it.
+template <class Row>
+auto from_column(Row& row, int column) {
+  return std::lower_bound(row.begin(), row.end(), column, [](const auto& e, int c) { return e.first < c; });
+}
+
 }  // namespace
 
 BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<double, 2>>& lame) {
@@ -63,9 +70,7 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
         Eigen::Matrix3d block = lambda * gi * gj.transpose() + mu * gj * gi.transpose();
         block.diagonal().array() += mu * gi.dot(gj);
         auto& row = K[index_of(tet[index_of(i)])];
-        const auto place = std::lower_bound(row.begin(), row.end(), tet[index_of(j)],
-                                            [](const auto& entry, int column) { return entry.first < column; });
-        place->second += volume * block;
+        from_column(row, tet[index_of(j)])->second += volume * block;
       }
   }
   return K;
@@ -73,20 +78,25 @@ BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<doubl
 
 BlockRows galerkin_product(const BlockRows& K, const RowMatrix& P) {
   const auto columns = static_cast<std::size_t>(P.cols());
-  RowSum sum(columns);
   BlockRows KP(K.size()), result(columns);
-  for (std::size_t i = 0; i < K.size(); ++i) {
-    for (const auto& [j, block] : K[i])
-      for (RowMatrix::InnerIterator entry(P, j); entry; ++entry)
-        sum.add(static_cast<int>(entry.col()), entry.value(), block);
-    KP[i] = sum.take();
-  }
+  for_row_ranges(K.size(), [&](std::size_t first, std::size_t last) {
+    RowSum sum(columns);
+    for (std::size_t i = first; i < last; ++i) {
+      for (const auto& [j, block] : K[i])
+        for (RowMatrix::InnerIterator entry(P, j); entry; ++entry)
+          sum.add(static_cast<int>(entry.col()), entry.value(), block);
+      KP[i] = sum.take();
+    }
+  });
   const RowMatrix Pt = P.transpose();
-  for (std::size_t I = 0; I < columns; ++I) {
-    for (RowMatrix::InnerIterator entry(Pt, static_cast<Eigen::Index>(I)); entry; ++entry)
-      for (const auto& [J, block] : KP[static_cast<std::size_t>(entry.col())]) sum.add(J, entry.value(), block);
-    result[I] = sum.take();
-  }
+  for_row_ranges(columns, [&](std::size_t first, std::size_t last) {
+    RowSum sum(columns);
+    for (std::size_t I = first; I < last; ++I) {
+      for (RowMatrix::InnerIterator entry(Pt, static_cast<Eigen::Index>(I)); entry; ++entry)
+        for (const auto& [J, block] : KP[static_cast<std::size_t>(entry.col())]) sum.add(J, entry.value(), block);
+      result[I] = sum.take();
+    }
+  });
   return result;
 }
 

@@ -32,6 +32,20 @@ RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& const
   return kept;
 }
 
+/// None where there are no slivers. Vertices whose motion is given have no part in it.
+std::optional<CoarseSpace> slivers_of(const TetMesh& mesh, const std::vector<char>& constrained,
+                                      const std::vector<double>& mass, const BlockRows& K) {
+  auto slivers = sliver_space(mesh, constrained, mass, K);
+  if (!slivers) return {};
+  CoarseSpace space{{}, std::move(slivers->kept), 0, true};
+  space.up = without_constrained(slivers->up, constrained, space.points);
+  return space;
+}
+
+void drop_constrained_rows(RowMatrix& P, const std::vector<char>& constrained) {
+  P.prune([&](Eigen::Index a, Eigen::Index, double) { return !constrained[static_cast<std::size_t>(a)]; });
+}
+
 }  // namespace
 
 std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
@@ -60,9 +74,9 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
   std::vector<int> rows(mesh.vertices.size());
   std::iota(rows.begin(), rows.end(), 0);
   if (options.slivers)
-    if (auto slivers = sliver_space(mesh, constrained, mass, K)) {
-      rows = slivers->kept;
-      spaces.push_back({without_constrained(slivers->up, constrained, rows), rows, 0, true});
+    if (auto slivers = slivers_of(mesh, constrained, mass, K)) {
+      rows = slivers->points;
+      spaces.push_back(std::move(*slivers));
     }
   for (const int size : options.sizes) {
     std::vector<int> points;
@@ -74,10 +88,28 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     spaces.push_back({without_constrained(P, constrained, points), points, spacing});
     rows = points;
   }
-  // vertices whose motion is given have no part in any
-  spaces.front().up.prune(
-      [&](Eigen::Index a, Eigen::Index, double) { return !constrained[static_cast<std::size_t>(a)]; });
+  drop_constrained_rows(spaces.front().up, constrained);  // they have no part in any
   return spaces;
+}
+
+LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass, const BlockRows& K,
+                         const SpaceOptions& options, bool smooth) {
+  LevelsBelow below;
+  const RestLevel& finest = levels.front();
+  if (levels.size() == 1) {
+    below.made = coarse_spaces(finest.mesh, finest.constrained, mass, K, options);
+    for (const CoarseSpace& space : below.made) below.transfers.push_back(space.up);
+    return below;
+  }
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const RestLevel &fine = levels[i - 1], &coarse = levels[i];
+    const auto transfer = [&](const Embedding& up) {
+      return transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained, up, smooth);
+    };
+    below.transfers.push_back(
+        transfer(coarse.up ? *coarse.up : embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate)));
+  }
+  return below;
 }
 
 }  // namespace plica

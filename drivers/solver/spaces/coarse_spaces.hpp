@@ -3,6 +3,7 @@
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/spaces/block_rows.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/meshes/embedding.hpp>
 #include <vector>
 
 // Coarse levels that are made of the finest mesh alone: spaces of motions of its vertices, without elements. Steppers and
@@ -52,5 +53,25 @@ struct SpaceOptions {
 std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<char>& constrained,
                                        const std::vector<double>& mass, const BlockRows& K,
                                        const SpaceOptions& options);
+
+/// A level's mesh at rest.
+struct RestLevel {
+  const TetMesh& mesh;
+  const std::vector<char>& constrained;  ///< per vertex: its motion is given
+  const Embedding* up = nullptr;  ///< the next finer level's vertices in this mesh; none: worked out where it is needed
+};
+
+/// What lies below a level.
+struct LevelsBelow {
+  std::vector<RowMatrix>
+      transfers;  ///< P of each, finest first: values at its vertices or points -> at those of the one above
+  std::vector<CoarseSpace> made;  ///< those of them that are no meshes
+};
+
+/// The coarser meshes, or coarse_spaces() of a mesh alone.
+/// @param levels  meshes, finest first
+/// @param smooth  the transfers of meshes: see transfer_matrix()
+LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass, const BlockRows& K,
+                         const SpaceOptions& options, bool smooth);
 
 }  // namespace plica

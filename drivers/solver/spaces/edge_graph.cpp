@@ -14,19 +14,13 @@ constexpr double unreached = std::numeric_limits<double>::infinity();
 /// Distances spread along the edges from the open vertices, wherever they shrink there; reached(from, to) for each that does.
 template <class Reached>
 void spread(const EdgeGraph& graph, DistanceQueue open, std::vector<double>& distance, const Reached& reached) {
-  while (!open.empty()) {
-    const auto [d, v] = open.top();
-    open.pop();
-    if (d > distance[index_of(v)]) continue;
-    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
-      const int w = graph.neighbour[index_of(k)];
-      const double there = d + graph.length[index_of(k)];
-      if (!(there < distance[index_of(w)])) continue;
-      distance[index_of(w)] = there;
-      reached(v, w);
-      open.emplace(there, w);
-    }
-  }
+  walk_edges(
+      graph, open, [&](int v) { return distance[index_of(v)]; }, [](int, double) {},
+      [&](int from, int to, double d) {
+        distance[index_of(to)] = d;
+        reached(from, to);
+        return true;
+      });
 }
 
 }  // namespace

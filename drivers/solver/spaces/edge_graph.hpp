@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
+#include <limits>
 #include <plica/core/mesh.hpp>
 #include <queue>
 #include <utility>
@@ -22,7 +23,25 @@ EdgeGraph edge_graph(const TetMesh& mesh);
 /// Distances along edges, and the vertex: the nearest on top.
 using DistanceQueue = std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>>;
 
-/// Vertices in the order of their distance along edges from one of them (Dijkstra 1959). Its memory serves many walks.
+/// Goes along the edges from the open vertices, the nearest first (Dijkstra 1959). visit(vertex, distance) once for each vertex whose
+/// distance known(vertex) is final; reach(from, to, distance) keeps a distance that is shorter than what is known, or says no.
+template <class Known, class Visit, class Reach>
+void walk_edges(const EdgeGraph& graph, DistanceQueue& open, const Known& known, const Visit& visit,
+                const Reach& reach) {
+  while (!open.empty()) {
+    const auto [d, v] = open.top();
+    open.pop();
+    if (d > known(v)) continue;
+    visit(v, d);
+    for (int k = graph.first[static_cast<std::size_t>(v)]; k < graph.first[static_cast<std::size_t>(v) + 1]; ++k) {
+      const int w = graph.neighbour[static_cast<std::size_t>(k)];
+      const double there = d + graph.length[static_cast<std::size_t>(k)];
+      if (there < known(w) && reach(v, w, there)) open.emplace(there, w);
+    }
+  }
+}
+
+/// Vertices in the order of their distance along edges from one of them. Its memory serves many walks.
 class EdgeWalk {
  public:
   explicit EdgeWalk(const EdgeGraph& graph)
@@ -33,20 +52,17 @@ class EdgeWalk {
   void from(int start, double reach, const Visit& visit) {
     ++now_;
     DistanceQueue open;
-    const auto offer = [&](int v, double d) {
+    open.emplace(0, start);
+    keep(start, 0);
+    const auto known = [&](int v) {
       const auto at = static_cast<std::size_t>(v);
-      if (d > reach || (walk_[at] == now_ && d >= distance_[at])) return;
-      walk_[at] = now_, distance_[at] = d;
-      open.emplace(d, v);
+      return walk_[at] == now_ ? distance_[at] : std::numeric_limits<double>::infinity();
     };
-    for (offer(start, 0); !open.empty();) {
-      const auto [d, v] = open.top();
-      open.pop();
-      if (d > distance_[static_cast<std::size_t>(v)]) continue;
-      visit(v, d);
-      for (int k = graph_.first[static_cast<std::size_t>(v)]; k < graph_.first[static_cast<std::size_t>(v) + 1]; ++k)
-        offer(graph_.neighbour[static_cast<std::size_t>(k)], d + graph_.length[static_cast<std::size_t>(k)]);
-    }
+    walk_edges(graph_, open, known, visit, [&](int, int v, double d) {
+      if (d > reach) return false;
+      keep(v, d);
+      return true;
+    });
   }
 
  private:
@@ -54,6 +70,8 @@ class EdgeWalk {
   std::vector<double> distance_;
   std::vector<int> walk_;
   int now_ = 0;
+
+  void keep(int v, double d) { walk_[static_cast<std::size_t>(v)] = now_, distance_[static_cast<std::size_t>(v)] = d; }
 };
 
 /// Vertices in the order in which each is the furthest, along edges, from all before it (Gonzalez 1985): any first part of

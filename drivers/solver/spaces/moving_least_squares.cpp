@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 
 namespace plica {
 
@@ -28,18 +29,19 @@ class Fitter {
     for (std::size_t j = 0; j < points.size(); ++j) number_[index_of(points[j])] = static_cast<int>(j);
   }
 
-  /// Each row's points within the first radius: a walk from each point, which are fewer than the rows.
-  std::vector<std::vector<Near>> neighbourhoods(const std::vector<int>& rows) {
-    std::vector<int> place(number_.size(), -1);
-    for (std::size_t i = 0; i < rows.size(); ++i) place[index_of(rows[i])] = static_cast<int>(i);
-    std::vector<std::vector<Near>> near(rows.size());
-    for (std::size_t j = 0; j < points_.size(); ++j)
-      walk_.from(points_[j], edge_detour * radius_, [&](int v, double along) {
-        if (place[index_of(v)] < 0) return;
-        const double d = distance(v, points_[j], along);
-        if (d < radius_) near[index_of(place[index_of(v)])].push_back({static_cast<int>(j), d});
-      });
-    return near;
+  /// A row within the first radius of a point.
+  struct Reached {
+    int row;
+    double distance;  // [m]
+  };
+
+  /// The rows that point j reaches; place: of a vertex among the rows, or -1.
+  void reached(int j, const std::vector<int>& place, std::vector<Reached>& rows) {
+    const int point = points_[index_of(j)];
+    walk_.from(point, edge_detour * radius_, [&](int v, double along) {
+      if (place[index_of(v)] < 0) return;
+      if (const double d = distance(v, point, along); d < radius_) rows.push_back({place[index_of(v)], d});
+    });
   }
 
   /// The row of vertex `a` as (point, weight): by the points `near` within the first radius, or by more of them.
@@ -100,19 +102,36 @@ class Fitter {
   }
 };
 
+/// Each row's points within the first radius, ascending: by walks from the points, which are fewer than the rows.
+std::vector<std::vector<Near>> neighbourhoods(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
+                                              const std::vector<int>& points, double radius) {
+  std::vector<int> place(mesh.vertices.size(), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) place[index_of(rows[i])] = static_cast<int>(i);
+  std::vector<std::vector<Fitter::Reached>> reached(points.size());
+  for_row_ranges(points.size(), [&](std::size_t first, std::size_t last) {
+    Fitter fitter(mesh, graph, points, radius);
+    for (std::size_t j = first; j < last; ++j) fitter.reached(static_cast<int>(j), place, reached[j]);
+  });
+  std::vector<std::vector<Near>> near(rows.size());
+  for (std::size_t j = 0; j < points.size(); ++j)
+    for (const auto& [row, distance] : reached[j]) near[index_of(row)].push_back({static_cast<int>(j), distance});
+  return near;
+}
+
 }  // namespace
 
 RowMatrix moving_least_squares(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
                                const std::vector<int>& points, double spacing, double reach) {
-  Fitter fitter(mesh, graph, points, reach * spacing);
-  const auto near = fitter.neighbourhoods(rows);
+  const auto near = neighbourhoods(mesh, graph, rows, points, reach * spacing);
+  std::vector<std::vector<std::pair<int, double>>> fitted(rows.size());
+  for_row_ranges(rows.size(), [&](std::size_t first, std::size_t last) {
+    Fitter fitter(mesh, graph, points, reach * spacing);
+    for (std::size_t i = first; i < last; ++i) fitter.fit(rows[i], near[i], fitted[i]);
+  });
   RowMatrix P(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(points.size()));
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<std::pair<int, double>> row;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    fitter.fit(rows[i], near[i], row);
-    for (const auto& [point, weight] : row) entries.emplace_back(static_cast<int>(i), point, weight);
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const auto& [point, weight] : fitted[i]) entries.emplace_back(static_cast<int>(i), point, weight);
   P.setFromTriplets(entries.begin(), entries.end());
   return P;
 }

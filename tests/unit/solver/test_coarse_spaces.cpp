@@ -245,6 +245,28 @@ TEST(Him, NeedsOneMeshOnly) {
   }
 }
 
+// What spaces made of one mesh get, given meshes get too: translations stay
+TEST(Him, ScalesTheSpacesOfGivenMeshes) {
+  Problem p = him_beam(false, "neo_hookean");
+  p.body.levels.front() = irregular_beam();
+  const std::vector<TetMesh>& meshes = p.body.levels;
+  std::vector<std::vector<char>> none;
+  std::vector<RestLevel> levels;
+  for (const TetMesh& mesh : meshes) none.push_back(none_of(mesh));
+  for (std::size_t i = 0; i < meshes.size(); ++i) levels.push_back({meshes[i], none[i]});
+  const LevelsBelow below = levels_below(levels, {}, {}, {.sizes = {}}, true);
+  ASSERT_EQ(below.transfers.size(), 2u);
+  EXPECT_TRUE(below.made.empty());
+  const auto spaces = mass_spaces(below.transfers, mass_of(meshes[0]));
+  EXPECT_TRUE(spaces.back().scale.empty()) << "the last one has no use for it";
+  const MassSpace& space = spaces.front();
+  const Eigen::Index n = space.mass.rows();
+  const Eigen::Map<const Eigen::ArrayXd> E(space.scale.data(), n), D(space.inverse_diagonal.data(), n);
+  const Eigen::VectorXd momentum = space.mass * Eigen::VectorXd::Ones(n);
+  const Eigen::VectorXd x = (E * momentum.array()).matrix(), lumped = (D * x.array()).matrix();
+  EXPECT_LE((E * D * (2 * x - space.mass * lumped).array() - 1).abs().maxCoeff(), 0.02);
+}
+
 TEST(Him, ReportsTheSpacesItMade) {
   const Problem p = him_beam_alone();
   const Simulation<Host> him(p);
