@@ -198,26 +198,16 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
   return json_text(json);
 }
 
-namespace {
-
-// "20 linear systems, 211 iterations each, 0 not solved; 60 of Newton's iterations, 0 steps not solved"; empty: none
-std::string solves_text(const Summary& s) {
-  const auto count = [&](const char* name) {
-    const auto found = s.counters.find(name);
-    return found == s.counters.end() ? 0L : found->second;
-  };
-  const long solves = count("linear_solves");
-  if (solves == 0) return "";
-  std::string text =
-      fmt::format("{}, {:.3g} iterations each, {} not solved", counted(solves, "linear system"),
-                  static_cast<double>(count("cg_iterations")) / static_cast<double>(solves), count("cg_misses"));
-  if (const long newtons = count("newton_iterations"); newtons > 0)
-    text +=
-        fmt::format("; {} of Newton's method, {} not solved", counted(newtons, "iteration"), count("newton_misses"));
-  return text;
+// "20 linear systems, 211 iterations each, 0 not solved"; empty: none
+static std::string solves_text(std::map<std::string, long> count) {
+  if (count["linear_solves"] == 0) return "";
+  const double each = static_cast<double>(count["cg_iterations"]) / static_cast<double>(count["linear_solves"]);
+  const std::string text = fmt::format("{}, {:.3g} iterations each, {} not solved",
+                                       counted(count["linear_solves"], "linear system"), each, count["cg_misses"]);
+  if (count["newton_iterations"] == 0) return text;
+  return text + fmt::format("; {} of Newton's method, {} not solved", counted(count["newton_iterations"], "iteration"),
+                            count["newton_misses"]);
 }
-
-}  // namespace
 
 std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {
   const double wall = s.wall_time;
@@ -245,7 +235,8 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
                             counted(static_cast<long>(s.frames), "frame"), last_good)},
       {"to look at", "plica report " + folder}};
-  if (const std::string solves = solves_text(s); !solves.empty()) rows.insert(rows.begin() + 2, {"solving", solves});
+  if (const std::string solves = solves_text(s.counters); !solves.empty())
+    rows.insert(rows.begin() + 2, {"solving", solves});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }
 
