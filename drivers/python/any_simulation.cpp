@@ -57,6 +57,10 @@ class SimulationOf final : public AnySimulation {
     return bad;
   }
   std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
+  std::vector<ToolState> tools() const override { return simulation_.tools(); }
+  void move_obstacle(int obstacle, const Point& displacement) override {
+    simulation_.move_obstacle(obstacle, displacement);
+  }
   void end_at(double time) override { simulation_.end_at(time); }
 
   ElementFields element_fields(int level) const override {
@@ -112,7 +116,7 @@ class SimulationOf final : public AnySimulation {
     summary.precision = precision(), summary.backend = B::Exec::name(),
     summary.threads = typename B::Exec().concurrency();
     summary.choice = choice_, summary.cycle = app::cycle_name(*scene_, choice_);
-    summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches();
+    summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches(), summary.tools = tools();
     summary.residual = simulation_.worst_residual();
     app::write_file(folder_ / "summary.json", app::summary_json(*scene_, summary, {"import plica"}));
   }

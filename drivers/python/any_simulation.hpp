@@ -38,6 +38,9 @@ class AnySimulation {
   std::shared_ptr<Values> live(Field field, int level);
   virtual ElementFields element_fields(int level) const = 0;
   virtual std::vector<Wrench> wrenches() const = 0;
+  virtual std::vector<ToolState> tools() const = 0;
+  /// See Simulation::move_obstacle().
+  virtual void move_obstacle(int obstacle, const Point& displacement) = 0;
 
   virtual double time() const = 0;
   virtual double macro_step() const = 0;

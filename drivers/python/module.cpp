@@ -245,6 +245,15 @@ void bind_simulation(nb::module_& m) {
                all.push_back(nb::make_tuple(w.obstacle, vector_of(w.force), vector_of(w.torque)));
              return all;
            })
+      .def("tools",
+           [](const H& s) {
+             std::vector<nb::object> all;
+             for (const ToolState& t : s->tools())
+               all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement), vector_of(t.velocity)));
+             return all;
+           })
+      .def("move_obstacle", [](const H& s, int obstacle, double x, double y,
+                               double z) { s->move_obstacle(obstacle, {x, y, z}); })
       .def("start_files", [](const H& s, const std::string& folder) { s->start_files(folder); })
       .def(
           "write_frame",

@@ -34,6 +34,8 @@ class Obstacle {
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                       const PointLaws<B>&, const BlockSums<B>&, const Doubles<B>& result) const = 0;
   virtual ObstaclePlace<B> place(double time) const = 0;
+  /// From now on it moves so.
+  virtual void set_motion(const Motion& motion) = 0;
   /// One with mass takes a macro step that ends at `end`, pushed by the opposite of its wrench.
   virtual void move(const Exec&, const Doubles<B>& wrench, int number, double end, double span) const = 0;
   /// Of the largest ball in it [m].
@@ -99,6 +101,10 @@ class Contact {
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
   ObstaclePlace<B> place(int obstacle, double time) const {
     return obstacles_[static_cast<std::size_t>(obstacle)]->place(time);
+  }
+  /// From now on this obstacle moves so; work that is enqueued already has the motion it had.
+  void set_motion(int obstacle, const Motion& motion) const {
+    obstacles_[static_cast<std::size_t>(obstacle)]->set_motion(motion);
   }
   /// See ObstaclePlace; empty where none has mass.
   const Doubles<B>& tools() const { return tools_; }

@@ -76,6 +76,10 @@ class ObstacleOf final : public Obstacle<B> {
                  ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time), law, number}, blocks, result);
   }
   ObstaclePlace<B> place(double time) const override { return at(time, 0); }
+  void set_motion(const Motion& motion) override {
+    knots_.clear();
+    path_ = make_path(motion, knots_);
+  }
   void move(const Exec& exec, const Doubles<B>& wrench, int number, double end, double span) const override {
     if (!options_.mass) return;
     const double m = *options_.mass, k = options_.coupling.stiffness;

@@ -212,6 +212,15 @@ class Simulation {
   /// energies.
   void set_external_forces(const ExternalForces<B>& forces);
 
+  /// From now on an obstacle moves so, not as the problem says; displacements are from where its shape says. Does not wait. What save()
+  /// keeps is without it; check() no longer compares energies. Obstacles count from 0. InputError where there is none of that number.
+  void set_obstacle_motion(int obstacle, const Motion& motion);
+  /// Likewise straight from where its motion has it now to this displacement [m] at the end of the next macro step, where it stays: for
+  /// tools that a hand or a haptic device moves. One with mass follows by its coupling.
+  void move_obstacle(int obstacle, const Point& displacement);
+  /// Where its motion has it now, from where its shape says [m].
+  Point obstacle_displacement(int obstacle) const;
+
   std::vector<Point> positions(int level = 0) const;   ///< of a level's vertices, input order [m]; waits
   std::vector<Point> velocities(int level = 0) const;  ///< likewise [m/s]
   std::vector<Point> surface_positions() const;        ///< of the embedded surface's points [m]; waits

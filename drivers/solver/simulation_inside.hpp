@@ -55,6 +55,7 @@ struct Simulation<B>::Inside {
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const SolverLevel<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
+  const Contact<B>& contact_with(int obstacle) const;  // InputError where there is none of that number
   bool retries() const { return problem.integration.retry.halvings > 0; }
 
   // Steps

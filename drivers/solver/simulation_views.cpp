@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a simulation tells of itself; and what it carries from one macro step to the next, saved and restored.
+#include <plica/core/text.hpp>
 #include <plica/drivers/solver/exchange.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
@@ -68,6 +69,33 @@ std::vector<ToolState> Simulation<B>::tools() const {
         {obstacle_name(inside_->problem.contact, o), Point(own[0], own[1], own[2]), Point(own[3], own[4], own[5])});
   }
   return tools;
+}
+
+template <class B>
+const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
+  const int count = static_cast<int>(problem.contact.obstacles.size());
+  if (obstacle < 0 || obstacle >= count)
+    throw InputError(text("there is no obstacle ", obstacle, "; the problem has ", count, ", which count from 0"));
+  const Contact<B>* contact = (*built.hierarchy)[0].contact();
+  if (!contact) throw InputError("the body has no surface that could touch obstacles; expected body.surface");
+  return *contact;
+}
+
+template <class B>
+void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
+  inside_->contact_with(obstacle).set_motion(obstacle, motion);
+  inside_->budget_known = false;
+}
+template <class B>
+void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
+  const double now = inside_->time;
+  set_obstacle_motion(obstacle, PathMotion{{{now, obstacle_displacement(obstacle)},
+                                            {now + inside_->next_span(), displacement}}});
+}
+template <class B>
+Point Simulation<B>::obstacle_displacement(int obstacle) const {
+  const Vec3<double> d = inside_->contact_with(obstacle).place(obstacle, inside_->time).displacement;
+  return {d[0], d[1], d[2]};
 }
 
 template <class B>

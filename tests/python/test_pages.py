@@ -37,6 +37,17 @@ def test_wrenches_are_named_and_push_the_body_away():
         assert alone.wrenches() == {}
 
 
+def test_obstacles_are_moved_by_the_caller():
+    sim = plica.Simulation(PRESS)
+    for n in range(10):
+        sim.move_obstacle("finger", [0, 0, 0.05])
+        sim.step()
+    assert np.linalg.norm(sim.wrenches()["finger"].force) == 0
+    with pytest.raises(plica.InputError, match="unknown obstacle 'thumb' .choices: finger"):
+        sim.move_obstacle("thumb", [0, 0, 0])
+    assert sim.tools() == {}
+
+
 def test_frames_are_written_as_by_the_program(tmp_path):
     from frames import read_vtu
 

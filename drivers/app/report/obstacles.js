@@ -75,7 +75,7 @@ function motion_of(obstacle, time) {
   return plus(times(a.displacement, 1 - part), times(b.displacement, part));
 }
 
-// Those of the run whose shape is known here: {name, surface, at(time)}; low and high: the box around the body.
+// Those of the run whose shape is known here: {number, shape, name, surface, at(time)}; low and high: the box around the body.
 function obstacles_of(summary, low, high) {
   const found = [];
   (summary.obstacles || []).forEach((obstacle, number) => {
@@ -85,7 +85,7 @@ function obstacles_of(summary, low, high) {
     const surface = new Surface(new Float32Array(points), new Uint32Array(triangles));
     Object.assign(surface, {look: "glass", colour: "#7d92a8", sheet});
     const at = (time) => motion_of(obstacle, time);
-    found.push({name: obstacle.name || `${shape} ${number}`, surface, at, show: (time) => surface.move(surface.points, at(time))});
+    found.push({number, shape, name: obstacle.name || `${shape} ${number}`, surface, at, show: (time) => surface.move(surface.points, at(time))});
   });
   return found;
 }

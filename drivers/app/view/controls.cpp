@@ -12,7 +12,7 @@ namespace {
 using ControlJson = nlohmann::json;
 
 double number_of(const ControlJson& from, const char* name, double above, double most) {
-  const auto found = from.find(name);
+  const auto found = from.is_object() ? from.find(name) : from.end();
   const double value = found != from.end() && found->is_number() ? found->get<double>() : NAN;
   if (!(value >= above && value <= most))
     throw InputError(std::string(name) + ": expected a number from " + std::to_string(above) + " to " +
@@ -50,6 +50,9 @@ Controls controls_of(const std::string& text) {
   if (const ControlJson* pull = object_in(said, "pull")) c.pull = {point_in(*pull, "at"), point_in(*pull, "target")};
   if (const ControlJson* tool = object_in(said, "tool"))
     c.tool = {point_in(*tool, "centre"), number_of(*tool, "radius", std::numeric_limits<double>::min(), 1e6)};
+  if (const auto moved = said.find("moved"); moved != said.end() && moved->is_array())
+    for (const ControlJson& one : *moved)
+      c.moved.push_back({static_cast<int>(number_of(one, "obstacle", 0, 1e6)), point_in(one, "displacement")});
   return c;
 }
 

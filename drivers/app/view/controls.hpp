@@ -3,6 +3,7 @@
 #include <optional>
 #include <plica/core/mesh.hpp>
 #include <string>
+#include <vector>
 
 namespace plica::app {
 
@@ -18,6 +19,12 @@ struct BallTool {
   double radius = 0;             ///< [m]
 };
 
+/// Where an obstacle of the scene is asked to be.
+struct ObstacleAim {
+  int obstacle = 0;                    ///< counts from 0
+  Point displacement = Point::Zero();  ///< from where its shape says [m]
+};
+
 /// What the page of a live view may change while the scene runs.
 struct Controls {
   bool running = true;
@@ -28,6 +35,7 @@ struct Controls {
   std::string colour;        ///< "", displacement, speed, von_mises or J
   std::optional<Pull> pull;  ///< none: it is let go
   std::optional<BallTool> tool;
+  std::vector<ObstacleAim> moved;  ///< the others move as the scene says
 };
 
 /// From the page's message, in JSON. InputError that says which member is not as it should be, and what was expected.

@@ -8,7 +8,7 @@ const QUANTITIES = {displacement: ["displacement", "m"], speed: ["speed", "m/s"]
   J: ["volume ratio J", ""], "": ["none", ""]};
 const scene = JSON.parse(by_id("data").textContent);
 const live = {frame: null, frames: 0, most: 0, obstacles: [], held: null, ball: {radius: 0.1 * scene.size, centre: null, on: false},
-  controls: {running: true, restarts: 0, speed: 1, gravity: scene.gravity, stiffness: scene.stiffness, colour: "displacement", pull: null, tool: null}};
+  controls: {running: true, restarts: 0, speed: 1, gravity: scene.gravity, stiffness: scene.stiffness, colour: "displacement", pull: null, tool: null, moved: []}};
 
 // -- to the program, the newest state of the controls only
 
@@ -40,7 +40,7 @@ function show_frame(frame) {
   Object.assign(live, {frame, points}), ++live.frames;
   live.body.move(points);
   colour_body();
-  for (const obstacle of live.obstacles) obstacle.show(frame.time);
+  for (const obstacle of live.obstacles) show_obstacle(obstacle);
   if (frame.tool && !(live.held && live.held.ball)) live.ball.centre = frame.tool;
   place_ball(frame.tool || live.ball.centre);
   show_words(frame.wrong);
@@ -110,6 +110,24 @@ function place_ball(centre) {
   if (on) surface.move(surface.points.map((x) => radius * x), centre);
 }
 
+// -- obstacles of the scene
+
+// Those that the mouse can take: a plane or a bowl is all around.
+function can_move(obstacle) { return obstacle.shape !== "plane" && obstacle.shape !== "bowl" && obstacle.surface.look !== "off"; }
+
+function moved_of(obstacle) { return live.frame.moved.find((one) => one.obstacle === obstacle.number); }
+
+function show_obstacle(obstacle) {
+  const moved = moved_of(obstacle);
+  obstacle.shift = moved ? moved.displacement : obstacle.at(live.frame.time);
+  obstacle.surface.move(obstacle.surface.points, obstacle.shift);
+}
+
+function say_obstacle(obstacle, displacement) {
+  const others = live.controls.moved.filter((one) => one.obstacle !== obstacle.number);
+  say({moved: [...others, {obstacle: obstacle.number, displacement}]});
+}
+
 // -- where the mouse is
 
 function ray_of(event) {
@@ -121,9 +139,9 @@ function ray_of(event) {
 // The place of a point along a ray at this depth.
 function at_depth({rows, start}, depth) { return plus(start, times(rows[2], depth)); }
 
-// The triangle that is seen there: where on it, its depth, and the same place at rest.
-function pick(ray) {
-  const {points} = live, {triangles} = live.body, [right, above, near] = ray.rows, px = dot(right, ray.start), py = dot(above, ray.start), pz = dot(near, ray.start);
+// The triangle that is seen there: its corners, where on it, its depth.
+function seen_at(ray, points, triangles) {
+  const [right, above, near] = ray.rows, px = dot(right, ray.start), py = dot(above, ray.start), pz = dot(near, ray.start);
   let best = null;
   const at = (row, p) => row[0] * points[3 * p] + row[1] * points[3 * p + 1] + row[2] * points[3 * p + 2];
   for (let t = 0; t < triangles.length; t += 3) {
@@ -134,21 +152,37 @@ function pick(ray) {
     const depth = u * at(near, a) + v * at(near, b) + w * at(near, c) - pz;
     if (!best || depth > best.depth) best = {depth, corners: [a, b, c], weights: [u, v, w]};
   }
-  return best && {...best, rest: mixed(scene.rest, best), place: mixed(points, best)};
+  return best;
+}
+
+// Of the body with the same place at rest.
+function pick(ray) {
+  const best = seen_at(ray, live.points, live.body.triangles);
+  return best && {...best, rest: mixed(scene.rest, best), place: mixed(live.points, best)};
+}
+
+function pick_obstacle(ray, obstacle) {
+  const best = seen_at({rows: ray.rows, start: minus(ray.start, obstacle.shift)}, obstacle.surface.points, obstacle.surface.triangles);
+  return best && {obstacle, depth: best.depth, shift: obstacle.shift, place: at_depth(ray, best.depth)};
 }
 
 function mixed(points, {corners, weights}) {
   return [0, 1, 2].map((k) => corners.reduce((sum, p, i) => sum + weights[i] * points[3 * p + k], 0));
 }
 
-// What the mouse would take hold of: the ball, the body or nothing.
-function target_of(event) {
-  const ray = ray_of(event), body = live.body.look === "off" ? null : pick(ray), {ball} = live;
-  if (!ball.on) return body;
+function pick_ball(ray) {
+  const {ball} = live;
+  if (!ball.on) return null;
   const to = minus(ball.centre, ray.start), depth = dot(ray.rows[2], to);
   const beside = Math.hypot(dot(ray.rows[0], to), dot(ray.rows[1], to)), front = depth + Math.sqrt(Math.max(ball.radius ** 2 - beside ** 2, 0));
-  if (beside > ball.radius || (body && body.depth > front)) return body;
-  return {ball: true, depth, offset: minus(ball.centre, at_depth(ray, depth))};
+  return beside > ball.radius ? null : {ball: true, depth, front, offset: minus(ball.centre, at_depth(ray, depth))};
+}
+
+// What the mouse would take hold of, the nearest: the ball, an obstacle, the body or nothing.
+function target_of(event) {
+  const ray = ray_of(event), nearness = (one) => one.front ?? one.depth;
+  const seen = [live.body.look === "off" ? null : pick(ray), pick_ball(ray), ...live.obstacles.filter(can_move).map((one) => pick_obstacle(ray, one))];
+  return seen.filter(Boolean).reduce((best, one) => !best || nearness(one) > nearness(best) ? one : best, null);
 }
 
 function take(event) {
@@ -160,6 +194,7 @@ function take(event) {
 function draw_to(event) {
   const {held} = live, place = at_depth(ray_of(event), held.depth);
   if (held.ball) live.ball.centre = plus(place, held.offset), say_ball();
+  else if (held.obstacle) say_obstacle(held.obstacle, plus(held.shift, minus(place, held.place)));
   else held.target = place, say({pull: {at: held.rest, target: place}});
   redraw();
 }
@@ -182,7 +217,10 @@ function redraw() {
   if (!live.frame) return;
   const on_screen = (p) => { const at = minus(p, view.focus); return [width / 2 + view.shift[0] + dot(rows[0], at) * view.resolution(), height / 2 + view.shift[1] - dot(rows[1], at) * view.resolution()]; };
   const words = [];
-  if (live.held && !live.held.ball) {
+  const held_obstacle = live.held && live.held.obstacle && moved_of(live.held.obstacle);
+  if (held_obstacle && held_obstacle.push > 0)
+    words.push([...on_screen(plus(live.held.place, minus(held_obstacle.displacement, live.held.shift))), with_unit(held_obstacle.push, "N")]);
+  if (live.held && live.held.target) {
     const [x, y] = on_screen(mixed(live.points, live.held)), [tx, ty] = on_screen(live.held.target);
     svg.append(element("line", {x1: x, y1: y, x2: tx, y2: ty, stroke: HAND, "stroke-width": 2.5}), element("circle", {cx: x, cy: y, r: 5, fill: HAND}));
     words.push([tx, ty, with_unit(live.frame.pull, "N")]);
@@ -230,7 +268,7 @@ function run(on) {
   say({running: on});
 }
 
-function restart() { live.most = 0, say({restarts: live.controls.restarts + 1}); }
+function restart() { live.most = 0, say({restarts: live.controls.restarts + 1, moved: []}); }
 
 function dark(on) {
   document.documentElement.classList.toggle("dark", on);

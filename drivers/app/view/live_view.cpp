@@ -17,6 +17,7 @@
 #include <plica/drivers/app/view/web_server.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <set>
 #include <thread>
 
 namespace plica::app {
@@ -27,6 +28,8 @@ using LiveClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds frame_time(33);
 constexpr double longest_debt =
     0.1;  // of simulated time that is behind, in seconds of the clock; older debts are forgotten
+
+constexpr double obstacle_speed = 1;  // the body's sizes per second; simulated
 
 double seconds(LiveClock::duration time) { return std::chrono::duration<double>(time).count(); }
 
@@ -125,6 +128,9 @@ class LiveView {
   void start_again(const Controls& controls) {
     if (controls.restarts == restarts_) return;
     restarts_ = controls.restarts;
+    for (const int number : moved_)
+      simulation_.set_obstacle_motion(number, obstacles()[static_cast<std::size_t>(number)].motion);
+    moved_.clear();
     simulation_.restore(first_);
     words_.clear();
   }
@@ -136,6 +142,7 @@ class LiveView {
     if (debt_ <= 0) return false;
     const double time = simulation_.time();
     hands_.hold(controls, time);
+    move_obstacles_to(controls.moved);
     if (const auto bad = simulation_.step_checked()) {
       simulation_.return_to_last_good();
       if (hands_.give_way()) return true;
@@ -147,6 +154,31 @@ class LiveView {
     debt_ = std::min(debt_ - simulated, longest_debt * controls.speed);
     speed_.add(simulated, seconds(LiveClock::now() - start), {});
     return true;
+  }
+
+  const std::vector<ObstacleOptions>& obstacles() const { return scene_.problem.contact.obstacles; }
+
+  // At a bounded speed
+  void move_obstacles_to(const std::vector<ObstacleAim>& aims) {
+    const double reach = obstacle_speed * skin_.size() * simulation_.macro_step();
+    for (const ObstacleAim& aim : aims) {
+      if (aim.obstacle >= static_cast<int>(obstacles().size())) continue;
+      const Point now = simulation_.obstacle_displacement(aim.obstacle), way = aim.displacement - now;
+      simulation_.move_obstacle(aim.obstacle, now + way * std::min(1.0, reach / std::max(way.norm(), 1e-300)));
+      moved_.insert(aim.obstacle);
+    }
+  }
+
+  // Where those are that do not move as the scene says, and how strongly they push
+  LiveJson moved() const {
+    LiveJson list = LiveJson::array();
+    if (moved_.empty()) return list;
+    const std::vector<Wrench> wrenches = simulation_.wrenches();
+    for (const int number : moved_)
+      list.push_back({{"obstacle", number},
+                      {"displacement", three_of(simulation_.obstacle_displacement(number))},
+                      {"push", wrenches[static_cast<std::size_t>(number)].force.norm()}});
+    return list;
   }
 
   std::string page() const {
@@ -182,6 +214,7 @@ class LiveView {
                            {"pull", words_.empty() ? hands_.pull().norm() : 0.0},
                            {"push", words_.empty() ? hands_.push().norm() : 0.0},
                            {"tool", tool ? three_of(tool->centre) : LiveJson()},
+                           {"moved", moved()},
                            {"wrong", words_},
                            {"colour", controls.colour},
                            {"values", values.empty() ? LiveJson() : LiveJson(in_base64(values))},
@@ -227,7 +260,8 @@ class LiveView {
   std::mutex mutex_;  // of what is said
   Controls said_;
   int restarts_ = 0;
-  double debt_ = 0;  // simulated time that is due [s]
+  std::set<int> moved_;  // obstacles by the mouse, since the start
+  double debt_ = 0;      // simulated time that is due [s]
   Speed speed_;
   std::string words_;  // why it cannot go on
 };

@@ -52,6 +52,14 @@ class Wrench:
     torque: np.ndarray
 
 
+@dataclass(frozen=True)
+class Tool:
+    """Where an obstacle with mass is. displacement: [3] m from where its shape says. velocity: [3] m/s."""
+
+    displacement: np.ndarray
+    velocity: np.ndarray
+
+
 def report(folder, *, frames: int = 200) -> Path:
     """Writes FOLDER/report.html of what a run or a study left there, as `plica report` does. Its path.
 
@@ -258,6 +266,18 @@ class Simulation:
     def wrenches(self) -> dict[str, Wrench]:
         """What each obstacle does to the body, by its name: the mean over the last macro step."""
         return {name: Wrench(force, torque) for name, force, torque in self._open().wrenches()}
+
+    def tools(self) -> dict[str, Tool]:
+        """Where each obstacle with mass is now, by its name."""
+        return {name: Tool(displacement, velocity) for name, displacement, velocity in self._open().tools()}
+
+    def move_obstacle(self, name: str, displacement) -> None:
+        """Moves an obstacle straight from where it is to this displacement [m] from where its shape says, within the next macro step;
+        there it stays, and no longer follows the scene. One with mass follows by its coupling. Call it before every step()."""
+        names = list(self.wrenches())
+        if name not in names:
+            raise InputError(f"move_obstacle: unknown obstacle {name!r} (choices: {', '.join(names) or 'none'})")
+        self._open().move_obstacle(names.index(name), *np.asarray(displacement, float).reshape(3))
 
     def report(self, *, frames: int = 200) -> Path:
         """Writes the page of the last run that had a `folder`: one file that a browser opens without a network. Its path."""

@@ -15,6 +15,8 @@ body:
   material: {young_modulus: 20 kPa, poisson_ratio: 0.3, density: 1000}
   fixed: [{plane: {normal: [0, 0, 1]}}]
   damping: {mass: 8}
+  surface: {boundary: true}
+contact: {obstacles: [{name: probe, sphere: {centre: [0.05, 0.05, 0.2], radius: 0.02}}]}
 integration: {macro_step: 1 ms}
 )";
 

@@ -2,7 +2,7 @@
 """Starts a live view, opens its page in a browser without a window, and takes hold of the body; see test_view_command.cpp.
 
     use_view.py PLICA SCENE [PICTURE]     exit status 77: there is no browser, or none with WebGL 2
-The scene: a soft body that is held at its underside, with gravity.
+The scene: a soft body that is held at its underside, with gravity, and an obstacle above it.
 """
 import pathlib
 import re
@@ -86,6 +86,16 @@ def push_with_the_ball(page):
     wait_for(page, "!live.frame.tool && live.frame.push === 0", "the ball is gone")
 
 
+def push_with_the_obstacle(page):
+    page.run("window.before = where()")
+    start, end = on_screen(page, "[0.05, 0.05, 0.2]"), on_screen(page, "where()")
+    drag(page, start, (end[0] - start[0], end[1] - start[1]))
+    check(page.run("live.held && live.held.obstacle && live.held.obstacle.name === 'probe'"), "the mouse holds the obstacle")
+    wait_for(page, "live.frame.moved.some((one) => one.push > 0) && Math.hypot(...minus(where(), before)) > 0.02 * scene.size", "the obstacle pushes the body away")
+    page.mouse("released", *end)
+    check(page.run("!live.held && live.frame.moved.length === 1"), "it stays where it was let go")
+
+
 def turn_gravity(page):
     page.run("window.before = where()[2]")
     page.run("(() => { const knob = by_id('gravity'); knob.value = knob.min; knob.dispatchEvent(new Event('input')); })()")
@@ -100,7 +110,7 @@ def rest_and_start(page):
     time.sleep(0.3)
     check(page.run("live.frame.time") == at, "time stands still")
     page.press("s")
-    wait_for(page, "live.frame.time === 0", "it is back at the start")
+    wait_for(page, "live.frame.time === 0 && live.frame.moved.length === 0", "it is back at the start")
 
 
 def use(page, picture):
@@ -115,6 +125,7 @@ def use(page, picture):
     pull_the_body(page, picture)
     push_with_the_ball(page)
     turn_gravity(page)
+    push_with_the_obstacle(page)
     rest_and_start(page)
     check(not page.errors, f"nothing is complained of: {page.errors}")
 

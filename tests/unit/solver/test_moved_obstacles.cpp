@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <plica/core/error.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/refusal.hpp"
+#include "support/simulate.hpp"
+
+// Obstacles that a caller moves while the simulation runs.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+Problem touched() {
+  Problem p = small_cube();
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.body.fixed = {left_face()};
+  const std::vector<Point>& x = p.body.levels[0].vertices;
+  const Point far = *std::ranges::max_element(x, {}, [](const Point& at) { return at.sum(); });
+  p.contact.obstacles.push_back(
+      {SphereOptions{far + Point(0.3, 0, 0) * far.norm(), 0.29 * far.norm()}, 0.2, {}, "tool"});
+  return p;
+}
+
+Point to(int step) { return Point(-2e-3 * step, 1e-3 * std::sin(step), 0); }
+
+TEST(MovedObstacles, GoAsByAPathOfTheSamePlaces) {
+  constexpr int steps = 40;
+  Problem by_path = touched();
+  Simulation<Host> moved(touched());
+  PathMotion path{{{0, Point::Zero()}}};
+  for (int n = 1; n <= steps; ++n) path.knots.push_back({n * moved.macro_step(), to(n)});
+  by_path.contact.obstacles[0].motion = path;
+  Simulation<Host> told(by_path);
+  ASSERT_EQ(told.macro_step(), moved.macro_step());
+  double most = 0;
+  for (int n = 1; n <= steps; ++n) {
+    moved.move_obstacle(0, to(n));
+    advance(moved, 1), advance(told, 1);
+    EXPECT_LE((moved.obstacle_displacement(0) - to(n)).norm(), 1e-15);
+    most = std::max(most, moved.wrenches()[0].force.norm());
+  }
+  EXPECT_GT(most, 0);
+  const auto a = moved.positions(), b = told.positions();
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((a[i] - b[i]).norm(), 1e-10) << i;
+}
+
+TEST(MovedObstacles, StayWhereTheyAreUntilTheyGetAMotion) {
+  Simulation<Host> s(touched());
+  s.move_obstacle(0, {0.1, 0.2, 0.3});
+  advance(s, 3);
+  EXPECT_EQ(s.obstacle_displacement(0), Point(0.1, 0.2, 0.3));
+  s.set_obstacle_motion(0, SteadyMotion{Point(1, 0, 0)});
+  EXPECT_EQ(s.obstacle_displacement(0), Point(s.time(), 0, 0));
+}
+
+TEST(MovedObstacles, AreRefusedWhereThereIsNone) {
+  Simulation<Host> s(touched());
+  EXPECT_EQ(refusal([&] { s.move_obstacle(1, Point::Zero()); }),
+            "there is no obstacle 1; the problem has 1, which count from 0");
+  Simulation<Host> none(small_cube());
+  EXPECT_EQ(refusal([&] { none.obstacle_displacement(0); }),
+            "there is no obstacle 0; the problem has 0, which count from 0");
+}
+
+}  // namespace
