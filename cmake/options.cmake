@@ -36,6 +36,17 @@ if(PLICA_NATIVE)
   endif()
 endif()
 
+# Sources of a library that are compiled several at a time share the parsing of headers and what these instantiate. Names in their
+# anonymous namespaces must differ within the library.
+function(plica_unity library)
+  set(unity OFF)
+  if(PLICA_UNITY AND NOT Kokkos_ENABLE_CUDA) # where a compiler works on one kernel long enough
+    set(unity ON)
+  endif()
+  set_target_properties(${library} PROPERTIES UNITY_BUILD ${unity} UNITY_BUILD_BATCH_SIZE 5
+    UNITY_BUILD_CODE_AFTER_INCLUDE "#undef PLICA_INSTANTIATE")
+endfunction()
+
 # Bytes of a vector register under these flags and Kokkos's own; on a GPU a thread works on one number.
 if(Kokkos_ENABLE_CUDA OR Kokkos_ENABLE_HIP OR Kokkos_ENABLE_SYCL)
   set(PLICA_VECTOR_BYTES 8)

@@ -252,8 +252,10 @@ void bind_simulation(nb::module_& m) {
                all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement), vector_of(t.velocity)));
              return all;
            })
-      .def("move_obstacle", [](const H& s, int obstacle, double x, double y,
-                               double z) { s->move_obstacle(obstacle, {x, y, z}); })
+      .def("move_obstacle",
+           [](const H& s, int obstacle, double x, double y, double z) {
+             s->move_obstacle(obstacle, {x, y, z});
+           })
       .def("start_files", [](const H& s, const std::string& folder) { s->start_files(folder); })
       .def(
           "write_frame",

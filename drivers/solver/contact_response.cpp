@@ -8,7 +8,7 @@ namespace plica {
 
 namespace {
 
-constexpr int sweeps = 3;
+constexpr int contact_sweeps = 3;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
   find(exec, level, state, time, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
   sum_up(exec, static_cast<double>(law.bounding()));
-  for (int sweep = 0; sweep <= sweeps; ++sweep) {  // the first for rho and the forces by e alone
+  for (int sweep = 0; sweep <= contact_sweeps; ++sweep) {  // the first for rho and the forces by e alone
     if (sweep == 0 || step.span > 0) respond();
     where_touching<B>(exec, points_.count, "plica::contact_sweep", n, SweepTouching<B>{law, sweep == 0});
     sum_up(exec, -1);

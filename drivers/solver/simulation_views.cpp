@@ -89,8 +89,8 @@ void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
   const double now = inside_->time;
-  set_obstacle_motion(obstacle, PathMotion{{{now, obstacle_displacement(obstacle)},
-                                            {now + inside_->next_span(), displacement}}});
+  set_obstacle_motion(obstacle,
+                      PathMotion{{{now, obstacle_displacement(obstacle)}, {now + inside_->next_span(), displacement}}});
 }
 template <class B>
 Point Simulation<B>::obstacle_displacement(int obstacle) const {

@@ -20,7 +20,7 @@ namespace plica {
 
 namespace {
 
-const Box beam{{0, 0, 0}, {0.4, 0.1, 0.1}};
+const Box beam_box{{0, 0, 0}, {0.4, 0.1, 0.1}};
 constexpr double earth = 9.81;
 
 double length_of(const MatrixBody& body) {
@@ -51,7 +51,7 @@ void MatrixBody::load() {
 MatrixBody clamped_beam() {
   MatrixBody body;
   Body& b = body.problem.body;
-  b.levels = {box_mesh(beam, {8, 2, 2}), box_mesh(beam, {4, 1, 1})};
+  b.levels = {box_mesh(beam_box, {8, 2, 2}), box_mesh(beam_box, {4, 1, 1})};
   b.element = {"linear"};
   b.material = {"", 1e5, 0.4, 1000};
   b.fixed = {HalfSpaceSelection{Point::Zero(), Point::UnitX()}};
@@ -95,7 +95,7 @@ void set_random(MatrixBody& body, double seed) {
   std::uniform_real_distribution<double> within(0, 1);
   start_at(body, MatrixBody::Start::random, [&](const Point&) {
     const double x = within(random), y = within(random), z = within(random);
-    return Point(beam.max.cwiseProduct(Point(x, y, z)));
+    return Point(beam_box.max.cwiseProduct(Point(x, y, z)));
   });
 }
 
@@ -128,7 +128,7 @@ void set_one_tetrahedron(MatrixBody& body, double edge) {
 void set_levels(MatrixBody& body, double count) {
   const std::array<int, 3> cells[] = {{12, 3, 3}, {10, 3, 3}, {8, 2, 2}, {6, 2, 2}, {4, 1, 1}, {2, 1, 1}};
   body.problem.body.levels.clear();
-  for (int i = 0; i < static_cast<int>(count); ++i) body.problem.body.levels.push_back(box_mesh(beam, cells[i]));
+  for (int i = 0; i < static_cast<int>(count); ++i) body.problem.body.levels.push_back(box_mesh(beam_box, cells[i]));
 }
 
 void set_overlap(MatrixBody& body, double lengths) {

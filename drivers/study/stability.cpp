@@ -60,9 +60,9 @@ using Clock = std::chrono::steady_clock;
 using Exec = Kokkos::DefaultExecutionSpace;
 using Kind = LargestStep::Kind;
 
-constexpr long explicit_run = 400, cycle_run = 600, implicit_run = 40;  // macro steps
-constexpr double implicit_most = 1000;                                  // times the critical step
-constexpr double cycle_least = 0.5, cycle_most = 32;                    // times the finest critical step
+constexpr long explicit_steps = 400, cycle_steps = 600, implicit_steps = 40;  // macro steps
+constexpr double implicit_most = 1000;                                        // times the critical step
+constexpr double cycle_least = 0.5, cycle_most = 32;                          // times the finest critical step
 constexpr double least_growth = 1e-4;     // per macro step, that a cycle may have and still be called stable
 constexpr double longest_run = 16000;     // macro steps, to show a slow growth
 constexpr double him_most = 64;           // likewise
@@ -176,7 +176,7 @@ class Search {
     const double guess = none ? cycle_least * s.critical : *row.predicted;
     put(row, largest_stable({guess, none ? guess : guess / 8, 8 * guess, 1.01, 2e-3}, [&](double t) {
           BuiltHierarchy<B> built = built_at(s, t);
-          return bounded(built, t, explicit_run);
+          return bounded(built, t, explicit_steps);
         }));
     if (row.status == "growing") add_growth(row, s, guess);
   }
@@ -185,7 +185,7 @@ class Search {
     const double most = implicit_most * s.critical;
     put(row, largest_stable({most, s.critical, most, 4, 0.02}, [&](double t) {
           BuiltHierarchy<B> built = built_at(s, t);
-          return bounded(built, t, implicit_run);
+          return bounded(built, t, implicit_steps);
         }));
   }
 
@@ -194,7 +194,7 @@ class Search {
     BuiltHierarchy<B> built = build_hierarchy<B>(about_rest<B>(s.problem, exec_), exec_);
     row.predicted = built.macro_step * 2 / std::sqrt(built.him->product);
     put(row, largest_stable({*row.predicted, *row.predicted / 8, 8 * *row.predicted, 1.02, 5e-3},
-                            [&](double t) { return bounded(built, t, cycle_run); }));
+                            [&](double t) { return bounded(built, t, cycle_steps); }));
   }
 
   void find_cycle(StabilityRow& row, const Sought& s) {
@@ -204,13 +204,13 @@ class Search {
       row.status = "growing", row.predicted = 0;
       return add_growth(row, s, s.critical);
     }
-    const double told = 1 + visible_growth(modes, cycle_run);
+    const double told = 1 + visible_growth(modes, cycle_steps);
     const LargestStep predicted = largest_stable({s.critical, least, most, 1.5, 0.02},
                                                  [&](double t) { return growth_at(s, t, told).radius <= told; });
     if (predicted.kind != Kind::unlimited) row.predicted = predicted.kind == Kind::limited ? predicted.step : 0;
     put(row, largest_stable({predicted.step, least, most, 1.05, 0.01}, [&](double t) {
           BuiltHierarchy<B> built = built_at(s, t);
-          return bounded(built, t, cycle_run);
+          return bounded(built, t, cycle_steps);
         }));
     add_growth(row, s, row.status == "limited" ? std::min(*row.measured, predicted.step) : predicted.step);
   }
@@ -232,7 +232,7 @@ class Search {
     const double steps = std::ceil(1.5 * visible_growth(modes, 1) / std::log(growth.radius));
     if (steps > longest_run) return growth.converged;
     BuiltHierarchy<B> built = built_at(s, t);
-    if (bounded(built, t, std::max(cycle_run, static_cast<long>(steps)))) return false;
+    if (bounded(built, t, std::max(cycle_steps, static_cast<long>(steps)))) return false;
     row.measured = 0;
     return true;
   }

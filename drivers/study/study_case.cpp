@@ -24,7 +24,7 @@ constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
 constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
-bool is_explicit(const std::string& integrator) {
+bool steps_explicitly(const std::string& integrator) {
   bool result = true;
   Integrators::visit(integrator, [&](auto member) { result = decltype(member)::is_explicit; });
   return result;
@@ -53,7 +53,7 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   std::vector<LevelLimits> limits;
   for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
     const std::string integrator = integrator_of(o, limits.size());
-    const bool stepped = is_explicit(integrator);
+    const bool stepped = steps_explicitly(integrator);
     limits.push_back({levels[i].tets, integrator, stepped,
                       stepped ? limit_of(integrator, levels[i].critical_step) : levels[i].critical_step});
   }
@@ -129,7 +129,7 @@ struct Builder {
     const std::string integrator = one.integration.integrator.front();
     const bool finest = one.level == 0;
     const double critical = levels[static_cast<std::size_t>(one.level)].critical_step;
-    if (!is_explicit(integrator)) {
+    if (!steps_explicitly(integrator)) {
       std::vector<double> steps;
       for (const Step& step : options.macro_steps)
         if (step) steps.push_back(*step);
@@ -238,7 +238,7 @@ Problem problem_of(const Problem& problem, const StudyCase& one) {
   result.integration = one.integration;
   if (one.integration.cycle != "single") return result;
   // implicit ones have those below for multigrid
-  const bool alone = is_explicit(one.integration.integrator.front());
+  const bool alone = steps_explicitly(one.integration.integrator.front());
   keep_levels(result.body, static_cast<std::size_t>(one.level), alone ? 1 : problem.body.levels.size());
   const auto centre = [](const TetMesh& mesh) {
     const Box box = bounding_box(mesh.vertices);

@@ -161,7 +161,7 @@ StudyRun study_run(const Problem& problem, const StudyRunOptions& options) {
 
 namespace {
 
-constexpr int most_halvings = 3;
+constexpr int most_shortenings = 3;
 
 struct Pair {
   StudyRun coarse, fine;  // in time
@@ -189,7 +189,7 @@ StudyRun run_to_samples(const Problem& problem, const StudyOptions& options, con
   for (int halvings = 0;; ++halvings, step /= 2) {
     StudyRun result = run_at(problem, options, integrator, step, go_on, at);
     if (result.status != "diverged" && result.status != "refused") return result;
-    if (halvings == most_halvings)
+    if (halvings == most_shortenings)
       throw InputError("study: the reference, single/" + integrator + " at " + std::to_string(1e3 * step) +
                        " ms, is not to be had: " + result.reason);
   }

@@ -8,8 +8,8 @@ namespace plica {
 
 namespace {
 
-constexpr long points = 4;      // of the polynomial
-constexpr double exact = 1e-9;  // of a step
+constexpr long fit_points = 4;      // of the polynomial
+constexpr double same_time = 1e-9;  // of a step
 
 double lagrange_weight(double x, long first, long count, long i) {
   double weight = 1;
@@ -42,11 +42,11 @@ std::vector<double> sampling_times(double duration, int samples) {
 TrajectorySampler::TrajectorySampler(const std::vector<double>& times, double step, long steps) {
   for (std::size_t j = 0; j < times.size(); ++j) {
     const double x = times[j] / step;
-    if (std::abs(x - std::round(x)) < exact) {
+    if (std::abs(x - std::round(x)) < same_time) {
       terms_.push_back({std::lround(x), j, 1.0});
       continue;
     }
-    const long count = std::min(points, steps + 1);
+    const long count = std::min(fit_points, steps + 1);
     const long first = std::clamp(static_cast<long>(std::floor(x)) - 1, 0L, steps + 1 - count);
     for (long i = first; i < first + count; ++i) terms_.push_back({i, j, lagrange_weight(x, first, count, i)});
   }

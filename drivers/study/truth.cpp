@@ -18,9 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* integrator = "central_difference";  // order 2, one force a step
-constexpr double of_limit = 0.9;                          // what a step is of its mesh's limit
-constexpr double of_budget = 0.5;                         // that two refinements may take
+constexpr const char* reference_integrator = "central_difference";  // order 2, one force a step
+constexpr double of_limit = 0.9;                                    // what a step is of its mesh's limit
+constexpr double of_budget = 0.5;                                   // that two refinements may take
 constexpr double growth =
     18;  // of a run's time by a refinement: 8 times the elements, twice the steps, a little for memory
 constexpr double time_converged = 1e-4;  // what a level's own error in time may be
@@ -73,7 +73,7 @@ class TruthMaker {
  public:
   TruthMaker(const Problem& problem, const StudyOptions& options, std::optional<double> budget, const TruthWatch& watch)
       : problem_(problem), options_(options), budget_(budget), watch_(watch) {
-    options_.reference_integrator = integrator, options_.reference_step = of_limit;
+    options_.reference_integrator = reference_integrator, options_.reference_step = of_limit;
     options_.reference_error = std::max(options.reference_error, time_converged);
     points_ = problem.body.levels.front().vertices;
     for (const auto& [name, point] : options.probes) points_.push_back(point);
@@ -119,7 +119,7 @@ class TruthMaker {
     const double critical = study_levels(one).front().critical_step;
     const Embedding at = embed(points, mesh, Outside::clamp);
     const auto go_on = part_of_run(text(family.name, ", ", mesh.tets.size(), " tetrahedra"));
-    const StudyRun found = run_to_samples(one, options_, integrator, of_limit * critical, go_on, &at);
+    const StudyRun found = run_to_samples(one, options_, reference_integrator, of_limit * critical, go_on, &at);
     if (stopped_) return {};
     const std::size_t vertices = std::min(points.size(), problem_.body.levels.front().vertices.size());
     return {part_of(found.trajectory, 0, vertices),

@@ -71,7 +71,7 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-constexpr double least_order = 0.5;  // below, values do not tend to what they are compared with
+constexpr double telling_order = 0.5;  // below, values do not tend to what they are compared with
 
 /// p of errors that go with h^p, from the last two.
 std::optional<double> order_of_errors(const std::vector<VerifyValue>& v, double exact) {
@@ -134,7 +134,7 @@ void judge(VerifyRow& row) {
     row.order = order_of_errors(row.ours, *row.accepted);
   else if (row.judged != Judged::size)
     extrapolate(row);
-  if (row.judged == Judged::finest && row.order < least_order) row.order.reset();
+  if (row.judged == Judged::finest && row.order < telling_order) row.order.reset();
   const bool ok = !row.ours.empty() && fulfilled(row);
   row.outcome = !ok ? "not ok" : row.judged == Judged::nothing ? "shown" : "ok";
 }

@@ -16,8 +16,10 @@ namespace plica::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+using DoctorClock = std::chrono::steady_clock;
+double since(DoctorClock::time_point start) {
+  return std::chrono::duration<double>(DoctorClock::now() - start).count();
+}
 
 constexpr double in_memory = 256e6, in_cache = 256e3;  // bytes: of all threads, of each
 
@@ -88,10 +90,10 @@ Json answers_json(const std::vector<Answer>& answers) {
 ExitStatus doctor(bool json, const KokkosArguments& kokkos) {
   const KokkosSession session(kokkos);
   const StudyMachine machine = this_machine();
-  const auto measuring = Clock::now();
+  const auto measuring = DoctorClock::now();
   const Limits limits = measure_limits();
   const double measured = since(measuring);
-  const auto testing = Clock::now();
+  const auto testing = DoctorClock::now();
   const std::vector<Answer> answers = self_test();
   const double tested = since(testing);
   const bool ok = std::ranges::all_of(answers, &Answer::ok);

@@ -80,13 +80,13 @@ ExitStatus mesh_info(const MeshInfoArguments& arguments) {
 
 namespace {
 
-struct Numbers {
+struct ConvertNumbers {
   double scale = 1;
   std::optional<double> merge_duplicates;
 };
 
-Numbers numbers_of(const ConvertArguments& arguments) {
-  Numbers numbers;
+ConvertNumbers numbers_of(const ConvertArguments& arguments) {
+  ConvertNumbers numbers;
   read_option("--scale", arguments.scale, Quantity{plain, positive}, numbers.scale);
   if (arguments.merge_duplicates)
     read_option("--merge-duplicates", *arguments.merge_duplicates, Quantity{length, not_negative},
@@ -108,7 +108,7 @@ void check_extension(const std::filesystem::path& file) {
   format_of(file, known, "mesh or surface");
 }
 
-WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const Numbers& numbers) {
+WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const ConvertNumbers& numbers) {
   for (Point& p : read.mesh.vertices) p *= numbers.scale;
   if (numbers.merge_duplicates) {
     MergedMesh merged = merge_duplicates(read.mesh, *numbers.merge_duplicates);
@@ -127,7 +127,7 @@ WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const N
   return written;
 }
 
-WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments, const Numbers& numbers) {
+WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments, const ConvertNumbers& numbers) {
   if (numbers.merge_duplicates) throw InputError("--merge-duplicates is for meshes of tetrahedra", {arguments.in});
   for (Point& p : read.surface.vertices) p *= numbers.scale;
   warn(arguments.in, surface_warnings(read.report));
@@ -138,7 +138,7 @@ WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments, cons
 
 ExitStatus mesh_convert(const ConvertArguments& arguments) {
   check_extension(arguments.out);
-  const Numbers numbers = numbers_of(arguments);
+  const ConvertNumbers numbers = numbers_of(arguments);
   auto read = read_any(arguments.in);
   const WrittenMesh written = std::visit([&](auto& mesh) { return converted(mesh, arguments, numbers); }, read);
   write(arguments.out, written);

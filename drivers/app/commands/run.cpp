@@ -76,7 +76,7 @@ std::vector<Point> corners_of(const Diagnosis& diagnosis, const Scene& scene, co
   return corners;
 }
 
-ExitStatus status_of(const RunEnd& end) {
+ExitStatus status_of_run(const RunEnd& end) {
   if (end.diagnosis) return ExitStatus::diverged;
   return end.status == "interrupted" ? ExitStatus::interrupted : ExitStatus::done;
 }
@@ -137,8 +137,8 @@ RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint, const s
 }
 
 // What Ctrl-C leaves where a macro step does not end: the files as they are, and the summary of the last step that did
-void leave_files(const Scene& scene, Summary summary, const RunArguments& arguments,
-                 const std::filesystem::path& folder) {
+void leave_run(const Scene& scene, Summary summary, const RunArguments& arguments,
+               const std::filesystem::path& folder) {
   summary.status = "interrupted";
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
   message(fmt::format("interrupted within a macro step; the files go up to {:.5g} s", summary.last_good_time));
@@ -169,7 +169,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
     return summary;
   };
   Summary latest = summary_at(start);
-  const auto leaving = watch.on_leave(lock, [&] { leave_files(scene, latest, arguments, folder); });
+  const auto leaving = watch.on_leave(lock, [&] { leave_run(scene, latest, arguments, folder); });
   lock.unlock();
   if (!arguments.quiet) announce(scene, simulation, machine, start);
   simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
@@ -188,7 +188,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
   if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
   if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
-  return status_of(end);
+  return status_of_run(end);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace plica::app {
 
 namespace {
 
-constexpr std::chrono::seconds patience(2);
+constexpr std::chrono::seconds set_up_patience(2);
 constexpr std::string_view ours = "plica: ";
 
 SetUpProgress* listener = nullptr;                     // Kokkos calls plain functions
@@ -74,7 +74,7 @@ void SetUpProgress::say() const {
 
 void SetUpProgress::wait() {
   std::unique_lock lock(mutex_);
-  if (changed_.wait_for(lock, patience, [this] { return over_; })) return;
+  if (changed_.wait_for(lock, set_up_patience, [this] { return over_; })) return;
   late_ = true;
   say();
 }

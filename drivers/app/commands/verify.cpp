@@ -13,8 +13,8 @@
 namespace plica::app {
 namespace {
 
-std::vector<MemoryFile> files_of(const std::filesystem::path& folder, VerifyHead head, const std::string& status,
-                                 const VerifyResult& result) {
+std::vector<MemoryFile> verify_files(const std::filesystem::path& folder, VerifyHead head, const std::string& status,
+                                     const VerifyResult& result) {
   head.status = status;
   return {{folder / "verify.json", verify_json(head, result)},
           {folder / "verify.csv", verify_csv(result)},
@@ -39,8 +39,8 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more) {
     head.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
     if (p.new_rows) {
       const auto lock = interrupts.hold();
-      write_files(files_of(folder, head, "unfinished", *p.so_far));
-      left = files_of(folder, head, "interrupted", *p.so_far);
+      write_files(verify_files(folder, head, "unfinished", *p.so_far));
+      left = verify_files(folder, head, "interrupted", *p.so_far);
     }
     line.update(fmt::format("{}/{}  {}", p.done, p.of, p.doing));
     return !interrupts.noticed();
@@ -48,7 +48,7 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more) {
   const VerifyResult result = plica::verify({more.problems, more.small}, watch);
   line.clear();
   interrupts.end_in_order();
-  write_files(files_of(folder, head, result.stopped ? "interrupted" : "completed", result));
+  write_files(verify_files(folder, head, result.stopped ? "interrupted" : "completed", result));
   if (!arguments.quiet) std::cout << verify_text(result, folder.string());
   if (result.stopped) return ExitStatus::interrupted;
   return result.ok() ? ExitStatus::done : ExitStatus::failed;

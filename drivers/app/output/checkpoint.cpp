@@ -14,7 +14,7 @@ namespace plica::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr const char* title = "plica checkpoint ";
+constexpr const char* checkpoint_title = "plica checkpoint ";
 constexpr int version_written = 1;
 
 // A path is bytes, JSON is UTF-8: where it is not, the bytes' numbers
@@ -109,7 +109,7 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
   const std::string header = header_of(checkpoint).dump();
   std::string body = header;
   body.append(checkpoint.state.bytes.begin(), checkpoint.state.bytes.end());
-  const std::string head = fmt::format("{}{}\n{} {} {:016x}\n", title, version_written, header.size(),
+  const std::string head = fmt::format("{}{}\n{} {} {:016x}\n", checkpoint_title, version_written, header.size(),
                                        body.size() - header.size(), digest_of(body));
   write_file(folder / "checkpoint.bin", head + body, Durable::yes);
 }
@@ -122,8 +122,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& folder) {
   std::ostringstream read;
   read << std::ifstream(file, std::ios::binary).rdbuf();
   const std::string text = read.str();
-  if (!text.starts_with(title)) throw InputError("this is no checkpoint, or a damaged one", where);
-  std::size_t at = std::string_view(title).size();
+  if (!text.starts_with(checkpoint_title)) throw InputError("this is no checkpoint, or a damaged one", where);
+  std::size_t at = std::string_view(checkpoint_title).size();
   if (const auto version = next_number(text, at, 10, where); version != version_written)
     throw InputError(fmt::format("the checkpoint is of version {}; this program reads {}", version, version_written),
                      where);

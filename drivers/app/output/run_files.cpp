@@ -20,12 +20,12 @@ std::vector<double> vertex_masses(const Body& body, int level) {
 
 namespace {
 
-constexpr const char* head =
+constexpr const char* history_columns =
     "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
     "com_x,com_y,com_z,max_speed,rms_speed";
 
 std::string history_head(bool retries, const Problem& problem) {
-  std::string all = std::string(head) + (retries ? ",halvings" : "");
+  std::string all = std::string(history_columns) + (retries ? ",halvings" : "");
   const auto add = [&](const std::string& name, std::initializer_list<const char*> quantities) {
     for (const char* quantity : quantities)
       for (const char axis : {'x', 'y', 'z'}) all += fmt::format(",{}.{}_{}", name, quantity, axis);

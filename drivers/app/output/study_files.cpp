@@ -23,7 +23,7 @@ namespace {
 
 constexpr int format_version = 2;
 
-std::uint64_t digest_of(const std::string& bytes) {
+std::uint64_t digest_of_states(const std::string& bytes) {
   Digest digest;
   digest.add(bytes);
   return digest.value();
@@ -65,7 +65,7 @@ std::string reference_bytes(const StudyReference& r, std::uint64_t digest) {
   for (const MeshReference& mesh : r.meshes) append(states, mesh.trajectory);
   const Json head = {{"plica_reference", format_version},
                      {"of", digest},
-                     {"states", digest_of(states)},
+                     {"states", digest_of_states(states)},
                      {"method", r.method},
                      {"macro_step", r.macro_step},
                      {"critical_step", r.critical_step},
@@ -88,7 +88,8 @@ std::optional<StudyReference> parse_reference(const std::string& bytes, std::uin
   if (line == std::string::npos) return {};
   const Json head = Json::parse(bytes.substr(0, line));
   const std::string states = bytes.substr(line + 1);
-  if (head.at("plica_reference") != format_version || head.at("of") != digest || head.at("states") != digest_of(states))
+  if (head.at("plica_reference") != format_version || head.at("of") != digest ||
+      head.at("states") != digest_of_states(states))
     return {};
   StudyReference r;
   head.at("method").get_to(r.method);

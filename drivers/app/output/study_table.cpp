@@ -157,7 +157,7 @@ std::string study_csv(const std::vector<StudyRow>& rows) {
 
 namespace {
 
-constexpr std::size_t width = text_width;
+constexpr std::size_t table_width = text_width;
 
 // With what tells it from other rows of its name
 std::string name_of(const StudyRow& row, const StudyResult& result) {
@@ -183,7 +183,7 @@ std::string reference_text(const StudyResult& result) {
   if (r.space_error)
     text +=
         fmt::format(" A mesh twice as fine differs by {}: the finest mesh's error in space.", percent(*r.space_error));
-  return wrapped(text, width, "");
+  return wrapped(text, table_width, "");
 }
 
 std::string growth_of(const StudyRow& row) {
@@ -233,7 +233,7 @@ std::string growth_text(const StudyResult& result) {
   if (fastest != nullptr)
     text += fmt::format(" {} grows fastest, by {:.3g} per second.", at(*fastest), *fastest->growth_per_second);
   if (stable != nullptr) text += fmt::format(" The longest macro step without growth: {}.", at(*stable));
-  return wrapped(text, width, "");
+  return wrapped(text, table_width, "");
 }
 
 std::string choice_text(const StudyResult& result, const StudyChoice& choice) {
@@ -243,7 +243,7 @@ std::string choice_text(const StudyResult& result, const StudyChoice& choice) {
                         in_units(*row->wall_time, "s"), percent(*row->judged()));
     if (row->method.starts_with("coarse/")) text += "A coarser mesh alone is enough here. ";
   }
-  return wrapped(text + choice.reason, width, "");
+  return wrapped(text + choice.reason, table_width, "");
 }
 
 std::string missing_text(const StudyResult& result) {
@@ -261,7 +261,7 @@ std::string missing_text(const StudyResult& result) {
   if (!names.empty())
     text += fmt::format("Left out, {} (study.json says why):\n",
                         counted(static_cast<long>(result.left_out.size()), "run")) +
-            wrapped(names, width, "  ");
+            wrapped(names, table_width, "  ");
   return text;
 }
 

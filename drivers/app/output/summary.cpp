@@ -115,7 +115,7 @@ bool has_elements(const LevelReport& level) {
   return level.kind == LevelKind::mesh || level.kind == LevelKind::lattice;
 }
 
-const char* name_of(LevelKind kind) {
+const char* level_kind_name(LevelKind kind) {
   constexpr const char* names[] = {"mesh", "lattice", "space", "slivers"};
   return names[static_cast<std::size_t>(kind)];
 }
@@ -127,7 +127,7 @@ Json levels_json(const std::vector<LevelReport>& levels) {
     for (const StiffElement& e : level.stiffest)
       stiffest.push_back(
           {{"element", e.element}, {"region", e.region}, {"height_ratio", e.height_ratio}, {"step", e.step}});
-    list.push_back({{"kind", name_of(level.kind)},
+    list.push_back({{"kind", level_kind_name(level.kind)},
                     {"vertices", level.vertices},
                     {"tets", level.tets},
                     {"filled", level.filled},

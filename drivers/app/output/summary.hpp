@@ -47,7 +47,7 @@ std::string summary_text(const Scene& scene, const Summary& summary, const std::
 /// Whether a level has elements, not points of a coarse space alone.
 bool has_elements(const LevelReport& level);
 /// As summary.json has it.
-const char* name_of(LevelKind kind);
+const char* level_kind_name(LevelKind kind);
 /// The levels as summary.json and `plica explain --json` print them.
 nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels);
 

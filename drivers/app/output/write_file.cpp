@@ -107,7 +107,7 @@ void GrowingFile::open() {
 }
 
 void GrowingFile::add(const std::string& line) {
-  const ssize_t written = write(handle_, line.data(), line.size());  // one call: all of the line or nothing
+  const ssize_t written = ::write(handle_, line.data(), line.size());  // one call: all of the line or nothing
   if (written != static_cast<ssize_t>(line.size())) {
     const std::string reason = std::generic_category().message(written < 0 ? errno : ENOSPC);
     std::error_code ignored;

@@ -30,8 +30,8 @@ std::string base64(const void* data, std::size_t size) {
 namespace {
 
 template <class T>
-std::string base64(const std::vector<T>& values) {
-  return app::base64(values.data(), values.size() * sizeof(T));
+std::string values_in_base64(const std::vector<T>& values) {
+  return base64(values.data(), values.size() * sizeof(T));
 }
 
 struct Range {
@@ -57,7 +57,7 @@ std::string quantised(const std::vector<std::vector<float>>& frames, const std::
       const double part = high > low ? (double{frame[i]} - low) / (double{high} - low) : 0.0;
       values.push_back(static_cast<std::uint16_t>(std::lround(65535 * part)));
     }
-  return base64(values);
+  return values_in_base64(values);
 }
 
 std::array<double, 12> rigid_fit(const std::vector<Point>& rest, const std::vector<Point>& now) {
@@ -184,8 +184,8 @@ Json Film::json() const {
   Json json = {{"level", level_ < 0 ? Json() : Json(level_)},
                {"vertices", rest_.size()},
                {"held", held()},
-               {"rest", base64(rest)},
-               {"triangles", base64(corners)},
+               {"rest", values_in_base64(rest)},
+               {"triangles", values_in_base64(corners)},
                {"low", {ranges[0].low, ranges[1].low, ranges[2].low}},
                {"high", {ranges[0].high, ranges[1].high, ranges[2].high}},
                {"motion", quantised(motion_, ranges)},

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int cells_around = 3;      // of margin
 constexpr double cells_across = 10;  // of the shortest extent, where nobody asks for a number
-constexpr double affordable = 1 << 23, most = 1 << 27;
+constexpr double affordable = 1 << 23, most_nodes = 1 << 27;
 
 double nodes_of(const Point& extent, double cell) {
   return (extent / cell).array().ceil().unaryExpr([](double n) { return n + 1 + 2 * cells_around; }).prod();
@@ -34,9 +34,9 @@ DistanceGrid sample_distance(const TriangleSurface& surface, int cells) {
   grid.cell = cell_size(extent, cells);
   grid.margin = cells_around * grid.cell;
   const std::string size = text(number(extent[0], 3), " x ", number(extent[1], 3), " x ", number(extent[2], 3), " m");
-  if (const double nodes = nodes_of(extent, grid.cell); nodes > most)
+  if (const double nodes = nodes_of(extent, grid.cell); nodes > most_nodes)
     throw InputError(text("cells is ", cells, ", a grid of ", number(nodes, 3), " nodes around ", size,
-                          "; expected at most ", number(most, 3)));
+                          "; expected at most ", number(most_nodes, 3)));
   std::size_t total = 1;
   for (int k = 0; k < 3; ++k) {
     const int across = static_cast<int>(std::ceil(extent[k] / grid.cell)) + 2 * cells_around;

@@ -13,7 +13,7 @@ namespace plica {
 namespace {
 namespace hertz {
 
-constexpr double E = 1e5, nu = 0.3, rho = 1000, R = 0.5, contact_radius = 0.014;  // SI
+constexpr double sphere_young = 1e5, nu = 0.3, rho = 1000, R = 0.5, contact_radius = 0.014;  // SI
 
 /// Cells across half of a block, the smallest, which is at the contact, over R, and how much larger the next one is.
 struct Grading {
@@ -45,7 +45,7 @@ Cap cap(const Grading& grading, bool upside_down, const Point& shift) {
     const Point d = mesh.vertices[a] - shift;
     if (d.cwiseAbs().maxCoeff() > 0.999 * L) mesh.vertex_sets["held"].push_back(static_cast<int>(a));
   }
-  Body body = verify_body(std::move(mesh), {"linear", E, nu, rho}).body;
+  Body body = verify_body(std::move(mesh), {"linear", sphere_young, nu, rho}).body;
   body.element = {"nodal"};
   body.surface = boundary_surface(body.levels[0]).surface;
   return {body, L};
@@ -55,9 +55,10 @@ Cap cap(const Grading& grading, bool upside_down, const Point& shift) {
 /// its like.
 double force_over_theory(const Grading& grading, bool spheres) {
   const Cap below = cap(grading, false, Point::Zero());
-  const double radius = spheres ? R / 2 : R, stiffness = E / (1 - nu * nu) / (spheres ? 2 : 1);
+  const double radius = spheres ? R / 2 : R, stiffness = sphere_young / (1 - nu * nu) / (spheres ? 2 : 1);
   const double all = contact_radius * contact_radius / radius,
-               wave = std::sqrt(E * (1 - nu) / (1 + nu) / (1 - 2 * nu) / rho), duration = 4 * below.size / wave;
+               wave = std::sqrt(sphere_young * (1 - nu) / (1 + nu) / (1 - 2 * nu) / rho),
+               duration = 4 * below.size / wave;
   const Point velocity(0, 0, -all / duration);
   Problem p;
   p.body = below.body;

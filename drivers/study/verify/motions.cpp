@@ -12,11 +12,12 @@ namespace plica {
 namespace {
 namespace stopped {
 
-constexpr double E = 205e9, nu = 0.3, rho = 7850, length = 20e-3, width = 1e-3, speed = 0.1, duration = 50e-6;  // SI
+constexpr double bar_young = 205e9, nu = 0.3, rho = 7850, length = 20e-3, width = 1e-3, speed = 0.1,
+                 duration = 50e-6;  // SI
 
 // v at the free end: +v until the front comes, at L/c, then -v and +v for 2L/c each
 double exact(double t) {
-  const double fronts = (t * std::sqrt(E / rho) / length + 1) / 2;
+  const double fronts = (t * std::sqrt(bar_young / rho) / length + 1) / 2;
   return static_cast<long>(fronts) % 2 == 0 ? speed : -speed;
 }
 
@@ -25,7 +26,8 @@ struct Pulses {
 };
 
 Pulses pulses(int n) {
-  Problem p = verify_body(box_mesh({{0, 0, 0}, {length, width, width}}, {20 * n, n, n}), {"linear", E, nu, rho});
+  Problem p =
+      verify_body(box_mesh({{0, 0, 0}, {length, width, width}}, {20 * n, n, n}), {"linear", bar_young, nu, rho});
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
   p.body.initial.velocity = {-speed, 0, 0};
   Simulation<HostBackend> simulation(p);
@@ -62,7 +64,7 @@ Pulses pulses(int n) {
 
 VerifyRows stopped_bar(const VerifyContext& context) {
   using namespace stopped;
-  const double c = std::sqrt(E / rho);
+  const double c = std::sqrt(bar_young / rho);
   constexpr const char* source =
       "one-dimensional wave equation, c = sqrt(E/rho): L/c, 4L/c (Graff, Wave Motion in Elastic Solids, 2.4)";
   VerifyRows rows = {

@@ -77,11 +77,12 @@ VerifyRows cook_membrane(const VerifyContext& context) {
 
 namespace {
 
-constexpr double E = 2e11, nu = 0.3, rho = 7800, g = 9.81, length = 3, half = 0.5;
+constexpr double pillar_young = 2e11, nu = 0.3, rho = 7800, g = 9.81, length = 3, half = 0.5;
 
 // Hung at its upper end, z = L, where a uniform traction carries it; a quarter, between its planes of symmetry.
 Problem bar(int n) {
-  Problem p = verify_body(box_mesh({{0, 0, 0}, {half, half, length}}, {n, n, 6 * n}), {"linear", E, nu, rho});
+  Problem p =
+      verify_body(box_mesh({{0, 0, 0}, {half, half, length}}, {n, n, 6 * n}), {"linear", pillar_young, nu, rho});
   p.gravity = {0, 0, -g};
   p.body.loads = {{HalfSpaceSelection{{0, 0, length}, {0, 0, -1}}, Traction{{0, 0, rho * g * length}}, {}}};
   return p;
@@ -92,7 +93,7 @@ bool held(const Point& X, int axis) {
 }
 
 Point exact(const Point& X) {
-  const double k = rho * g / E;
+  const double k = rho * g / pillar_young;
   return {-nu * k * X[0] * X[2], -nu * k * X[1] * X[2],
           k / 2 * (X[2] * X[2] + nu * (X[0] * X[0] + X[1] * X[1]) - length * length)};
 }

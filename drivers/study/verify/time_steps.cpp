@@ -108,7 +108,7 @@ VerifyRows critical_steps(const VerifyContext& context) {
 
 namespace {
 
-constexpr int macro_steps = 50;
+constexpr int bit_steps = 50;
 
 // A free cube that spins, moves and shakes, without loads
 Problem free_body(const std::string& cycle, const std::string& integrator) {
@@ -152,7 +152,7 @@ std::array<double, 3> changes(const Problem& p) {
     return now;
   };
   const Budget before = take();
-  for (int i = 0; i < macro_steps; ++i) simulation.step();
+  for (int i = 0; i < bit_steps; ++i) simulation.step();
   require_sound(simulation);
   const Budget after = take();
   return {(after.linear - before.linear).norm() / impulse, (after.angular - before.angular).norm() / (0.1 * impulse),

@@ -30,7 +30,7 @@ struct Cone {
   static constexpr const char* name = "cone";
   static constexpr const char* summary = "a cone with a tip or flat ends";
   static Point origin(const ConeOptions& o) { return (o.from + o.to) / 2; }
-  /// Of its narrower end, which fits between points before the rest does; 0: a tip.
+  // Of its narrower end, which fits between points before the rest does; 0: a tip.
   static double radius(const ConeOptions& o) { return std::min({o.radius, o.to_radius, (o.to - o.from).norm() / 2}); }
   using Options = ConeOptions;
   template <class Real>

@@ -96,9 +96,9 @@ TEST(ReadMsh, SkipsSectionsForOtherUses) {
   MeshReport report;
   const std::string comment = "$Comments\nfree text 1 2 nan\n$Nodes\n$EndComments\n";
   const TetMesh mesh =
-      read_text(with(two_tets, "$Nodes", comment + "$Nodes") + "$NodeData\n1\n$EndNodeData\n", &report);
+      read_text(with(two_tets, "$Nodes", comment + "$Nodes") + "$ElementNodeData\n1\n$EndElementNodeData\n", &report);
   expect_same(mesh, read_text(two_tets));
-  EXPECT_EQ(report.skipped_sections, (std::vector<std::string>{"$Comments", "$NodeData"}));
+  EXPECT_EQ(report.skipped_sections, (std::vector<std::string>{"$Comments", "$ElementNodeData"}));
 }
 
 TEST(ReadMsh, CutAtAnyByteIsRefused) {

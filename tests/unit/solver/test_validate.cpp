@@ -241,7 +241,7 @@ TEST(Validate, ChecksObstacles) {
   EXPECT_NE(with({SphereOptions{{0, 0, 0}, -1}, {}, {}}).find("radius is -1"), std::string::npos);
   EXPECT_NE(with({BowlOptions{{0, 0, 0}, 1, 1.5}, {}, {}}).find("rim is 1.5"), std::string::npos);
   EXPECT_NE(with({PlaneOptions{}, -0.1, {}}).find("friction is -0.1"), std::string::npos);
-  EXPECT_EQ(with({CapsuleOptions{{0, 0, 0}, {0, 0, 1}, 1}, {}, {}}), "");
+  EXPECT_EQ(with({CapsuleOptions{{0, 0, 0}, {0, 0, 1}, 0.05}, {}, {}}), "");
   EXPECT_NE(with({CapsuleOptions{{0, 0, 1}, {0, 0, 1}, 1}, {}, {}}).find(".capsule.to, as a distance from .from, is 0"),
             std::string::npos);
   EXPECT_NE(with({CylinderOptions{{0, 0, 0}, {0, 0, 1}, 0}, {}, {}}).find("cylinder.radius is 0"), std::string::npos);
