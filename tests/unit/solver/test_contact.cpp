@@ -280,7 +280,7 @@ TYPED_TEST(MovingObstacles, OfEveryShapePushTheBody) {
     EXPECT_GT(height, 0.05 + 0.03);
     double lowest = 1;
     for (const Point& x : simulation.surface_positions()) lowest = std::min(lowest, x[2]);
-    EXPECT_GT(lowest, 0.04);  // pushed ahead, not run through
+    EXPECT_GT(lowest, 0.04);                                            // pushed ahead, not run through
     EXPECT_LT(std::abs(mean(simulation.positions())[0] - 0.05), 1e-3);  // 7.3e-4 in the bowl: the mesh leans one way
   }
 }
