@@ -83,7 +83,7 @@ TEST(LargestStableStep, OfAStiffInclusion) {
 TEST(LargestStableStep, IsNotBoundByContact) {
   Problem p = small_cube("linear");
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.049, 2);
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.0999}, {0, 0, 1}}, {}, {}});
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.097}, {0, 0, 1}}, {}, {}});
   p.contact.stiffness_scale = 100, p.contact.damping_scale = 0;
   p.body.fixed = {left_face()};
   p.integration.macro_step = 1e-7;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
@@ -13,12 +12,12 @@ namespace {
 
 constexpr double bearable_depth = 0.5;  // of an edge
 
+/// Of the surface that touches.
 std::vector<Point> places_at_start(const Body& body) {
-  const TetMesh& mesh = body.levels.front();
-  const Box box = bounding_box(mesh.vertices);
+  const Box box = bounding_box(body.levels.front().vertices);
   const Point shift = body.initial.position ? Point(*body.initial.position - (box.min + box.max) / 2) : Point::Zero();
-  std::vector<Point> places = initial_displacement(body.initial, mesh, box);
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] += mesh.vertices[i] + shift;
+  std::vector<Point> places = body.surface->vertices;
+  for (Point& place : places) place += shift;
   return places;
 }
 
@@ -49,7 +48,7 @@ Deepest deepest_in(const ShapeOptions& options, const std::vector<Point>& places
 std::vector<std::string> starts_in_obstacles(const Problem& problem) {
   std::vector<std::string> sentences;
   const std::vector<ObstacleOptions>& obstacles = problem.contact.obstacles;
-  if (obstacles.empty() || starts_deformed(problem.body.initial)) return sentences;
+  if (obstacles.empty() || !problem.body.surface || starts_deformed(problem.body.initial)) return sentences;
   const std::vector<Point> places = places_at_start(problem.body);
   const double edge = mean_edge_length(problem.body.levels.front());
   for (std::size_t i = 0; i < obstacles.size(); ++i) {

@@ -16,7 +16,7 @@ body:
   fixed: [{plane: {normal: [0, 0, 1]}}]
   damping: {mass: 8}
   surface: {boundary: true}
-contact: {obstacles: [{name: probe, sphere: {centre: [0.05, 0.05, 0.2], radius: 0.02}}]}
+contact: {obstacles: [{name: probe, sphere: {centre: [0.13, 0.05, 0.08], radius: 0.02}}]}
 integration: {macro_step: 1 ms}
 )";
 

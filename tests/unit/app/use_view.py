@@ -2,7 +2,7 @@
 """Starts a live view, opens its page in a browser without a window, and takes hold of the body; see test_view_command.cpp.
 
     use_view.py PLICA SCENE [PICTURE]     exit status 77: there is no browser, or none with WebGL 2
-The scene: a soft body that is held at its underside, with gravity, and an obstacle above it.
+The scene: a soft body that is held at its underside, with gravity, and an obstacle beside it.
 """
 import pathlib
 import re
@@ -87,11 +87,11 @@ def push_with_the_ball(page):
 
 
 def push_with_the_obstacle(page):
-    page.run("window.before = where()")
-    start, end = on_screen(page, "[0.05, 0.05, 0.2]"), on_screen(page, "where()")
+    page.run("window.all_before = live.points.slice()")
+    start, end = on_screen(page, "[0.13, 0.05, 0.08]"), on_screen(page, "[0.1, 0.05, 0.08]")
     drag(page, start, (end[0] - start[0], end[1] - start[1]))
     check(page.run("live.held && live.held.obstacle && live.held.obstacle.name === 'probe'"), "the mouse holds the obstacle")
-    wait_for(page, "live.frame.moved.some((one) => one.push > 0) && Math.hypot(...minus(where(), before)) > 0.02 * scene.size", "the obstacle pushes the body away")
+    wait_for(page, "live.frame.moved.some((one) => one.push > 0) && live.points.some((x, i) => Math.abs(x - all_before[i]) > 0.02 * scene.size)", "the obstacle pushes the body away")
     page.mouse("released", *end)
     check(page.run("!live.held && live.frame.moved.length === 1"), "it stays where it was let go")
 
