@@ -91,8 +91,11 @@ template <class B>
 void Simulation<B>::step() {
   Inside& s = *inside_;
   s.residual = 0;
+  const Kokkos::Timer timer;
   s.advance(s.time, s.next_span());
   s.arrive();
+  if (!s.cores) return;
+  if (const auto exec = s.cores->after_step(timer.seconds())) s.hierarchy().clock.set_exec(*exec);
 }
 
 template <class B>
@@ -385,6 +388,11 @@ void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
   Inside& s = *inside_;
   for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].set_external(forces, s.rest_positions(i));
   if (forces) s.budget_known = false;
+}
+
+template <class B>
+void Simulation<B>::share_cores() {
+  if (!inside_->cores) inside_->cores.emplace(inside_->hierarchy().exec());
 }
 
 template <class B>

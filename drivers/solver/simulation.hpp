@@ -242,6 +242,11 @@ class Simulation {
   /// Stress and volume of a level's elements, computed on the device; waits.
   ElementFields element_fields(int level = 0) const;
 
+  /// From now on it takes fewer threads while other work has cores that it waits for, and more again when they are free: where kernels
+  /// wait for a thread without a core, fewer are faster. The same bits. Does nothing on a device, or where the system does not tell
+  /// who waits (Linux does). Steps are to be called one after the other: their wall times are compared.
+  void share_cores();
+
   /// From now on measure the wall time of each stage (this waits between stages).
   void time_stages(bool on);
 

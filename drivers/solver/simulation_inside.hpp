@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <limits>
+#include <optional>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
@@ -51,6 +53,8 @@ struct Simulation<B>::Inside {
   Point kept_drift = Point::Zero();
 
   long halvings = 0, rejected = 0;  // macro steps and parts of them
+
+  std::optional<SharedCores<B>> cores;  // where it shares them with other work
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const SolverLevel<B>& level(int i);

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/app/output/core_wait.hpp>
+#include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -172,6 +172,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   const auto leaving = watch.on_leave(lock, [&] { leave_run(scene, latest, arguments, folder); });
   lock.unlock();
   if (!arguments.quiet) announce(scene, simulation, machine, start);
+  simulation.share_cores();
   simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
   RunEnd end = [&] {
     Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);

@@ -225,7 +225,7 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time) : std::string{};
   const std::string waited = s.wait_share.value_or(0) > notable_wait
                                  ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
-                                               100 * *s.wait_share, s.threads > 1 ? ", --threads 1 may be faster" : "")
+                                               100 * *s.wait_share, s.threads > 1 ? ", fewer threads were tried" : "")
                                  : "";
   std::vector<std::vector<std::string>> rows = {
       {"simulated", fmt::format("{:.5g} s in {} of {}{}", s.simulated_time, counted(s.macro_steps, "macro step"),
