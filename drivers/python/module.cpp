@@ -316,13 +316,14 @@ NB_MODULE(_plica, m) {
     for (const app::KeyInfo& key : app::scene_keys()) rows.push_back({key.path, key.expects, key.otherwise, key.help});
     return rows;
   });
-  m.def("parse_every", [](const std::string& text) {
+  m.def("parse_every", [](const std::string& name, const std::string& text) {
     try {
       const app::Interval interval = app::parse_interval(text);
       return std::pair(interval.time, interval.steps);
     } catch (const std::invalid_argument& problem) {
-      throw InputError("every: expected a time such as '20 ms' or macro steps such as '10 steps', got '" + text +
-                       "', " + problem.what());
+      throw InputError(name + ": expected a time such as '20 ms'" +
+                       (name == "every" ? " or macro steps such as '10 steps'" : "") + ", got '" + text + "', " +
+                       problem.what());
     }
   });
   m.def("read_mesh", [](const std::string& file) { return parts_of(read_mesh(file)); });

@@ -88,6 +88,7 @@ void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
 }
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
+  if (!displacement.allFinite()) throw InputError("displacement: expected finite numbers");
   const double now = inside_->time;
   set_obstacle_motion(obstacle,
                       PathMotion{{{now, obstacle_displacement(obstacle)}, {now + inside_->next_span(), displacement}}});

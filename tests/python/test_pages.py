@@ -45,7 +45,24 @@ def test_obstacles_are_moved_by_the_caller():
     assert np.linalg.norm(sim.wrenches()["finger"].force) == 0
     with pytest.raises(plica.InputError, match="unknown obstacle 'thumb' .choices: finger"):
         sim.move_obstacle("thumb", [0, 0, 0])
+    with pytest.raises(plica.InputError, match=r"displacement: expected an array \[3\] of .*, got \[2\]"):
+        sim.move_obstacle("finger", [0, 0])
+    with pytest.raises(plica.InputError, match="finite"):
+        sim.move_obstacle("finger", [0, 0, np.nan])
     assert sim.tools() == {}
+
+
+def test_tools_follow_where_the_caller_leads_them():
+    finger = {**PRESS["contact"]["obstacles"][0], "mass": "50 g", "coupling": {"stiffness": "100 N/m"}}
+    sim = plica.Simulation({**PRESS, "duration": "0.3 s", "contact": {"obstacles": [finger]}})
+    assert np.array_equal(sim.tools()["finger"].displacement, np.zeros(3))
+    sim.move_obstacle("finger", [0, 0, 0.02])
+    sim.step()
+    tool = sim.tools()["finger"]
+    assert tool.displacement.shape == tool.velocity.shape == (3,) and tool.displacement.dtype == np.float64
+    assert tool.displacement[2] < 0.01 and tool.velocity[2] > 0, "it is on its way"
+    sim.run()
+    assert np.allclose(sim.tools()["finger"].displacement, [0, 0, 0.02], atol=1e-4)
 
 
 def test_frames_are_written_as_by_the_program(tmp_path):

@@ -13,7 +13,7 @@ from ._plica import InputError
 
 
 def checked(name: str, values, shape: tuple, dtype=np.float64) -> np.ndarray:
-    """The values as a contiguous array of this type; InputError says what was expected and what was given. -1: any length."""
+    """The values, finite, as a contiguous array of this type; InputError says what was expected and what was given. -1: any length."""
     array = np.asarray(values)
     kinds = "f" if np.dtype(dtype).kind == "f" else "iu"
     fits = array.ndim == len(shape) and all(want in (-1, have) for want, have in zip(shape, array.shape))
@@ -21,6 +21,9 @@ def checked(name: str, values, shape: tuple, dtype=np.float64) -> np.ndarray:
         wanted = ", ".join("n" if size == -1 else str(size) for size in shape)
         number = "floating-point numbers" if "f" in kinds else "whole numbers"
         raise InputError(f"{name}: expected an array [{wanted}] of {number}, got {list(array.shape)} of {array.dtype}")
+    if not np.isfinite(array).all():
+        place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise InputError(f"{name}: expected finite numbers, got {array[place]} at {list(place)}")
     return np.ascontiguousarray(array, dtype=dtype)
 
 

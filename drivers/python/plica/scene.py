@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tempfile
 import warnings
 from pathlib import Path
@@ -26,6 +27,10 @@ class _Plain:
 
     def __init__(self, folder: str):
         self.folder = Path(folder)
+
+    def named(self, message: str) -> str:
+        """The message, with the meshes in place of their files."""
+        return re.sub(re.escape(str(self.folder)) + r"/mesh_(\d+)\.msh(:\d+)?", r"plica.Mesh \1, its numbers from 1", message)
 
     def __call__(self, value):
         if isinstance(value, Mesh):
@@ -85,9 +90,12 @@ class Scene:
             else:
                 raise InputError(f"Scene: expected the name of a YAML file or a dict, got {type(source).__name__}")
             changes = [*_flat(plain(values)), *((path, plain(value)) for path, value in (set or {}).items())]
-            self._scene = _plica.load(file, text, "scene", [(path, _words(value)) for path, value in changes])
+            try:
+                self._scene = _plica.load(file, text, "scene", [(path, _words(value)) for path, value in changes])
+            except InputError as error:
+                raise InputError(plain.named(str(error))) from None
         for warning in self._scene.warnings:
-            warnings.warn(warning, stacklevel=2)
+            warnings.warn(plain.named(warning), stacklevel=2)
 
     @property
     def name(self) -> str:

@@ -272,12 +272,15 @@ class Simulation:
         return {name: Tool(displacement, velocity) for name, displacement, velocity in self._open().tools()}
 
     def move_obstacle(self, name: str, displacement) -> None:
-        """Moves an obstacle straight from where it is to this displacement [m] from where its shape says, within the next macro step;
-        there it stays, and no longer follows the scene. One with mass follows by its coupling. Call it before every step()."""
+        """Moves an obstacle straight from where it is to a displacement within the next macro step. There it stays, and no longer
+        follows the scene; one with mass follows by its coupling.
+
+        displacement: [3] m, from where its shape says. To lead it along a path, call this before every step.
+        """
         names = list(self.wrenches())
         if name not in names:
             raise InputError(f"move_obstacle: unknown obstacle {name!r} (choices: {', '.join(names) or 'none'})")
-        self._open().move_obstacle(names.index(name), *np.asarray(displacement, float).reshape(3))
+        self._open().move_obstacle(names.index(name), *checked("displacement", displacement, (3,)))
 
     def report(self, *, frames: int = 200) -> Path:
         """Writes the page of the last run that had a `folder`: one file that a browser opens without a network. Its path."""
@@ -327,6 +330,8 @@ class Simulation:
         levels such forces are stable up to a stiffness of about 4 m/h^2 of the vertices they act on. What it raises ends the step,
         which is taken back.
         """
+        if forces is not None and not callable(forces):
+            raise InputError(f"forces: expected a function, or None, got {type(forces).__name__}")
         self._open().set_forces(forces)
 
     def save(self) -> bytes:
@@ -367,7 +372,7 @@ class Simulation:
 def _interval(value, name: str) -> tuple[float, int]:
     """Seconds, or else macro steps, from a number or text with a unit."""
     if isinstance(value, str):
-        seconds, steps = _plica.parse_every(value)
+        seconds, steps = _plica.parse_every(name, value)
         if steps and name != "every":
             raise InputError(f"{name}: expected a time, got {value!r}; step() takes macro steps")
     else:
