@@ -188,6 +188,8 @@ WeightedLattice weighted_lattice(const TriangleSurface& surface, double size) {
 
 TetMesh coarse_lattice(const TetMesh& mesh, int vertices) {
   const auto most = static_cast<int>(mesh.vertices.size());
+  if (most < fewest_vertices)
+    throw InputError(text("the mesh has ", most, " vertices; a coarser one has at least ", fewest_vertices));
   if (vertices < fewest_vertices || vertices > most)
     throw InputError(text("the number of vertices of a coarser mesh is ", vertices, "; it must be ", fewest_vertices,
                           " to ", most, ", which the mesh has"));

@@ -6,7 +6,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <plica/core/error.hpp>
@@ -16,12 +19,14 @@
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <sstream>
+#include <thread>
 
 namespace plica::app {
 
 namespace {
 
-constexpr double same_volume = 0.1;  // edges of the size cut corners
+constexpr double same_volume = 0.1;                // edges of the size cut corners
+constexpr std::uintmax_t many_words = 10'000'000;  // bytes; Gmsh 4.8 splits a surface of four triangles without end
 
 class TemporaryFolder {
  public:
@@ -56,7 +61,7 @@ std::string gmsh_script(const std::filesystem::path& surface, double size) {
       surface.string(), size, size / 2);
 }
 
-// Its exit status; what it says goes to a file
+// Its exit status, negative where it did not end by itself; what it says goes to a file
 int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh,
              const std::filesystem::path& said) {
   std::array<std::string, 8> words = {"gmsh", script.string(), "-3",      "-format", "msh22",
@@ -70,8 +75,13 @@ int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& m
   pid_t id = 0;
   const int failure = posix_spawnp(&id, "gmsh", &files, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&files);
+  if (failure != 0) return -1;
   int status = 0;
-  if (failure != 0 || waitpid(id, &status, 0) != id) return -1;
+  while (waitpid(id, &status, WNOHANG) == 0) {
+    std::error_code none_yet;
+    if (const auto size = std::filesystem::file_size(said, none_yet); !none_yet && size > many_words) kill(id, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -102,6 +112,8 @@ TetMesh fill_with_gmsh(const TriangleSurface& surface, double size) {
   write_files(write_surface(stl, surface).files);
   write_file(geo, gmsh_script(stl, size));
   const int status = run_gmsh(geo, msh, said);
+  if (status < 0 && std::filesystem::exists(said) && std::filesystem::file_size(said) > many_words)
+    throw InputError("Gmsh was stopped, since its messages did not end; the last one:" + errors_in(said));
   if (status != 0 || !std::filesystem::exists(msh))
     throw InputError("Gmsh made no mesh that fits; it says:" + errors_in(said));
   TetMesh mesh = read_mesh(msh);

@@ -226,12 +226,12 @@ ExitStatus run(const RunArguments& arguments) {
   SetUpProgress progress(arguments.quiet);
   const bool resumed = !arguments.resume.empty();
   const Interval every = interval_of(arguments);
-  if (!resumed && !arguments.force) refuse_to_replace(folder_of(arguments));
   Checkpoint checkpoint;
   if (resumed) checkpoint = read_checkpoint(arguments.resume);
   progress.phase("reading the scene and its meshes");
   const Scene scene =
       resumed ? scene_to_resume(arguments, checkpoint) : load_scene(arguments.scene, arguments.overrides);
+  if (!resumed && !arguments.force) refuse_to_replace(folder_of(arguments));
   warn(scene);
   if (!resumed) checkpoint = new_checkpoint(scene, arguments);
   checkpoint.scene = scene.source;  // with a new duration

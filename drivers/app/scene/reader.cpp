@@ -12,7 +12,9 @@
 
 namespace plica::app {
 
-void Value::error(const std::string& message) const { throw InputError(path + ": " + message, tree.where); }
+void Value::error(const std::string& message) const {
+  throw InputError((path.empty() ? "the scene" : path) + ": " + message, tree.where);
+}
 
 void Value::mismatch(const std::string& expected, const std::string& remark) const {
   error("expected " + expected + ", got " + tree.shown() + (remark.empty() ? "" : ", " + remark));

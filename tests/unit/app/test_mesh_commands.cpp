@@ -155,7 +155,8 @@ TEST_F(MeshCommands, LatticesOverSurfacesAndMeshes) {
   expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "5 cm"},
                  "larger than the body, 0.02 x 0.02 x 0.04 m");
   expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "-1"}, "--size");
-  expect_refused({"coarsen", sample("blocks_41.msh"), "-o", at("a.msh"), "--vertices", "30"}, "it must be 30 to 23");
+  expect_refused({"coarsen", sample("blocks_41.msh"), "-o", at("a.msh"), "--vertices", "30"},
+                 "the mesh has 23 vertices; a coarser one has at least 30");
 }
 
 // A stand-in for Gmsh, so that what follows from it does not depend on what is installed
@@ -185,6 +186,9 @@ TEST_F(MeshCommands, FillsWithGmshWhereThereIsOne) {
   EXPECT_NE(instead.output.find("225 vertices"), std::string::npos) << instead.output;
   expect_refused(asked("gmsh"),
                  "--with gmsh: Gmsh made no mesh that fits; it says:\n  Error : the surface meets itself");
+
+  with_gmsh("exec yes 'Info : once more'\n");
+  expect_refused(asked("gmsh"), "Gmsh was stopped, since its messages did not end; the last one:\n");
 
   with_gmsh("cp '" + sample("../ball.msh") + "' \"$6\"\n");
   expect_refused(asked("gmsh"), "of a surface that encloses");

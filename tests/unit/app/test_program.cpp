@@ -158,6 +158,8 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
   EXPECT_EQ(content_of(folder / "out/probes.csv"), probes);
   EXPECT_EQ(plica({"run", "--resume", out, "--force"}).status, 2);
   EXPECT_EQ(plica({"run", "--resume", out}).status, 0);
+  EXPECT_NE(with({"--duration", "5 kg"}).errors.find("duration: expected a time"), std::string::npos)
+      << "what the scene says wrong comes first";
   EXPECT_EQ(with({"--force"}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "out/checkpoint.bin"));
   EXPECT_EQ(with({}).errors.find("--resume"), std::string::npos) << "there is no checkpoint to go on from";

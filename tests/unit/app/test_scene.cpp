@@ -216,6 +216,7 @@ TEST(Scene, PresetsGiveOptionsThatOtherKeysOverride) {
 TEST(Scene, EmptyIsAnError) {
   EXPECT_EQ(error_of(""), "a.yaml: the scene is empty");
   EXPECT_EQ(error_of("# nothing but words\n"), "a.yaml: the scene is empty");
+  EXPECT_EQ(error_of("- 1\n- 2\n"), "a.yaml:1: the scene: expected a map of keys, got a list of 2");
   EXPECT_EQ(error_of("- a list\n").substr(0, 10), "a.yaml:1: ");
 }
 
