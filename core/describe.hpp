@@ -311,6 +311,16 @@ void describe(V& v, CouplingOptions& o) {
     "against the velocity of its motion; auto: critical, 2 sqrt(stiffness mass)");
 }
 
+template <class V>
+void describe(V& v, GraspOptions& o) {
+  const ListOf<Quantity> times{{duration, not_negative}};
+  v("from", o.from, times, "when it closes; left out: when a program says so");
+  v("until", o.until, times, "when it opens, as often as it closes; left out: it stays closed");
+  v("reach", o.reach, Quantity{length, not_negative}, "how far outside it a point may be that it takes hold of");
+  v("stiffness", o.stiffness, AutoQuantity{{{.mass = 1, .time = -2}, positive}},
+    "of the spring of each point that it holds; auto: that of contact");
+}
+
 /// But for its shape.
 template <class V>
 void describe(V& v, ObstacleOptions& o) {
@@ -319,6 +329,7 @@ void describe(V& v, ObstacleOptions& o) {
   v("mass", o.mass, Quantity{{.mass = 1}, positive},
     "the body pushes it, its coupling pulls it to its motion; left out: it is where its motion says");
   v("coupling", o.coupling, Group{}, "of an obstacle with mass, to its motion");
+  v("grasp", o.grasp, Group{}, "it takes hold of the surface points near it, and lets them go");
   v.at_most_one();
   describe(v, o.motion);
 }

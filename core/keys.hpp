@@ -231,6 +231,10 @@ struct ListOf {
     for (const T& item : value) text += (text.empty() ? "" : ", ") + kind.shown(item);
     return text;
   }
+  template <class T>
+  void check(const std::string& path, const std::vector<T>& value) const {
+    for (std::size_t i = 0; i < value.size(); ++i) kind.check(path + "." + std::to_string(i), value[i]);
+  }
 };
 
 /// An entry of a map of numbers, where it is given.

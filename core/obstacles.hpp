@@ -4,6 +4,7 @@
 #include <optional>
 #include <plica/core/motion.hpp>
 #include <string>
+#include <vector>
 
 /// Rigid solids that a body's surface can touch.
 namespace plica {
@@ -17,14 +18,23 @@ struct CouplingOptions {
   std::optional<double> damping = {};  ///< [N s/m]; none: critical, 2 sqrt(stiffness mass)
 };
 
+/// When an obstacle takes hold of the surface points near it, and lets them go.
+struct GraspOptions {
+  std::vector<double> from = {};         ///< it closes [s]; empty: where a program says so
+  std::vector<double> until = {};        ///< it opens, after each of these [s]; may lack the last: it stays closed
+  double reach = 0;                      ///< how far outside it a point may be that it takes hold of [m]
+  std::optional<double> stiffness = {};  ///< of the spring of each point [N/m]; none: as contact has it
+};
+
 /// A shape, how rough it is and how it moves.
 struct ObstacleOptions {
-  ShapeOptions shape;               ///< at t = 0
-  std::optional<double> friction;   ///< Coulomb's coefficient; none: frictionless
-  Motion motion;                    ///< from where the shape says
-  std::string name = {};            ///< what results call it; empty: obstacle_0, obstacle_1, ... in order
-  std::optional<double> mass = {};  ///< [kg]; none: it is where its motion says
-  CouplingOptions coupling = {};    ///< of one with mass
+  ShapeOptions shape;                      ///< at t = 0
+  std::optional<double> friction;          ///< Coulomb's coefficient; none: frictionless
+  Motion motion;                           ///< from where the shape says
+  std::string name = {};                   ///< what results call it; empty: obstacle_0, obstacle_1, ... in order
+  std::optional<double> mass = {};         ///< [kg]; none: it is where its motion says
+  CouplingOptions coupling = {};           ///< of one with mass
+  std::optional<GraspOptions> grasp = {};  ///< none: it cannot hold anything
 };
 
 }  // namespace plica

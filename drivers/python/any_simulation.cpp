@@ -60,6 +60,9 @@ class SimulationOf final : public AnySimulation {
   }
   std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
   std::vector<ToolState> tools() const override { return simulation_.tools(); }
+  std::vector<HeldBy> held() const override { return simulation_.held(); }
+  void grasp(int obstacle) override { simulation_.grasp(obstacle); }
+  void release(int obstacle) override { simulation_.release(obstacle); }
   void move_obstacle(int obstacle, const Point& displacement) override {
     simulation_.move_obstacle(obstacle, displacement);
   }
@@ -119,6 +122,7 @@ class SimulationOf final : public AnySimulation {
     summary.threads = typename B::Exec().concurrency();
     summary.choice = choice_, summary.cycle = app::cycle_name(*scene_, choice_);
     summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches(), summary.tools = tools();
+    summary.held = held();
     summary.residual = simulation_.worst_residual();
     app::write_file(folder_ / "summary.json", app::summary_json(*scene_, summary, {"import plica"}));
   }

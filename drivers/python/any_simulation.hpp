@@ -39,6 +39,10 @@ class AnySimulation {
   virtual ElementFields element_fields(int level) const = 0;
   virtual std::vector<Wrench> wrenches() const = 0;
   virtual std::vector<ToolState> tools() const = 0;
+  virtual std::vector<HeldBy> held() const = 0;
+  /// See Simulation::grasp() and release().
+  virtual void grasp(int obstacle) = 0;
+  virtual void release(int obstacle) = 0;
   /// See Simulation::move_obstacle().
   virtual void move_obstacle(int obstacle, const Point& displacement) = 0;
 

@@ -252,6 +252,14 @@ void bind_simulation(nb::module_& m) {
                all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement), vector_of(t.velocity)));
              return all;
            })
+      .def("held",
+           [](const H& s) {
+             std::vector<nb::object> all;
+             for (const HeldBy& h : s->held()) all.push_back(nb::make_tuple(h.obstacle, h.points));
+             return all;
+           })
+      .def("grasp", [](const H& s, int obstacle) { s->grasp(obstacle); })
+      .def("release", [](const H& s, int obstacle) { s->release(obstacle); })
       .def("move_obstacle",
            [](const H& s, int obstacle, double x, double y, double z) {
              s->move_obstacle(obstacle, {x, y, z});

@@ -40,15 +40,25 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
       lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
   const DepthWatch<B> watch{lost_, static_cast<Real>(deepest_)};
   const auto& all = options.obstacles;
-  if (std::any_of(all.begin(), all.end(), [](const ObstacleOptions& o) { return o.mass.has_value(); }))
-    tools_ = zeros<Doubles<B>>("plica::contact.tools", ObstaclePlace<B>::numbers * all.size());
-  for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, tools_, obstacles()));
+  for (const ObstacleOptions& o : all) grasps_.push_back(o.grasp);
+  make_memory(std::ranges::any_of(all, [](const ObstacleOptions& o) { return o.mass.has_value(); }));
+  for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles()));
   make_laws(options, surface, stiff ? most_stiffening : 1);
   if (stiff) choose_whole(options.whole_surface, surface.surface);
   if (pairs || whole() > 0) connect(surface.surface, pairs);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge), static_cast<Real>(pair_margin * surface.edge),
              static_cast<Real>(surface.edge), options.bodies, options.self};
+}
+
+template <class B>
+void Contact<B>::make_memory(bool tools) {
+  const int count = static_cast<int>(grasps_.size());
+  if (tools) held_.first = ObstaclePlace<B>::numbers * count;
+  if (std::ranges::any_of(grasps_, [](const auto& grasp) { return grasp.has_value(); }))
+    held_.records = count * points_;
+  if (const int size = held_.at(held_.records); size > 0)
+    held_.memory = memory_ = zeros<Doubles<B>>("plica::contact.memory", static_cast<std::size_t>(size));
 }
 
 /// Not of implicit levels, whose matrices couple the points of one tetrahedron alone.
@@ -76,8 +86,8 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     const auto x = [&](std::size_t c) { return of.surface.vertices[static_cast<std::size_t>(t[c])]; };
     area[part(t[0])] += 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   }
-  std::vector<PenaltyLaw<Real>> laws, implicit_laws;
-  const auto add_row = [&](const std::optional<double>& friction) {
+  std::vector<PenaltyLaw<Real>> laws, implicit_laws, held_laws;
+  const auto add_row = [&](const std::optional<double>& friction, const std::optional<GraspOptions>& grasp) {
     for (std::size_t b = 0; b < of.parts.size(); ++b) {
       const MaterialOptions& material = *of.parts[b].material;
       const double per_point = area[b] / std::max(points[b], 1.0), edge = of.parts[b].edge;
@@ -91,16 +101,19 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
                                 static_cast<Real>(friction.value_or(0))};
       };
       laws.push_back(law(stiffening * soft)), implicit_laws.push_back(law(soft));
+      const double spring = grasp && grasp->stiffness ? *grasp->stiffness : stiffening * soft;
+      held_laws.push_back(law(spring));
       if (laws.size() == 1) stiffness_ = stiffening * soft, damping_ = options.damping_scale * critical(stiffness_);
     }
   };
-  for (const ObstacleOptions& o : options.obstacles) add_row(o.friction);
-  add_row(options.friction);
+  for (const ObstacleOptions& o : options.obstacles) add_row(o.friction, o.grasp);
+  add_row(options.friction, {});
   laws_.body = of.body.empty() ? Indices<B>{} : to_device<Indices<B>>("contact.body", of.body);
   laws_.bodies = static_cast<int>(of.parts.size());
-  implicit_laws_ = laws_;
+  implicit_laws_ = held_.law = laws_;
   laws_.law = to_device<decltype(laws_.law)>("contact.laws", laws);
   implicit_laws_.law = to_device<decltype(laws_.law)>("contact.implicit_laws", implicit_laws);
+  if (held_.records > 0) held_.law.law = to_device<decltype(laws_.law)>("contact.held_laws", held_laws);
 }
 
 /// The surface's triangles, and those around each point: for pairs, for thin obstacles.
@@ -132,7 +145,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   TouchingPoints<B> points;
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
   points.law = implicit ? implicit_laws_ : laws_;
-  points.pairs = pairs_, points.faces = faces_;
+  points.pairs = pairs_, points.faces = faces_, points.held = held_;
   if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
     points.pairs.partner = zeros<Indices<B>>("plica::contact.partner", n);
     points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);
@@ -161,6 +174,10 @@ void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s
     obstacles_[static_cast<std::size_t>(o)]->find(exec, level.surface, s, time, o, points);
   for (std::size_t o = 0; o < whole_.size(); ++o)
     if (whole_[o]) obstacles_[o]->find_on_faces(exec, level.surface, s, time, static_cast<int>(o), points);
+  for (int o = 0; o < obstacles(); ++o)
+    if (grasp_options(o))
+      update_vertices<B>(exec, "plica::contact_held", points_,
+                         StretchHeld<B>{level.surface, s, place(o, time), points, o});
 }
 
 template <class B>
@@ -202,7 +219,7 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
   double total = 0;
   for (int o = 0; o < obstacles(); ++o) {
     obstacles_[static_cast<std::size_t>(o)]->energy(exec, level.surface, level.state, time, o,
-                                                    implicit ? implicit_laws_ : laws_, blocks, result);
+                                                    implicit ? implicit_laws_ : laws_, held_, blocks, result);
     total += host_values(exec, result)[0];
   }
   return total;
@@ -211,6 +228,29 @@ double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, 
 template <class B>
 void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double end, double span) const {
   for (int o = 0; o < obstacles(); ++o) obstacles_[static_cast<std::size_t>(o)]->move(exec, wrench, o, end, span);
+}
+
+template <class B>
+void Contact<B>::grasp(const Exec& exec, const Level<B>& level, double time, int obstacle,
+                       const TouchingPoints<B>& points) const {
+  find(exec, level, level.state, time, points);
+  const auto reach = static_cast<Real>(grasp_options(obstacle)->reach);
+  update_vertices<B>(exec, "plica::contact_grasp", points_,
+                     TakeHold<B>{level.surface, level.state.u, place(obstacle, time), points, obstacle, reach});
+}
+
+template <class B>
+void Contact<B>::release(const Exec& exec, int obstacle) const {
+  update_vertices<B>(exec, "plica::contact_release", points_, LetGo<B>{held_, obstacle * points_});
+}
+
+template <class B>
+std::vector<int> Contact<B>::held_by(const Exec& exec, int obstacle) const {
+  const std::vector<double> all = host_values(exec, memory_);
+  std::vector<int> held;
+  for (int p = 0; p < points_; ++p)
+    if (all[static_cast<std::size_t>(held_.at(obstacle * points_ + p) + 3)] > 0) held.push_back(p);
+  return held;
 }
 
 template <class B>

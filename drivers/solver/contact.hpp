@@ -30,9 +30,10 @@ class Obstacle {
   /// Where it is deepest in each triangle; after find().
   virtual void find_on_faces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                              const TouchingPoints<B>&) const = 0;
-  /// Energy stored in its penalties by these laws [J], into result(0).
+  /// Energy stored in its penalties by these laws, and in the springs of what it holds [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
-                      const PointLaws<B>&, const BlockSums<B>&, const Doubles<B>& result) const = 0;
+                      const PointLaws<B>&, const HeldPoints<B>&, const BlockSums<B>&,
+                      const Doubles<B>& result) const = 0;
   virtual ObstaclePlace<B> place(double time) const = 0;
   /// From now on it moves so.
   virtual void set_motion(const Motion& motion) = 0;
@@ -44,10 +45,10 @@ class Obstacle {
   virtual std::size_t bytes() const = 0;
 };
 
-/// Launches the kernels of the shape that the options name. `tools`: of all obstacles, where one has mass; this is number `number`.
+/// Launches the kernels of the shape that the options name. `memory`: see Contact::memory(); this is number `number`.
 template <class B>
 std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
-                                           const Doubles<B>& tools, int number);
+                                           const Doubles<B>& memory, int number);
 
 /// What contact needs to know of the surface, and of the bodies that it belongs to.
 struct TouchingSurface {
@@ -106,8 +107,17 @@ class Contact {
   void set_motion(int obstacle, const Motion& motion) const {
     obstacles_[static_cast<std::size_t>(obstacle)]->set_motion(motion);
   }
-  /// See ObstaclePlace; empty where none has mass.
-  const Doubles<B>& tools() const { return tools_; }
+  /// What obstacles carry from one step to the next: where those with mass are, see ObstaclePlace, then what they hold, see
+  /// HeldPoints; empty where there is none of it.
+  const Doubles<B>& memory() const { return memory_; }
+  /// The obstacle takes hold of what is near it in a state of level 0, whose work arrays these are.
+  void grasp(const Exec&, const Level<B>&, double time, int obstacle, const TouchingPoints<B>&) const;
+  void release(const Exec&, int obstacle) const;
+  const std::optional<GraspOptions>& grasp_options(int obstacle) const {
+    return grasps_[static_cast<std::size_t>(obstacle)];
+  }
+  /// The points that it holds. Waits.
+  std::vector<int> held_by(const Exec&, int obstacle) const;
   /// Tools with mass take a macro step that ends at `end`.
   void move_tools(const Exec&, const Doubles<B>& wrench, double end, double span) const;
   std::size_t grid_bytes() const;  ///< of sampled distances
@@ -120,7 +130,9 @@ class Contact {
   double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
   PointLaws<B> laws_, implicit_laws_;
-  Doubles<B> tools_;
+  Doubles<B> memory_;
+  HeldPoints<B> held_;
+  std::vector<std::optional<GraspOptions>> grasps_;  ///< of obstacles
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
   std::vector<bool> whole_;  ///< of obstacles: they touch the surface between its points
   FaceSites<B> faces_;
@@ -128,6 +140,7 @@ class Contact {
   PairLimits<Real> limits_;
 
   void make_laws(const ContactOptions& options, const TouchingSurface& surface, double stiffening);
+  void make_memory(bool tools);  ///< `tools`: some have mass
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
   void connect(const TriangleSurface& surface, bool pairs);
 };

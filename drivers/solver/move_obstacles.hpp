@@ -19,11 +19,37 @@ void move_obstacles(Hierarchy<B>& hierarchy, const Doubles<B>& wrench, double en
   contact->move_tools(hierarchy.exec(), wrench, end, span);
 }
 
+/// An obstacle takes hold of what is near it in the present state, or lets go.
+template <class B>
+void hold(Hierarchy<B>& hierarchy, int obstacle, double time, bool closed) {
+  SolverLevel<B>& level = hierarchy[0];
+  if (closed)
+    level.contact()->grasp(hierarchy.exec(), level, time, obstacle, level.response().points());
+  else
+    level.contact()->release(hierarchy.exec(), obstacle);
+  hierarchy.forget();
+}
+
+/// What obstacles are asked to hold and to let go of in a macro step, at its start.
+template <class B>
+void hold_as_asked(Hierarchy<B>& hierarchy, double start, double span) {
+  constexpr double rounding = 1e-9;  // of the step
+  const Contact<B>* contact = hierarchy[0].contact();
+  const auto now = [&](double time) { return time >= start - rounding * span && time < start + (1 - rounding) * span; };
+  for (int o = 0; contact && o < contact->obstacles(); ++o) {
+    const auto& grasp = contact->grasp_options(o);
+    for (std::size_t i = 0; grasp && i < grasp->from.size(); ++i) {
+      if (now(grasp->from[i])) hold(hierarchy, o, start, true);
+      if (i < grasp->until.size() && now(grasp->until[i])) hold(hierarchy, o, start, false);
+    }
+  }
+}
+
 /// to = from, where there is any
 template <class Exec, class View>
-void copy_tools(const Exec& exec, const View& from, View& to) {
+void copy_memory(const Exec& exec, const View& from, View& to) {
   if (from.extent(0) == 0) return;
-  if (to.extent(0) == 0) to = View("plica::contact.kept_tools", from.extent(0));
+  if (to.extent(0) == 0) to = View("plica::contact.kept_memory", from.extent(0));
   Kokkos::deep_copy(exec, to, from);
 }
 

@@ -28,7 +28,7 @@ class ObstacleOf final : public Obstacle<B> {
   std::vector<PathKnot> knots_;
   Path path_;
   DepthWatch<B> watch_;
-  Doubles<B> tools_;  // with mass only
+  Doubles<B> tools_;  // the obstacles' memory, with mass only
   int first_;         // its own of them
 
   ObstaclePlace<B> at(double time, double ahead) const {
@@ -38,7 +38,7 @@ class ObstacleOf final : public Obstacle<B> {
 
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
-             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& tools, int number)
+             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number)
       : shape_(shape),
         storage_(storage),
         origin_{origin[0], origin[1], origin[2]},
@@ -46,7 +46,7 @@ class ObstacleOf final : public Obstacle<B> {
         options_(options),
         path_(make_path(options.motion, knots_)),
         watch_(watch),
-        tools_(options.mass ? tools : Doubles<B>()),
+        tools_(options.mass ? memory : Doubles<B>()),
         first_(ObstaclePlace<B>::numbers * number) {
     options_.shape.reset();
   }
@@ -71,9 +71,10 @@ class ObstacleOf final : public Obstacle<B> {
         FindOnFaces<B, Shape>{surface, s, shape_, place(time), number, points, std::numeric_limits<Real>::lowest()});
   }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
-              const PointLaws<B>& law, const BlockSums<B>& blocks, const Doubles<B>& result) const override {
+              const PointLaws<B>& law, const HeldPoints<B>& held, const BlockSums<B>& blocks,
+              const Doubles<B>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
-                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time), law, number}, blocks, result);
+                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time), law, held, number}, blocks, result);
   }
   ObstaclePlace<B> place(double time) const override { return at(time, 0); }
   void set_motion(const Motion& motion) override {
@@ -112,7 +113,7 @@ auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& 
 
 template <class B>
 std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
-                                           const Doubles<B>& tools, int number) {
+                                           const Doubles<B>& memory, int number) {
   std::unique_ptr<Obstacle<B>> obstacle;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     Scalars<B> storage;
@@ -120,7 +121,7 @@ std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const
     const auto made = device_shape<B>(shape, its, storage, radius);
     using Shape = std::decay_t<decltype(made)>;
     obstacle = std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), radius, options,
-                                                      watch, tools, number);
+                                                      watch, memory, number);
   });
   return obstacle;
 }

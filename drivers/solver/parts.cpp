@@ -46,6 +46,22 @@ std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+std::string holding_parts(const ContactOptions& contact) {
+  std::string all;
+  for (std::size_t o = 0; o < contact.obstacles.size(); ++o) {
+    const auto& grasp = contact.obstacles[o].grasp;
+    if (!grasp) continue;
+    all += (all.empty() ? "" : "; ") + obstacle_name(contact, o);
+    if (grasp->from.empty()) all += " by a program";
+    const auto time = [](double t) { return keys::Quantity{keys::duration}.shown(t); };
+    for (std::size_t i = 0; i < grasp->from.size(); ++i) {
+      all += (i > 0 ? ", from " : " from ") + time(grasp->from[i]);
+      if (i < grasp->until.size()) all += " until " + time(grasp->until[i]);
+    }
+  }
+  return all;
+}
+
 std::string viscous_parts(const Body& body) {
   std::string all =
       body.material.prony.empty() ? "" : "body.material.prony: " + counted(body.material.prony.size(), "term");
@@ -128,6 +144,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("embedded surface", body.surface.has_value(), contact ? "contact, output" : "output", "no body.surface",
       sum([](const L& l) { return bytes_of(l.surface); }));
   add("contact", contact, touched, "no obstacle", sum([](const L& l) { return l.response().bytes(); }));
+  const std::string holding = holding_parts(problem.contact);
+  add("held points", !holding.empty(), holding, "no obstacle has grasp", holding.empty() ? 0 : bytes(touching->memory()));
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);

@@ -79,7 +79,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
                               [](const ObstacleOptions& o) { return o.mass || moves(o.motion); });
   if (const std::size_t count = wrench_names(p).size(); count > 0)
     wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
-  if (const Contact<B>* contact = hierarchy()[0].contact()) tools = contact->tools();
+  if (const Contact<B>* contact = hierarchy()[0].contact()) memory = contact->memory();
   linear = !find_material(p.body.material.model)->rotation_invariant;
   keep();
   open_budget();
@@ -126,6 +126,7 @@ void Simulation<B>::Inside::arrive() {
 template <class B>
 void Simulation<B>::Inside::advance(double from, double span) {
   hierarchy().begin_macro_step();
+  hold_as_asked(hierarchy(), from, span);
   built.stepper->step(hierarchy(), from, span);
   move_obstacles(hierarchy(), wrench, from + span, span);
   for (const auto& level : hierarchy().levels) residual = std::max(residual, level.integrator->residual());
@@ -258,8 +259,8 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, 
     before.emplace_back("before", level.model.vertices).copy(hierarchy().exec(), level.state);
   std::vector<KeptStress<B>> stress_before;
   keep_stress(stress_before);
-  Doubles<B> tools_before;
-  copy_tools(hierarchy().exec(), tools, tools_before);
+  Doubles<B> memory_before;
+  copy_memory(hierarchy().exec(), memory, memory_before);
   const double put_in_before = put_in;
   const Point drift_before = drift;
   advance(from, span);
@@ -267,7 +268,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, 
   if (!bad) return {};
   ++rejected;
   if (left == 0) return bad;
-  put_back(before, stress_before, tools_before);
+  put_back(before, stress_before, memory_before);
   put_in = put_in_before, drift = drift_before;
   return halves(from, span, left);
 }
@@ -295,7 +296,7 @@ template <class B>
 void Simulation<B>::Inside::keep() {
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].state);
   keep_stress(kept_stress);
-  copy_tools(hierarchy().exec(), tools, kept_tools);
+  copy_memory(hierarchy().exec(), memory, kept_memory);
   kept_time = time, kept_steps = steps, kept_put_in = put_in, kept_drift = drift;
 }
 
@@ -315,15 +316,15 @@ void Simulation<B>::Inside::remember() {
 
 template <class B>
 void Simulation<B>::Inside::go_back() {
-  put_back(kept, kept_stress, kept_tools);
+  put_back(kept, kept_stress, kept_memory);
   time = kept_time, steps = kept_steps, put_in = kept_put_in, drift = kept_drift;
 }
 
 /// All levels' states; coarser ones start from level 0's anew.
 template <class B>
 void Simulation<B>::Inside::put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses,
-                                     const Doubles<B>& places) {
-  copy_tools(hierarchy().exec(), places, tools);
+                                     const Doubles<B>& memory_then) {
+  copy_memory(hierarchy().exec(), memory_then, memory);
   for (std::size_t i = 0; i < states.size(); ++i) hierarchy().levels[i].state.copy(hierarchy().exec(), states[i]);
   for (std::size_t i = 0; i < stresses.size(); ++i)
     hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i], stresses[i]);

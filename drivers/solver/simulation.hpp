@@ -98,6 +98,12 @@ struct ToolState {
   Point velocity = Point::Zero();      ///< [m/s]
 };
 
+/// What an obstacle that can take hold of points holds.
+struct HeldBy {
+  std::string obstacle;     ///< its name
+  std::vector<int> points;  ///< of the embedded surface
+};
+
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
   std::string kind;                  ///< non_finite | inverted | energy | speed | contact | solver | stability
@@ -174,6 +180,7 @@ class Simulation {
   Energies energies() const;                       ///< waits
   std::vector<Wrench> wrenches() const;            ///< of obstacles, then bodies, of the last macro step; waits
   std::vector<ToolState> tools() const;            ///< of obstacles with mass; waits
+  std::vector<HeldBy> held() const;                ///< of obstacles that can hold points; waits
   /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers each; step() updates it in
   /// place.
   Doubles<B> wrench() const;
@@ -220,6 +227,12 @@ class Simulation {
   void move_obstacle(int obstacle, const Point& displacement);
   /// Where its motion has it now, from where its shape says [m].
   Point obstacle_displacement(int obstacle) const;
+
+  /// An obstacle takes hold of the surface points that touch it now, or are within its reach, besides those that it holds: springs tie
+  /// them to where they are relative to it. Does not wait. InputError where the problem gives it no `grasp`.
+  void grasp(int obstacle);
+  /// It lets go of all of them.
+  void release(int obstacle);
 
   std::vector<Point> positions(int level = 0) const;   ///< of a level's vertices, input order [m]; waits
   std::vector<Point> velocities(int level = 0) const;  ///< likewise [m/s]

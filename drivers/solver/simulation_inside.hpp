@@ -47,7 +47,7 @@ struct Simulation<B>::Inside {
   // The last state that was kept
   std::vector<State<B>> kept;
   std::vector<KeptStress<B>> kept_stress;  // likewise, of viscous materials only
-  Doubles<B> tools, kept_tools;            // likewise, of obstacles with mass only
+  Doubles<B> memory, kept_memory;          // likewise, of obstacles: see Contact::memory()
   double kept_time = 0, kept_put_in = 0;
   long kept_steps = 0;
   Point kept_drift = Point::Zero();
@@ -60,6 +60,7 @@ struct Simulation<B>::Inside {
   const SolverLevel<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
   const Contact<B>& contact_with(int obstacle) const;  // InputError where there is none of that number
+  void hold_now(int obstacle, bool closed);            // InputError where it has no grasp
   bool retries() const { return problem.integration.retry.halvings > 0; }
 
   // Steps
@@ -79,7 +80,7 @@ struct Simulation<B>::Inside {
   void keep();
   void go_back();
   void put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses,
-                const Doubles<B>& places);
+                const Doubles<B>& memory_then);
   void keep_stress(std::vector<KeptStress<B>>& to);
   void remember();
   void restart();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a simulation tells of itself; and what it carries from one macro step to the next, saved and restored.
+#include <algorithm>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/exchange.hpp>
+#include <plica/drivers/solver/move_obstacles.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
@@ -59,8 +61,9 @@ Doubles<B> Simulation<B>::wrench() const {
 }
 template <class B>
 std::vector<ToolState> Simulation<B>::tools() const {
-  const std::vector<double> all = host_values(inside_->hierarchy().exec(), inside_->tools);
   const auto& obstacles = inside_->problem.contact.obstacles;
+  if (std::ranges::none_of(obstacles, [](const ObstacleOptions& o) { return o.mass.has_value(); })) return {};
+  const std::vector<double> all = host_values(inside_->hierarchy().exec(), inside_->memory);
   std::vector<ToolState> tools;
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (!obstacles[o].mass) continue;
@@ -97,6 +100,33 @@ template <class B>
 Point Simulation<B>::obstacle_displacement(int obstacle) const {
   const Vec3<double> d = inside_->contact_with(obstacle).place(obstacle, inside_->time).displacement;
   return {d[0], d[1], d[2]};
+}
+
+template <class B>
+void Simulation<B>::Inside::hold_now(int obstacle, bool closed) {
+  if (!contact_with(obstacle).grasp_options(obstacle))
+    throw InputError(text("obstacle ", obstacle_name(problem.contact, static_cast<std::size_t>(obstacle)),
+                          " cannot hold anything; expected contact.obstacles.", obstacle, ".grasp"));
+  hold(hierarchy(), obstacle, time, closed);
+  keep();
+}
+template <class B>
+void Simulation<B>::grasp(int obstacle) {
+  inside_->hold_now(obstacle, true);
+}
+template <class B>
+void Simulation<B>::release(int obstacle) {
+  inside_->hold_now(obstacle, false);
+}
+template <class B>
+std::vector<HeldBy> Simulation<B>::held() const {
+  std::vector<HeldBy> all;
+  const auto& obstacles = inside_->problem.contact.obstacles;
+  for (std::size_t o = 0; o < obstacles.size(); ++o)
+    if (const int number = static_cast<int>(o); obstacles[o].grasp)
+      all.push_back({obstacle_name(inside_->problem.contact, o),
+                     inside_->contact_with(number).held_by(inside_->hierarchy().exec(), number)});
+  return all;
 }
 
 template <class B>
@@ -243,8 +273,8 @@ void persist(Inside& s, StateArchive<B>& archive) {
   }
   s.built.stepper->persist(archive);
   archive.field("the obstacles' wrenches", s.wrench);
-  archive.field("the tools", s.tools);
-  archive.field("the kept tools", s.kept_tools);
+  archive.field("the obstacles' memory", s.memory);
+  archive.field("the kept memory of obstacles", s.kept_memory);
   archive.finish();
 }
 

@@ -3,9 +3,10 @@
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
 #include <plica/kernels/contact/face_sites.hpp>
+#include <plica/kernels/contact/held_points.hpp>
 #include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/contact/paired_points.hpp>
-#include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/contact/point_laws.hpp>
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -22,18 +23,6 @@ struct DepthWatch {
   }
 };
 
-/// The laws of all rows of records, of one body after the other.
-template <class B>
-struct PointLaws {
-  using Law = PenaltyLaw<typename B::Real>;
-  Kokkos::View<Law*, typename B::Memory> law;  ///< [rows * bodies]
-  Indices<B> body;                             ///< of each point; empty: there is one
-  int bodies = 1;
-  KOKKOS_INLINE_FUNCTION const Law& operator()(int row, int p) const {
-    return law(row * bodies + (bodies > 1 ? body(p) : 0));
-  }
-};
-
 /// Contact of a level's surface points, on the device: a row of records for every obstacle, and with pairs one more; a record for
 /// every point in it. Then come records for the surface's faces, a row for every obstacle. A site is a point, or then a face.
 template <class B>
@@ -45,7 +34,8 @@ struct TouchingPoints {
   PointLaws<B> law;
   PairedPoints<B> pairs;  ///< empty where the surface does not touch itself
   FaceSites<B> faces;     ///< empty where no obstacle is thin
-  Vectors<B> normal;      ///< [records][3] out of the obstacle, or of the triangle
+  HeldPoints<B> held;     ///< empty where no obstacle can hold anything
+  Vectors<B> normal;      ///< [records][3] out of the obstacle, or of the triangle; of a held point its stretch [m]
   Vectors<B> velocity;    ///< of the point relative to it [m/s]
   Scalars<B> depth;       ///< > 0 inside [m]
   Scalars<B> mobility;    ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
@@ -232,7 +222,7 @@ struct AddPointBlocks {
   }
 };
 
-/// Potential energy of the penalties of one obstacle, as a field of the points [J].
+/// Potential energy of the penalties and springs of one obstacle, as a field of the points [J].
 template <class B, class Shape>
 struct ContactEnergy {
   using Real = typename B::Real;
@@ -241,11 +231,16 @@ struct ContactEnergy {
   Shape shape;
   ObstaclePlace<B> place;
   PointLaws<B> law;
+  HeldPoints<B> held;
   int obstacle;
 
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
+    if (const int r = obstacle * surface.points + p; held.holds(r)) {
+      const Vec3<Real> stretch = held.stretch(r, x, place.moved());
+      return {{0.5 * static_cast<double>(held.law(obstacle, p).stiffness * dot(stretch, stretch))}};
+    }
     const Real penetration = max(-shape(x - place.offset()).distance, Real(0));
     return {{0.5 * static_cast<double>(law(obstacle, p).stiffness * penetration * penetration)}};
   }

@@ -22,6 +22,9 @@
 // A pair is a point and the triangle it touches: W takes the point's value less the triangle's where it is nearest, and the triangle's
 // corners get the opposite of the point's force by the same weights. Then rho sums up absolute values, which bounds the row's sum.
 //
+// A point that an obstacle holds has, in place of these two, the force in all directions that takes it back by its stretch s:
+//   -k (s + ahead v + h^2/2 (e + r)) - c (v + h/2 (e + r))
+//
 // W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices). Why no number
 // of sweeps takes stability away is in cmake/docs/contact.md.
 namespace plica {
@@ -57,6 +60,48 @@ struct FindTouching {
     if (!near) return;
     set_vector<B>(points.normal, r, gap.normal);
     set_vector<B>(points.velocity, r, speed);
+  }
+};
+
+/// An obstacle takes hold of every point that is no further than `reach` from it; after FindTouching. What it holds stays as it is.
+template <class B>
+struct TakeHold {
+  EmbeddedSurface<B> surface;
+  Vectors<B> u;
+  ObstaclePlace<B> place;
+  TouchingPoints<B> points;
+  int obstacle;
+  typename B::Real reach;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const int r = points.record(obstacle, p);
+    if (points.held.holds(r) || !(-points.depth(r) <= reach)) return;
+    points.held.hold(r, points.place(surface, u, obstacle, p), place.moved());
+  }
+};
+
+/// It lets them go.
+template <class B>
+struct LetGo {
+  HeldPoints<B> held;
+  int first;  ///< its first record
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const { held.release(first + p); }
+};
+
+/// The records of points that an obstacle holds, in place of what FindTouching found.
+template <class B>
+struct StretchHeld {
+  EmbeddedSurface<B> surface;
+  State<B> state;
+  ObstaclePlace<B> place;
+  TouchingPoints<B> points;
+  int obstacle;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const int r = points.record(obstacle, p);
+    if (!points.held.holds(r)) return;
+    points.mobility(r) = 1;
+    const auto x = points.place(surface, state.u, obstacle, p);
+    set_vector<B>(points.normal, r, points.held.stretch(r, x, place.moved()));
+    set_vector<B>(points.velocity, r, value_at<B>(surface.embedding, state.v, p) - place.velocity());
   }
 };
 
@@ -99,6 +144,19 @@ struct TouchLaw {
     const Vec3<Real> N = normal(r), v = vector_at<B>(points.velocity, r) + h * e;
     return -law.tangential * (v - dot(v, N) * N);
   }
+  /// What an acceleration adds to a stretch [s^2].
+  KOKKOS_INLINE_FUNCTION Real stretching() const { return Real(0.5) * h * (h + ahead); }
+  /// The force on a held point for that acceleration.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> pull(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
+    const Vec3<Real> stretch = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
+    return -law.stiffness * (stretch + ahead * v + stretching() * e) - law.damping * (v + Real(0.5) * h * e);
+  }
+  /// The unit force that finds rho of a held point, whose force may have any direction: no less than 1/sqrt 3 of the largest.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> any_direction() const {
+    if (isotropic) return {Real(1), Real(0), Real(0)};
+    const Real part = Real(0.57735027);
+    return {part, part, part};
+  }
 };
 
 /// A unit force on every site that would be inside an obstacle; counts them.
@@ -114,7 +172,10 @@ struct StartTouching {
       const bool near = points.near(r);
       points.mobility(r) = 0;
       Vec3<Real> unit;
-      if (near) {
+      if (near && points.held.holds(r)) {
+        unit = law.any_direction();
+        count += 1;
+      } else if (near) {
         const Vec3<Real> e = law.at(law.smooth, row, p);
         if (law.depth(r, e) > 0 && law.pressure(points.law_of(row, p), r, e) > 0) {
           unit = law.isotropic ? Vec3<Real>{Real(1), Real(0), Real(0)} : law.normal(r);
@@ -147,8 +208,18 @@ struct SweepTouching {
       } else {
         e += answer;
       }
-      sweep(points.law_of(row, p), r, first ? Vec3<Real>{} : force, e);
+      if (points.held.holds(r))
+        hold(points.held.law(row, p), r, first ? Vec3<Real>{} : force, e);
+      else
+        sweep(points.law_of(row, p), r, first ? Vec3<Real>{} : force, e);
     }
+  }
+
+  KOKKOS_INLINE_FUNCTION void hold(const PenaltyLaw<Real>& of, int r, const Vec3<Real>& force,
+                                   const Vec3<Real>& e) const {
+    const Real stiff = law.stretching() * of.stiffness + Real(0.5) * law.h * of.damping;
+    set_vector<B>(law.points.force, r,
+                  force + (1 / (1 + stiff * law.points.mobility(r))) * (law.pull(of, r, e) - force));
   }
 
   KOKKOS_INLINE_FUNCTION void sweep(const PenaltyLaw<Real>& of, int r, const Vec3<Real>& force,

@@ -65,6 +65,26 @@ def test_tools_follow_where_the_caller_leads_them():
     assert np.allclose(sim.tools()["finger"].displacement, [0, 0, 0.02], atol=1e-4)
 
 
+def test_obstacles_take_hold_and_let_go():
+    finger = dict(PRESS["contact"]["obstacles"][0], grasp={"reach": "12 mm"})
+    sim = plica.Simulation(PRESS | {"contact": {"obstacles": [finger]}})
+    assert len(sim.held()["finger"]) == 0
+    sim.grasp("finger")
+    held = sim.held()["finger"]
+    assert len(held) > 0
+    before = sim.surface_positions()[held].copy()
+    for _ in range(20):
+        sim.move_obstacle("finger", [0, 0, 0.002])
+        sim.step()
+    assert np.abs(sim.surface_positions()[held] - before - [0, 0, 0.002]).max() < 0.001
+    sim.release("finger")
+    assert len(sim.held()["finger"]) == 0
+    with pytest.raises(plica.InputError, match="unknown obstacle 'thumb' .choices: finger"):
+        sim.grasp("thumb")
+    with plica.Simulation(PRESS) as bare, pytest.raises(plica.InputError, match="finger cannot hold anything"):
+        bare.grasp("finger")
+
+
 def test_frames_are_written_as_by_the_program(tmp_path):
     from frames import read_vtu
 

@@ -59,6 +59,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.residual = simulation.worst_residual();
   summary.wrenches = simulation.wrenches();
   summary.tools = simulation.tools();
+  summary.held = simulation.held();
   summary.diagnosis = end.diagnosis;
   return summary;
 }

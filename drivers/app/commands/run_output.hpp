@@ -8,6 +8,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/material_points.hpp>
+#include <set>
 
 namespace plica::app {
 
@@ -58,6 +59,7 @@ class RunOutput {
   RunOutput(const Scene& scene, const Simulation<B>& simulation, const std::filesystem::path& folder,
             Checkpoint checkpoint, bool resumed)
       : simulation_(simulation),
+        contact_(scene.problem.contact),
         folder_(folder),
         checkpoint_(std::move(checkpoint)),
         recorded_(resumed ? checkpoint_.macro_steps : -1),
@@ -101,7 +103,14 @@ class RunOutput {
   }
 
  private:
-  void write_frame(double time) { files_.write(take_snapshot(simulation_, time, files_.volumes())); }
+  void write_frame(double time) {
+    const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
+    files_.write(now);
+    for (const std::string& name : empty_handed(contact_, now, simulation_.macro_step()))
+      if (warned_.insert(name).second)
+        message(coloured("warning: ", Colour::yellow) + name +
+                " has closed and holds no point; expected the surface to touch it by then, or a longer grasp.reach");
+  }
 
   void save(const RunEnd& now) {
     files_.sync();
@@ -116,6 +125,8 @@ class RunOutput {
   }
 
   const Simulation<B>& simulation_;
+  const ContactOptions& contact_;
+  std::set<std::string> warned_;  // of obstacles that hold nothing
   std::filesystem::path folder_;
   Checkpoint checkpoint_;
   std::map<std::string, double> stages_before_;

@@ -13,6 +13,28 @@
 
 namespace plica::app {
 
+namespace {
+
+bool is_closed(const GraspOptions& grasp, double time, double macro_step) {
+  for (std::size_t i = 0; i < grasp.from.size(); ++i)
+    if (grasp.from[i] + macro_step < time && (i >= grasp.until.size() || time < grasp.until[i])) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now, double macro_step) {
+  std::vector<std::string> names;
+  for (std::size_t o = 0; o < contact.obstacles.size(); ++o) {
+    const auto& grasp = contact.obstacles[o].grasp;
+    const std::string name = obstacle_name(contact, o);
+    if (!grasp || !is_closed(*grasp, now.time, macro_step)) continue;
+    for (const HeldBy& held : now.held)
+      if (held.obstacle == name && held.points.empty()) names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<double> vertex_masses(const Body& body, int level) {
   const TetMesh& mesh = body.levels[static_cast<std::size_t>(level)];
   return lumped_masses(mesh, region_densities(body, mesh));
@@ -33,6 +55,8 @@ std::string history_head(bool retries, const Problem& problem) {
   for (const std::string& name : wrench_names(problem)) add(name, {"force", "torque"});
   for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
     if (problem.contact.obstacles[o].mass) add(obstacle_name(problem.contact, o), {"displacement", "velocity"});
+  for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
+    if (problem.contact.obstacles[o].grasp) all += fmt::format(",{}.held", obstacle_name(problem.contact, o));
   return all + "\n";
 }
 
@@ -63,6 +87,7 @@ void History::write(const Snapshot& s) {
   const auto add = [&](const Point& p) { row += fmt::format(",{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z()); };
   for (const Wrench& w : s.wrenches) add(w.force), add(w.torque);
   for (const ToolState& t : s.tools) add(t.displacement), add(t.velocity);
+  for (const HeldBy& h : s.held) row += fmt::format(",{}", h.points.size());
   file_.add(row + "\n");
 }
 

@@ -29,6 +29,7 @@ struct Snapshot {
   long halvings = 0;             ///< of macro steps so far
   std::vector<Wrench> wrenches;  ///< of the obstacles, of the macro step that ends here
   std::vector<ToolState> tools;  ///< obstacles with mass
+  std::vector<HeldBy> held;      ///< by obstacles that can hold points
 };
 
 /// Of macro steps so far; 0 where bad ones are not retried.
@@ -50,18 +51,23 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.energies(),
                     halvings_of(simulation),
                     simulation.wrenches(),
-                    simulation.tools()};
+                    simulation.tools(),
+                    simulation.held()};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
   return snapshot;
 }
 
+/// The obstacles that closed by their `grasp`, at least a macro step [s] ago, and hold nothing.
+std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now, double macro_step);
+
 /// Mass at each vertex of a level: a quarter of every tetrahedron around it. [kg]
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
-/// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; and where obstacles with mass are.
+/// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; where obstacles with mass are; and
+/// how many points those hold that can.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.

@@ -109,6 +109,12 @@ Json tools_json(const std::vector<ToolState>& tools) {
   return all;
 }
 
+Json held_json(const std::vector<HeldBy>& held) {
+  Json all = Json::object();
+  for (const HeldBy& h : held) all[h.obstacle] = h.points.size();
+  return all;
+}
+
 }  // namespace
 
 bool has_elements(const LevelReport& level) {
@@ -194,7 +200,8 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"diagnosis", diagnosis_json(s.diagnosis, s.diagnosed)},
                      {"obstacles", obstacles_json(scene.problem.contact)},
                      {"wrenches", wrenches_json(s.wrenches)},
-                     {"tools", tools_json(s.tools)}};
+                     {"tools", tools_json(s.tools)},
+                     {"held", held_json(s.held)}};
   return json_text(json);
 }
 

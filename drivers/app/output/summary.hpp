@@ -35,6 +35,7 @@ struct Summary {
   std::optional<Diagnosis> diagnosis;
   std::vector<Wrench> wrenches;  ///< of the last macro step
   std::vector<ToolState> tools;  ///< obstacles with mass, at the end
+  std::vector<HeldBy> held;      ///< then, by obstacles that can hold points
   std::vector<Point> diagnosed;  ///< where its element's corners, or its vertex, are in the last good state [m]
 };
 

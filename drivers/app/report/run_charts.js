@@ -25,6 +25,8 @@ function show_history(parent, history) {
   const pushed = Object.keys(history).filter((name) => name.endsWith(".force_x")).map((name) => name.slice(0, -8));
   const forces = pushed.map((name) => ({name, values: sizes(history, ["x", "y", "z"].map((axis) => `${name}.force_${axis}`))}));
   if (forces.length) page.cursors.push(line_chart(parent, "Size of the contact force on obstacles", history.time, forces, "N", choose_time));
+  const holders = Object.keys(history).filter((name) => name.endsWith(".held")).map((name) => ({name: name.slice(0, -5), values: history[name]}));
+  if (holders.length) page.cursors.push(line_chart(parent, "Points that obstacles hold", history.time, holders, "", choose_time));
 }
 
 function show_probes(parent, probes) {

@@ -277,10 +277,26 @@ class Simulation:
 
         displacement: [3] m, from where its shape says. To lead it along a path, call this before every step.
         """
+        self._open().move_obstacle(self._number("move_obstacle", name), *checked("displacement", displacement, (3,)))
+
+    def grasp(self, name: str) -> None:
+        """An obstacle with `grasp` takes hold of the surface points that touch it now, or are within its reach, besides those that it
+        holds: springs tie them to where they are relative to it."""
+        self._open().grasp(self._number("grasp", name))
+
+    def release(self, name: str) -> None:
+        """It lets go of all that it holds."""
+        self._open().release(self._number("release", name))
+
+    def held(self) -> dict[str, np.ndarray]:
+        """The surface points that each obstacle with `grasp` holds, by its name."""
+        return {name: np.array(points, int) for name, points in self._open().held()}
+
+    def _number(self, asked: str, name: str) -> int:
         names = list(self.wrenches())
         if name not in names:
-            raise InputError(f"move_obstacle: unknown obstacle {name!r} (choices: {', '.join(names) or 'none'})")
-        self._open().move_obstacle(names.index(name), *checked("displacement", displacement, (3,)))
+            raise InputError(f"{asked}: unknown obstacle {name!r} (choices: {', '.join(names) or 'none'})")
+        return names.index(name)
 
     def report(self, *, frames: int = 200) -> Path:
         """Writes the page of the last run that had a `folder`: one file that a browser opens without a network. Its path."""

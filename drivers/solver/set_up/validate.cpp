@@ -129,6 +129,23 @@ void check_values(const std::string& path, const T& options) {
   Checker::inside(path, Group{}, const_cast<T&>(options));
 }
 
+/// It closes and opens in turns.
+void check_grasp(const std::string& path, const GraspOptions& o) {
+  if (o.until.size() > o.from.size() || o.until.size() + 1 < o.from.size())
+    throw InputError(path + ".until has " + std::to_string(o.until.size()) + " times and " + path + ".from " +
+                     std::to_string(o.from.size()) + "; expected as many, or one less: the last time it stays closed");
+  const auto shown = [](double time) { return Quantity{duration}.shown(time, 9); };
+  const auto expect_after = [&](const std::string& key, double time, double before) {
+    if (!(time > before))
+      throw InputError(path + key + " is " + shown(time) + "; expected a time after " + shown(before) +
+                       ": it closes and opens in turns");
+  };
+  for (std::size_t i = 0; i < o.from.size(); ++i) {
+    if (i > 0) expect_after(".from", o.from[i], o.until[i - 1]);
+    if (i < o.until.size()) expect_after(".until", o.until[i], o.from[i]);
+  }
+}
+
 void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   const bool known = visit_shape(o.shape, [&](auto shape, const auto& options) {
     using S = decltype(shape);
@@ -140,6 +157,7 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   check_values(path, o);
   if (!o.mass && (o.coupling.stiffness > 0 || o.coupling.damping))
     throw InputError(path + ".coupling is of an obstacle with mass; expected " + path + ".mass, or no coupling");
+  if (o.grasp) check_grasp(path + ".grasp", *o.grasp);
 }
 
 void check_closed(const std::string& option, const TriangleSurface& surface) {
@@ -227,6 +245,12 @@ void check_contact(const Problem& problem) {
       throw InputError(path + " is '" + name + "', as is that of obstacle " + std::to_string(other->second) +
                        "; expected names that differ");
   }
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    if (obstacles[i].grasp)
+      refuse_implicit(problem,
+                      obstacle_name(problem.contact, i) + " takes hold of points (contact.obstacles." +
+                          std::to_string(i) + ".grasp)",
+                      "no grasp");
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
       check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);

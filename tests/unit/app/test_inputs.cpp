@@ -137,6 +137,12 @@ TEST(Inputs, ErrorsHaveTheirPlace) {
        "a.yaml:7: body.loads.0.region: there is no region 'tip': the meshes name none"},
       {"friction: 0.2", "path: [{time: 1, displacement: [0, 0, 0, 0]}]",
        "a.yaml:14: contact.obstacles.0.path.0.displacement: expected a list of 3 lengths (m), got a list of 4"},
+      {"friction: 0.2", "grasp: {form: 0.1 s}",
+       "a.yaml:14: contact.obstacles.0.grasp: unknown key 'form'; did you mean 'from'?"},
+      {"friction: 0.2", "grasp: {from: [0.1 s, 2 m]}",
+       "a.yaml:14: contact.obstacles.0.grasp.from.1: expected a duration (s) >= 0, got '2 m', a length"},
+      {"friction: 0.2", "grasp: {reach: -1 mm}",
+       "a.yaml:14: contact.obstacles.0.grasp.reach: expected a length (m) >= 0"},
   };
   for (const Wrong& wrong : all) {
     const std::string text = error_of(damaged(wrong.said, wrong.instead));
@@ -160,6 +166,9 @@ TEST(Inputs, TheLibrarysErrorsHaveTheirPlaceToo) {
                             "path: [{time: 1, displacement: [0, 0, 0]},\n"
                             "        {time: 1, displacement: [0, 0, 0]}]")),
             "a.yaml:15: contact.obstacles.0.path.1.time is 1 s; expected a time after that of the entry before, 1 s");
+  EXPECT_EQ(
+      refusal(damaged("friction: 0.2", "grasp: {from: 0.3 s,\n        until: 0.2 s}")),
+      "a.yaml:15: contact.obstacles.0.grasp.until is 0.2 s; expected a time after 0.3 s: it closes and opens in turns");
   const Tree tree = parse_tree(sound_scene, "a.yaml");
   EXPECT_STREQ(located(InputError("body.levels.1: too small"), tree).what(), "a.yaml:6: body.levels.1: too small");
   EXPECT_STREQ(located(InputError("level 0: a step"), tree).what(), "a.yaml: level 0: a step");

@@ -147,6 +147,30 @@ TEST(RunFiles, HistoryHasTheObstaclesWrenches) {
   EXPECT_TRUE(text.ends_with(",1,2,3,4,5,6\n")) << text;
 }
 
+TEST(RunFiles, HistoryCountsHeldPoints) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of(block);
+  scene.problem.contact.obstacles.push_back({PlaneOptions{}, {}, {}, "floor"});
+  scene.problem.contact.obstacles[0].grasp = GraspOptions{.from = {0.1, 0.4}, .until = {0.3}};
+  RunFiles files(scene, folder.path());
+  Snapshot now = moved(scene, 0.25, {0, 0, 0.5});
+  now.wrenches.assign(1, {"", {1, 2, 3}, {4, 5, 6}});
+  now.held = {{"floor", {7, 8, 9}}};
+  files.write(now);
+  const std::string text = content_of(folder / "history.csv");
+  EXPECT_NE(text.find("floor.torque_z,floor.held\n"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(",4,5,6,3\n")) << text;
+
+  const auto warns = [&](double time, const std::vector<int>& points) {
+    now.time = time, now.held[0].points = points;
+    return !empty_handed(scene.problem.contact, now, 0.01).empty();
+  };
+  EXPECT_FALSE(warns(0.25, {7}));
+  EXPECT_TRUE(warns(0.25, {}));
+  EXPECT_TRUE(warns(1, {}));
+  for (const double open : {0.05, 0.1, 0.35}) EXPECT_FALSE(warns(open, {})) << open;
+}
+
 // A column more, and only where bad macro steps are retried
 TEST(RunFiles, HistoryCountsHalvings) {
   const TemporaryFolder folder;

@@ -58,7 +58,7 @@ Asked asked_by(const Work& work) {
 struct Method {
   std::string cycle, integrator, element;
   int levels;
-  enum { falling, touching, hanging } scene;
+  enum { falling, touching, hanging, holding } scene;
   std::size_t most;       ///< launches
   std::size_t waits = 0;  ///< a solve ends with a look at how it went
 };
@@ -66,6 +66,7 @@ struct Method {
 std::vector<Method> methods() {
   return {{"single", "symplectic_euler", "linear", 1, Method::falling, 3},
           {"single", "symplectic_euler", "linear", 1, Method::touching, 21},
+          {"single", "symplectic_euler", "linear", 1, Method::holding, 22},
           {"single", "symplectic_euler", "nodal", 1, Method::falling, 5},
           {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
           {"rsv", "symplectic_euler", "linear", 4, Method::touching, 98},
@@ -83,9 +84,10 @@ Problem problem_of(const Method& m) {
   p.integration.macro_step = 2e-4;
   p.integration.implicit.iterations = 10;
   if (m.scene == Method::hanging) p.body.fixed = {left_face()};
-  if (m.scene != Method::touching) return p;
+  if (m.scene != Method::touching && m.scene != Method::holding) return p;
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
   p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.0052}, {0, 0, 1}}, 0.3, {}});
+  if (m.scene == Method::holding) p.contact.obstacles[0].grasp = GraspOptions{.from = {0}};
   return p;
 }
 
@@ -108,6 +110,16 @@ TEST(Launches, AStepIsFewAndNeverWaits) {
     EXPECT_EQ(asked.waits.size(), m.waits) << lines(asked.waits);
     EXPECT_LE(asked.launches.size(), m.most) << lines(asked.launches);
   }
+}
+
+TEST(Launches, TakingHoldAndLettingGoNeverWait) {
+  using B = Backend<double, Kokkos::DefaultExecutionSpace>;
+  Simulation<B> simulation(problem_of({"single", "symplectic_euler", "linear", 1, Method::holding, 0}));
+  simulation.step();
+  Kokkos::fence("before");
+  const Asked asked =
+      asked_by([&] { simulation.release(0), simulation.step(), simulation.grasp(0), simulation.step(); });
+  EXPECT_TRUE(asked.waits.empty()) << lines(asked.waits);
 }
 
 struct FillWithNumbers {
