@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/kernels/linear/chebyshev.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/transfer.hpp>
@@ -31,6 +32,16 @@ bool invert_on_host(int n, double* A) {
 }  // namespace
 
 template <class B>
+PackedRows<B> packed_rows(const HostPattern& A) {
+  std::vector<int> first{0};
+  for (std::size_t a = 0; a + 1 < A.first.size(); ++a)
+    first.push_back(first.back() + (A.first[a + 1] - A.first[a] + 1) / 2);
+  return {to_device<Indices<B>>("packed.first", first),
+          zeros<decltype(PackedRows<B>::pair)>("plica::packed.pair", static_cast<std::size_t>(first.back())),
+          zeros<Scalars<B>>("plica::packed.scale", A.first.size() - 1)};
+}
+
+template <class B>
 Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree)
     : grids_(transfers.size() + 1),
       degree_(degree),
@@ -52,7 +63,8 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
       continue;
     }
     grid.inverse_diagonal = zeros<Blocks<F>>("plica::multigrid.diagonal", n);
-    grid.d = zeros<Vectors<F>>("plica::multigrid.d", n), grid.e = zeros<Vectors<F>>("plica::multigrid.e", n);
+    grid.packed = packed_rows<F>(pattern);
+    grid.d = zeros<Vectors<F>>("plica::multigrid.d", n + 1), grid.e = zeros<Vectors<F>>("plica::multigrid.e", n + 1);
     grid.largest = zeros<Doubles<B>>("plica::multigrid.largest", 1);
     if (i + 1 == grids_.size()) continue;
     grid.up = sparse_rows<F>("multigrid.up", transfers[i]);
@@ -71,21 +83,23 @@ void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B
 /// All levels follow from the finest one's matrix and blocks.
 template <class B>
 void Multigrid<B>::refit(const Exec& exec) {
-  bound_spectrum(exec, grids_.front());
+  fit_smoother(exec, grids_.front());
   for (std::size_t i = 1; i < grids_.size(); ++i) {
     const Grid& grid = grids_[i];
     update_vertices<F>(exec, "plica::galerkin", grid.map.blocks(),
                        GalerkinProduct<F>{grid.map, grids_[i - 1].A, grid.A});
     if (!coarser_than(i)) return invert_coarsest(exec);
     update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows, InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
-    bound_spectrum(exec, grid);
+    fit_smoother(exec, grid);
   }
 }
 
-/// The largest eigenvalue of D^-1 A, by a few power iterations.
+/// The packed matrix, and the largest eigenvalue of D^-1 A, by a few power iterations.
 template <class B>
-void Multigrid<B>::bound_spectrum(const Exec& exec, const Grid& grid) const {
+void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
   const int n = grid.A.rows;
+  update_vertices<F>(exec, "plica::pack_scales", n, ScaleOfVertex<F>{grid.A, grid.packed.scale});
+  update_vertices<F>(exec, "plica::pack_rows", n, PackRow<F>{grid.A, grid.packed});
   update_vertices<F>(exec, "plica::power_start", n, PowerStart<F>{grid.r});
   for (int i = 0;; ++i) {
     reduce<F, 1>(exec, "plica::power_size", n, PowerSize<F>{grid.inverse_diagonal, grid.r, grid.x}, sums_, square_);
@@ -126,7 +140,8 @@ void Multigrid<B>::cycle(const Exec& exec, std::size_t level) const {
   const Grid& coarse = grids_[level + 1];
   update_vertices<F>(exec, "plica::restrict_residual", coarse.A.rows, MultiplyRows<F>{grid.down, grid.r, coarse.r});
   cycle(exec, level + 1);
-  update_vertices<F>(exec, "plica::prolongate", grid.A.rows, MultiplyRows<F>{grid.up, coarse.x, grid.d});
+  update_vertices<F>(exec, "plica::prolongate", grid.A.rows,
+                     ChebyshevCorrection<F>{grid.packed.scale, grid.up, coarse.x, grid.d});
   relax_from_correction(exec, grid);
 }
 
@@ -135,7 +150,7 @@ void Multigrid<B>::cycle(const Exec& exec, std::size_t level) const {
 template <class B>
 void Multigrid<B>::relax_from_zero(const Exec& exec, const Grid& grid, bool leaves_residual) const {
   update_vertices<F>(exec, "plica::chebyshev_start", grid.A.rows,
-                     ChebyshevStart<F>{grid.inverse_diagonal, grid.largest, grid.r, grid.d, grid.x});
+                     ChebyshevStart<F>{grid.packed.scale, grid.inverse_diagonal, grid.largest, grid.r, grid.d, grid.x});
   Vectors<F> d = grid.d, next = grid.e;
   const int steps = leaves_residual ? degree_ : degree_ - 1;
   for (int k = 1; k <= steps; ++k, std::swap(d, next))
@@ -157,7 +172,7 @@ void Multigrid<B>::chebyshev_step(const Exec& exec, const Grid& grid, const Vect
   const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
   update_vertices<F>(
       exec, "plica::chebyshev", grid.A.rows,
-      ChebyshevStep<F>{grid.A, grid.inverse_diagonal, grid.largest, d, grid.r, grid.x, next, keep, gain, last});
+      ChebyshevStep<F>{grid.packed, grid.inverse_diagonal, grid.largest, d, grid.r, grid.x, next, keep, gain, last});
 }
 
 template <class B>
@@ -178,7 +193,8 @@ template <class B>
 std::size_t Multigrid<B>::bytes() const {
   std::size_t total = bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse);
   for (const Grid& grid : grids_)
-    total += bytes_of_views(grid.A.value, grid.inverse_diagonal, grid.x, grid.r, grid.d, grid.e, grid.largest) +
+    total += bytes_of_views(grid.A.value, grid.packed.first, grid.packed.pair, grid.packed.scale, grid.inverse_diagonal,
+                            grid.x, grid.r, grid.d, grid.e, grid.largest) +
              bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
              bytes_of_views(grid.map.first, grid.map.fine, grid.map.weight, grid.map.upper, grid.map.lower) +
              (&grid == &grids_.front() ? 0 : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal));
@@ -187,5 +203,8 @@ std::size_t Multigrid<B>::bytes() const {
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Multigrid<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
+#define PLICA_PACKED_ROWS(Exec) \
+  template PackedRows<Backend<float, Exec>> packed_rows<Backend<float, Exec>>(const HostPattern& A);
+PLICA_FOR_EACH_SPACE(PLICA_PACKED_ROWS)
 
 }  // namespace plica

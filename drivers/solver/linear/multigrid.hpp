@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>
+#include <plica/kernels/linear/packed_rows.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <string>
 #include <vector>
@@ -44,6 +45,10 @@ HostPattern host_pattern(const BlockMatrix<B>& A);
 template <class B>
 BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern);
 
+/// Room for a matrix of that pattern, packed; for float.
+template <class B>
+PackedRows<B> packed_rows(const HostPattern& A);
+
 /// The pattern of P^T A P, own blocks always in it, and how its blocks follow from A's.
 template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
@@ -57,7 +62,8 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 ///                                             \\           /
 ///   level 2                                    restrict  solve
 ///
-/// The polynomial carries the residual along, so that it costs no product of its own. Nothing in a cycle waits for the device.
+/// The polynomial carries the residual along, so that it costs no product of its own. It reads copies of the matrices in 16 bits a number
+/// (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the device.
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
@@ -78,6 +84,7 @@ class Multigrid final : public Preconditioner<B> {
  private:
   struct Grid {
     BlockMatrix<F> A;
+    PackedRows<F> packed;  ///< none on the coarsest
     Blocks<F> inverse_diagonal;
     Vectors<F> x, r, d, e;
     Doubles<B> largest;
@@ -91,7 +98,7 @@ class Multigrid final : public Preconditioner<B> {
   Doubles<B> square_;
 
   bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }
-  void bound_spectrum(const Exec& exec, const Grid& grid) const;
+  void fit_smoother(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;
   void cycle(const Exec& exec, std::size_t level) const;
   void relax_from_zero(const Exec& exec, const Grid& grid, bool leaves_residual) const;

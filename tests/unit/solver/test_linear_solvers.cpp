@@ -147,6 +147,40 @@ TYPED_TEST(LinearSolversOn, TheAssembledMatrixIsTheProductWithoutOne) {
   });
 }
 
+TEST(LinearSolvers, PackedRowsAreTheMatrixTo16Bits) {
+  using B = Backend<float, Host::Exec>;
+  StageCase<B> stage(pressed("neo_hookean"));
+  StageSystem<B> system(stage.level(), true);
+  system.prepare(stage.level(), stage.state, stage.weights, false);
+  const BlockMatrix<B>& A = system.matrix(stage.exec());
+  const PackedRows<B> packed = packed_rows<B>(host_pattern(A));
+  update_vertices<B>(stage.exec(), "test", A.rows, ScaleOfVertex<B>{A, packed.scale});
+  update_vertices<B>(stage.exec(), "test", A.rows, PackRow<B>{A, packed});
+  const auto p = stage.random_right_side();
+  Vectors<B> scaled("test.scaled", p.size() + 1);
+  stage.exec().fence();
+  for (std::size_t b = 0; b < p.size(); ++b)
+    for (int k = 0; k < 3; ++k) scaled(b, k) = packed.scale(b) * static_cast<float>(p[b][k]);
+  for (int a = 0; a < A.rows; ++a) {
+    const Vec3<float> got = packed_row_product<B>(packed, a, scaled);
+    Point want = Point::Zero();
+    double bound = 0;  // half a step of every number, and what float rounds
+    for (int s = A.first(a); s < A.first(a + 1); ++s)
+      for (int k = 0; k < 3; ++k) {
+        const double x = p[static_cast<std::size_t>(A.column(s))][k];
+        const double step =
+            0x1p16 * static_cast<double>(packed.scale(a)) * static_cast<double>(packed.scale(A.column(s)));
+        bound += 0.51 * step * std::abs(x);
+        for (int i = 0; i < 3; ++i) {
+          const double value = static_cast<double>(A.value(s, 3 * k + i));
+          want[i] += value * x, bound += 1e-6 * std::abs(value * x);
+        }
+      }
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(static_cast<double>(packed.scale(a) * got[i]), want[i], bound) << "row " << a;
+  }
+}
+
 TEST(LinearSolvers, PreconditionersAreSymmetricAndPositive) {
   StageCase<Host> stage(pressed("corotational"));
   for (const char* name : {"chebyshev", "multigrid"}) {
