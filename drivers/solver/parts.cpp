@@ -145,7 +145,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       sum([](const L& l) { return bytes_of(l.surface); }));
   add("contact", contact, touched, "no obstacle", sum([](const L& l) { return l.response().bytes(); }));
   const std::string holding = holding_parts(problem.contact);
-  add("held points", !holding.empty(), holding, "no obstacle has grasp", holding.empty() ? 0 : bytes(touching->memory()));
+  add("held points", !holding.empty(), holding, "no obstacle has grasp",
+      holding.empty() ? 0 : bytes(touching->memory()));
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);

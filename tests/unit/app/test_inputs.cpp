@@ -140,7 +140,7 @@ TEST(Inputs, ErrorsHaveTheirPlace) {
       {"friction: 0.2", "grasp: {form: 0.1 s}",
        "a.yaml:14: contact.obstacles.0.grasp: unknown key 'form'; did you mean 'from'?"},
       {"friction: 0.2", "grasp: {from: [0.1 s, 2 m]}",
-       "a.yaml:14: contact.obstacles.0.grasp.from.1: expected a duration (s) >= 0, got '2 m', a length"},
+       "a.yaml:14: contact.obstacles.0.grasp.from.1: expected a time (s) >= 0, got '2 m', a length"},
       {"friction: 0.2", "grasp: {reach: -1 mm}",
        "a.yaml:14: contact.obstacles.0.grasp.reach: expected a length (m) >= 0"},
   };
