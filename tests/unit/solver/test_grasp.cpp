@@ -127,6 +127,51 @@ TEST(Grasp, KeepsTheMomentum) {
     }
 }
 
+// The angular momentum about the scene's origin changes by the torque of the wrench, which is about the plate's centre, and by the force
+// there: by leapfrog to rounding, since forces are those of the places at the start of a step.
+TEST(Grasp, TurnsTheBodyByItsTorque) {
+  Problem p = cube_and_plate(from_the_start);
+  const Point centre(side / 2, side / 2, top + 0.0105), speed(0.1, 0.05, 0);
+  p.contact.obstacles[0].motion = SteadyMotion{speed};
+  p.body.initial.angular_velocity = {0, 0, 5};
+  Simulation<Host> s(p);
+  const auto mass = masses_of(p);
+  const auto turning = [&] {
+    Point sum = Point::Zero();
+    const auto x = s.positions(), v = s.velocities();
+    for (std::size_t a = 0; a < x.size(); ++a) sum += mass[a] * x[a].cross(v[a]);
+    return sum;
+  };
+  Point before = turning();
+  const double size = before.norm();
+  double most = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Point about = centre + s.time() * speed;
+    advance(s, 1);
+    const Point now = turning();
+    const Wrench w = s.wrenches()[0];
+    EXPECT_LE((now - before - 2e-4 * (w.torque + about.cross(w.force))).norm(), round_off<double>(4000, size)) << n;
+    before = now, most = std::max(most, w.torque.norm());
+  }
+  EXPECT_GT(most, 0.01);
+}
+
+// A needle holds the points within its reach, and lifts them.
+TEST(Grasp, ThinToolsHoldPoints) {
+  Problem p = cube_and_plate(from_the_start);
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
+  p.body.damping.mass = 40;
+  ObstacleOptions& needle = p.contact.obstacles[0];
+  needle.shape = CapsuleOptions{{-0.01, side / 2, top + 1e-3}, {side + 0.01, side / 2, top + 1e-3}, 0.5e-3};
+  needle.motion = PathMotion{{{0, {0, 0, 0}}, {0.1, {0, 0, 0.004}}}};
+  Simulation<Host> s(p);
+  while (s.time() < 0.5) advance(s, 1);
+  ASSERT_EQ(held_points(s).size(), 5u);  // of the line below it
+  for (const int point : held_points(s))
+    EXPECT_NEAR(s.surface_positions()[static_cast<std::size_t>(point)][2], top + 0.004, 0.05 * 0.004);
+  EXPECT_GT(s.wrenches()[0].force[2], 0.1);
+}
+
 double most_energy(Simulation<Host>& s, int steps) {
   double most = 0;
   for (int n = 0; n < steps; ++n) {
