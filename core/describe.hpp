@@ -171,6 +171,13 @@ void describe(V& v, SineCourse& o) {
 }
 
 template <class V>
+void describe(V& v, EnclosedVolume& o) {
+  v.required("ratio", o.ratio, Quantity{plain, positive}, "to that at rest, when the course is at 1");
+  v.required("bulk_modulus", o.bulk_modulus, Quantity{pressure, positive},
+             "of the fluid: its pressure over the part of the volume that is missing");
+}
+
+template <class V>
 void describe(V& v, LoadOptions& o) {
   describe(v, o.where);
   v.one_of();
@@ -180,6 +187,8 @@ void describe(V& v, LoadOptions& o) {
                 "of all chosen vertices together, each in proportion to its mass; on a face, traction is more even");
   v.alternative("follower_pressure", o.load, As<&FollowerPressure::value, Quantity>(Quantity{pressure}),
                 "on the same triangles, always against their sides; above 0 into the body");
+  v.alternative("enclosed_volume", o.load, Case<EnclosedVolume>{},
+                "of the cavity on the outer side of these triangles, by the pressure of a fluid in it");
   v.at_most_one();
   v.alternative("ramp", o.course, As<&RampCourse::duration, Quantity>(Quantity{duration, positive}),
                 "rises smoothly from zero within this time");
@@ -291,6 +300,7 @@ void describe(V& v, IntegrationOptions& o) {
   v("distribution", Shares::Target{o.distribution, o.shares}, Shares{{"distribution", distributions}},
     "how much of the macro step each level integrates");
   describe_stepping(v, o);
+  v("relaxation", o.relaxation, Name{"rule", relaxation_rules}, "how the stresses of body.material.prony go on");
   v("implicit", o.implicit, Group{}, "how implicit levels are solved");
   v("him", o.him, Group{}, "of the cycle him");
   v("retry", o.retry, Group{}, "of bad macro steps, by halves");

@@ -32,6 +32,7 @@ std::vector<Choice> cycle_choices();           ///< ways to share a macro step, 
 std::vector<Choice> error_classes();           ///< of cycle auto
 std::vector<Choice> distributions();           ///< sizes of the shares
 std::vector<Choice> outside_rules();           ///< for vertices outside the other level's mesh
+std::vector<Choice> relaxation_rules();        ///< how Prony series go on in time
 std::vector<Choice> whole_surface_rules();     ///< which obstacles touch the surface between its points, too
 std::vector<Choice> linear_solver_choices();   ///< of implicit levels, and auto
 std::vector<Choice> preconditioner_choices();  ///< of conjugate gradients, and auto

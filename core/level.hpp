@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <plica/core/element_flags.hpp>
 #include <plica/core/load.hpp>
 #include <plica/core/model.hpp>
@@ -28,6 +29,19 @@ struct Load {
   LoadCourse course;
 };
 
+/// What triangles enclose where its volume is given, see EnclosedVolume.
+struct Cavity {
+  int load = 0;                  ///< of the body's loads
+  double rest = 0;               ///< volume at rest [m^3]
+  double caps = 0;               ///< the part of it that closes the rims, which does not change [m^3]
+  double ratio = 1;              ///< of the volume at rest
+  double bulk_modulus = 0;       ///< [Pa]
+  Point origin = Point::Zero();  ///< of the vertices' places at rest [m]
+
+  double stiffness() const { return bulk_modulus / rest; }                        ///< [Pa/m^3]
+  double goal(double factor) const { return rest * (1 + (ratio - 1) * factor); }  ///< [m^3]
+};
+
 /// A pressure on triangles of the boundary, wherever they are.
 template <class B>
 struct FollowerLoad {
@@ -38,6 +52,8 @@ struct FollowerLoad {
   Indices<B> second, third;  ///< [corners] the other two, counterclockwise from outside, as places in `vertex`
   double pressure = 0;       ///< [Pa]
   LoadCourse course;
+  std::optional<Cavity> cavity = {};  ///< its fluid has the pressure then
+  Doubles<B> volume = {};             ///< [1] of that one, as of the last evaluation [m^3]
 };
 
 /// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A symmetric matrix is xx yy zz xy xz yz.

@@ -22,6 +22,13 @@ struct FollowerPressure {
   double value = 0;  ///< [Pa]; above 0 it pushes into the body
 };
 
+/// On the same triangles, the pressure of a fluid that fills what they enclose on their outer side: K (V given - V now) / V at rest. The
+/// volume given goes from that at rest, where the course is 0, to `ratio` times that, where it is 1.
+struct EnclosedVolume {
+  double ratio = 1;         ///< above 0
+  double bulk_modulus = 0;  ///< K [Pa]
+};
+
 /// 1 at all times.
 struct ConstantCourse {};
 
@@ -49,11 +56,18 @@ struct SineCourse {
 /// A load's factor over time.
 using LoadCourse = std::variant<ConstantCourse, RampCourse, PolygonCourse, SineCourse>;
 
+/// What a load has that gives a volume.
+struct CavityState {
+  int load = 0;         ///< of the body's loads
+  double volume = 0;    ///< [m^3]
+  double pressure = 0;  ///< [Pa]
+};
+
 /// A load on a part of the body.
 struct LoadOptions {
-  Selection where;                                            ///< of vertices
-  std::variant<Traction, TotalForce, FollowerPressure> load;  ///< what acts on them
-  LoadCourse course;                                          ///< times this factor
+  Selection where;                                                            ///< of vertices
+  std::variant<Traction, TotalForce, FollowerPressure, EnclosedVolume> load;  ///< what acts on them
+  LoadCourse course;                                                          ///< times this factor
 };
 
 }  // namespace plica

@@ -198,6 +198,7 @@ struct IntegrationOptions {
   bool allow_unstable = false;                                 ///< run explicit sub-steps above the limit all the same
   double switch_threshold = 0.1;                               ///< epsilon of the switched mappings
   std::string outside = "clamp";                               ///< of outside_rules(): vertices outside the other mesh
+  std::string relaxation = "exponential";                      ///< of relaxation_rules(): how Prony series go on
   ImplicitOptions implicit;                                    ///< of implicit levels
   HimOptions him;                                              ///< of the hierarchical inverse mass
   RetryOptions retry;                                          ///< of a bad macro step

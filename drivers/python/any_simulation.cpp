@@ -63,6 +63,7 @@ class SimulationOf final : public AnySimulation {
   std::vector<HeldBy> held() const override { return simulation_.held(); }
   void grasp(int obstacle) override { simulation_.grasp(obstacle); }
   void release(int obstacle) override { simulation_.release(obstacle); }
+  std::vector<CavityState> cavities() const override { return simulation_.cavities(); }
   void move_obstacle(int obstacle, const Point& displacement) override {
     simulation_.move_obstacle(obstacle, displacement);
   }

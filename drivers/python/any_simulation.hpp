@@ -43,6 +43,7 @@ class AnySimulation {
   /// See Simulation::grasp() and release().
   virtual void grasp(int obstacle) = 0;
   virtual void release(int obstacle) = 0;
+  virtual std::vector<CavityState> cavities() const = 0;
   /// See Simulation::move_obstacle().
   virtual void move_obstacle(int obstacle, const Point& displacement) = 0;
 

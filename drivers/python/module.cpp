@@ -260,6 +260,12 @@ void bind_simulation(nb::module_& m) {
            })
       .def("grasp", [](const H& s, int obstacle) { s->grasp(obstacle); })
       .def("release", [](const H& s, int obstacle) { s->release(obstacle); })
+      .def("cavities",
+           [](const H& s) {
+             std::vector<nb::object> all;
+             for (const CavityState& c : s->cavities()) all.push_back(nb::make_tuple(c.load, c.volume, c.pressure));
+             return all;
+           })
       .def("move_obstacle",
            [](const H& s, int obstacle, double x, double y, double z) {
              s->move_obstacle(obstacle, {x, y, z});

@@ -95,8 +95,10 @@ double largest_eigenvalue(const typename B::Exec& exec, const Level<B>& level, c
 
 template <class B>
 double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                     const Vectors<B>& u, const StabilityLimit& limit, const DampingLimit& damping) {
-  const auto frequency = [&](double over) { return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, over)); };
+                     const Vectors<B>& u, const StabilityLimit& limit, const DampingLimit& damping, double beside) {
+  const auto frequency = [&](double over) {
+    return std::sqrt(largest_eigenvalue(exec, level, elasticity, u, over) + beside);
+  };
   const double infinite = std::numeric_limits<double>::infinity();
   const double w = frequency(0);
   const double most = damping.most_mass + damping.most_stiffness * w * w;
@@ -126,7 +128,7 @@ double critical_step(const typename B::Exec& exec, const Level<B>& level, const 
                                                           const Vectors<Backend<Real, Exec>>&, double);   \
   template double critical_step<Backend<Real, Exec>>(                                                     \
       const Exec&, const Level<Backend<Real, Exec>>&, const Elasticity<Backend<Real, Exec>>&,             \
-      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const DampingLimit&);
+      const Vectors<Backend<Real, Exec>>&, const StabilityLimit&, const DampingLimit&, double);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -19,9 +19,9 @@ struct DampingLimit {
 };
 
 /// The largest stable step of an explicit integrator at the state u [s], see StabilityLimit; infinite for a free rigid level. Contact
-/// does not enter: it is implicit in the step, see cmake/docs/contact.md.
+/// does not enter: it is implicit in the step, see cmake/docs/contact.md. `beside` bounds what else there is of w^2 [1/s^2].
 template <class B>
 double critical_step(const typename B::Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                     const Vectors<B>& u, const StabilityLimit& limit, const DampingLimit& damping);
+                     const Vectors<B>& u, const StabilityLimit& limit, const DampingLimit& damping, double beside = 0);
 
 }  // namespace plica

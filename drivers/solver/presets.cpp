@@ -9,7 +9,7 @@ std::vector<Choice> presets() {
   return {
       {"tled",
        "total Lagrangian explicit dynamics (Miller et al. 2007, Taylor, Cheng & Ourselin 2008): body.element linear, "
-       "integration.cycle single, integration.integrator central_difference"}};
+       "integration.cycle single, integration.integrator central_difference, integration.relaxation backward_euler"}};
 }
 
 void apply_preset(std::string_view name, Problem& problem) {
@@ -18,6 +18,7 @@ void apply_preset(std::string_view name, Problem& problem) {
   problem.body.element = {"linear"};
   problem.integration.cycle = "single";
   problem.integration.integrator = {"central_difference"};
+  problem.integration.relaxation = "backward_euler";
 }
 
 }  // namespace plica

@@ -45,6 +45,11 @@ std::vector<Choice> outside_rules() {
           {"keep", "keeps its own motion"}};
 }
 
+std::vector<Choice> relaxation_rules() {
+  return {{"exponential", "exact where the stress is linear in time (Simo & Hughes 1998)"},
+          {"backward_euler", "of first order, as in TLED (Taylor, Cheng & Ourselin 2008)"}};
+}
+
 std::vector<Choice> linear_solvers() { return choices<LinearSolvers>(); }
 std::vector<Choice> preconditioners() { return choices<Preconditioners>(); }
 

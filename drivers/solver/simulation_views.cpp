@@ -75,6 +75,11 @@ std::vector<ToolState> Simulation<B>::tools() const {
 }
 
 template <class B>
+std::vector<CavityState> Simulation<B>::cavities() const {
+  return inside_->hierarchy()[0].cavities(inside_->time);
+}
+
+template <class B>
 const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
   const int count = static_cast<int>(problem.contact.obstacles.size());
   if (obstacle < 0 || obstacle >= count)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/elastic/lost_stress.hpp>
-#include <plica/kernels/follower_pressure.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -12,7 +12,12 @@ namespace plica {
 
 template <class B>
 SolverLevel<B>::SolverLevel(Level<B>&& data, StageClock<B>& clock, int number)
-    : Level<B>(std::move(data)), clock_(&clock), number_(number) {}
+    : Level<B>(std::move(data)), clock_(&clock), number_(number) {
+  int most = 0;
+  for (const FollowerLoad<B>& load : this->followers)
+    if (load.cavity) most = std::max(most, load.count);
+  if (most > 0) volumes_ = BlockSums<B>(most);
+}
 template <class B>
 SolverLevel<B>::SolverLevel(SolverLevel&&) noexcept = default;
 template <class B>
@@ -44,11 +49,35 @@ void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
 
 template <class B>
 void SolverLevel<B>::add_followers(const State<B>& at, double time, const Vectors<B>& force) const {
+  const auto add = [&]<class Pressure>(const FollowerLoad<B>& load, const Pressure& pressure) {
+    update_vertices<B>(exec(), "plica::follower_pressure", load.count,
+                       AddFollowerPressure<B, Pressure>{{load, at.u}, force, pressure});
+  };
   for (const FollowerLoad<B>& load : this->followers) {
-    const double pressure = load.pressure * load_factor(load.course, time);
-    Kokkos::parallel_for("plica::follower_pressure", Kokkos::RangePolicy<Exec>(exec(), 0, load.count),
-                         AddFollowerPressure<B>{load, at.u, force, static_cast<typename B::Real>(pressure)});
+    if (load.cavity)
+      add(load, fluid_pressure(load, at.u, time));
+    else
+      add(load, GivenPressure{static_cast<typename B::Real>(load.pressure * load_factor(load.course, time))});
   }
+}
+
+template <class B>
+FluidPressure<B> SolverLevel<B>::fluid_pressure(const FollowerLoad<B>& load, const Vectors<B>& u, double time) const {
+  reduce<B, 1>(exec(), "plica::enclosed_volume", load.count, VolumeOfCorner<B>{{load, u}}, volumes_, load.volume);
+  const Cavity& cavity = *load.cavity;
+  return {load.volume, cavity.goal(load_factor(load.course, time)) - cavity.caps, cavity.stiffness()};
+}
+
+template <class B>
+std::vector<CavityState> SolverLevel<B>::cavities(double time) const {
+  std::vector<CavityState> all;
+  for (const FollowerLoad<B>& load : this->followers) {
+    if (!load.cavity) continue;
+    const FluidPressure<B> fluid = fluid_pressure(load, this->state.u, time);
+    const double volume = host_values(exec(), load.volume)[0];
+    all.push_back({load.cavity->load, volume + load.cavity->caps, fluid.stiffness * (fluid.goal - volume)});
+  }
+  return all;
 }
 
 template <class B>

@@ -9,6 +9,7 @@
 #include <plica/drivers/solver/stage_clock.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
 #include <plica/drivers/solver/viscosity.hpp>
+#include <plica/kernels/follower_pressure.hpp>
 
 namespace plica {
 
@@ -57,6 +58,9 @@ class SolverLevel : public Level<B> {
   }
   /// Counts the contact of the level's state by the bare penalty law, for `weight` [s]. Uses level.f.
   void count_contact(double time, double weight);
+
+  /// Volumes and pressures of its cavities at its state; waits.
+  std::vector<CavityState> cavities(double time) const;
 
   /// f = those that do not depend on the state: gravity, loads, a correction.
   void dead(double time, const Vectors<B>& f) const;
@@ -116,12 +120,14 @@ class SolverLevel : public Level<B> {
   Blocks<B> external_stiffness_;  ///< implicit levels only
   long evaluations_ = 0;
   int evaluation_ = 0;
+  BlockSums<B> volumes_;  ///< of cavities
 
   void elastic_and_gravity(const State<B>& state, double time, const Vectors<B>& f);
   void ask_caller(const State<B>& state, double time, double step, double ahead, const Vectors<B>& f);
   void add_loads(double time, const Vectors<B>& f) const;
   /// Pressures that follow the state; linear systems leave their derivative out.
   void add_followers(const State<B>& state, double time, const Vectors<B>& f) const;
+  FluidPressure<B> fluid_pressure(const FollowerLoad<B>& load, const Vectors<B>& u, double time) const;
 };
 
 }  // namespace plica

@@ -84,8 +84,9 @@ RelaxationSteps<B> relaxation_steps(const std::vector<std::vector<PronyTerm>>& p
 }  // namespace
 
 template <class B>
-Viscosity<B>::Viscosity(const ShapeConstants& constants, const TetMesh& mesh, Level<B>& level)
+Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh, Level<B>& level)
     : steps_(relaxation_steps<B>(constants.prony)) {
+  steps_.backward_euler = rule == "backward_euler";
   const bool nodal = level.model.rows.slices > 0;
   const std::vector<int> regions = regions_of_sets(mesh, level);
   constants_ = nodal ? level.model.rows.constants : level.model.patches.constants;

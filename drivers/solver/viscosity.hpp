@@ -24,8 +24,8 @@ class Viscosity {
  public:
   using Exec = typename B::Exec;
 
-  /// Of a level that is built: makes level.stress.
-  Viscosity(const ShapeConstants& constants, const TetMesh& mesh, Level<B>& level);
+  /// Of a level that is built: makes level.stress. `rule` is one of relaxation_rules().
+  Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh, Level<B>& level);
 
   /// The displacements u are the body's at `time` [s].
   void remember(const Exec&, const Level<B>&, const Elasticity<B>&, const Vectors<B>& u, double time);

@@ -11,15 +11,18 @@ struct RelaxationSteps {
   int terms = 0;          ///< of the longest series
   Doubles<B> alpha, tau;  ///< [regions][terms]; s
   double t = 0;           ///< [s]
-  Scalars<B> step;        ///< [regions][terms][2] keep and gain
-  Scalars<B> weight;      ///< [regions][1 + terms] of S_n and of each -H_i in what is lost
-  Scalars<B> share;       ///< [regions] of the energy of shape that is lost
+  bool backward_euler = false;
+  Scalars<B> step;    ///< [regions][terms][2] keep and gain
+  Scalars<B> weight;  ///< [regions][1 + terms] of S_n and of each -H_i in what is lost
+  Scalars<B> share;   ///< [regions] of the energy of shape that is lost
 
   KOKKOS_INLINE_FUNCTION void operator()(int region) const {
     double shared = 0, elastic = 0;
     for (int i = 0; i < terms; ++i) {
       const int at = region * terms + i;
-      const double x = t / tau(at), gain = x > 0 ? -Kokkos::expm1(-x) / x : 1, keep = Kokkos::exp(-x);
+      const double x = t / tau(at);
+      const double gain = backward_euler ? 1 / (1 + x) : x > 0 ? -Kokkos::expm1(-x) / x : 1;
+      const double keep = backward_euler ? gain : Kokkos::exp(-x);
       shared += alpha(at) * (1 - gain), elastic += alpha(at) * gain;
       step(2 * at) = static_cast<Real>(keep), step(2 * at + 1) = static_cast<Real>(gain);
       weight(region * (1 + terms) + 1 + i) = static_cast<Real>(alpha(at) * keep);

@@ -85,6 +85,19 @@ def test_obstacles_take_hold_and_let_go():
         bare.grasp("finger")
 
 
+def test_cavities_say_volume_and_pressure():
+    tube = {"tube": {"length": 0.1, "radius": 0.01, "wall": 0.01, "bend": 0, "around": 12, "across": 2, "along": 6}}
+    ends = [{"group": "inlet"}, {"group": "outlet"}]
+    fluid = {"ratio": 1.1, "bulk_modulus": "20 kPa"}
+    loads = [{"group": "lumen", "enclosed_volume": fluid, "ramp": "50 ms"}]
+    sim = plica.Simulation(duration="50 ms", body={"levels": [tube], "fixed": ends, "loads": loads})
+    rest = sim.cavities()[0]
+    assert rest.pressure == pytest.approx(0, abs=1e-9) and rest.volume == pytest.approx(0.1 * np.pi * 0.01**2, rel=0.1)
+    sim.run()
+    now = sim.cavities()[0]
+    assert now.pressure == pytest.approx(20e3 * (1.1 - now.volume / rest.volume)) and now.volume > 1.02 * rest.volume
+
+
 def test_frames_are_written_as_by_the_program(tmp_path):
     from frames import read_vtu
 

@@ -64,6 +64,7 @@ constexpr Family families[] = {{"presets", "published methods, as what they cons
                                {"solvers", "of the implicit levels' linear systems", linear_solvers},
                                {"preconditioners", "of conjugate gradients", preconditioners},
                                {"outside", "what becomes of vertices outside another level's mesh", outside_rules},
+                               {"relaxations", "how the stresses of Prony series go on in time", relaxation_rules},
                                {"formats", "mesh files that are read", meshes_read},
                                {"units", "of numbers in scenes and on the command line", unit_choices}};
 constexpr const char* keys_summary = "everything that a scene can say";

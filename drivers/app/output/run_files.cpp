@@ -57,6 +57,9 @@ std::string history_head(bool retries, const Problem& problem) {
     if (problem.contact.obstacles[o].mass) add(obstacle_name(problem.contact, o), {"displacement", "velocity"});
   for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
     if (problem.contact.obstacles[o].grasp) all += fmt::format(",{}.held", obstacle_name(problem.contact, o));
+  for (std::size_t i = 0; i < problem.body.loads.size(); ++i)
+    if (std::holds_alternative<EnclosedVolume>(problem.body.loads[i].load))
+      all += fmt::format(",load_{0}.volume,load_{0}.pressure", i);
   return all + "\n";
 }
 
@@ -88,6 +91,7 @@ void History::write(const Snapshot& s) {
   for (const Wrench& w : s.wrenches) add(w.force), add(w.torque);
   for (const ToolState& t : s.tools) add(t.displacement), add(t.velocity);
   for (const HeldBy& h : s.held) row += fmt::format(",{}", h.points.size());
+  for (const CavityState& c : s.cavities) row += fmt::format(",{:.9g},{:.9g}", c.volume, c.pressure);
   file_.add(row + "\n");
 }
 

@@ -30,6 +30,7 @@ struct Snapshot {
   std::vector<Wrench> wrenches;  ///< of the obstacles, of the macro step that ends here
   std::vector<ToolState> tools;  ///< obstacles with mass
   std::vector<HeldBy> held;      ///< by obstacles that can hold points
+  std::vector<CavityState> cavities;
 };
 
 /// Of macro steps so far; 0 where bad ones are not retried.
@@ -52,7 +53,8 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     halvings_of(simulation),
                     simulation.wrenches(),
                     simulation.tools(),
-                    simulation.held()};
+                    simulation.held(),
+                    simulation.cavities()};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
@@ -66,8 +68,8 @@ std::vector<std::string> empty_handed(const ContactOptions& contact, const Snaps
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
-/// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; where obstacles with mass are; and
-/// how many points those hold that can.
+/// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; where obstacles with mass are;
+/// how many points those hold that can; volume and pressure in cavities.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.

@@ -16,11 +16,11 @@ from . import _plica
 from ._plica import Diagnosis, Energies, FileError, InputError
 from .mesh import Mesh
 from .scene import Scene, keys
-from .simulation import Diverged, Simulation, Tool, Wrench, close_all, report, view
+from .simulation import Cavity, Diverged, Simulation, Tool, Wrench, close_all, report, view
 from .study import study
 
 __version__ = _plica.version()
-__all__ = ["Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Scene", "Simulation", "Tool", "Wrench", "info", "init",
+__all__ = ["Cavity", "Diagnosis", "Diverged", "Energies", "FileError", "InputError", "Mesh", "Scene", "Simulation", "Tool", "Wrench", "info", "init",
            "keys", "report", "study", "view"]
 
 

@@ -53,6 +53,14 @@ class Wrench:
 
 
 @dataclass(frozen=True)
+class Cavity:
+    """How a load with `enclosed_volume` is. volume: m^3. pressure: of the fluid in it [Pa]."""
+
+    volume: float
+    pressure: float
+
+
+@dataclass(frozen=True)
 class Tool:
     """Where an obstacle with mass is. displacement: [3] m from where its shape says. velocity: [3] m/s."""
 
@@ -270,6 +278,10 @@ class Simulation:
     def tools(self) -> dict[str, Tool]:
         """Where each obstacle with mass is now, by its name."""
         return {name: Tool(displacement, velocity) for name, displacement, velocity in self._open().tools()}
+
+    def cavities(self) -> dict[int, Cavity]:
+        """How each load with `enclosed_volume` is now, by its number among body.loads: of level 0."""
+        return {load: Cavity(volume, pressure) for load, volume, pressure in self._open().cavities()}
 
     def move_obstacle(self, name: str, displacement) -> None:
         """Moves an obstacle straight from where it is to a displacement within the next macro step. There it stays, and no longer

@@ -3,6 +3,7 @@
 #include <map>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
+#include <plica/drivers/solver/set_up/cavity.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 
@@ -16,12 +17,15 @@ Point area_vector(const TetMesh& mesh, const std::array<int, 3>& t) {
 }
 
 /// At rest, per vertex [N].
-std::map<int, Point> forces_of(const FollowerPressure& load, const TetMesh& mesh, const Selection& where,
-                               const Selecting& who) {
+std::map<int, Point> forces_of(double pressure, const TetMesh& mesh, const Selection& where, const Selecting& who) {
   std::map<int, Point> force;
   for (const auto& t : select_triangles(mesh, where, who))
-    for (const int v : t) force.try_emplace(v, Point::Zero()).first->second -= load.value / 3 * area_vector(mesh, t);
+    for (const int v : t) force.try_emplace(v, Point::Zero()).first->second -= pressure / 3 * area_vector(mesh, t);
   return force;
+}
+
+bool follows(const LoadOptions& load) {
+  return std::holds_alternative<FollowerPressure>(load.load) || std::holds_alternative<EnclosedVolume>(load.load);
 }
 
 /// Per vertex its share: of a traction the area [m^2], of a force the mass over the mass of all.
@@ -42,7 +46,8 @@ std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh, const
 std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh, const std::vector<double>& mass,
                                const Selecting& who) {
   if (const auto* follower = std::get_if<FollowerPressure>(&load.load))
-    return forces_of(*follower, mesh, load.where, who);
+    return forces_of(follower->value, mesh, load.where, who);
+  if (std::holds_alternative<EnclosedVolume>(load.load)) return forces_of(0, mesh, load.where, who);
   const auto* traction = std::get_if<Traction>(&load.load);
   const Point value = traction ? traction->value : std::get<TotalForce>(load.load).value;
   std::map<int, Point> force;
@@ -83,7 +88,7 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
   using Real = typename B::Real;
   std::vector<Load<B>> all;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (std::holds_alternative<FollowerPressure>(body.loads[i].load)) continue;
+    if (follows(body.loads[i])) continue;
     all.push_back({static_cast<int>(loads[i].force.size()), to_device<Indices<B>>("load.vertex", loads[i].vertex),
                    to_device<Vectors<B>>("load.force", rows<Real>(loads[i].force)), body.loads[i].course});
   }
@@ -93,7 +98,8 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
 namespace {
 
 template <class B>
-FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
+FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
+                              const Point& origin) {
   std::map<int, std::vector<std::array<int, 2>>> at;  // of each vertex the two others of its triangles
   for (const auto& t : triangles)
     for (std::size_t c = 0; c < 3; ++c) at[t[c]].push_back({t[(c + 1) % 3], t[(c + 2) % 3]});
@@ -102,7 +108,7 @@ FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<
   std::vector<int> vertex, first{0}, second, third;
   std::vector<Point> rest;
   for (const auto& [v, others] : at) {
-    vertex.push_back(v), rest.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+    vertex.push_back(v), rest.push_back(mesh.vertices[static_cast<std::size_t>(v)] - origin);
     for (const auto& [b, c] : others) second.push_back(place.at(b)), third.push_back(place.at(c));
     first.push_back(static_cast<int>(second.size()));
   }
@@ -116,27 +122,41 @@ FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<
           {}};
 }
 
+/// Per vertex whether it never moves.
+std::vector<char> still_vertices(const LevelConstants& constants) {
+  std::vector<char> still = constants.constrained;
+  for (const int v : constants.prescribed_vertex) still[static_cast<std::size_t>(v)] = 0;
+  return still;
+}
+
 }  // namespace
 
 template <class B>
-std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, int level) {
+std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
+                                            int level) {
   std::vector<FollowerLoad<B>> all;
   for (std::size_t i = 0; i < body.loads.size(); ++i) {
     const LoadOptions& load = body.loads[i];
-    const auto* follower = std::get_if<FollowerPressure>(&load.load);
-    if (!follower) continue;
+    if (!follows(load)) continue;
     const Selecting who{"body.loads." + std::to_string(i), level};
-    all.push_back(follower_load<B>(mesh, select_triangles(mesh, load.where, who)));
-    all.back().pressure = follower->value, all.back().course = load.course;
+    const auto triangles = select_triangles(mesh, load.where, who);
+    std::optional<Cavity> cavity;
+    if (const auto* given = std::get_if<EnclosedVolume>(&load.load))
+      cavity = make_cavity(*given, static_cast<int>(i), mesh, triangles, still_vertices(constants), who);
+    all.push_back(follower_load<B>(mesh, triangles, cavity ? cavity->origin : Point::Zero()));
+    FollowerLoad<B>& made = all.back();
+    made.course = load.course, made.cavity = cavity;
+    if (cavity) made.volume = zeros<Doubles<B>>("plica::follower.volume", 1);
+    if (const auto* follower = std::get_if<FollowerPressure>(&load.load)) made.pressure = follower->value;
   }
   return all;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                      \
-  template std::vector<Load<Backend<Real, Exec>>> device_loads<Backend<Real, Exec>>(                       \
-      const Body&, const std::vector<AssembledLoad>&);                                                     \
-  template std::vector<FollowerLoad<Backend<Real, Exec>>> follower_loads<Backend<Real, Exec>>(const Body&, \
-                                                                                              const TetMesh&, int);
+#define PLICA_INSTANTIATE(Real, Exec)                                                          \
+  template std::vector<Load<Backend<Real, Exec>>> device_loads<Backend<Real, Exec>>(           \
+      const Body&, const std::vector<AssembledLoad>&);                                         \
+  template std::vector<FollowerLoad<Backend<Real, Exec>>> follower_loads<Backend<Real, Exec>>( \
+      const Body&, const TetMesh&, const LevelConstants&, int);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -24,8 +24,9 @@ std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
 template <class B>
 std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledLoad>& loads);
 
-/// The pressures that follow the body, on a level's mesh at rest.
+/// The pressures that follow the body, given or of fluids in it, on a level's mesh at rest.
 template <class B>
-std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, int level);
+std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
+                                            int level);
 
 }  // namespace plica

@@ -15,6 +15,7 @@
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
+#include <plica/drivers/solver/set_up/cavity.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
@@ -118,7 +119,7 @@ class HierarchyBuilder {
       if (i < levels_) {
         loads_.push_back(
             assemble_loads(body, mesh, constants_[i], level, i > 0 ? loads_[0] : std::vector<AssembledLoad>{}));
-        followers_.push_back(follower_loads<B>(body, mesh, level));
+        followers_.push_back(follower_loads<B>(body, mesh, constants_[i], level));
       }
       for (Point& p : mesh.vertices) p += shift;
     }
@@ -290,9 +291,9 @@ class HierarchyBuilder {
     Integrators::visit(report.integrator, [&](auto integrator) {
       using Kind = decltype(integrator);
       report.explicit_integrator = Kind::is_explicit;
-      report.critical_step =
-          critical_step<B>(level.exec(), level, *elasticity_[i], level.state.u,
-                           Kind::is_explicit ? Kind::limit : SymplecticEuler::limit, damping_limit(constants_[i]));
+      report.critical_step = critical_step<B>(level.exec(), level, *elasticity_[i], level.state.u,
+                                              Kind::is_explicit ? Kind::limit : SymplecticEuler::limit,
+                                              damping_limit(constants_[i]), cavity_eigenvalue<B>(level));
       ImplicitOptions implicit = problem_.integration.implicit;
       implicit.newton_iterations = newton_iterations(implicit, report.integrator);
       const auto make_solver = [&] {
@@ -306,7 +307,8 @@ class HierarchyBuilder {
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))
-      level.viscosity = std::make_unique<Viscosity<B>>(constants_[i].shape, built_.meshes[i], level);
+      level.viscosity =
+          std::make_unique<Viscosity<B>>(constants_[i].shape, problem_.integration.relaxation, built_.meshes[i], level);
   }
 
   /// The stepper and what it makes of the levels.

@@ -201,10 +201,15 @@ void check_regions(const Body& body) {
 }
 
 /// Contact that the matrices of implicit levels do not have.
+bool is_implicit(const std::string& integrator) {
+  bool implicit = false;
+  Integrators::visit(integrator, [&](auto it) { implicit = !decltype(it)::is_explicit; });
+  return implicit;
+}
+
 void refuse_implicit(const Problem& problem, const std::string& contact, const std::string& instead) {
   for (const std::string& name : problem.integration.integrator)
-    if (bool implicit = false;
-        Integrators::visit(name, [&](auto it) { implicit = !decltype(it)::is_explicit; }), implicit)
+    if (is_implicit(name))
       throw InputError("integration.integrator is " + name + ", but " + contact +
                        ", which only explicit steps and cycle him take; expected one of these, or " + instead);
 }
@@ -221,6 +226,21 @@ void check_pairs(const Problem& problem) {
                        ".surface, or contact.bodies: false");
   check_closed("body.surface", *body.surface);
   refuse_implicit(problem, "surfaces touch each other (" + key + ")", key + ": false");
+}
+
+/// Neither the matrices of implicit steps nor the inertia of him knows the stiffness of a fluid.
+void check_cavities(const Problem& problem) {
+  const auto& loads = problem.body.loads;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (!std::holds_alternative<EnclosedVolume>(loads[i].load)) continue;
+    const std::string given = "body.loads." + std::to_string(i) + ".enclosed_volume",
+                      why = ", but " + given + " is for explicit integrators without him; expected ";
+    for (const std::string& name : problem.integration.integrator)
+      if (is_implicit(name)) throw InputError("integration.integrator is " + name + why + "one, or follower_pressure");
+    if (problem.integration.cycle == "him" || problem.integration.cycle == "auto")
+      throw InputError("integration.cycle is " + problem.integration.cycle + why +
+                       "cycle single, or follower_pressure");
+  }
 }
 
 void check_contact(const Problem& problem) {
@@ -382,6 +402,7 @@ void validate(const Problem& problem) {
   check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
   check_contact(problem);
+  check_cavities(problem);
   starts_in_obstacles(problem);
 }
 

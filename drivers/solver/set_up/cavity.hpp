@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <plica/core/level.hpp>
+#include <plica/core/load.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
+#include <vector>
+
+namespace plica {
+
+/// What triangles of a mesh at rest enclose on their outer side. A rim is closed by a fan about its middle, so it must not move:
+/// `still` says which vertices do not. InputError where others are on it, or where no volume is enclosed.
+Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
+                   const std::vector<std::array<int, 3>>& triangles, const std::vector<char>& still,
+                   const Selecting& who);
+
+/// An upper bound of what the fluids in a level's cavities add to its squared frequencies [1/s^2]: the stiffness of one is K a a^T / V with
+/// a = dV/dx at rest.
+template <class B>
+double cavity_eigenvalue(const Level<B>& level);
+
+}  // namespace plica

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+#include <plica/drivers/study/level_probe.hpp>
+#include <plica/drivers/study/sample_gradients.hpp>
+#include <plica/meshes/generators.hpp>
+#include <plica/meshes/organs.hpp>
+#include <random>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/refusal.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Loads that give the volume of a cavity, by the pressure of a fluid in it.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+constexpr double K = 30e3, hole = 0.04;  // of the fluid [Pa]; the edge of the cavity [m]
+const Selection walls = Box{{0.04, 0.04, 0.04}, {0.08, 0.08, 0.08}};
+
+/// A cube of 12 cm with a hole in its middle.
+TetMesh hollow_cube() {
+  TetMesh mesh = box_mesh({{0, 0, 0}, {0.12, 0.12, 0.12}}, {3, 3, 3});
+  std::erase_if(mesh.tets, [&](const auto& t) {
+    Point centre = Point::Zero();
+    for (const int v : t) centre += mesh.vertices[static_cast<std::size_t>(v)] / 4;
+    return (centre - Point(0.06, 0.06, 0.06)).cwiseAbs().maxCoeff() < 0.02;
+  });
+  return mesh;
+}
+
+Problem balloon(double ratio, double bulk_modulus = K) {
+  Problem p = body_of({hollow_cube()}, "neo_hookean");
+  p.body.loads = {{walls, EnclosedVolume{ratio, bulk_modulus}, RampCourse{0.2}}};
+  return p;
+}
+
+template <class B>
+class Cavities : public testing::Test {};
+TYPED_TEST_SUITE(Cavities, EachBackend);
+
+// In any homogeneous deformation F the cavity has det F times its volume, wherever it went: the forces are those of that pressure
+TYPED_TEST(Cavities, HaveThePressureOfTheirFluid) {
+  using Real = typename TypeParam::Real;
+  Problem p = balloon(1.5);
+  p.body.initial.position = Point(0.3, 0.2, 0.1);
+  LevelProbe<TypeParam> fluid(p);
+  std::mt19937 random(5);
+  const Eigen::Matrix3d F = random_rotation(random) * Point(1.2, 0.7, 0.9).asDiagonal();
+  const double pressure = K * (1.25 - F.determinant());  // at half of the ramp
+  p.body.loads = {{walls, FollowerPressure{pressure}, {}}};
+  LevelProbe<TypeParam> given(p);
+  const auto u = affine_field(p.body.levels[0], F, Point(0.02, 0, 0));
+  const auto f = fluid.force(u, fluid.zero(), 0.1), same = given.force(u, given.zero());
+  for (std::size_t a = 0; a < f.size(); ++a)
+    EXPECT_LE((f[a] - same[a]).norm(), round_off<Real>(2e3, K * hole * hole)) << a;
+}
+
+TYPED_TEST(Cavities, SayVolumeAndPressure) {
+  using Real = typename TypeParam::Real;
+  Problem p = balloon(1.3);
+  p.body.damping.mass = 100;
+  Simulation<TypeParam> simulation(p);
+  const CavityState rest = simulation.cavities().at(0);
+  EXPECT_NEAR(rest.volume, hole * hole * hole, round_off<Real>(10, rest.volume));
+  EXPECT_NEAR(rest.pressure, 0, round_off<Real>(100, K));
+  while (simulation.time() < 0.4) advance(simulation, 1);
+  const CavityState full = simulation.cavities().at(0);
+  EXPECT_NEAR(full.pressure, K * (1.3 - full.volume / rest.volume), round_off<Real>(100, K));
+  EXPECT_GT(full.volume, 1.1 * rest.volume);
+  // the same balance as under that pressure
+  p.body.loads = {{walls, FollowerPressure{full.pressure}, RampCourse{0.2}}};
+  Simulation<TypeParam> given(p);
+  while (given.time() < 0.4) advance(given, 1);
+  const auto a = simulation.positions(), b = given.positions();
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((a[i] - b[i]).norm(), 1e-4) << i;
+}
+
+// The fluid shortens the step: much stiffer than the body, it rules the step, which is sharp then
+TEST(Cavity, BoundsTheStep) {
+  Problem p = balloon(1.01, 100 * K);
+  const double limit = Simulation<Host>(p).levels()[0].critical_step;
+  p.body.loads = {{walls, FollowerPressure{1}, {}}};
+  EXPECT_LT(limit, 0.5 * Simulation<Host>(p).levels()[0].critical_step);
+  const auto holds = [&](double part) {
+    Problem steps = balloon(1.01, 100 * K);
+    steps.integration.macro_step = part * limit, steps.integration.substeps = {1};
+    steps.integration.allow_unstable = true;
+    Simulation<Host> simulation(steps);
+    for (int n = 0; n < 2000; ++n)
+      if (simulation.step_checked()) return false;
+    return true;
+  };
+  EXPECT_TRUE(holds(0.95));
+  EXPECT_FALSE(holds(1.3));
+}
+
+// A piece of pipe is a cavity once its ends are held, of the volume of its twelve-sided lumen
+TEST(Cavity, OfAPipeHasRimsThatAreFixed) {
+  Tube tube;
+  tube.radius = 0.01, tube.wall = 0.004, tube.length = 0.1, tube.bend = 0;
+  tube.around = 12, tube.across = 1, tube.along = 5;
+  Problem p = body_of({tube_mesh(tube)}, "neo_hookean");
+  p.body.loads = {{GroupSelection{"lumen"}, EnclosedVolume{1.2, K}, {}}};
+  EXPECT_NE(refusal([&] {
+              Simulation<Host>{p};
+            }).find("body.loads.0.enclosed_volume: its triangles on level 0 have a rim, and vertex"),
+            std::string::npos);
+  p.body.fixed = {GroupSelection{"inlet"}, GroupSelection{"outlet"}};
+  const double area = 6 * std::sin(std::numbers::pi / 6) * 1e-4;
+  EXPECT_NEAR(Simulation<Host>(p).cavities().at(0).volume, 0.1 * area, 1e-15);
+}
+
+TEST(Cavity, IsRefusedWhereThereIsNone) {
+  const auto refused = [](const auto& change) {
+    Problem p = balloon(1.2);
+    change(p);
+    return refusal([&] { Simulation<Host>{p}; });
+  };
+  EXPECT_NE(
+      refused([](Problem& p) {
+        p.body.loads[0].where = Box{{-1, -1, -1}, {1, 1, 1}};
+      }).find("body.loads.0.enclosed_volume: the volume on the outer side of its triangles on level 0 is -0.0016"),
+      std::string::npos);
+  EXPECT_NE(refused([](Problem& p) {
+              p.integration.integrator = {"implicit_euler"};
+            }).find("integration.integrator is implicit_euler, but body.loads.0.enclosed_volume"),
+            std::string::npos);
+  EXPECT_NE(refused([](Problem& p) { p.integration.cycle = "him"; }).find("integration.cycle is him"),
+            std::string::npos);
+  EXPECT_NE(refused([](Problem& p) {
+              std::get<EnclosedVolume>(p.body.loads[0].load).ratio = 0;
+            }).find("body.loads.0.enclosed_volume.ratio"),
+            std::string::npos);
+}
+
+}  // namespace
