@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/cavity.hpp>
+#include <set>
 #include <utility>
 
 namespace plica {
@@ -16,15 +19,13 @@ double cone(const Point& a, const Point& b, const Point& c) { return a.dot(b.cro
 
 /// From vertex to vertex along the rims, as the triangles that are missing there would run.
 std::map<int, int> rims(const std::vector<Triangle>& triangles, const std::string& option) {
-  std::map<std::pair<int, int>, int> count;
+  std::set<std::pair<int, int>> edges;
   for (const Triangle& t : triangles)
-    for (std::size_t c = 0; c < 3; ++c) ++count[{t[c], t[(c + 1) % 3]}];
+    for (std::size_t c = 0; c < 3; ++c) edges.emplace(t[c], t[(c + 1) % 3]);
   std::map<int, int> next;
-  for (const auto& [edge, times] : count) {
-    if (count.contains({edge.second, edge.first})) continue;
-    if (!next.emplace(edge.second, edge.first).second)
-      throw InputError(option + ": the rim of its triangles meets itself at vertex " + std::to_string(edge.second));
-  }
+  for (const auto& [a, b] : edges)
+    if (!edges.contains({b, a}) && !next.emplace(b, a).second)
+      throw InputError(text(option, ": the rim of its triangles meets itself at vertex ", b));
   return next;
 }
 
@@ -68,6 +69,7 @@ double cavity_eigenvalue(const Level<B>& level) {
   double sum = 0;
   for (const FollowerLoad<B>& load : level.followers) {
     if (!load.cavity) continue;
+    const double stiffness = load.cavity->stiffness() * std::pow(std::max(1.0, load.cavity->ratio), 4.0 / 3);
     const auto vertex = on_host(load.vertex), first = on_host(load.first), second = on_host(load.second),
                third = on_host(load.third);
     const auto rest = on_host(load.rest);
@@ -75,7 +77,7 @@ double cavity_eigenvalue(const Level<B>& level) {
     for (int i = 0; i < load.count; ++i) {
       Point a = Point::Zero();
       for (int t = first(i); t < first(i + 1); ++t) a += (at(second(t)) - at(i)).cross(at(third(t)) - at(i)) / 6;
-      sum += load.cavity->stiffness() * a.squaredNorm() * static_cast<double>(inverse_mass(vertex(i)));
+      sum += stiffness * a.squaredNorm() * static_cast<double>(inverse_mass(vertex(i)));
     }
   }
   return sum;

@@ -9,13 +9,13 @@
 namespace plica {
 
 /// What triangles of a mesh at rest enclose on their outer side. A rim is closed by a fan about its middle, so it must not move:
-/// `still` says which vertices do not. InputError where others are on it, or where no volume is enclosed.
+/// `still` says which vertices do not. `load` is its number. InputError where others are on it, or where no volume is enclosed.
 Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
                    const std::vector<std::array<int, 3>>& triangles, const std::vector<char>& still,
                    const Selecting& who);
 
 /// An upper bound of what the fluids in a level's cavities add to its squared frequencies [1/s^2]: the stiffness of one is K a a^T / V with
-/// a = dV/dx at rest.
+/// a = dV/dx, which is as large as areas: those at rest, grown to `ratio` alike in all directions where that is above 1.
 template <class B>
 double cavity_eigenvalue(const Level<B>& level);
 
