@@ -10,9 +10,10 @@ namespace plica {
 template <class B>
 struct MassLevel {
   int vertices = 0;
-  SparseRows<B> up;             ///< P: values at this level's vertices -> at the next finer one's
-  SparseRows<B> down;           ///< its transpose
-  SparseRows<B> mass;           ///< M D^-1, M = P^T (the finer level's M) P; empty on the coarsest level
+  SparseRows<B> up;     ///< P: values at this level's vertices -> at the next finer one's
+  SparseRows<B> down;   ///< its transpose
+  SparseRows<B> mass;   ///< M D^-1, M = P^T (the finer level's M) P; empty on the coarsest level
+  SparseRows<B> share;  ///< Pi^T E^T: momentum here per momentum on u_C, see CoarseAxes; empty on the coarsest level
   Scalars<B> inverse_diagonal;  ///< D^-1, D = the sum of |M| along a row [1/kg]; 0: no motion here
   Vectors<B> force;             ///< restricted [N]
   Vectors<B> acceleration;      ///< of this level and those below it [m/s^2]

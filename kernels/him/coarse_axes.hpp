@@ -195,4 +195,24 @@ struct PushByAxes {
   }
 };
 
+/// The same, and the finest level's answer to p.
+template <class B>
+struct AnswerOfPushed {
+  PushByAxes<B> push;
+  AnswerOfFinest<B> answer;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { push(a), answer(a); }
+};
+
+/// A middle level's share of that: += t Pi^T E^T g.
+template <class B>
+struct AddShareOfAxes {
+  using Real = typename B::Real;
+  SparseRows<B> response;
+  Vectors<B> force, momentum;
+  Real t;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_vector<B>(momentum, a, vector_at<B>(momentum, a) + t * row_product<B>(response, a, force));
+  }
+};
+
 }  // namespace plica

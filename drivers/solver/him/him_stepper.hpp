@@ -225,6 +225,13 @@ class HimStepper final : public Stepper<B> {
     if (parts_.free) parts_.free->put_translation(exec, model, v);
   }
 
+  /// The push that kick() found, and a = A p.
+  void push_and_answer(const typename B::Exec& exec, const Model<B>& model, double t) const {
+    if (!parts_.free) return parts_.inverse_mass->push_and_apply(exec, t, p_, a_);
+    parts_.inverse_mass->push(exec, t, p_);
+    answer(exec, model, p_, a_);
+  }
+
   /// Momenta as the levels get to see them, in g_ where that differs.
   const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model,
                                         const Vectors<B>& p) const {
@@ -244,7 +251,7 @@ class HimStepper final : public Stepper<B> {
     update_vertices<B>(exec, "plica::him_momenta", n_,
                        KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
                                        static_cast<Real>(t)});
-    parts_.inverse_mass->push(exec, without_translation(exec, level.model, p_), t, level.model, p_);
+    parts_.inverse_mass->find_push(exec, without_translation(exec, level.model, p_), t);
   }
 
   /// Contact's forces on the vertices, and A's answer to them.
@@ -272,7 +279,7 @@ class HimStepper final : public Stepper<B> {
     level.remember(time + t / 2);
     h[0].evaluate_without_contact(level.state, time + t / 2, level.f);
     h.clock.time("turn", 0, [&] { kick(exec, level, t); });
-    h.clock.time("answer", 0, [&] { answer(exec, level.model, p_, a_); });
+    h.clock.time("answer", 0, [&] { push_and_answer(exec, level.model, t); });
     update_vertices<B>(exec, "plica::him_acceleration", n_,
                        MeanAcceleration<B>{level.state.v, a_, static_cast<Real>(1 / t)});
     if (level.contact()) h.clock.time("contact", 0, [&] { touch(h[0], time + t / 2, t); });

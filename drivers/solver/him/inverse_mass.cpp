@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/him/inverse_mass.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
-#include <plica/kernels/him/inverse_mass.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -38,6 +37,11 @@ InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>
   for (std::size_t i = 0; i < spaces.size(); ++i) coarser_.push_back(mass_level<B>(spaces[i], i + 1 == spaces.size()));
   if (spaces.empty()) return;
   axes_ = TurningAxes<B>(axes, to_finest(spaces));
+  const RowMatrix spread = axes.restriction.transpose();
+  for (std::size_t i = 0; i + 1 < spaces.size(); ++i) {
+    const std::vector<MassSpace> above(spaces.begin(), spaces.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    coarser_[i].share = sparse_rows<B>("him.share", RowMatrix(RowMatrix(to_finest(above).transpose()) * spread));
+  }
   constexpr std::size_t block = CoarseFilter<B>::block;
   const auto n = static_cast<std::size_t>(coarser_.back().vertices);
   filter_.vertices = coarser_.back().vertices;
@@ -65,15 +69,30 @@ void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B
 }
 
 template <class B>
-void InverseMass<B>::push(const Exec& exec, const Vectors<B>& q, double t, const Model<B>& model,
-                          const Vectors<B>& p) const {
+void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) const {
   if (coarser_.empty()) return;
   go_down(exec, q, {});
   const auto filter = [&](const Vectors<B>& momentum, const Doubles<B>& open) -> const Scalars<B>& {
     filter_forces(exec, momentum, open);
     return filtered_;
   };
-  axes_.push(exec, coarser_.back().force, filter, weights_.back(), t, model, p);
+  axes_.find_force(exec, coarser_.back().force, filter, weights_.back(), t);
+}
+
+template <class B>
+void InverseMass<B>::push(const Exec& exec, double t, const Vectors<B>& p) const {
+  if (!coarser_.empty()) update_vertices<B>(exec, "plica::axes_push", vertices_, axes_.push(t, inverse_mass_, p));
+}
+
+template <class B>
+void InverseMass<B>::push_and_apply(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& a) const {
+  if (coarser_.empty()) return apply(exec, p, a);
+  for (std::size_t i = 0; i + 1 < coarser_.size(); ++i)
+    update_vertices<B>(exec, "plica::axes_share", coarser_[i].vertices,
+                       AddShareOfAxes<B>{coarser_[i].share, axes_.force(), coarser_[i].force, static_cast<Real>(t)});
+  go_up(exec, {});
+  update_vertices<B>(exec, "plica::him_up", vertices_,
+                     AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a)});
 }
 
 template <class B>
@@ -93,24 +112,31 @@ void InverseMass<B>::filter_forces(const Exec& exec, const Vectors<B>& force, co
 }
 
 template <class B>
-void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
-  go_down(exec, f, count);
-  if (!coarser_.empty()) {
-    const MassLevel<B>& level = coarser_.back();
-    filter_forces(exec, level.force, count);
-    where_touching<B>(exec, count, "plica::him_turn_back", level.vertices,
-                      TurnBack<B>{filter_, filtered_, level.acceleration, static_cast<Real>(weights_.back())});
-  }
+void InverseMass<B>::go_up(const Exec& exec, const Doubles<B>& count) const {
+  if (coarser_.empty()) return;
+  const MassLevel<B>& coarsest = coarser_.back();
+  filter_forces(exec, coarsest.force, count);
+  where_touching<B>(exec, count, "plica::him_turn_back", coarsest.vertices,
+                    TurnBack<B>{filter_, filtered_, coarsest.acceleration, static_cast<Real>(weights_.back())});
   for (std::size_t i = coarser_.size(); i-- > 1;) {
     const MassLevel<B>&level = coarser_[i - 1], &below = coarser_[i];
     where_touching<B>(exec, count, "plica::him_up", level.vertices,
                       AnswerOfLevel<B>{level.mass, below.up, level.inverse_diagonal, level.force, below.acceleration,
                                        level.acceleration, static_cast<Real>(weights_[i])});
   }
+}
+
+template <class B>
+AnswerOfFinest<B> InverseMass<B>::answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const {
   const MassLevel<B> below = coarser_.empty() ? MassLevel<B>{} : coarser_.front();
-  update_vertices<B>(
-      exec, "plica::him_up", vertices_,
-      AnswerOfFinest<B>{below.up, inverse_mass_, f, below.acceleration, a, static_cast<Real>(weights_.front())});
+  return {below.up, inverse_mass_, f, below.acceleration, a, static_cast<Real>(weights_.front())};
+}
+
+template <class B>
+void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
+  go_down(exec, f, count);
+  go_up(exec, count);
+  update_vertices<B>(exec, "plica::him_up", vertices_, answer_of_finest(f, a));
 }
 
 template <class B>
@@ -118,7 +144,7 @@ std::size_t InverseMass<B>::bytes() const {
   std::size_t total = bytes_of_views(filter_.matrix, filter_.turned, filtered_) + axes_.bytes();
   for (const MassLevel<B>& level : coarser_)
     total += bytes_of_rows(level.up) + bytes_of_rows(level.down) + bytes_of_rows(level.mass) +
-             bytes_of_views(level.inverse_diagonal, level.force, level.acceleration);
+             bytes_of_rows(level.share) + bytes_of_views(level.inverse_diagonal, level.force, level.acceleration);
   return total;
 }
 

@@ -27,8 +27,12 @@ class InverseMass {
 
   /// Turns the coarsest level's axes with the finest mesh's state, see TurningAxes.
   void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
-  /// p += t times the force by which the axes act on the momenta q, with that force in them.
-  void push(const Exec& exec, const Vectors<B>& q, double t, const Model<B>& model, const Vectors<B>& p) const;
+  /// Finds the force by which the axes act for a time t on the momenta q, with that force in them.
+  void find_push(const Exec& exec, const Vectors<B>& q, double t) const;
+  /// p += t times that force
+  void push(const Exec& exec, double t, const Vectors<B>& p) const;
+  /// The same where p are the momenta q themselves, and a = A p: the way down that the force was found by is not gone again.
+  void push_and_apply(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& a) const;
   /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that is above 0.
   void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count = {}) const;
 
@@ -47,7 +51,8 @@ class InverseMass {
 
   void go_down(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count) const;
   void filter_forces(const Exec& exec, const Vectors<B>& force, const Doubles<B>& count) const;
-  void answer_coarsest(const Exec& exec, const Doubles<B>& count) const;
+  void go_up(const Exec& exec, const Doubles<B>& count) const;
+  AnswerOfFinest<B> answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const;
 };
 
 }  // namespace plica

@@ -4,7 +4,6 @@
 #include <map>
 #include <plica/drivers/solver/him/turning_axes.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/kernels/him/coarse_axes.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -256,8 +255,8 @@ void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B
 }
 
 template <class B>
-void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight, double t,
-                          const Model<B>& model, const Vectors<B>& p) const {
+void TurningAxes<B>::find_force(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight,
+                                double t) const {
   const auto h = static_cast<Real>(t);
   fill(exec, open_, 1);
   combine<B>(exec, "plica::axes_momentum", 1, q, 1, share_, momentum_);  // where to start from
@@ -271,8 +270,7 @@ void TurningAxes<B>::push(const Exec& exec, const Vectors<B>& q, const Filter& f
                  NextMomentum<B>{axes_.response, axes_.force, q, share_, momentum_, open_, h}, blocks_, sums_);
     update_vertices<B>(exec, "plica::axes_decide", 1, DecideToGoOn<B>{sums_, open_, round_tolerance, least_share});
   }
-  update_vertices<B>(exec, "plica::axes_push", model.vertices,
-                     PushByAxes<B>{axes_.spread, model.inverse_mass, axes_.force, p, h});
+  copy(exec, q, momentum_);
 }
 
 template <class B>

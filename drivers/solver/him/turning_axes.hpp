@@ -4,6 +4,7 @@
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/model.hpp>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
+#include <plica/kernels/him/coarse_axes.hpp>
 #include <plica/kernels/reduce.hpp>
 
 namespace plica {
@@ -42,12 +43,17 @@ class TurningAxes {
   /// R at a state. Into moved: the sum of the squares of their angles since the last time [rad^2], and their number.
   void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
 
-  /// p += t times the force by which the axes act on momenta, at the momenta that this gives: repeated until it changes by less
+  /// Finds the force by which the axes act on momenta for a time t, at the momenta that this gives: repeated until it changes by less
   /// than a thousandth of itself or a millionth of q, six times at most, warm from the last step.
-  /// @param q       coarse momenta without it
+  /// @param q       coarse momenta without it; with it afterwards
   /// @param weight  of the coarsest level in the inverse mass
-  void push(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight, double t, const Model<B>& model,
-            const Vectors<B>& p) const;
+  void find_force(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight, double t) const;
+  /// p += t times that force
+  PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p) const {
+    return {axes_.spread, inverse_mass, axes_.force, p, static_cast<Real>(t)};
+  }
+  /// g
+  const Vectors<B>& force() const { return axes_.force; }
 
   const Vectors<B>& rotation() const { return rotation_; }
   /// What the force added to the coarse momenta in the last step.

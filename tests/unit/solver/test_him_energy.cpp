@@ -120,7 +120,6 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
       Pieces pieces(problem);
       ASSERT_TRUE(pieces.fit(6));
       InverseMass<Host>& A = *pieces.inverse_mass;
-      const Level<Host>& level = pieces.probe.at(0);
       const auto n = pieces.levels[0].vertices.size();
       const auto inverse_mass = pieces.probe.inverse_mass();
       std::vector<Point> u(n), along = random_field(n, 0.01, 2), momentum = random_field(n, 1e-3, 3);
@@ -145,12 +144,25 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
       kinetic(0);
       const double t = 1e-7;  // too short for the force to change what it depends on
       const Vectors<Host> pushed = device_field<Host>(momentum);
-      A.push({}, p, t, level.model, pushed);
+      A.find_push({}, p, t);
+      A.push({}, t, pushed);
       double work = 0;
       for (std::size_t a = 0; a < n; ++a)
         for (int k = 0; k < 3; ++k) work += (pushed(a, k) - momentum[a][k]) / t * along[a][k];
       EXPECT_GT(std::abs(slope), 0);
       EXPECT_NEAR(-work / slope, 1, 1e-6);
+
+      const double long_time = 1e-2;
+      const Vectors<Host> at_once = device_field<Host>(momentum), v_at_once("v", n);
+      copy(Host::Exec(), pushed, p);
+      A.find_push({}, p, long_time);
+      A.push_and_apply({}, long_time, at_once, v_at_once);
+      A.push({}, long_time, pushed);
+      A.apply({}, pushed, v);
+      const auto answer = to_host<Host>({}, v), want = to_host<Host>({}, pushed);
+      EXPECT_TRUE(same_bits(to_host<Host>({}, at_once), want));
+      EXPECT_GT(largest_difference(want, momentum), 1e-5 * largest(momentum));  // a push that shows
+      EXPECT_LE(largest_difference(to_host<Host>({}, v_at_once), answer), round_off<double>(1000, largest(answer)));
     }
 }
 
