@@ -65,7 +65,7 @@ void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, con
   update_vertices<B>(exec, "plica::contact_smooth", touched,
                      FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
   const AnswerByMass<B> answer{level.surface, level.model, points_, answer_, damped};
-  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, true},
+  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, false, true},
         [&] { where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer); });
   where_touching<B>(exec, points_.count, "plica::contact_scatter", touched,
                     ScatterContact<B>{level.surface, points_, f});

@@ -29,7 +29,7 @@ class ContactResponse {
                const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) {
     TouchingPoints<B> points = points_;
     points.reach = std::numeric_limits<Real>::max();  // what no record is further than
-    solve(exec, level, state, time, step, {level.surface, points, smooth, answer, 0, 0, 0, false}, respond);
+    solve(exec, level, state, time, step, {level.surface, points, smooth, answer, 0, 0, 0, true, false}, respond);
   }
 
   /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.

@@ -213,24 +213,30 @@ template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   Inside& s = *inside_;
   std::optional<Diagnosis> still = bad;
-  if (s.built.stepper->lost_stability(s.hierarchy())) still = repair() ? s.examine() : bad;
+  const Stepper<B>& stepper = *s.built.stepper;
+  if ((stepper.lost_stability(s.hierarchy()) || stepper.repairs()) && repair()) still.reset();
   if (still && s.retries()) still = s.retry(*still);
   if (!still) s.keep_at_times();
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that has lost stability since; false where it cannot.
+/// From the last kept state once more to where it is, by a stepper that can do better; false where it cannot. What is bad though the
+/// stepper is stable asks for shorter steps at once.
 template <class B>
 bool Simulation<B>::repair() {
   Inside& s = *inside_;
   const double there = s.time;
-  for (int attempt = 0; s.built.stepper->lost_stability(s.hierarchy()); ++attempt) {
-    if (attempt == most_repairs) return false;
-    s.go_back();
-    if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step, attempt)) return false;
+  const auto go_on = [&] {
     while (s.time < there) step();
+    return !s.examine();
+  };
+  const int first = s.built.stepper->lost_stability(s.hierarchy()) ? 0 : Stepper<B>::shorter_steps;
+  for (int attempt = first; attempt < most_repairs; ++attempt) {
+    s.go_back();
+    if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step, attempt)) return go_on();
+    if (go_on()) return true;
   }
-  return true;
+  return false;
 }
 
 /// Once more from the last kept state: a macro step that is bad is halved, each half likewise, so often at most. Every macro

@@ -5,6 +5,8 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
+#include <plica/drivers/solver/energy_budget.hpp>
+#include <plica/drivers/solver/him/advice.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
@@ -50,15 +52,25 @@ TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int s
   try {
     Simulation<B> simulation(problem, exec);
     if (start.time > 0) simulation.set_state(start.u, start.v), simulation.set_time(start.time);
+    EnergyBudget energy;
+    ObstacleWork<B> work(simulation, problem);
+    const auto look = [&] {
+      if (EnergyBudget::knows(problem) && work.known())
+        energy.look(simulation.time(), simulation.energies(), work.done());
+    };
+    look();
     for (int n = 1; n <= steps; ++n) {
       if (const auto diagnosis = simulation.step_checked()) return {{}, "diverges: " + diagnosis->text()};
+      work.step(simulation);
       if (n % (steps / trial_quarters) != 0) continue;
+      look();
       std::vector<Point>& u = run.u.emplace_back(to_host<B>(exec, simulation.displacement()));
       for (std::size_t a = 0; a < start.u.size(); ++a) u[a] -= start.u[a];
     }
     const auto counters = simulation.counters();
     if (const auto refits = counters.find("inertia_refits"); refits != counters.end() && refits->second > 0)
       run.reason = "loses its stability: its inertia had to be fitted anew";
+    if (energy.growth() > EnergyBudget::notable) run.reason = "makes energy of nothing: " + energy.warning();
   } catch (const InputError& error) {
     run.reason = std::string("refused: ") + error.what();
   }
@@ -115,7 +127,7 @@ class CycleTrials {
     Problem finest = only(problem, 0);
     finest.integration = alone(problem.integration, SymplecticEuler::name, {});
     const Simulation<B> simulation(finest, exec);
-    critical_ = simulation.levels().front().critical_step;
+    critical_ = simulation.levels().front().critical_step, edge_ = simulation.levels().front().mean_edge;
     take("single", simulation.macro_step(), "there is no coarser level");
   }
 
@@ -207,7 +219,9 @@ class CycleTrials {
   TrialRun run_him(int factor) {
     IntegrationOptions o = problem_.integration;
     o.cycle = "him", o.macro_step = factor * critical_;
-    const TrialRun run = run_trial<B>(problem_, o, trial_steps / factor, start_, exec_);
+    TrialRun run;
+    run.reason = too_fast_for_him(problem_.contact, *o.macro_step, edge_);
+    if (run.reason.empty()) run = run_trial<B>(problem_, o, trial_steps / factor, start_, exec_);
     choice_.trials.push_back({"him", *o.macro_step, static_cast<double>(factor), {}, run.reason});
     return run;
   }
@@ -234,7 +248,7 @@ class CycleTrials {
 
   const Problem& problem_;
   const Exec& exec_;
-  double critical_ = 0;
+  double critical_ = 0, edge_ = 0;
   TrialStart start_;
   CycleChoice choice_;
 };

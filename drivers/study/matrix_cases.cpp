@@ -268,10 +268,10 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
 }
 
 // The inertia is fitted at rest and turns with the body: it does not know which way where elements are far from their shape.
-// Its long step takes what strikes fast through the plane at once.
+// Its long step takes what strikes fast through the plane at once; then it takes shorter ones.
 Expected of_him(const MatrixBody& body, bool linear) {
   using Start = MatrixBody::Start;
-  if (body.impact > fast_impact) return stops("contact");
+  if (body.impact > fast_impact) return either("how short its steps must be after an impact depends on the material");
   if (body.start == Start::flat || body.start == Start::turned || body.start == Start::mirrored) return stops();
   if (body.start == Start::random)
     return either("its inertia is fitted at rest; how well it fits such a shape depends on the shape");

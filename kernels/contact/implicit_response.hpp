@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
+#include <plica/kernels/contact/contact_by_work.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/path_to.hpp>
 #include <plica/kernels/exchange.hpp>
@@ -113,6 +114,7 @@ struct TouchLaw {
   TouchingPoints<B> points;
   Vectors<B> smooth, answer;  ///< accelerations without contact, and by the last contact forces [m/s^2]
   Real h, ahead, entry;
+  bool by_work;    ///< see ContactByWork; `ahead` is h/2
   bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
   /// The site's value, in the row of pairs with `reaction` times the triangle's.
@@ -128,7 +130,7 @@ struct TouchLaw {
     return points.depth(r) > 0 ? ahead : Kokkos::max(ahead, entry);
   }
   /// What an acceleration adds to the position that the law goes by [s^2].
-  KOKKOS_INLINE_FUNCTION Real weight(int r) const { return Real(0.5) * h * (h + looks_ahead(r)); }
+  KOKKOS_INLINE_FUNCTION Real weight(int r) const { return Real(0.5) * h * (by_work ? h : h + looks_ahead(r)); }
   /// The depth that the law goes by, for an acceleration at the point.
   KOKKOS_INLINE_FUNCTION Real depth(int r, const Vec3<Real>& e) const {
     const Vec3<Real> N = normal(r), v = vector_at<B>(points.velocity, r);
@@ -138,6 +140,11 @@ struct TouchLaw {
   KOKKOS_INLINE_FUNCTION Real pressure(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
     const Vec3<Real> v = vector_at<B>(points.velocity, r);
     return law.stiffness * depth(r, e) - law.damping * dot(normal(r), v + Real(0.5) * h * e);
+  }
+  /// Between the depths half a step before the state and half a step after it, which is depth().
+  KOKKOS_INLINE_FUNCTION ContactByWork<Real> work(const PenaltyLaw<Real>& of, int r) const {
+    const Vec3<Real> v = vector_at<B>(points.velocity, r);
+    return {of.stiffness, of.damping / h, points.depth(r) + Real(0.5) * h * dot(normal(r), v)};
   }
   /// q for that acceleration, before its bound
   KOKKOS_INLINE_FUNCTION Vec3<Real> drag(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
@@ -177,7 +184,9 @@ struct StartTouching {
         count += 1;
       } else if (near) {
         const Vec3<Real> e = law.at(law.smooth, row, p);
-        if (law.depth(r, e) > 0 && law.pressure(points.law_of(row, p), r, e) > 0) {
+        const PenaltyLaw<Real> of = points.law_of(row, p);
+        const Real depth = law.depth(r, e);
+        if (law.by_work ? law.work(of, r).force(depth) > 0 : depth > 0 && law.pressure(of, r, e) > 0) {
           unit = law.isotropic ? Vec3<Real>{Real(1), Real(0), Real(0)} : law.normal(r);
           count += 1;
         }
@@ -226,8 +235,14 @@ struct SweepTouching {
                                     const Vec3<Real>& e) const {
     const Vec3<Real> N = law.normal(r);
     const Real rho = law.points.mobility(r), h = law.h, before = dot(force, N);
-    const Real stiff = law.weight(r) * of.stiffness + Real(0.5) * h * of.damping;
-    const Real pressure = Kokkos::max(Real(0), before + (law.pressure(of, r, e) - before) / (1 + stiff * rho));
+    Real pressure = 0;
+    if (law.by_work) {
+      const Real g = law.weight(r) * rho;
+      pressure = law.work(of, r).solve(law.depth(r, e) + g * before, g);
+    } else {
+      const Real stiff = law.weight(r) * of.stiffness + Real(0.5) * h * of.damping;
+      pressure = Kokkos::max(Real(0), before + (law.pressure(of, r, e) - before) / (1 + stiff * rho));
+    }
     Vec3<Real> across = force - before * N;
     across += (1 / (1 + h * of.tangential * rho)) * (law.drag(of, r, e) - across);
     const Real size = Kokkos::sqrt(dot(across, across)), most = of.friction * pressure;

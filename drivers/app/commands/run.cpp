@@ -6,12 +6,13 @@
 #include <iostream>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
-#include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
+#include <plica/drivers/solver/busy_cores.hpp>
+#include <plica/drivers/solver/him/advice.hpp>
 #include <plica/version.hpp>
 #include <stdexcept>
 
@@ -61,6 +62,11 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.tools = simulation.tools();
   summary.held = simulation.held();
   summary.diagnosis = end.diagnosis;
+  summary.warnings = scene.warnings;
+  if (simulation.him())
+    for (const std::string& sentence : him_advice(scene.problem, summary.levels, summary.macro_step))
+      summary.warnings.push_back(sentence);
+  if (const std::string warning = output.energy().warning(); !warning.empty()) summary.warnings.push_back(warning);
   return summary;
 }
 
@@ -173,6 +179,9 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   const auto leaving = watch.on_leave(lock, [&] { leave_run(scene, latest, arguments, folder); });
   lock.unlock();
   if (!arguments.quiet) announce(scene, simulation, machine, start);
+  if (simulation.him())
+    for (const std::string& sentence : him_advice(scene.problem, latest.levels, latest.macro_step))
+      message(coloured("warning: ", Colour::yellow) + sentence);
   simulation.share_cores();
   simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
   RunEnd end = [&] {
@@ -189,6 +198,8 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   summary.diagnosed = diagnosed;
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
   if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
+  if (const std::string warning = output.energy().warning(); !warning.empty() && !end.diagnosis)
+    message(coloured("warning: ", Colour::yellow) + warning);
   if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
   return status_of_run(end);
 }

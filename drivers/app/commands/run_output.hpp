@@ -7,6 +7,7 @@
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/solver/energy_budget.hpp>
 #include <plica/drivers/solver/material_points.hpp>
 #include <set>
 
@@ -65,7 +66,9 @@ class RunOutput {
         recorded_(resumed ? checkpoint_.macro_steps : -1),
         files_(scene, folder, resumed ? std::optional(checkpoint_.files) : std::nullopt),
         frames_(checkpoint_.frame_every, simulation.macro_step()),
-        probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()) {
+        probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()),
+        watches_energy_(EnergyBudget::knows(scene.problem)),
+        work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
     if (!scene.output.probes.empty())
       probes_.emplace(scene, folder / "probes.csv",
@@ -76,6 +79,7 @@ class RunOutput {
   /// After a macro step, and once before the first.
   void record(const RunEnd& now) {
     if (now.macro_steps <= recorded_) return;  // where the run goes on: it is on the disk
+    if (recorded_ >= 0 && watches_energy_) work_.step(simulation_);
     recorded_ = now.macro_steps;
     if (frames_.due(now.macro_steps)) write_frame(now.time);
     if (probes_ && probing_.due(now.macro_steps)) probes_->write(simulation_, now.time);
@@ -95,6 +99,8 @@ class RunOutput {
   }
 
   const RunFiles& files() const { return files_; }
+  /// What the rows of history.csv have shown.
+  const EnergyBudget& energy() const { return energy_; }
   /// Wall time per stage since the first start [s].
   std::map<std::string, double> stages() const {
     std::map<std::string, double> all = stages_before_;
@@ -105,6 +111,7 @@ class RunOutput {
  private:
   void write_frame(double time) {
     const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
+    if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
     files_.write(now);
     for (const std::string& name : empty_handed(contact_, now, simulation_.macro_step()))
       if (warned_.insert(name).second)
@@ -134,6 +141,9 @@ class RunOutput {
   RunFiles files_;
   std::optional<Probes<B>> probes_;
   Schedule frames_, probing_;
+  EnergyBudget energy_;
+  bool watches_energy_;
+  ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
   long saved_ = -1;
 };

@@ -6,6 +6,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/him/advice.hpp>
 #include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 
@@ -55,7 +56,7 @@ std::string head_text(const Scene& scene, const Plan& plan) {
 }
 
 // What cycle him does with the levels
-std::string inertia_text(const Plan& plan) {
+std::string inertia_text(const Scene& scene, const Plan& plan) {
   std::vector<std::vector<std::string>> rows = {
       {"level", "inertia of its own detail", "limit of that detail", "macro step / limit"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
@@ -64,10 +65,14 @@ std::string inertia_text(const Plan& plan) {
     rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia), own > 0 ? in_units(own, "s") : "",
                     own > 0 ? fmt::format("{:.3g}", plan.macro_step / own) : ""});
   }
+  std::string advice;
+  for (const std::string& sentence : him_advice(scene.problem, plan.levels, plan.macro_step))
+    advice += wrapped(sentence, 98, "  ");
   return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>>") +
          fmt::format(
              "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the levels' own: {:.3f}\n",
-             plan.him->product, plan.him->bound);
+             plan.him->product, plan.him->bound) +
+         advice;
 }
 
 // The elements that set a level's critical step, where they are out of the ordinary: below half the median
@@ -97,7 +102,7 @@ std::string spaces_text(const Plan& plan) {
 }
 
 // Two tables: what a level is, then what it does in a macro step
-std::string levels_text(const Plan& plan) {
+std::string levels_text(const Scene& scene, const Plan& plan) {
   std::vector<std::vector<std::string>> meshes = {
       {"level", "vertices", "tetrahedra", "mean edge", "mass", "critical step", "element bound"}};
   std::vector<std::vector<std::string>> steps = {
@@ -119,7 +124,7 @@ std::string levels_text(const Plan& plan) {
                      level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
   }
   const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + spaces_text(plan);
-  if (plan.him) return list + inertia_text(plan);
+  if (plan.him) return list + inertia_text(scene, plan);
   return list + "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
 }
 
@@ -149,7 +154,7 @@ std::string parts_text(const Plan& plan) {
 }  // namespace
 
 std::string plan_text(const Scene& scene, const Plan& plan) {
-  return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") + levels_text(plan) +
+  return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") + levels_text(scene, plan) +
          slivers_text(plan) + transfers_text(plan) + parts_text(plan);
 }
 
@@ -171,7 +176,8 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                      {"him", plan.him ? Json{{"product", plan.him->product},
                                              {"bound", plan.him->bound},
                                              {"coarsest_vertices", plan.him->coarsest},
-                                             {"all_modes", plan.him->all_modes}}
+                                             {"all_modes", plan.him->all_modes},
+                                             {"advice", him_advice(scene.problem, plan.levels, plan.macro_step)}}
                                       : Json(nullptr)},
                      {"parts", parts}};
   return json_text(json);

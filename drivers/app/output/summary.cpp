@@ -198,6 +198,7 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"residual", s.residual},
                      {"last_good_time", s.last_good_time},
                      {"diagnosis", diagnosis_json(s.diagnosis, s.diagnosed)},
+                     {"warnings", s.warnings},
                      {"obstacles", obstacles_json(scene.problem.contact)},
                      {"wrenches", wrenches_json(s.wrenches)},
                      {"tools", tools_json(s.tools)},

@@ -33,10 +33,11 @@ struct Summary {
   std::map<std::string, long> counters;
   double residual = 0;  ///< the worst an implicit solve ended with
   std::optional<Diagnosis> diagnosis;
-  std::vector<Wrench> wrenches;  ///< of the last macro step
-  std::vector<ToolState> tools;  ///< obstacles with mass, at the end
-  std::vector<HeldBy> held;      ///< then, by obstacles that can hold points
-  std::vector<Point> diagnosed;  ///< where its element's corners, or its vertex, are in the last good state [m]
+  std::vector<Wrench> wrenches;       ///< of the last macro step
+  std::vector<ToolState> tools;       ///< obstacles with mass, at the end
+  std::vector<HeldBy> held;           ///< then, by obstacles that can hold points
+  std::vector<std::string> warnings;  ///< of the scene, and of what the run has shown
+  std::vector<Point> diagnosed;       ///< where its element's corners, or its vertex, are in the last good state [m]
 };
 
 /// summary.json; `words` is the command line.

@@ -22,7 +22,7 @@ function show_head() {
       `${with_unit(s.macro_step, "s")}; ${with_unit(s.simulated_time, "s")} in ${with_unit(s.wall_time, "s")}${speed}, ${s.precision} on ` +
       `${s.backend}, ${s.threads} thread${s.threads === 1 ? "" : "s"}`;
   }
-  const warnings = [...report.warnings];
+  const warnings = [...report.warnings, ...((s && s.warnings) || [])];
   if (s && s.diagnosis) warnings.unshift(diagnosis_words(s.diagnosis));
   by_id("warnings").append(...warnings.map((text) => element("li", {}, text)));
 }

@@ -10,7 +10,8 @@ namespace plica {
 
 namespace {
 
-constexpr double automatic_step = 8;  // times the critical step of the finest level, slivers left out
+// Times the critical step of the finest level, slivers left out
+constexpr double automatic_step = 8, step_with_contact = 4;
 
 void expect_small(const TetMesh& coarsest, std::size_t level) {
   const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
@@ -97,7 +98,8 @@ InertiaFit fit_step(const StepperSetup<B>& setup, HimParts<B>& parts) {
   const Vectors<B>& u = setup.hierarchy[0].state.u;
   const double critical = parts.fitter->critical_steps()[parts.detail], sigma = parts.options.sigma;
   const bool coarse = parts.inverse_mass->levels() > 1;
-  const double asked = given.value_or((coarse ? automatic_step : sigma) * critical);
+  const double usual = setup.contact ? step_with_contact : automatic_step;
+  const double asked = given.value_or((coarse ? usual : sigma) * critical);
   for (double t = asked; t > 0.01 * critical; t /= 2)
     if (const auto fit = parts.fitter->fit(t, sigma, u)) {
       if (given && t < asked) refuse_step(asked, t, setup.reports.front().critical_step);

@@ -148,9 +148,12 @@ class HimStepper final : public Stepper<B> {
 
   bool lost_stability(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
 
+  /// An impact strains elements by more than a long step can follow.
+  bool repairs() const override { return parts_.contact_force.extent(0) > 0; }
+
   bool repair(Hierarchy<B>& h, double t, int attempt) override {
-    constexpr int most_substeps = 64, attempts_at_a_step = 2;
-    if (attempt >= attempts_at_a_step) substeps_ *= 2;
+    constexpr int most_substeps = 64;
+    if (attempt >= Stepper<B>::shorter_steps) substeps_ *= 2;
     const Vectors<B>& u = h[0].state.u;
     double scale = 0.5 * parts_.fit.scale;
     if (lost_) scale = 1, substeps_ *= 2;  // only a shorter step helps there
@@ -264,7 +267,8 @@ class HimStepper final : public Stepper<B> {
                         ScatterContact<B>{level.surface, points, parts_.contact_force});
       answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
     };
-    level.response().resolve(exec, level, level.state, time, {.span = t}, a_, parts_.contact_answer, respond);
+    level.response().resolve(exec, level, level.state, time, {.span = t, .ahead = t / 2}, a_, parts_.contact_answer,
+                             respond);
     respond();
     level.response().add_impulse(exec, level, level.state, time, t);
   }

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <plica/drivers/solver/energy_budget.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/kernels/contact/contact_by_work.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <random>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -215,6 +218,70 @@ TEST(ContactInSteps, HoldACornerBetweenTwoPlanes) {
   const double edge = simulation.levels()[0].mean_edge;
   EXPECT_GT(lowest[0], -0.02 * edge);
   EXPECT_GT(lowest[2], -0.02 * edge);
+}
+
+// --- him --------------------------------------------------------------------------------------------------------------------
+
+// At an impact in steps several times as long as one that the finest mesh would take, elastic, kinetic and contact energy together
+// never are more than gravity and the fall have put in.
+TEST(ContactInSteps, OfHimAddNoEnergyAtAnImpact) {
+  struct Case {
+    std::vector<TetMesh> levels;
+    double poisson, speed;
+  };
+  const std::vector<TetMesh> cubes = {jittered_box(decimetre, {6, 6, 6}), jittered_box(decimetre, {4, 4, 4})},
+                             balls = {ball_mesh(Point::Zero(), 0.05, 8), ball_mesh(Point::Zero(), 0.05, 5)};
+  for (const Case& one : {Case{cubes, 0.3, 0.2}, Case{cubes, 0.45, 0.2}, Case{balls, 0.3, 0.5}, Case{balls, 0.45, 1}}) {
+    Problem p = body_of(one.levels, "neo_hookean");
+    p.body.material.young_modulus = 20e3, p.body.material.poisson_ratio = one.poisson;
+    p.integration.cycle = "him";
+    p.body.surface = boundary_surface(p.body.levels[0]).surface;
+    p.body.initial.position = Point(0, 0, 0.055), p.body.initial.velocity = {0, 0, -one.speed};
+    p.gravity = {0, 0, -9.81};
+    p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0}, {0, 0, 1}}, {}, {}});
+    Simulation<Host> simulation(p);
+    EnergyBudget energy;
+    energy.look(0, simulation.energies());
+    double lowest = 1;
+    while (simulation.time() < 0.15) {
+      ASSERT_FALSE(simulation.step_checked());
+      energy.look(simulation.time(), simulation.energies());
+      for (const Point& x : simulation.surface_positions()) lowest = std::min(lowest, x[2]);
+    }
+    EXPECT_LE(energy.growth(), 0.02) << one.poisson << ", " << one.speed;
+    EXPECT_GT(lowest, -0.1 * simulation.levels()[0].mean_edge);
+  }
+}
+
+TEST(ContactInSteps, EnergyThatNobodyPutInIsNoticed) {
+  EnergyBudget budget;
+  budget.look(0, {.kinetic = 1});
+  budget.look(1, {.kinetic = 1.5, .elastic = 0.5, .potential = -1});  // it has fallen
+  EXPECT_EQ(budget.warning(), "");
+  budget.look(2, {.kinetic = 1, .elastic = 1, .potential = -1, .contact = 0.5});
+  EXPECT_NEAR(budget.growth(), 0.25, 1e-12);
+  EXPECT_NE(budget.warning().find("at 2 s the body had 1.25 times"), std::string::npos) << budget.warning();
+  budget.look(3, {.kinetic = 3, .elastic = 1, .potential = -1}, 2);  // a tool has pushed it
+  EXPECT_NEAR(budget.growth(), 0.25, 1e-12);
+}
+
+// What the law of a point says of its work, at any depths before and after, stiffness, damping and step.
+TEST(ContactInSteps, ByWorkTakesAndGivesBackTheSameEnergy) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> depth(-1, 1), power(-6, 6);
+  for (int n = 0; n < 100000; ++n) {
+    const double c = n % 2 ? std::pow(10.0, power(random)) : 0.0;
+    const ContactByWork<double> law{std::pow(10.0, power(random)), c, depth(random)};
+    const double D = depth(random), g = std::pow(10.0, power(random)), force = law.solve(D, g), y = D - g * force;
+    const auto stored = [&](double d) { return d > 0 ? 0.5 * law.k * d * d : 0.0; };
+    ASSERT_GE(force, 0);
+    const double size = force * (std::abs(y) + std::abs(law.b) + std::abs(D)) + stored(y) + stored(law.b);
+    const double lost = force * (y - law.b), taken = stored(y) - stored(law.b);
+    ASSERT_GE(lost, taken - 1e-9 * size) << "k " << law.k << " c " << c << " b " << law.b << " D " << D << " g " << g;
+    if (c == 0) {
+      ASSERT_NEAR(lost, taken, 1e-9 * size) << "k " << law.k << " b " << law.b << " D " << D << " g " << g;
+    }
+  }
 }
 
 // --- Wrenches ---------------------------------------------------------------------------------------------------------------
