@@ -151,12 +151,14 @@ struct TouchLaw {
     const Vec3<Real> N = normal(r), v = vector_at<B>(points.velocity, r) + h * e;
     return -law.tangential * (v - dot(v, N) * N);
   }
-  /// What an acceleration adds to a stretch [s^2].
-  KOKKOS_INLINE_FUNCTION Real stretching() const { return Real(0.5) * h * (h + ahead); }
+  /// How far ahead a stretch is taken [s], and what an acceleration adds to it [s^2].
+  KOKKOS_INLINE_FUNCTION Real stretched_ahead() const { return by_work ? Real(0) : ahead; }
+  KOKKOS_INLINE_FUNCTION Real stretching() const { return Real(0.5) * h * (h + stretched_ahead()); }
   /// The force on a held point for that acceleration.
   KOKKOS_INLINE_FUNCTION Vec3<Real> pull(const PenaltyLaw<Real>& law, int r, const Vec3<Real>& e) const {
     const Vec3<Real> stretch = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
-    return -law.stiffness * (stretch + ahead * v + stretching() * e) - law.damping * (v + Real(0.5) * h * e);
+    return -law.stiffness * (stretch + stretched_ahead() * v + stretching() * e) -
+           law.damping * (v + Real(0.5) * h * e);
   }
   /// The unit force that finds rho of a held point, whose force may have any direction: no less than 1/sqrt 3 of the largest.
   KOKKOS_INLINE_FUNCTION Vec3<Real> any_direction() const {
