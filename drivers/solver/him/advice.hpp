@@ -50,10 +50,11 @@ inline std::vector<std::string> him_advice(const Problem& problem, const std::ve
   std::vector<std::string> sentences;
   if (!has_contact(problem)) return sentences;
   if (const LevelReport& last = levels.back(); levels.size() > 1 && last.vertices < fewest)
-    sentences.push_back(text("cycle him: the coarsest level has ", last.vertices, " vertices, about ",
-                             number(std::cbrt(last.vertices) - 1, 2),
-                             " cells across; with 343 to 512, 6 to 7 across, errors of contact are 1.5 to 2 times smaller: "
-                             "expected a finer last one in body.levels, or {coarsen: 430}"));
+    sentences.push_back(
+        text("cycle him: the coarsest level has ", last.vertices, " vertices, about ",
+             number(std::cbrt(last.vertices) - 1, 2),
+             " cells across; with 343 to 512, 6 to 7 across, errors of contact are 1.5 to 2 times smaller: "
+             "expected a finer last one in body.levels, or {coarsen: 430}"));
   if (std::string fast = too_fast_for_him(problem.contact, macro_step, levels.front().mean_edge); !fast.empty())
     sentences.push_back(std::move(fast));
   return sentences;
