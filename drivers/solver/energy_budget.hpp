@@ -29,6 +29,13 @@ class EnergyBudget {
     if (put_in_ > 0 && surplus > growth_ * put_in_) growth_ = surplus / put_in_, at_ = time;
   }
 
+  /// What there is to go on from, and going on from it.
+  std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, growth_, at_}; }
+  void restore(const std::vector<double>& saved) {
+    if (saved.size() < 5) return;
+    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = saved[2], growth_ = saved[3], at_ = saved[4];
+  }
+
   double growth() const { return growth_; }  ///< the most that was ever too much, of all that was put in until then
   double at() const { return at_; }          ///< when [s]
 
@@ -72,6 +79,7 @@ class ObstacleWork {
     }
   }
 
+  void restore(double done, bool known) { done_ = done, known_ = known; }
   double done() const { return done_; }
   bool known() const { return known_; }  ///< no step was taken again: wrenches are of its last part only
 

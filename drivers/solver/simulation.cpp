@@ -390,23 +390,6 @@ void Simulation<B>::set_time(double time) {
   s.keep();
 }
 
-template <class B>
-void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
-  Inside& s = *inside_;
-  for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].set_external(forces, s.rest_positions(i));
-  if (forces) s.budget_known = false;
-}
-
-template <class B>
-void Simulation<B>::share_cores() {
-  if (!inside_->cores) inside_->cores.emplace(inside_->hierarchy().exec());
-}
-
-template <class B>
-void Simulation<B>::time_stages(bool on) {
-  inside_->hierarchy().clock.on = on;
-}
-
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -108,6 +108,23 @@ Point Simulation<B>::obstacle_displacement(int obstacle) const {
 }
 
 template <class B>
+void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
+  Inside& s = *inside_;
+  for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].set_external(forces, s.rest_positions(i));
+  if (forces) s.budget_known = false;
+}
+
+template <class B>
+void Simulation<B>::share_cores() {
+  if (!inside_->cores) inside_->cores.emplace(inside_->hierarchy().exec());
+}
+
+template <class B>
+void Simulation<B>::time_stages(bool on) {
+  inside_->hierarchy().clock.on = on;
+}
+
+template <class B>
 void Simulation<B>::Inside::hold_now(int obstacle, bool closed) {
   if (!contact_with(obstacle).grasp_options(obstacle))
     throw InputError(text("obstacle ", obstacle_name(problem.contact, static_cast<std::size_t>(obstacle)),

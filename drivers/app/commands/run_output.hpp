@@ -70,6 +70,10 @@ class RunOutput {
         watches_energy_(EnergyBudget::knows(scene.problem)),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
+    if (resumed) {
+      energy_.restore(checkpoint_.energy);
+      work_.restore(checkpoint_.energy.at(5), checkpoint_.energy.at(6) > 0);
+    }
     if (!scene.output.probes.empty())
       probes_.emplace(scene, folder / "probes.csv",
                       resumed ? std::optional(checkpoint_.files.probe_bytes) : std::nullopt);
@@ -125,6 +129,8 @@ class RunOutput {
     checkpoint_.macro_steps = saved_ = now.macro_steps;
     checkpoint_.wall_time = now.wall_time;
     checkpoint_.stages = stages();
+    checkpoint_.energy = energy_.save();
+    checkpoint_.energy.insert(checkpoint_.energy.end(), {work_.done(), work_.known() ? 1.0 : 0.0});
     checkpoint_.files = files_.mark();
     if (probes_) checkpoint_.files.probe_bytes = probes_->file().size();
     checkpoint_.state = simulation_.save();

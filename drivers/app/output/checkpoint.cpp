@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* checkpoint_title = "plica checkpoint ";
-constexpr int version_written = 1;
+constexpr int version_written = 2;
 
 // A path is bytes, JSON is UTF-8: where it is not, the bytes' numbers
 Json path_json(const std::string& path) {
@@ -44,6 +44,7 @@ Json header_of(const Checkpoint& c) {
           {"macro_steps", c.macro_steps},
           {"wall_time", c.wall_time},
           {"stages", c.stages},
+          {"energy", c.energy},
           {"frame_times", c.files.frame_times},
           {"history_bytes", c.files.history_bytes},
           {"probe_bytes", c.files.probe_bytes}};
@@ -61,6 +62,7 @@ Checkpoint checkpoint_of(const Json& json) {
   json.at("macro_steps").get_to(c.macro_steps);
   json.at("wall_time").get_to(c.wall_time);
   json.at("stages").get_to(c.stages);
+  json.at("energy").get_to(c.energy);
   json.at("frame_times").get_to(c.files.frame_times);
   json.at("history_bytes").get_to(c.files.history_bytes);
   json.at("probe_bytes").get_to(c.files.probe_bytes);

@@ -16,7 +16,8 @@ from . import _plica
 from ._plica import Diagnosis, Energies, FileError, InputError
 from .mesh import Mesh
 from .scene import Scene, keys
-from .simulation import Cavity, Diverged, Simulation, Tool, Wrench, close_all, report, view
+from .quantities import Cavity, Tool, Wrench
+from .simulation import Diverged, Simulation, close_all, report, view
 from .study import study
 
 __version__ = _plica.version()

@@ -12,7 +12,6 @@ import warnings
 import weakref
 import webbrowser
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ import numpy as np
 from . import _plica
 from ._plica import Diagnosis, Energies, InputError
 from .mesh import checked
+from .quantities import Cavity, Tool, Wrench
 from .scene import made
 
 _all: weakref.WeakSet = weakref.WeakSet()
@@ -39,33 +39,6 @@ class Diverged(RuntimeError):
     def __init__(self, diagnosis: Diagnosis):
         super().__init__(str(diagnosis))
         self.diagnosis = diagnosis
-
-
-@dataclass(frozen=True)
-class Wrench:
-    """What an obstacle does to the body. The obstacle feels the opposite.
-
-    force: [3] N. torque: [3] N m, about the obstacle's origin, which moves with it.
-    """
-
-    force: np.ndarray
-    torque: np.ndarray
-
-
-@dataclass(frozen=True)
-class Cavity:
-    """How a load with `enclosed_volume` is. volume: m^3. pressure: of the fluid in it [Pa]."""
-
-    volume: float
-    pressure: float
-
-
-@dataclass(frozen=True)
-class Tool:
-    """Where an obstacle with mass is. displacement: [3] m from where its shape says. velocity: [3] m/s."""
-
-    displacement: np.ndarray
-    velocity: np.ndarray
 
 
 def report(folder, *, frames: int = 200) -> Path:

@@ -13,7 +13,6 @@
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/kernels/contact/shapes.hpp>
-#include <plica/meshes/boundary_triangles.hpp>
 #include <type_traits>
 
 namespace plica {
@@ -160,22 +159,6 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   if (o.grasp) check_grasp(path + ".grasp", *o.grasp);
 }
 
-void check_closed(const std::string& option, const TriangleSurface& surface) {
-  if (surface.triangles.empty()) throw InputError(option + " has no triangle");
-  for (const Point& p : surface.vertices) Vector{length}.check(option + " vertex", p);
-  const Count vertex{0, static_cast<int>(surface.vertices.size()) - 1};
-  for (const auto& t : surface.triangles)
-    for (const int v : t) vertex.check(option + " triangle's vertex", v);
-  SurfaceReport edges;
-  count_edges(surface, edges);
-  if (!edges.closed())
-    throw InputError(option + " has no inside: of its edges " + std::to_string(edges.open_edges) +
-                     " are open (of one triangle), " + std::to_string(edges.crowded_edges) +
-                     " of more than two triangles and " + std::to_string(edges.inconsistent_edges) +
-                     " between triangles that face different sides; expected a closed surface");
-  Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,", enclosed_volume(surface));
-}
-
 void check_multigrid(const Body& body, const ImplicitOptions& o) {
   if (o.preconditioner != "multigrid" && o.solver != "v_cycle") return;
   if (body.levels.size() < 2) {
@@ -198,86 +181,6 @@ void check_regions(const Body& body) {
   for (const auto& [name, region] : body.regions)
     if (!region.where && std::find(all.begin(), all.end(), name) == all.end())
       throw InputError(unknown_name("region", name, all));
-}
-
-/// Contact that the matrices of implicit levels do not have.
-bool is_implicit(const std::string& integrator) {
-  bool implicit = false;
-  Integrators::visit(integrator, [&](auto it) { implicit = !decltype(it)::is_explicit; });
-  return implicit;
-}
-
-void refuse_implicit(const Problem& problem, const std::string& contact, const std::string& instead) {
-  for (const std::string& name : problem.integration.integrator)
-    if (is_implicit(name))
-      throw InputError("integration.integrator is " + name + ", but " + contact +
-                       ", which only explicit steps and cycle him take; expected one of these, or " + instead);
-}
-
-void check_pairs(const Problem& problem) {
-  const Body& body = problem.body;
-  const std::string key = problem.contact.self ? "contact.self" : "contact.bodies";
-  if (!body.surface)
-    throw InputError(key + ": there is no surface to touch with; expected body.surface, or " + key + ": false");
-  for (const BodyPart& part : body.parts)
-    if (part.points == 0)
-      throw InputError("bodies." + part.name +
-                       ": it has no surface, which touching other bodies needs; expected bodies." + part.name +
-                       ".surface, or contact.bodies: false");
-  check_closed("body.surface", *body.surface);
-  refuse_implicit(problem, "surfaces touch each other (" + key + ")", key + ": false");
-}
-
-/// Neither the matrices of implicit steps nor the inertia of him knows the stiffness of a fluid.
-void check_cavities(const Problem& problem) {
-  const auto& loads = problem.body.loads;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (!std::holds_alternative<EnclosedVolume>(loads[i].load)) continue;
-    const std::string given = "body.loads." + std::to_string(i) + ".enclosed_volume",
-                      why = ", but " + given + " is for explicit integrators without him; expected ";
-    for (const std::string& name : problem.integration.integrator)
-      if (is_implicit(name)) throw InputError("integration.integrator is " + name + why + "one, or follower_pressure");
-    if (problem.integration.cycle == "him" || problem.integration.cycle == "auto")
-      throw InputError("integration.cycle is " + problem.integration.cycle + why +
-                       "cycle single, or follower_pressure");
-  }
-}
-
-void check_contact(const Problem& problem) {
-  const auto& obstacles = problem.contact.obstacles;
-  if (has_pairs(problem)) check_pairs(problem);
-  if (!obstacles.empty() && !problem.body.surface)
-    throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
-  if (!obstacles.empty() && problem.body.surface->triangles.empty())
-    throw InputError("body.surface has no triangle; contact needs its area");
-  if (!obstacles.empty() && problem.contact.whole_surface == "always")
-    refuse_implicit(problem, "obstacles touch the surface between its points (contact.whole_surface: always)",
-                    "contact.whole_surface: auto");
-  std::map<std::string, std::size_t> named;
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const std::string name = obstacle_name(problem.contact, i),
-                      path = "contact.obstacles." + std::to_string(i) + ".name";
-    if (name.find_first_of(",\"\n\r") != std::string::npos)
-      throw InputError(path + " is '" + name +
-                       "', which would break the columns of history.csv; expected no comma, "
-                       "quotation mark or line break");
-    if (const auto [other, first] = named.emplace(name, i); !first)
-      throw InputError(path + " is '" + name + "', as is that of obstacle " + std::to_string(other->second) +
-                       "; expected names that differ");
-  }
-  for (std::size_t i = 0; i < obstacles.size(); ++i)
-    if (obstacles[i].grasp)
-      refuse_implicit(problem,
-                      obstacle_name(problem.contact, i) + " takes hold of points (contact.obstacles." +
-                          std::to_string(i) + ".grasp)",
-                      "no grasp");
-  for (std::size_t i = 0; i < obstacles.size(); ++i)
-    if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
-      check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
-  for (const BodyPart& part : problem.body.parts)
-    if (const auto other = named.find(part.name); other != named.end())
-      throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" + part.name +
-                       "', as is that of a body; expected names that differ");
 }
 
 }  // namespace
@@ -401,8 +304,8 @@ void validate(const Problem& problem) {
   check_points(body);
   check_fibres(body);
   check_multigrid(body, problem.integration.implicit);
-  check_contact(problem);
-  check_cavities(problem);
+  validate_contact(problem);
+  validate_cavities(problem);
   starts_in_obstacles(problem);
 }
 

@@ -20,6 +20,12 @@ void validate_methods(const IntegrationOptions& options, std::size_t levels);
 /// The part of that about shares of the macro step that the options list: one for each level, above 0, 1 together.
 void validate_shares(const IntegrationOptions& options, std::size_t levels);
 
+/// The part of it about obstacles, bodies that touch each other, and what obstacles hold.
+void validate_contact(const Problem& problem);
+
+/// The part of it about cavities whose volume is given.
+void validate_cavities(const Problem& problem);
+
 /// What readers and generators promise and a caller's own mesh may not keep: numbers in range, finite places, positive volumes,
 /// every vertex used, a region for every tetrahedron. InputError otherwise, with level and number.
 void validate_mesh(const TetMesh& mesh, int level);

@@ -71,8 +71,8 @@ std::vector<Method> methods() {
           {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
           {"rsv", "symplectic_euler", "linear", 4, Method::touching, 98},
           {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
-          {"him", "symplectic_euler", "linear", 3, Method::falling, 88},
-          {"him", "symplectic_euler", "linear", 3, Method::hanging, 74},
+          {"him", "symplectic_euler", "linear", 3, Method::falling, 89},
+          {"him", "symplectic_euler", "linear", 3, Method::hanging, 72},
           {"single", "implicit_euler", "linear", 1, Method::falling, 97, 1}};
 }
 

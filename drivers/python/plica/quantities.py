@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a simulation says of obstacles and loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """What an obstacle does to the body. The obstacle feels the opposite.
+
+    force: [3] N. torque: [3] N m, about the obstacle's origin, which moves with it.
+    """
+
+    force: np.ndarray
+    torque: np.ndarray
+
+
+@dataclass(frozen=True)
+class Cavity:
+    """How a load with `enclosed_volume` is. volume: m^3. pressure: of the fluid in it [Pa]."""
+
+    volume: float
+    pressure: float
+
+
+@dataclass(frozen=True)
+class Tool:
+    """Where an obstacle with mass is. displacement: [3] m from where its shape says. velocity: [3] m/s."""
+
+    displacement: np.ndarray
+    velocity: np.ndarray
