@@ -72,7 +72,7 @@ std::vector<Method> methods() {
           {"rsv", "symplectic_euler", "linear", 4, Method::touching, 98},
           {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
           {"him", "symplectic_euler", "linear", 3, Method::falling, 89},
-          {"him", "symplectic_euler", "linear", 3, Method::hanging, 72},
+          {"him", "symplectic_euler", "linear", 3, Method::hanging, 73},
           {"single", "implicit_euler", "linear", 1, Method::falling, 97, 1}};
 }
 
