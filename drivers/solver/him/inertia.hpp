@@ -48,7 +48,7 @@ class InertiaFitter {
   const std::vector<double>& critical_steps() const { return critical_; }
 
  private:
-  const typename B::Exec& exec_;
+  typename B::Exec exec_;
   const Level<B>& level_;
   std::shared_ptr<const Elasticity<B>> elasticity_;
   InverseMass<B>& inverse_mass_;
