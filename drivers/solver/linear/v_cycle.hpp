@@ -7,9 +7,9 @@
 
 namespace plica {
 
-/// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is fitted: when the stage's weights change, when
-/// the residual after the cycle has grown to `worn` times that of its first solve, and in every step in which contact may begin. In exact
-/// arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this A.
+/// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is fitted: when the stage's weights change, in
+/// every step in which contact may begin, and when the residual after the cycle is `worn` times that of its first solve; then the system
+/// is solved again. In exact arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this A.
 struct VCycleSolver {
   static constexpr const char* name = "v_cycle";
   static constexpr const char* summary = "one V-cycle of multigrid per system, at any residual";
@@ -23,7 +23,7 @@ struct VCycleSolver {
     Of(const Level<B>& level, const LinearSolverParts& parts)
         : system_(level, false),
           cycle_(MultigridCycle::template make<B>(parts, system_)),
-          product_(zeros<Vectors<B>>("plica::v_cycle.product", level.model.vertices)),
+          residual_(zeros<Vectors<B>>("plica::v_cycle.residual", level.model.vertices)),
           scaled_(zeros<Vectors<B>>("plica::v_cycle.scaled", level.model.vertices)),
           squares_(zeros<Doubles<B>>("plica::v_cycle.squares", 2)),
           sums_(level.model.vertices) {}
@@ -35,39 +35,28 @@ struct VCycleSolver {
       if (restored_ && fitted_) cycle_->refit(exec);
       restored_ = false;
       const bool same = weights.a == a_ && weights.b == b_ && !level.contact() && !level.asks_caller();
-      if (fitted_ && same && last_ <= worn * first_) return;
-      cycle_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
-      fitted_ = 1, a_ = weights.a, b_ = weights.b, first_ = last_ = 0, ++fits_;
+      if (fitted_ && same) return;
+      a_ = weights.a, b_ = weights.b;
+      fit(exec);
     }
 
     SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
-      const auto slot = [&](int k) { return Doubles<B>(squares_.data() + k, 1); };
-      const auto square = [&](int k) {
-        reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(), CgSquare<B>{system_.inverse_diagonal(), r, scaled_},
-                     sums_, slot(k));
-      };
-      square(0);
-      cycle_->apply(exec, r, x);
-      system_.product(exec, x, product_);
-      add<B>(exec, "plica::v_cycle_residual", -1, product_, r);
-      square(1);
-      const std::vector<double> squares = host_values(exec, squares_);
-      SolveOutcome out;
-      out.iterations = 1;
-      out.relative_residual = squares[0] > 0 ? std::sqrt(squares[1] / squares[0]) : 0;
-      out.converged = std::isfinite(squares[0]) && std::isfinite(out.relative_residual);
-      last_ = out.relative_residual;
-      if (first_ == 0) first_ = last_;
-      return out;
+      double left = cycle(exec, r, x);
+      if (first_ > 0 && !(left <= worn * first_)) {
+        fit(exec);
+        left = cycle(exec, r, x);
+      }
+      if (first_ == 0) first_ = left;
+      return {.iterations = 1, .relative_residual = left, .converged = std::isfinite(left)};
     }
 
     std::map<std::string, long> counters() const override { return {{"preconditioner_fits", fits_}}; }
     std::size_t bytes() const override {
-      return system_.bytes() + cycle_->bytes() + (product_.span() + scaled_.span()) * sizeof(typename B::Real);
+      return system_.bytes() + cycle_->bytes() + (residual_.span() + scaled_.span()) * sizeof(typename B::Real);
     }
     void persist(StateArchive<B>& archive) override {
       for (long* count : {&fitted_, &fits_}) archive.number(*count);
-      for (double* value : {&a_, &b_, &first_, &last_}) archive.number(*value);
+      for (double* value : {&a_, &b_, &first_}) archive.number(*value);
       cycle_->persist(archive);
       restored_ = archive.restoring();
     }
@@ -75,12 +64,32 @@ struct VCycleSolver {
    private:
     StageSystem<B> system_;
     std::unique_ptr<Preconditioner<B>> cycle_;
-    Vectors<B> product_, scaled_;
+    Vectors<B> residual_, scaled_;
     Doubles<B> squares_;
     BlockSums<B> sums_;
     long fitted_ = 0, fits_ = 0;
-    double a_ = 0, b_ = 0, first_ = 0, last_ = 0;
+    double a_ = 0, b_ = 0;  ///< weights that the cycle is fitted to
+    double first_ = 0;      ///< relative residual of its first solve; 0: none yet
     bool restored_ = false;
+
+    void fit(const Exec& exec) {
+      cycle_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
+      fitted_ = 1, first_ = 0, ++fits_;
+    }
+
+    /// x = C r; the relative residual of A x = r.
+    double cycle(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) const {
+      const auto square = [&](const Vectors<B>& of, int slot) {
+        reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(), CgSquare<B>{system_.inverse_diagonal(), of, scaled_},
+                     sums_, Doubles<B>(squares_.data() + slot, 1));
+      };
+      cycle_->apply(exec, r, x);
+      system_.product(exec, x, residual_);
+      add<B>(exec, "plica::v_cycle_residual", -1, r, residual_);
+      square(r, 0), square(residual_, 1);
+      const std::vector<double> squares = host_values(exec, squares_);
+      return squares[0] > 0 ? std::sqrt(squares[1] / squares[0]) : std::sqrt(squares[0]);
+    }
   };
 };
 
