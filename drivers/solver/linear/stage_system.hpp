@@ -18,6 +18,8 @@ class StageSystem {
   /// A of a level at `state`, where its forces have just been linearised; they stay as they are until the next. Projected elements are assembled,
   /// also where the rest is not.
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
+  /// The same system again, with the elements' tangents projected.
+  void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// q = A p
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
   /// The same, and p.q

@@ -9,7 +9,8 @@ namespace plica {
 
 /// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is fitted: when the stage's weights change, in
 /// every step in which contact may begin, and when the residual after the cycle is `worn` times that of its first solve; then the system
-/// is solved again. In exact arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this A.
+/// is solved again. In exact arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this A. That needs a positive definite
+/// A: where the tangent is left to choose, the cycle is fitted to that of the projected elements.
 struct VCycleSolver {
   static constexpr const char* name = "v_cycle";
   static constexpr const char* summary = "one V-cycle of multigrid per system, at any residual";
@@ -22,6 +23,7 @@ struct VCycleSolver {
 
     Of(const Level<B>& level, const LinearSolverParts& parts)
         : system_(level, false),
+          projects_(parts.options.tangent == "auto"),
           cycle_(MultigridCycle::template make<B>(parts, system_)),
           residual_(zeros<Vectors<B>>("plica::v_cycle.residual", level.model.vertices)),
           scaled_(zeros<Vectors<B>>("plica::v_cycle.scaled", level.model.vertices)),
@@ -63,6 +65,7 @@ struct VCycleSolver {
 
    private:
     StageSystem<B> system_;
+    bool projects_;
     std::unique_ptr<Preconditioner<B>> cycle_;
     Vectors<B> residual_, scaled_;
     Doubles<B> squares_;
@@ -73,6 +76,7 @@ struct VCycleSolver {
     bool restored_ = false;
 
     void fit(const Exec& exec) {
+      if (projects_) system_.project();
       cycle_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
       fitted_ = 1, first_ = 0, ++fits_;
     }
@@ -80,8 +84,9 @@ struct VCycleSolver {
     /// x = C r; the relative residual of A x = r.
     double cycle(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) const {
       const auto square = [&](const Vectors<B>& of, int slot) {
-        reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(), CgSquare<B>{system_.inverse_diagonal(), of, scaled_},
-                     sums_, Doubles<B>(squares_.data() + slot, 1));
+        reduce<B, 1>(exec, "plica::v_cycle_square", system_.rows(),
+                     CgSquare<B>{system_.inverse_diagonal(), of, scaled_}, sums_,
+                     Doubles<B>(squares_.data() + slot, 1));
       };
       cycle_->apply(exec, r, x);
       system_.product(exec, x, residual_);

@@ -177,6 +177,20 @@ std::vector<std::string> materials_and_nodal() {
 INSTANTIATE_TEST_SUITE_P(Materials, Matrix, testing::ValuesIn(materials_and_nodal()),
                          [](const auto& end) { return end.param; });
 
+// The body turns far within few steps: a cycle that is fitted to the last system, and not to this one, throws it away.
+TEST(Matrix, OneVCycleFollowsABodyThatTurns) {
+  int cases = 0;
+  for (const MatrixCase& one : stability_matrix(MatrixSize::whole)) {
+    if (one.method != "single/v_cycle_euler" ||
+        !(one.name.find("x gravity") != std::string::npos || one.name.starts_with("flattened")))
+      continue;
+    const MatrixRow row = run_case(one);
+    EXPECT_TRUE(row.ok) << row.name << ": " << row.outcome << "; expected " << row.expected << ". " << row.detail;
+    ++cases;
+  }
+  EXPECT_EQ(cases, 24);
+}
+
 TEST(Matrix, TissuesEndAsTheyMust) {
   std::set<std::string> tissue_names;
   for (const MatrixCase& one : tissue_cases()) {
