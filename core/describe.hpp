@@ -331,6 +331,16 @@ void describe(V& v, GraspOptions& o) {
     "of the spring of each point that it holds; auto: that of contact");
 }
 
+template <class V>
+void describe(V& v, AttachmentOptions& o) {
+  v.required("body", o.body, Text{}, "whose surface points are attached");
+  v.required("to", o.to, Text{}, "the body whose surface they are attached to, each where it is nearest at the start");
+  v("where", o.where, Group{}, "which of them, by where they start; left out: all");
+  v.required("reach", o.reach, Quantity{length, not_negative}, "how far from that surface a point may be");
+  v("stiffness", o.stiffness, AutoQuantity{{{.mass = 1, .time = -2}, positive}},
+    "of the spring of each point; auto: that of contact");
+}
+
 /// But for its shape.
 template <class V>
 void describe(V& v, ObstacleOptions& o) {

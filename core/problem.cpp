@@ -27,13 +27,15 @@ std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle) {
 }
 
 bool has_pairs(const Problem& problem) {
-  return problem.contact.self || (problem.contact.bodies && problem.body.parts.size() > 1);
+  const ContactOptions& contact = problem.contact;
+  return contact.self || !contact.attachments.empty() || (contact.bodies && problem.body.parts.size() > 1);
 }
 
 bool has_contact(const Problem& problem) { return !problem.contact.obstacles.empty() || has_pairs(problem); }
 
 void remove_contact(Problem& problem) {
-  problem.contact.obstacles.clear(), problem.contact.bodies = problem.contact.self = false;
+  problem.contact.obstacles.clear(), problem.contact.attachments.clear();
+  problem.contact.bodies = problem.contact.self = false;
   problem.body.surface.reset();
   for (BodyPart& part : problem.body.parts) part.points = 0;
 }

@@ -204,18 +204,27 @@ struct IntegrationOptions {
   RetryOptions retry;                                          ///< of a bad macro step
 };
 
+/// Points of one of several bodies, held by springs without length to the places on another one's surface that they start nearest to.
+struct AttachmentOptions {
+  std::string body, to;                  ///< names of two bodies
+  std::optional<Selection> where = {};   ///< of the body's surface points where they start; none: all of them
+  double reach = 0;                      ///< how far from the other's surface a point may be that is attached [m]
+  std::optional<double> stiffness = {};  ///< of each point's spring [N/m]; none: as contact has it
+};
+
 /// Penalty contact of the embedded surface's vertices with obstacles and with the surface's triangles, see
 /// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (E A / h where a level is implicit)
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
-  std::vector<ObstacleOptions> obstacles;  ///< what the surface can touch
-  bool bodies = true;                      ///< where there are several, they touch each other
-  bool self = false;                       ///< a body's surface touches itself
-  std::optional<double> friction = {};     ///< of these two; none: frictionless
-  std::string whole_surface = "auto";      ///< of whole_surface_rules()
-  double stiffness_scale = 1;              ///< of the penalty
-  double damping_scale = 1;                ///< of the approach
-  double tangential_damping_scale = 1;     ///< caps what friction can do at small sliding speed
+  std::vector<ObstacleOptions> obstacles;           ///< what the surface can touch
+  bool bodies = true;                               ///< where there are several, they touch each other
+  bool self = false;                                ///< a body's surface touches itself
+  std::vector<AttachmentOptions> attachments = {};  ///< of bodies to each other
+  std::optional<double> friction = {};              ///< of these two; none: frictionless
+  std::string whole_surface = "auto";               ///< of whole_surface_rules()
+  double stiffness_scale = 1;                       ///< of the penalty
+  double damping_scale = 1;                         ///< of the approach
+  double tangential_damping_scale = 1;              ///< caps what friction can do at small sliding speed
 };
 
 /// What results call that obstacle.
@@ -234,7 +243,7 @@ struct Problem {
 /// Whether any of it relaxes.
 bool is_viscous(const Body& body);
 
-/// Whether its surface touches its surface: bodies each other, or one of them itself.
+/// Whether its surface acts on its surface: bodies touch or hold each other, or one of them touches itself.
 bool has_pairs(const Problem& problem);
 /// Whether it touches anything.
 bool has_contact(const Problem& problem);

@@ -35,6 +35,7 @@ double mean_surface_edge(const TriangleSurface& surface) {
 template <class B>
 Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs, bool stiff)
     : points_(static_cast<int>(surface.surface.vertices.size())),
+      attached_count_(static_cast<int>(surface.attached.size())),
       reach_(surface.edge),
       deepest_(surface.size),
       lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
@@ -114,6 +115,32 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
   laws_.law = to_device<decltype(laws_.law)>("contact.laws", laws);
   implicit_laws_.law = to_device<decltype(laws_.law)>("contact.implicit_laws", implicit_laws);
   if (held_.records > 0) held_.law.law = to_device<decltype(laws_.law)>("contact.held_laws", held_laws);
+  if (attached_count_ > 0) attach(options, of, {laws.end() - laws_.bodies, laws.end()});
+}
+
+/// `pair_laws`: one for every body. A spring of another stiffness has its damping in proportion, as a critical one has.
+template <class B>
+void Contact<B>::attach(const ContactOptions& options, const TouchingSurface& of,
+                        const std::vector<PenaltyLaw<Real>>& pair_laws) {
+  const auto n = static_cast<std::size_t>(points_);
+  std::vector<int> attachment(n, AttachedPoints<B>::none), triangle(n, -1);
+  std::vector<std::array<Real, 3>> weight(n);
+  std::vector<PenaltyLaw<Real>> laws(options.attachments.size());
+  for (const AttachedPoint& one : of.attached) {
+    const auto p = static_cast<std::size_t>(one.point), a = static_cast<std::size_t>(one.attachment);
+    attachment[p] = one.attachment, triangle[p] = one.triangle;
+    for (std::size_t c = 0; c < 3; ++c) weight[p][c] = static_cast<Real>(one.weight[c]);
+    PenaltyLaw<Real>& law = laws[a] = pair_laws[static_cast<std::size_t>(of.body[p])];
+    const Real k = static_cast<Real>(options.attachments[a].stiffness.value_or(static_cast<double>(law.stiffness)));
+    law.damping *= std::sqrt(k / law.stiffness), law.stiffness = k;
+  }
+  for (const AttachedPoint& one : of.attached)
+    for (const int corner : of.surface.triangles[static_cast<std::size_t>(one.triangle)])
+      if (int& number = attachment[static_cast<std::size_t>(corner)]; number < 0) number = AttachedPoints<B>::beside;
+  attached_.attachment = to_device<Indices<B>>("contact.attachment", attachment);
+  attached_.triangle = to_device<Indices<B>>("contact.attached_to", triangle);
+  attached_.weight = to_device<Vectors<B>>("contact.attached_weight", weight);
+  attached_.law = to_device<decltype(attached_.law)>("contact.attached_laws", laws);
 }
 
 /// The surface's triangles, and those around each point: for pairs, for thin obstacles.
@@ -145,7 +172,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   TouchingPoints<B> points;
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
   points.law = implicit ? implicit_laws_ : laws_;
-  points.pairs = pairs_, points.faces = faces_, points.held = held_;
+  points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
   if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
     points.pairs.partner = zeros<Indices<B>>("plica::contact.partner", n);
     points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);

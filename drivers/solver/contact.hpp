@@ -5,6 +5,7 @@
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
+#include <plica/drivers/solver/set_up/attachments.hpp>
 #include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/pair_grid.hpp>
 #include <plica/kernels/contact/penalty.hpp>
@@ -59,9 +60,10 @@ struct TouchingSurface {
   };
   const TriangleSurface& surface;  ///< placed
   std::vector<Part> parts;
-  std::vector<int> body;  ///< of each point its part; empty: there is one
-  double edge = 0;        ///< mean, of all [m]
-  double size = 0;        ///< of the whole: a point deeper than that is lost [m]
+  std::vector<int> body;                ///< of each point its part; empty: there is one
+  std::vector<AttachedPoint> attached;  ///< to another of its bodies
+  double edge = 0;                      ///< mean, of all [m]
+  double size = 0;                      ///< of the whole: a point deeper than that is lost [m]
 };
 
 /// Penalty contact of a level's embedded surface with all obstacles, and with itself.
@@ -98,7 +100,8 @@ class Contact {
   double damping() const { return damping_; }      ///< along the normal, likewise [N s/m]
   int points() const { return points_; }
   int sites() const { return points_ + faces_.triangles; }
-  int whole() const;  ///< obstacles that touch the surface between its points
+  int whole() const;                                ///< obstacles that touch the surface between its points
+  int attached() const { return attached_count_; }  ///< points that are attached to another body
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
   ObstaclePlace<B> place(int obstacle, double time) const {
     return obstacles_[static_cast<std::size_t>(obstacle)]->place(time);
@@ -126,12 +129,13 @@ class Contact {
   int wrenches() const { return obstacles() + touching_bodies(); }
 
  private:
-  int points_;
+  int points_, attached_count_;
   double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
   PointLaws<B> laws_, implicit_laws_;
   Doubles<B> memory_;
   HeldPoints<B> held_;
+  AttachedPoints<B> attached_;
   std::vector<std::optional<GraspOptions>> grasps_;  ///< of obstacles
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
   std::vector<bool> whole_;  ///< of obstacles: they touch the surface between its points
@@ -140,6 +144,8 @@ class Contact {
   PairLimits<Real> limits_;
 
   void make_laws(const ContactOptions& options, const TouchingSurface& surface, double stiffening);
+  void attach(const ContactOptions& options, const TouchingSurface& surface,
+              const std::vector<PenaltyLaw<Real>>& pair_laws);
   void make_memory(bool tools);  ///< `tools`: some have mass
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
   void connect(const TriangleSurface& surface, bool pairs);

@@ -147,6 +147,12 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const std::string holding = holding_parts(problem.contact);
   add("held points", !holding.empty(), holding, "no obstacle has grasp",
       holding.empty() ? 0 : bytes(touching->memory()));
+  const std::size_t attached = problem.contact.attachments.size();
+  add("attachments", attached > 0,
+      touching
+          ? counted(attached, "attachment") + ", " + counted(static_cast<std::size_t>(touching->attached()), "point")
+          : "",
+      "none asked for", 0);
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);

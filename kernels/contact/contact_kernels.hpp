@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
+#include <plica/kernels/contact/attached_points.hpp>
 #include <plica/kernels/contact/face_sites.hpp>
 #include <plica/kernels/contact/held_points.hpp>
 #include <plica/kernels/contact/obstacle_place.hpp>
@@ -32,16 +33,17 @@ struct TouchingPoints {
   Real reach = 0;  ///< a point further than that outside an obstacle is not looked at, but where it is fast [m]
   Real span = 0;   ///< of the step [s]
   PointLaws<B> law;
-  PairedPoints<B> pairs;  ///< empty where the surface does not touch itself
-  FaceSites<B> faces;     ///< empty where no obstacle is thin
-  HeldPoints<B> held;     ///< empty where no obstacle can hold anything
-  Vectors<B> normal;      ///< [records][3] out of the obstacle, or of the triangle; of a held point its stretch [m]
-  Vectors<B> velocity;    ///< of the point relative to it [m/s]
-  Scalars<B> depth;       ///< > 0 inside [m]
-  Scalars<B> mobility;    ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
-  Vectors<B> force;       ///< on the point [N]
-  Blocks<B> block;        ///< [points][6] kg, of all obstacles, on implicit levels only
-  Doubles<B> count;       ///< [1] records that touch
+  PairedPoints<B> pairs;       ///< empty where the surface does not touch itself
+  FaceSites<B> faces;          ///< empty where no obstacle is thin
+  HeldPoints<B> held;          ///< empty where no obstacle can hold anything
+  AttachedPoints<B> attached;  ///< empty where bodies are not attached to each other; in the row of pairs
+  Vectors<B> normal;    ///< [records][3] out of the obstacle, or of the triangle; of a held point its stretch [m]
+  Vectors<B> velocity;  ///< of the point relative to it [m/s]
+  Scalars<B> depth;     ///< > 0 inside [m]
+  Scalars<B> mobility;  ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
+  Vectors<B> force;     ///< on the point [N]
+  Blocks<B> block;      ///< [points][6] kg, of all obstacles, on implicit levels only
+  Doubles<B> count;     ///< [1] records that touch
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 1 : 0); }
   KOKKOS_INLINE_FUNCTION int sites() const { return points + faces.triangles; }
@@ -51,6 +53,13 @@ struct TouchingPoints {
   }
   KOKKOS_INLINE_FUNCTION const PenaltyLaw<Real>& law_of(int row, int site) const {
     return law(row, site < points ? site : faces.corner(3 * (site - points)));
+  }
+  /// Whether it is held by a spring, instead of pushed.
+  KOKKOS_INLINE_FUNCTION bool is_held(int row, int site) const {
+    return row < obstacles ? held.holds(record(row, site)) : attached.holds(site);
+  }
+  KOKKOS_INLINE_FUNCTION const PenaltyLaw<Real>& spring_of(int row, int site) const {
+    return row < obstacles ? held.law(row, site) : attached.law(attached.attachment(site));
   }
   /// What a field has at a site.
   KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row,

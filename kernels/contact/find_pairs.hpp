@@ -138,6 +138,11 @@ struct NearestTriangles {
     points.depth(r) = -points.nowhere(), points.mobility(r) = 0;
     const int last = points.pairs.partner(p);
     points.pairs.partner(p) = -1;
+    if (points.attached.ties(p)) {
+      const bool held = points.attached.holds(p);
+      if (held) stretch(p, r);
+      return {{held ? 1.0 : 0.0}};
+    }
     if (find.grid.close(p) == 0) return {};
     const Nearest found = partner(p, last);
     if (found.triangle < 0 || !record(p, r, found)) return {};
@@ -228,6 +233,18 @@ struct NearestTriangles {
     return other;
   }
 
+  /// The record of a point that is attached to a triangle.
+  KOKKOS_INLINE_FUNCTION void stretch(int p, int r) const {
+    const TouchingPoints<B>& points = find.points;
+    const int t = points.attached.triangle(p);
+    const Vec3<Real> w = vector_at<B>(points.attached.weight, p);
+    points.mobility(r) = 1;
+    set_vector<B>(points.normal, r, find.off(find.x(p), t, w));
+    set_vector<B>(points.velocity, r, speed(p, t, w));
+    set_vector<B>(points.pairs.weight, p, w);
+    points.pairs.partner(p) = t;
+  }
+
   KOKKOS_INLINE_FUNCTION bool record(int p, int r, const Nearest& found) const {
     constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
     const TouchingPoints<B>& points = find.points;
@@ -282,13 +299,17 @@ struct SortPartners {
   }
 };
 
-/// Potential energy of the pairs' penalties, as a field of the points [J].
+/// Potential energy of the pairs' penalties and of attachments' springs, as a field of the points [J].
 template <class B>
 struct PairEnergy {
   TouchingPoints<B> points;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
-    const int row = points.obstacles;
-    const auto depth = points.depth(points.record(row, p));
+    const int row = points.obstacles, r = points.record(row, p);
+    if (points.attached.holds(p)) {
+      const auto s = vector_at<B>(points.normal, r);
+      return {{0.5 * static_cast<double>(points.spring_of(row, p).stiffness * dot(s, s))}};
+    }
+    const auto depth = points.depth(r);
     if (!(depth > 0)) return {};
     return {{0.5 * static_cast<double>(points.law(row, p).stiffness * depth * depth)}};
   }

@@ -23,7 +23,8 @@
 // A pair is a point and the triangle it touches: W takes the point's value less the triangle's where it is nearest, and the triangle's
 // corners get the opposite of the point's force by the same weights. Then rho sums up absolute values, which bounds the row's sum.
 //
-// A point that an obstacle holds has, in place of these two, the force in all directions that takes it back by its stretch s:
+// A point that an obstacle or another body holds has, in place of these two, the force in all directions that takes it back by its
+// stretch s:
 //   -k (s + ahead v + h^2/2 (e + r)) - c (v + h/2 (e + r))
 //
 // W takes values from vertices to points (value_at), its transpose forces from points to vertices (ScatterToVertices). Why no number
@@ -181,7 +182,7 @@ struct StartTouching {
       const bool near = points.near(r);
       points.mobility(r) = 0;
       Vec3<Real> unit;
-      if (near && points.held.holds(r)) {
+      if (near && points.is_held(row, p)) {
         unit = law.any_direction();
         count += 1;
       } else if (near) {
@@ -219,8 +220,8 @@ struct SweepTouching {
       } else {
         e += answer;
       }
-      if (points.held.holds(r))
-        hold(points.held.law(row, p), r, first ? Vec3<Real>{} : force, e);
+      if (points.is_held(row, p))
+        hold(points.spring_of(row, p), r, first ? Vec3<Real>{} : force, e);
       else
         sweep(points.law_of(row, p), r, first ? Vec3<Real>{} : force, e);
     }

@@ -254,6 +254,7 @@ void describe(V& v, Scene& o) {
   v("integration", o.problem.integration, Group{}, "how it is stepped in time");
   ContactKeys contact{o};
   v("contact", contact, Group{}, "what it collides with");
+  v("attachments", o.problem.contact.attachments, List{}, "of bodies to each other, by springs");
   v("output", o.output, Group{}, "what a run writes");
   v("study", o.study, Group{}, "what plica study compares");
 }

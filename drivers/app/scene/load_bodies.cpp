@@ -11,7 +11,9 @@ namespace {
 /// The scene with one of its bodies as `body`, which has `levels` levels: the coarsest is repeated.
 Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   Tree one = tree;
-  std::erase_if(one.items, [](const Tree& item) { return item.key == "bodies" || item.key == "output"; });
+  std::erase_if(one.items, [](const Tree& item) {
+    return item.key == "bodies" || item.key == "output" || item.key == "attachments";
+  });
   one.items.push_back(body);
   one.items.back().key = "body";
   for (Tree& item : one.items.back().items)
@@ -78,7 +80,7 @@ Scene load_bodies(const Tree& tree) {
       add_numbering(all.numbering[i], one.numbering[i], mesh, vertices[i], tets[i]);
       vertices[i] += mesh.vertices.size(), tets[i] += mesh.tets.size();
     }
-    all.problem.contact = one.problem.contact;  // with the surfaces of its obstacles
+    all.problem.contact.obstacles = std::move(one.problem.contact.obstacles);  // with their surfaces
     bodies.emplace_back(item.key, std::move(one.problem.body));
   }
   try {

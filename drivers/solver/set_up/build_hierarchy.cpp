@@ -270,12 +270,13 @@ class HierarchyBuilder {
     TouchingSurface touching{.surface = surface_,
                              .parts = {},
                              .body = parts_of_points(p.body.parts),
+                             .attached = attached_points(p.contact.attachments, surface_, p.body.parts),
                              .edge = built_.reports.front().mean_edge,
                              .size = body_size()};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
       touching.parts.push_back({&p.body.parts[b].material, locators_[0]->mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
-    if (has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
+    if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
     contact_ = std::make_shared<const Contact<B>>(p.contact, touching, has_pairs(p), stiff);
   }
 

@@ -113,8 +113,9 @@ class Joiner {
       add_selections(name, body, mesh, static_cast<int>(level));
       add_mesh(name, mesh, shift, all_.levels[level]);
     }
-    all_.regions[name] = made_of(body, {}, shift);
     for (const auto& [region, own] : body.regions) all_.regions[name + "/" + region] = made_of(body, own, shift);
+    for (const std::string& region : all_.levels.front().region_names)  // of which the body says nothing
+      if (region == name || region.starts_with(name + "/")) all_.regions.try_emplace(region, made_of(body, {}, shift));
     keep_selections(name, body);
     const int points = body.surface ? static_cast<int>(body.surface->vertices.size()) : 0;
     if (body.surface) add_surface(*body.surface, shift);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <any>
 #include <map>
 #include <plica/core/error.hpp>
@@ -44,18 +45,44 @@ void refuse_implicit(const Problem& problem, const std::string& contact, const s
                        ", which only explicit steps and cycle him take; expected one of these, or " + instead);
 }
 
+void check_attachments(const Problem& problem) {
+  std::vector<std::string> bodies;
+  for (const BodyPart& part : problem.body.parts) bodies.push_back(part.name);
+  const auto& all = problem.contact.attachments;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string path = "attachments." + std::to_string(i);
+    if (bodies.empty()) throw InputError(path + ": there is one body; expected several, by the key bodies");
+    for (const auto& [key, name] : {std::pair{".body", all[i].body}, std::pair{".to", all[i].to}})
+      if (std::ranges::find(bodies, name) == bodies.end())
+        throw InputError(path + key + ": " + unknown_name("body", name, bodies));
+    if (all[i].body == all[i].to)
+      throw InputError(path + ".to is " + all[i].to + ", as is the body that is attached; expected another one");
+    if (all[i].where && (std::holds_alternative<GroupSelection>(*all[i].where) ||
+                         std::holds_alternative<RegionSelection>(*all[i].where)))
+      throw InputError(path + ".where: a surface has no groups and regions; expected box, sphere, plane or nearest");
+    Quantity{length, not_negative}.check(path + ".reach", all[i].reach);
+    if (all[i].stiffness) Quantity{{.mass = 1, .time = -2}, positive}.check(path + ".stiffness", *all[i].stiffness);
+  }
+}
+
 void check_pairs(const Problem& problem) {
   const Body& body = problem.body;
-  const std::string key = problem.contact.self ? "contact.self" : "contact.bodies";
+  check_attachments(problem);
+  const bool touches = problem.contact.self || problem.contact.bodies;
+  const std::string key = problem.contact.self     ? "contact.self"
+                          : problem.contact.bodies ? "contact.bodies"
+                                                   : "attachments",
+                    instead = touches ? key + ": false" : "no attachments";
   if (!body.surface)
-    throw InputError(key + ": there is no surface to touch with; expected body.surface, or " + key + ": false");
+    throw InputError(key + ": there is no surface to touch with; expected body.surface, or " + instead);
   for (const BodyPart& part : body.parts)
     if (part.points == 0)
       throw InputError("bodies." + part.name +
                        ": it has no surface, which touching other bodies needs; expected bodies." + part.name +
-                       ".surface, or contact.bodies: false");
+                       ".surface, or " + instead);
   check_closed("body.surface", *body.surface);
-  refuse_implicit(problem, "surfaces touch each other (" + key + ")", key + ": false");
+  if (!problem.contact.attachments.empty()) refuse_implicit(problem, "bodies are attached", "no attachments");
+  refuse_implicit(problem, "surfaces touch each other (" + key + ")", instead);
 }
 
 }  // namespace

@@ -115,6 +115,19 @@ TEST(Bodies, SelectInThemselvesAndKeepTheirMaterials) {
     EXPECT_LE((v[a] - Point(0, 0, 2).cross(x[a] - Point(0.35, 0.05, 0.05))).norm(), round_off<double>(10));
 }
 
+// A mesh whose elements all have regions of their own, of which the body says nothing.
+TEST(Bodies, KeepTheRegionsOfTheirMeshes) {
+  Body body = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2});
+  body.levels[0].region_names = {"left", "right"};
+  for (std::size_t e = 0; e < body.levels[0].tets.size(); ++e) body.levels[0].region.push_back(e % 2 == 0 ? 0 : 1);
+  body.regions["right"].density = 500;
+  Problem p;
+  p.body = join_bodies({{"a", body}});
+  EXPECT_EQ(p.body.regions.at("a/left").density, 1000);
+  EXPECT_EQ(p.body.regions.at("a/right").density, 500);
+  EXPECT_NEAR(Simulation<Host>(p).levels()[0].mass, 0.75, round_off<double>(100));
+}
+
 TEST(Bodies, MoveAsEachWouldAlone) {
   Body one = block({0, 0, 0}, {0.1, 0.1, 0.1}, {3, 3, 3}), other = block({0, 0, 0.3}, {0.1, 0.1, 0.1}, {2, 3, 3});
   one.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
