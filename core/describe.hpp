@@ -152,6 +152,32 @@ void describe(V& v, Motion& o) {
 }
 
 template <class V>
+void describe(V& v, PathTurn::Knot& o) {
+  v.required("time", o.time, Quantity{duration, not_negative}, "after that of the entry before");
+  v.required("angle", o.angle, Quantity{angle}, "at that time");
+}
+
+template <class V>
+void describe(V& v, SineTurn& o) {
+  v.required("amplitude", o.amplitude, Quantity{angle}, "largest angle from the middle");
+  v.required("frequency", o.frequency, Quantity{rate, positive}, "in hertz");
+  v("phase", o.phase, Quantity{angle}, "at the start, where the angle is zero: -90 deg starts without speed");
+}
+
+template <class V>
+void describe(V& v, Turn& o) {
+  v("axis", o.axis, Direction{}, "counter-clockwise where it points at the eye; its length does not matter");
+  v("about", o.about, Vector{length}, "on the axis, at the start; left out: what torques are about");
+  v("rotation", o.rotation, Vector{angle}, "at the start, about the same point: [0, 0, 30 deg] turns it about z");
+  v.at_most_one();
+  v.alternative("angular_velocity", o.angle, As<&SteadyTurn::angular_velocity, Quantity>(Quantity{angular_velocity}),
+                "with which it turns from the start");
+  v.alternative("path", o.angle, CaseList<&PathTurn::knots>{},
+                "angles at given times, straight in between; before the first and after the last it stays");
+  v.alternative("sine", o.angle, Case<SineTurn>{}, "swings: amplitude * (sin(2 pi frequency t + phase) - sin(phase))");
+}
+
+template <class V>
 void describe(V& v, PrescribedMotion& o) {
   describe(v, o.where);
   v.one_of();
@@ -350,6 +376,7 @@ void describe(V& v, ObstacleOptions& o) {
     "the body pushes it, its coupling pulls it to its motion; left out: it is where its motion says");
   v("coupling", o.coupling, Group{}, "of an obstacle with mass, to its motion");
   v("grasp", o.grasp, Group{}, "it takes hold of the surface points near it, and lets them go");
+  v("turn", o.turn, Group{}, "about an axis that goes along with its motion");
   v.at_most_one();
   describe(v, o.motion);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <plica/core/mesh.hpp>
 #include <variant>
 #include <vector>
 
-/// Given translations, of vertices or obstacles: displacement from where they are at rest, as a function of time.
+/// Given translations, of vertices or obstacles: displacement from where they are at rest, as a function of time. And turns of
+/// obstacles: an angle as a function of time.
 namespace plica {
 
 /// With one velocity from the start.
@@ -36,5 +38,36 @@ struct SineMotion {
 
 /// Any of them.
 using Motion = std::variant<SteadyMotion, PathMotion, SineMotion>;
+
+/// At one rate from the start.
+struct SteadyTurn {
+  double angular_velocity = 0;  ///< [rad/s] from t = 0
+};
+
+/// Straight from one angle to the next; it stays at the first before, and at the last after.
+struct PathTurn {
+  /// An angle at a time.
+  struct Knot {
+    double time = 0;   ///< [s], each after the one before
+    double angle = 0;  ///< [rad]
+  };
+  std::vector<Knot> knots;  ///< at least one
+};
+
+/// amplitude * (sin(2 pi frequency t + phase) - sin(phase)), as a SineMotion
+struct SineTurn {
+  double amplitude = 0;  ///< [rad]
+  double frequency = 1;  ///< [1/s]
+  double phase = 0;      ///< [rad]
+};
+
+/// By an angle about an axis, which goes along with the translation: x = about + R (X - about) + displacement.
+struct Turn {
+  Point axis = Point::UnitZ();      ///< counter-clockwise where it points at the eye; its length does not matter
+  std::optional<Point> about = {};  ///< on the axis, at t = 0 [m]; none: what torques on the obstacle are about
+  Point rotation =
+      Point::Zero();  ///< before the angle, about the same point: its direction is the axis, its length the angle [rad]
+  std::variant<SteadyTurn, PathTurn, SineTurn> angle = {};
+};
 
 }  // namespace plica

@@ -35,6 +35,7 @@ struct ObstacleOptions {
   std::optional<double> mass = {};         ///< [kg]; none: it is where its motion says
   CouplingOptions coupling = {};           ///< of one with mass
   std::optional<GraspOptions> grasp = {};  ///< none: it cannot hold anything
+  std::optional<Turn> turn = {};           ///< besides its motion; none: it translates
 };
 
 }  // namespace plica

@@ -64,7 +64,7 @@ class View:
         self.forward, self.right, self.up = directions(run.up)
         body = run.points.reshape(-1, 3)
         extent = numpy.ptp(body, axis=0).max()
-        moved = [points + shift(time) for time in run.times for points, _, _, shift in self.shapes]
+        moved = [places(points, time) for time in run.times for points, _, _, places in self.shapes]
         seen = [body] + [points for points in moved if numpy.ptp(points, axis=0).max() < 8 * extent]
         points = numpy.concatenate(seen)
         across, height, depth = points @ self.right, points @ self.up, points @ self.forward
@@ -81,7 +81,7 @@ class View:
     def picture(self, time, points, triangles, values, largest, height=620):
         """An image array of the body at a time [s], coloured by values in [0, largest]."""
         size = (int(height * self.aspect()), height)
-        shapes = [(corners + shift(time), cells, opacity) for corners, cells, opacity, shift in self.shapes]
+        shapes = [(places(corners, time), cells, opacity) for corners, cells, opacity, places in self.shapes]
         return self.draw(points, triangles, shapes, values, largest, size)
 
     def _by_vtk(self, points, triangles, shapes, values, largest, size):

@@ -97,14 +97,19 @@ def cone(shape):
                                                       numpy.array([0, radius, shape["to_radius"], 0])))
 
 
+def turned(points, rotation):
+    """About the origin by a vector that is an axis times an angle (Rodrigues)."""
+    angle = numpy.linalg.norm(rotation)
+    if angle == 0:
+        return points
+    k = rotation / angle
+    return (points * numpy.cos(angle) + numpy.cross(k, points) * numpy.sin(angle)
+            + numpy.outer(points @ k, k) * (1 - numpy.cos(angle)))
+
+
 def box(shape):
-    """Its rotation is an axis times an angle (Rodrigues)."""
     corners = numpy.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * shape["size"]
-    angle = numpy.linalg.norm(shape["rotation"])
-    if angle > 0:
-        k = numpy.array(shape["rotation"]) / angle
-        corners = (corners * numpy.cos(angle) + numpy.cross(k, corners) * numpy.sin(angle)
-                   + numpy.outer(corners @ k, k) * (1 - numpy.cos(angle)))
+    corners = turned(corners, numpy.array(shape["rotation"]))
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     triangles = [t for a, b, c, d in faces for t in ((a, b, c), (a, c, d))]
     return [(corners + shape["centre"], numpy.array(triangles), BACK)]
@@ -119,21 +124,32 @@ def surface(shape):
 SHAPES = {"sphere": sphere, "capsule": capsule, "cylinder": cylinder, "cone": cone, "box": box, "surface": surface}
 
 
-def motion(entry):
-    """Displacement [m] as a function of time [s]."""
+def course(entry, steady, value):
+    """What a motion or a turn has got to, as a function of time [s]: its keys at one rate, and along a path."""
     if "path" in entry:
         times = [knot["time"] for knot in entry["path"]]
-        places = numpy.array([knot["displacement"] for knot in entry["path"]])
-        return lambda t: numpy.array([numpy.interp(t, times, places[:, k]) for k in range(3)])
+        places = numpy.array([knot[value] for knot in entry["path"]]).reshape(len(times), -1)
+        return lambda t: numpy.array([numpy.interp(t, times, column) for column in places.T])
     if "sine" in entry:
         sine = entry["sine"]
-        turn = lambda t: numpy.sin(2 * numpy.pi * sine["frequency"] * t + sine["phase"]) - numpy.sin(sine["phase"])
-        return lambda t: numpy.array(sine["amplitude"]) * turn(t)
-    return lambda t: numpy.array(entry.get("velocity", [0, 0, 0])) * t
+        swing = lambda t: numpy.sin(2 * numpy.pi * sine["frequency"] * t + sine["phase"]) - numpy.sin(sine["phase"])
+        return lambda t: numpy.array(sine["amplitude"]) * swing(t)
+    return lambda t: numpy.array(entry.get(steady, 0)) * t
+
+
+def motion(entry):
+    """Where points at rest are as a function of them and of time [s]."""
+    way = course(entry, "velocity", "displacement")
+    if "turn" not in entry:
+        return lambda points, t: points + way(t)
+    turn = entry["turn"]
+    axis, about = numpy.array(turn["axis"]), numpy.array(turn["about"])
+    angle, before = course(turn, "angular_velocity", "angle"), numpy.array(turn["rotation"])
+    return lambda points, t: about + way(t) + turned(turned(points - about, before), angle(t) * axis)
 
 
 def obstacles(run):
-    """Those of the run, as (points at rest, triangles, opacity, displacement of a time)."""
+    """Those of the run, as (points at rest, triangles, opacity, places of points at a time)."""
     low, high = run.points.min(axis=(0, 1)), run.points.max(axis=(0, 1))
     known = {**SHAPES, "bowl": lambda shape: bowl(shape, directions(run.up)[0]), "plane": lambda shape: plane(shape, low, high)}
     shapes = []

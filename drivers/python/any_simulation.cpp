@@ -64,8 +64,11 @@ class SimulationOf final : public AnySimulation {
   void grasp(int obstacle) override { simulation_.grasp(obstacle); }
   void release(int obstacle) override { simulation_.release(obstacle); }
   std::vector<CavityState> cavities() const override { return simulation_.cavities(); }
-  void move_obstacle(int obstacle, const Point& displacement) override {
-    simulation_.move_obstacle(obstacle, displacement);
+  void move_obstacle(int obstacle, const Point& displacement, const std::optional<Point>& rotation) override {
+    if (rotation)
+      simulation_.move_obstacle(obstacle, displacement, *rotation);
+    else
+      simulation_.move_obstacle(obstacle, displacement);
   }
   void end_at(double time) override { simulation_.end_at(time); }
 

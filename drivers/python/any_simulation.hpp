@@ -45,7 +45,7 @@ class AnySimulation {
   virtual void release(int obstacle) = 0;
   virtual std::vector<CavityState> cavities() const = 0;
   /// See Simulation::move_obstacle().
-  virtual void move_obstacle(int obstacle, const Point& displacement) = 0;
+  virtual void move_obstacle(int obstacle, const Point& displacement, const std::optional<Point>& rotation) = 0;
 
   virtual double time() const = 0;
   virtual double macro_step() const = 0;

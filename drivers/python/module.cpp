@@ -2,6 +2,7 @@
 // The module plica._plica: what C++ has, as it is. The package plica around it, in Python, is what users see.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -266,10 +267,13 @@ void bind_simulation(nb::module_& m) {
              for (const CavityState& c : s->cavities()) all.push_back(nb::make_tuple(c.load, c.volume, c.pressure));
              return all;
            })
-      .def("move_obstacle",
-           [](const H& s, int obstacle, double x, double y, double z) {
-             s->move_obstacle(obstacle, {x, y, z});
-           })
+      .def(
+          "move_obstacle",
+          [](const H& s, int obstacle, const std::array<double, 3>& d, const std::optional<std::array<double, 3>>& r) {
+            const auto point = [](const std::array<double, 3>& p) { return Point(p[0], p[1], p[2]); };
+            s->move_obstacle(obstacle, point(d), r ? std::optional<Point>(point(*r)) : std::nullopt);
+          },
+          "obstacle"_a, "displacement"_a, "rotation"_a.none())
       .def("start_files", [](const H& s, const std::string& folder) { s->start_files(folder); })
       .def(
           "write_frame",

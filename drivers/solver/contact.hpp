@@ -38,6 +38,7 @@ class Obstacle {
   virtual ObstaclePlace<B> place(double time) const = 0;
   /// From now on it moves so.
   virtual void set_motion(const Motion& motion) = 0;
+  virtual void set_turn(const std::optional<Turn>& turn) = 0;
   /// One with mass takes a macro step that ends at `end`, pushed by the opposite of its wrench.
   virtual void move(const Exec&, const Doubles<B>& wrench, int number, double end, double span) const = 0;
   /// Of the largest ball in it [m].
@@ -109,6 +110,9 @@ class Contact {
   /// From now on this obstacle moves so; work that is enqueued already has the motion it had.
   void set_motion(int obstacle, const Motion& motion) const {
     obstacles_[static_cast<std::size_t>(obstacle)]->set_motion(motion);
+  }
+  void set_turn(int obstacle, const std::optional<Turn>& turn) const {
+    obstacles_[static_cast<std::size_t>(obstacle)]->set_turn(turn);
   }
   /// What obstacles carry from one step to the next: where those with mass are, see ObstaclePlace, then what they hold, see
   /// HeldPoints; empty where there is none of it.

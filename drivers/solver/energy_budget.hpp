@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,9 @@ class ObstacleWork {
   ObstacleWork(const Simulation<B>& simulation, const Problem& problem) {
     const auto& obstacles = problem.contact.obstacles;
     for (std::size_t o = 0; o < obstacles.size(); ++o)
-      if (obstacles[o].mass || moves(obstacles[o].motion))
-        moving_.push_back({o, obstacles[o].mass ? tools_++ : none, Point::Zero()});
-    for (Moving& one : moving_) one.place = place_of(simulation, simulation.tools(), one);
+      if (moves(obstacles[o]))
+        moving_.push_back({o, obstacles[o].mass ? tools_++ : none, Point::Zero(), Point::Zero()});
+    for (Moving& one : moving_) move(simulation, simulation.tools(), one);
   }
 
   /// After every macro step.
@@ -73,9 +74,11 @@ class ObstacleWork {
     const std::vector<Wrench> wrenches = simulation.wrenches();
     const std::vector<ToolState> tools = simulation.tools();
     for (Moving& one : moving_) {
-      const Point now = place_of(simulation, tools, one);
-      done_ += wrenches[one.obstacle].force.dot(now - one.place);
-      one.place = now;
+      const Moving before = one;
+      move(simulation, tools, one);
+      const Point turned = rotation_vector(rotation_by(one.rotation) * rotation_by(-before.rotation));
+      const Wrench& w = wrenches[one.obstacle];
+      done_ += w.force.dot(one.place - before.place) + w.torque.dot(turned);
     }
   }
 
@@ -87,16 +90,17 @@ class ObstacleWork {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   struct Moving {
     std::size_t obstacle, tool;  // tool: its number among those with mass
-    Point place;
+    Point place, rotation;
   };
   std::vector<Moving> moving_;
   std::size_t tools_ = 0;
   double done_ = 0;
   bool known_ = true;
 
-  static Point place_of(const Simulation<B>& simulation, const std::vector<ToolState>& tools, const Moving& one) {
-    return one.tool == none ? simulation.obstacle_displacement(static_cast<int>(one.obstacle))
-                            : tools[one.tool].displacement;
+  static void move(const Simulation<B>& simulation, const std::vector<ToolState>& tools, Moving& one) {
+    const int number = static_cast<int>(one.obstacle);
+    one.place = one.tool == none ? simulation.obstacle_origin(number) : tools[one.tool].displacement;
+    one.rotation = simulation.obstacle_rotation(number);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/implicit_response.hpp>
@@ -27,13 +28,14 @@ class ObstacleOf final : public Obstacle<B> {
   ObstacleOptions options_;
   std::vector<PathKnot> knots_;
   Path path_;
+  Turning turning_;
   DepthWatch<B> watch_;
   Doubles<B> tools_;  // the obstacles' memory, with mass only
   int first_;         // its own of them
 
   ObstaclePlace<B> at(double time, double ahead) const {
     const PathPoint now = path_step(path_, knots_.data(), time, ahead);
-    return {origin_, now.displacement, now.velocity, time, tools_, first_};
+    return {origin_, now.displacement, now.velocity, time, tools_, first_, turning_.at(time, ahead)};
   }
 
  public:
@@ -49,6 +51,7 @@ class ObstacleOf final : public Obstacle<B> {
         tools_(options.mass ? memory : Doubles<B>()),
         first_(ObstaclePlace<B>::numbers * number) {
     options_.shape.reset();
+    set_turn(options.turn);
   }
 
   void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
@@ -80,6 +83,9 @@ class ObstacleOf final : public Obstacle<B> {
   void set_motion(const Motion& motion) override {
     knots_.clear();
     path_ = make_path(motion, knots_);
+  }
+  void set_turn(const std::optional<Turn>& turn) override {
+    turning_ = turn ? Turning(*turn, {origin_[0], origin_[1], origin_[2]}) : Turning();
   }
   void move(const Exec& exec, const Doubles<B>& wrench, int number, double end, double span) const override {
     if (!options_.mass) return;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 
@@ -102,6 +103,9 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   const Contact<B>* touching = (*built.hierarchy)[0].contact();
   if (touching && touching->whole() > 0)
     touched += ", " + std::to_string(touching->whole()) + " of them between points";
+  const auto turning =
+      std::ranges::count_if(problem.contact.obstacles, [](const ObstacleOptions& o) { return o.turn.has_value(); });
+  if (turning > 0) touched += ", " + std::to_string(turning) + " of them turning";
   const std::size_t variations = sum([](const L& l) { return bytes_of(l.start) + bytes_of(l.previous); });
   const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
   const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.element, l.flags.J); });

@@ -36,6 +36,7 @@
 #include <plica/drivers/solver/move_obstacles.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
+#include <plica/drivers/solver/turning.hpp>
 
 namespace plica {
 
@@ -76,7 +77,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   for (const auto& level : built.hierarchy->levels) kept.emplace_back("kept", level.model.vertices);
   budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                  std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
-                              [](const ObstacleOptions& o) { return o.mass || moves(o.motion); });
+                              [](const ObstacleOptions& o) { return moves(o); });
   if (const std::size_t count = wrench_names(p).size(); count > 0)
     wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
   if (const Contact<B>* contact = hierarchy()[0].contact()) memory = contact->memory();

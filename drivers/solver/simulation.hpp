@@ -220,14 +220,23 @@ class Simulation {
   /// energies.
   void set_external_forces(const ExternalForces<B>& forces);
 
-  /// From now on an obstacle moves so, not as the problem says; displacements are from where its shape says. Does not wait. What save()
-  /// keeps is without it; check() no longer compares energies. Obstacles count from 0. InputError where there is none of that number.
+  /// From now on an obstacle moves so, not as the problem says; displacements are from where its shape says. Its turn goes on. Does not
+  /// wait. What save() keeps is without it; check() no longer compares energies. Obstacles count from 0. InputError where there is none of
+  /// that number.
   void set_obstacle_motion(int obstacle, const Motion& motion);
+  /// Likewise it turns so; none: it is as its shape says. Its motion goes on. InputError for one with mass, which does not turn.
+  void set_obstacle_turn(int obstacle, const std::optional<Turn>& turn);
   /// Likewise straight from where its motion has it now to this displacement [m] at the end of the next macro step, where it stays: for
   /// tools that a hand or a haptic device moves. One with mass follows by its coupling.
   void move_obstacle(int obstacle, const Point& displacement);
+  /// The same, and it turns in that time to this rotation, the shortest way and at one rate: about the point of its turn, or its origin.
+  void move_obstacle(int obstacle, const Point& displacement, const Point& rotation);
   /// Where its motion has it now, from where its shape says [m].
   Point obstacle_displacement(int obstacle) const;
+  /// How it is turned now: its direction is the axis, its length the angle, at most pi [rad].
+  Point obstacle_rotation(int obstacle) const;
+  /// Where its motion and its turn have now what torques on it are about [m].
+  Point obstacle_origin(int obstacle) const;
 
   /// An obstacle takes hold of the surface points that touch it now, or are within its reach, besides those that it holds: springs tie
   /// them to where they are relative to it. Does not wait. InputError where the problem gives it no `grasp`.

@@ -5,8 +5,10 @@
 #include <plica/drivers/solver/exchange.hpp>
 #include <plica/drivers/solver/move_obstacles.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
+#include <plica/drivers/solver/turning.hpp>
 
 namespace plica {
 
@@ -95,16 +97,58 @@ void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
   inside_->budget_known = false;
 }
 template <class B>
+void Simulation<B>::set_obstacle_turn(int obstacle, const std::optional<Turn>& turn) {
+  const Contact<B>& contact = inside_->contact_with(obstacle);
+  const auto number = static_cast<std::size_t>(obstacle);
+  if (turn && inside_->problem.contact.obstacles[number].mass)
+    throw InputError(obstacle_name(inside_->problem.contact, number) + " has mass, and does not turn; expected " +
+                     "contact.obstacles." + std::to_string(obstacle) + " without mass");
+  if (turn) validate_turn(*turn);
+  contact.set_turn(obstacle, turn);
+  inside_->budget_known = false;
+}
+
+namespace {
+void expect_finite(const char* name, const Point& value) {
+  if (!value.allFinite()) throw InputError(std::string(name) + ": expected finite numbers");
+}
+}  // namespace
+
+template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
-  if (!displacement.allFinite()) throw InputError("displacement: expected finite numbers");
+  expect_finite("displacement", displacement);
   const double now = inside_->time;
   set_obstacle_motion(obstacle,
                       PathMotion{{{now, obstacle_displacement(obstacle)}, {now + inside_->next_span(), displacement}}});
 }
 template <class B>
+void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const Point& rotation) {
+  expect_finite("displacement", displacement), expect_finite("rotation", rotation);
+  const ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
+  const Vec3<double>& about = place.turn.turned ? place.turn.centre : place.origin;
+  const Point before = obstacle_rotation(obstacle);
+  const Point way = rotation_vector(rotation_by(rotation) * rotation_by(-before));
+  const double now = inside_->time, angle = way.norm();
+  set_obstacle_turn(obstacle, Turn{angle > 0 ? way : Point(Point::UnitZ()), Point(about[0], about[1], about[2]), before,
+                                   PathTurn{{{now, 0}, {now + inside_->next_span(), angle}}}});
+  move_obstacle(obstacle, displacement);
+}
+template <class B>
 Point Simulation<B>::obstacle_displacement(int obstacle) const {
   const Vec3<double> d = inside_->contact_with(obstacle).place(obstacle, inside_->time).displacement;
   return {d[0], d[1], d[2]};
+}
+template <class B>
+Point Simulation<B>::obstacle_rotation(int obstacle) const {
+  const Attitude turn = inside_->contact_with(obstacle).place(obstacle, inside_->time).turn;
+  return turn.turned ? rotation_vector(turn.rotation) : Point(Point::Zero());
+}
+template <class B>
+Point Simulation<B>::obstacle_origin(int obstacle) const {
+  ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
+  place.tools = {};
+  const Vec3<double> at = place.about();
+  return {at[0], at[1], at[2]};
 }
 
 template <class B>

@@ -220,7 +220,7 @@ class CycleTrials {
     IntegrationOptions o = problem_.integration;
     o.cycle = "him", o.macro_step = factor * critical_;
     TrialRun run;
-    run.reason = too_fast_for_him(problem_.contact, *o.macro_step, edge_);
+    run.reason = too_fast_for_him(problem_, *o.macro_step, edge_);
     if (run.reason.empty()) run = run_trial<B>(problem_, o, trial_steps / factor, start_, exec_);
     choice_.trials.push_back({"him", *o.macro_step, static_cast<double>(factor), {}, run.reason});
     return run;

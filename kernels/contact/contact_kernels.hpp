@@ -145,10 +145,11 @@ struct ObstacleContact {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
-    const Gap<Real> gap = shape(x - place.offset());
+    Gap<Real> gap = shape(place.local(x));
+    gap.normal = place.outward(gap.normal);
     watch.look(p, gap.distance);
     const PenaltyLaw<Real>& law = points.law(obstacle, p);
-    const PointContact<Real> c = penalty_contact(law, gap, speed - place.velocity(), ahead);
+    const PointContact<Real> c = penalty_contact(law, gap, speed - place.velocity(x), ahead);
     set_vector<B>(points.force, points.record(obstacle, p), c.force);
     const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
                across = c.active ? b * c.drag : Real(0);
@@ -247,10 +248,10 @@ struct ContactEnergy {
     Vec3<Real> x, speed;
     surface_point(surface, u, v, p, x, speed);
     if (const int r = obstacle * surface.points + p; held.holds(r)) {
-      const Vec3<Real> stretch = held.stretch(r, x, place.moved());
+      const Vec3<Real> stretch = held.stretch(r, x, place.way(x));
       return {{0.5 * static_cast<double>(held.law(obstacle, p).stiffness * dot(stretch, stretch))}};
     }
-    const Real penetration = max(-shape(x - place.offset()).distance, Real(0));
+    const Real penetration = max(-shape(place.local(x)).distance, Real(0));
     return {{0.5 * static_cast<double>(law(obstacle, p).stiffness * penetration * penetration)}};
   }
 };

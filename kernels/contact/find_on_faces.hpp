@@ -37,7 +37,7 @@ struct FindOnFaces {
     }
     if (!(deepest + stretch * from_corner * longest(x) > -faces.reach)) return;
     for (int c = 0; c < 3; ++c)
-      x[c] = value_at<B>(surface.embedding, state.u, faces.corner(3 * t + c), x[c]) - place.offset();
+      x[c] = place.local(value_at<B>(surface.embedding, state.u, faces.corner(3 * t + c), x[c]));
     const Real size = longest(x);
     const Real enough = Kokkos::max(-faces.reach, deepest + as_deep * size);  // less is not looked at
     if (!(deepest + from_corner * size > enough) || !(most(x) > enough)) return;
@@ -48,8 +48,9 @@ struct FindOnFaces {
     for (int c = 0; c < 3; ++c) points.depth(r) -= w[c] * Kokkos::max(depth[c], Real(0));
     points.mobility(r) = 1;
     set_vector<B>(faces.weight, faces.site(obstacle, t), w);
-    set_vector<B>(points.normal, r, out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2])));
-    set_vector<B>(points.velocity, r, faces.value(surface, state.v, obstacle, t) - place.velocity());
+    set_vector<B>(points.normal, r, place.outward(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))));
+    const Vec3<Real> at = points.place(surface, state.u, obstacle, points.points + t);
+    set_vector<B>(points.velocity, r, faces.value(surface, state.v, obstacle, t) - place.velocity(at));
   }
 
   static KOKKOS_INLINE_FUNCTION Real longest(const Vec3<Real>* x) {

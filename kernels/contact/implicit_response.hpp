@@ -53,8 +53,9 @@ struct FindTouching {
   TouchingPoints<B> points;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
-    const Vec3<Real> speed = value_at<B>(surface.embedding, state.v, p) - place.velocity();
-    const Gap<Real> gap = gap_along(shape, x - place.offset(), points.span * speed, points.reach);
+    const Vec3<Real> speed = value_at<B>(surface.embedding, state.v, p) - place.velocity(x);
+    Gap<Real> gap = gap_along(shape, place.local(x), place.inward(points.span * speed), points.reach);
+    gap.normal = place.outward(gap.normal);
     watch.look(p, gap.distance);
     const int r = first + p;
     const bool near = gap.distance < points.reach || gap.distance + points.span * dot(gap.normal, speed) < 0;
@@ -77,7 +78,8 @@ struct TakeHold {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const int r = points.record(obstacle, p);
     if (points.held.holds(r) || !(-points.depth(r) <= reach)) return;
-    points.held.hold(r, points.place(surface, u, obstacle, p), place.moved());
+    const auto x = points.place(surface, u, obstacle, p);
+    points.held.hold(r, x, place.way(x));
   }
 };
 
@@ -102,8 +104,8 @@ struct StretchHeld {
     if (!points.held.holds(r)) return;
     points.mobility(r) = 1;
     const auto x = points.place(surface, state.u, obstacle, p);
-    set_vector<B>(points.normal, r, points.held.stretch(r, x, place.moved()));
-    set_vector<B>(points.velocity, r, value_at<B>(surface.embedding, state.v, p) - place.velocity());
+    set_vector<B>(points.normal, r, place.outward(points.held.stretch(r, x, place.way(x))));
+    set_vector<B>(points.velocity, r, value_at<B>(surface.embedding, state.v, p) - place.velocity(x));
   }
 };
 

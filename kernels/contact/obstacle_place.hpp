@@ -6,7 +6,16 @@
 
 namespace plica {
 
-/// Where an obstacle is at a time, and how fast: where its motion says, or as a tool with mass goes, which the device knows.
+/// How an obstacle is turned: what its shape has at X is at centre + R (X - centre) and its displacement.
+struct Attitude {
+  bool turned = false;    ///< false: it translates, and nothing of these is used
+  Vec3<double> centre;    ///< at t = 0 [m]
+  Mat3<double> rotation;  ///< R
+  Vec3<double> rate;      ///< angular velocity [rad/s]
+};
+
+/// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool with mass goes, which the device knows
+/// and which does not turn.
 template <class B>
 struct ObstaclePlace {
   using Real = typename B::Real;
@@ -17,6 +26,7 @@ struct ObstaclePlace {
   double time = 0;                   ///< [s]
   Doubles<B> tools;                  ///< [numbers of each obstacle]; empty: it has no mass
   int first = 0;                     ///< its own of them
+  Attitude turn;
 
   KOKKOS_INLINE_FUNCTION Vec3<double> moved() const {
     if (tools.extent(0) == 0) return displacement;
@@ -25,16 +35,40 @@ struct ObstaclePlace {
     for (int k = 0; k < 3; ++k) x[k] = tools(first + k) + since * tools(first + 3 + k);
     return x;
   }
-  KOKKOS_INLINE_FUNCTION Vec3<double> about() const { return origin + moved(); }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> offset() const { return rounded(moved()); }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> velocity() const {
-    if (tools.extent(0) == 0) return rounded(speed);
-    return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});
+  /// What torques are about.
+  KOKKOS_INLINE_FUNCTION Vec3<double> about() const {
+    return turn.turned ? turn.centre + turn.rotation * (origin - turn.centre) + moved() : origin + moved();
+  }
+  /// A place, as the shape has it.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> local(const Vec3<Real>& x) const {
+    return turn.turned ? rounded(turned_back(exact(x))) : x - rounded(moved());
+  }
+  /// How far that is moved [m].
+  KOKKOS_INLINE_FUNCTION Vec3<double> way(const Vec3<Real>& x) const {
+    return turn.turned ? exact(x) - turned_back(exact(x)) : moved();
+  }
+  /// A direction, as the shape has it, and back.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> inward(const Vec3<Real>& d) const {
+    return turn.turned ? rounded(transpose(turn.rotation) * exact(d)) : d;
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> outward(const Vec3<Real>& d) const {
+    return turn.turned ? rounded(turn.rotation * exact(d)) : d;
+  }
+  /// Of what the obstacle has at x [m/s].
+  KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
+    if (tools.extent(0) > 0) return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});
+    return rounded(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - displacement) : speed);
   }
 
  private:
   static KOKKOS_INLINE_FUNCTION Vec3<Real> rounded(const Vec3<double>& x) {
     return {static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])};
+  }
+  static KOKKOS_INLINE_FUNCTION Vec3<double> exact(const Vec3<Real>& x) {
+    return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<double> turned_back(const Vec3<double>& x) const {
+    return turn.centre + transpose(turn.rotation) * (x - turn.centre - moved());
   }
 };
 

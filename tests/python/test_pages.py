@@ -52,6 +52,22 @@ def test_obstacles_are_moved_by_the_caller():
     assert sim.tools() == {}
 
 
+def test_obstacles_are_turned_by_the_caller():
+    lever = {"name": "lever", "capsule": {"from": [0.05, 0.05, 0.07], "to": [0.25, 0.05, 0.07], "radius": 0.01}}
+    turn = {"about": [0.25, 0.05, 0.07], "axis": [0, 1, 0]}
+    sim = plica.Simulation(PRESS | {"contact": {"obstacles": [lever | {"turn": turn}]}})
+    for n in range(1, 41):
+        sim.move_obstacle("lever", [0, 0, 0], [0, -0.004 * n, 0])
+        sim.step()
+    # its end has come down by 0.16 * 0.2 m
+    assert sim.wrenches()["lever"].force[2] < -1e-3
+    with pytest.raises(plica.InputError, match=r"rotation: expected an array \[3\] of .*, got \[2\]"):
+        sim.move_obstacle("lever", [0, 0, 0], [0, 0])
+    heavy = plica.Simulation(PRESS | {"contact": {"obstacles": [lever | {"mass": "50 g"}]}})
+    with pytest.raises(plica.InputError, match="lever has mass, and does not turn"):
+        heavy.move_obstacle("lever", [0, 0, 0], [0, 0, 1])
+
+
 def test_tools_follow_where_the_caller_leads_them():
     finger = {**PRESS["contact"]["obstacles"][0], "mass": "50 g", "coupling": {"stiffness": "100 N/m"}}
     sim = plica.Simulation({**PRESS, "duration": "0.3 s", "contact": {"obstacles": [finger]}})

@@ -9,6 +9,7 @@
 #include <plica/core/backend.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/version.hpp>
 #include <set>
@@ -82,6 +83,14 @@ struct AddMotion {
     for (const auto& knot : o.knots)
       entry["path"].push_back({{"time", knot.time}, {"displacement", point(knot.displacement)}});
   }
+  void operator()(const SteadyTurn& o) const { entry["angular_velocity"] = o.angular_velocity; }
+  void operator()(const SineTurn& o) const {
+    entry["sine"] = {{"amplitude", o.amplitude}, {"frequency", o.frequency}, {"phase", o.phase}};
+  }
+  void operator()(const PathTurn& o) const {
+    entry["path"] = Json::array();
+    for (const auto& knot : o.knots) entry["path"].push_back({{"time", knot.time}, {"angle", knot.angle}});
+  }
 };
 
 }  // namespace
@@ -94,6 +103,11 @@ Json obstacles_json(const ContactOptions& contact) {
     visit_shape(obstacle.shape, [&](auto shape, const auto& o) { entry[decltype(shape)::name] = shape_json(o); });
     entry["friction"] = obstacle.friction.value_or(0);
     std::visit(AddMotion{entry}, obstacle.motion);
+    if (const auto& turn = obstacle.turn) {
+      Json& own = entry["turn"] = {{"axis", point(turn->axis.normalized())}, {"about", point(turned_about(obstacle))}};
+      own["rotation"] = point(turn->rotation);
+      std::visit(AddMotion{own}, turn->angle);
+    }
     list.push_back(entry);
   }
   return list;

@@ -60,22 +60,53 @@ const SHAPES = {
   },
 };
 
+// Between the entries of a path: the one before, the one after and the part of the way.
+function on_path(path, time) {
+  const next = path.findIndex((knot) => knot.time > time);
+  if (next < 0) return [path[path.length - 1], path[path.length - 1], 0];
+  if (next === 0) return [path[0], path[0], 0];
+  const a = path[next - 1], b = path[next];
+  return [a, b, (time - a.time) / (b.time - a.time)];
+}
+
+function swing({frequency, phase}, time) { return Math.sin(2 * Math.PI * frequency * time + phase) - Math.sin(phase); }
+
 // Displacement [m] at a time [s].
 function motion_of(obstacle, time) {
   if (obstacle.velocity) return times(obstacle.velocity, time);
-  if (obstacle.sine) {
-    const {amplitude, frequency, phase} = obstacle.sine;
-    return times(amplitude, Math.sin(2 * Math.PI * frequency * time + phase) - Math.sin(phase));
-  }
+  if (obstacle.sine) return times(obstacle.sine.amplitude, swing(obstacle.sine, time));
   if (!obstacle.path) return [0, 0, 0];
-  const next = obstacle.path.findIndex((knot) => knot.time > time);
-  if (next < 0) return obstacle.path[obstacle.path.length - 1].displacement;
-  if (next === 0) return obstacle.path[0].displacement;
-  const a = obstacle.path[next - 1], b = obstacle.path[next], part = (time - a.time) / (b.time - a.time);
+  const [a, b, part] = on_path(obstacle.path, time);
   return plus(times(a.displacement, 1 - part), times(b.displacement, part));
 }
 
-// Those of the run whose shape is known here: {number, shape, name, surface, at(time)}; low and high: the box around the body.
+// Angle [rad] about the axis of a turn.
+function angle_of(turn, time) {
+  if (turn.sine) return turn.sine.amplitude * swing(turn.sine, time);
+  if (!turn.path) return turn.angular_velocity * time;
+  const [a, b, part] = on_path(turn.path, time);
+  return a.angle * (1 - part) + b.angle * part;
+}
+
+// Points [x, y, z, ...], turned by an angle about a unit vector through a point (Rodrigues).
+function turned_points(points, k, angle, about) {
+  const c = Math.cos(angle), s = Math.sin(angle), found = new Float32Array(points.length);
+  for (let i = 0; i < points.length; i += 3) {
+    const p = minus([points[i], points[i + 1], points[i + 2]], about);
+    found.set(plus(about, plus(plus(times(p, c), times(cross(k, p), s)), times(k, dot(k, p) * (1 - c)))), i);
+  }
+  return found;
+}
+
+// An obstacle's points at a time, before its displacement.
+function points_of({turn}, points, time) {
+  if (!turn) return points;
+  const angle = Math.hypot(...turn.rotation), still = angle > 0 ? turned_points(points, unit(turn.rotation), angle, turn.about) : points;
+  return turned_points(still, turn.axis, angle_of(turn, time), turn.about);
+}
+
+// Those of the run whose shape is known here: {number, shape, name, surface, at(time), points(time)}, displacement and points before that;
+// low and high: the box around the body.
 function obstacles_of(summary, low, high) {
   const found = [];
   (summary.obstacles || []).forEach((obstacle, number) => {
@@ -84,8 +115,8 @@ function obstacles_of(summary, low, high) {
     const {points, triangles, sheet} = SHAPES[shape](obstacle[shape], low, high);
     const surface = new Surface(new Float32Array(points), new Uint32Array(triangles));
     Object.assign(surface, {look: "glass", colour: "#7d92a8", sheet});
-    const at = (time) => motion_of(obstacle, time);
-    found.push({number, shape, name: obstacle.name || `${shape} ${number}`, surface, at, show: (time) => surface.move(surface.points, at(time))});
+    const at = (time) => motion_of(obstacle, time), places = (time) => points_of(obstacle, surface.points, time);
+    found.push({number, shape, name: obstacle.name || `${shape} ${number}`, surface, at, points: places, show: (time) => surface.move(places(time), at(time))});
   });
   return found;
 }

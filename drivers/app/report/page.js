@@ -161,9 +161,9 @@ function extent() {
   for (const film of page.films) for (let frame = 0; frame < film.frames; ++frame) add(film.points_at(frame));
   page.obstacles = report.summary ? obstacles_of(report.summary, low.slice(), high.slice()) : [];
   const size = Math.max(...minus(high, low));
-  for (const {surface, at} of page.obstacles) {
+  for (const {surface, at, points} of page.obstacles) {
     const widths = [0, 1, 2].map((k) => { const own = surface.points.filter((_, i) => i % 3 === k); return Math.max(...own) - Math.min(...own); });
-    if (Math.max(...widths) < 8 * size) for (const time of report.times) add(surface.points, at(time));
+    if (Math.max(...widths) < 8 * size) for (const time of report.times) add(points(time), at(time));
   }
   return [low, high];
 }

@@ -120,7 +120,8 @@ function moved_of(obstacle) { return live.frame.moved.find((one) => one.obstacle
 function show_obstacle(obstacle) {
   const moved = moved_of(obstacle);
   obstacle.shift = moved ? moved.displacement : obstacle.at(live.frame.time);
-  obstacle.surface.move(obstacle.surface.points, obstacle.shift);
+  obstacle.turned = obstacle.points(live.frame.time);
+  obstacle.surface.move(obstacle.turned, obstacle.shift);
 }
 
 function say_obstacle(obstacle, displacement) {
@@ -162,7 +163,7 @@ function pick(ray) {
 }
 
 function pick_obstacle(ray, obstacle) {
-  const best = seen_at({rows: ray.rows, start: minus(ray.start, obstacle.shift)}, obstacle.surface.points, obstacle.surface.triangles);
+  const best = seen_at({rows: ray.rows, start: minus(ray.start, obstacle.shift)}, obstacle.turned, obstacle.surface.triangles);
   return best && {obstacle, depth: best.depth, shift: obstacle.shift, place: at_depth(ray, best.depth)};
 }
 

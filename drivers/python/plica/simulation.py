@@ -256,13 +256,17 @@ class Simulation:
         """How each load with `enclosed_volume` is now, by its number among body.loads: of level 0."""
         return {load: Cavity(volume, pressure) for load, volume, pressure in self._open().cavities()}
 
-    def move_obstacle(self, name: str, displacement) -> None:
+    def move_obstacle(self, name: str, displacement, rotation=None) -> None:
         """Moves an obstacle straight from where it is to a displacement within the next macro step. There it stays, and no longer
         follows the scene; one with mass follows by its coupling.
 
         displacement: [3] m, from where its shape says. To lead it along a path, call this before every step.
+        rotation: [3] rad, its direction the axis and its length the angle: it turns there in the same time, about the point of its
+        `turn`, or its origin. Left out: it turns as it did.
         """
-        self._open().move_obstacle(self._number("move_obstacle", name), *checked("displacement", displacement, (3,)))
+        number = self._number("move_obstacle", name)
+        turned = None if rotation is None else checked("rotation", rotation, (3,)).tolist()
+        self._open().move_obstacle(number, checked("displacement", displacement, (3,)).tolist(), turned)
 
     def grasp(self, name: str) -> None:
         """An obstacle with `grasp` takes hold of the surface points that touch it now, or are within its reach, besides those that it

@@ -4,38 +4,49 @@
 #include <cmath>
 #include <numbers>
 #include <plica/core/text.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <string>
 #include <vector>
 
 // Whether the cycle him is right for a scene with obstacles. The numbers were measured, see cmake/docs/him.md.
 namespace plica {
 
-/// The largest speed that an obstacle is given [m/s].
-inline double fastest_obstacle(const ContactOptions& contact) {
-  double fastest = 0;
-  const auto speed = [](const auto& motion) {
-    using M = std::decay_t<decltype(motion)>;
-    if constexpr (std::is_same_v<M, SteadyMotion>) {
-      return motion.velocity.norm();
-    } else if constexpr (std::is_same_v<M, SineMotion>) {
-      return 2 * std::numbers::pi * motion.frequency * motion.amplitude.norm();
-    } else {
-      double most = 0;
-      for (std::size_t k = 1; k < motion.knots.size(); ++k)
-        most = std::max(most, (motion.knots[k].displacement - motion.knots[k - 1].displacement).norm() /
-                                  (motion.knots[k].time - motion.knots[k - 1].time));
-      return most;
+/// The largest speed of a given motion [m/s].
+inline double fastest(const Motion& motion) {
+  if (const auto* steady = std::get_if<SteadyMotion>(&motion)) return steady->velocity.norm();
+  if (const auto* sine = std::get_if<SineMotion>(&motion))
+    return 2 * std::numbers::pi * sine->frequency * sine->amplitude.norm();
+  const auto& knots = std::get<PathMotion>(motion).knots;
+  double most = 0;
+  for (std::size_t k = 1; k < knots.size(); ++k)
+    most = std::max(most,
+                    (knots[k].displacement - knots[k - 1].displacement).norm() / (knots[k].time - knots[k - 1].time));
+  return most;
+}
+
+/// The largest speed that an obstacle's motion and its turn give what it has where the body is, as that starts [m/s].
+inline double fastest_obstacle(const Problem& problem) {
+  double most = 0;
+  for (const ObstacleOptions& o : problem.contact.obstacles) {
+    double speed = fastest(o.motion);
+    if (o.turn) {
+      const Point about = turned_about(o);
+      double reach = 0;
+      for (const Point& x : places_at_start(problem.body))
+        reach = std::max(reach, o.turn->axis.normalized().cross(x - about).norm());
+      speed += fastest(angle_of(*o.turn)) * std::min(reach, reach_from(about, o.turn->axis, o.shape));
     }
-  };
-  for (const ObstacleOptions& o : contact.obstacles) fastest = std::max(fastest, std::visit(speed, o.motion));
-  return fastest;
+    most = std::max(most, speed);
+  }
+  return most;
 }
 
 /// A sentence where a tool is too fast for him: it excites detail, which him slows. Else nothing.
-inline std::string too_fast_for_him(const ContactOptions& contact, double macro_step, double edge) {
+inline std::string too_fast_for_him(const Problem& problem, double macro_step, double edge) {
   constexpr double most = 0.1;  // edges per step: there the error of displacement was 10 %
-  const double speed = fastest_obstacle(contact), edges = speed * macro_step / edge;
+  const double speed = fastest_obstacle(problem), edges = speed * macro_step / edge;
   if (!(edges > most)) return {};
   return text("cycle him: an obstacle moves at ", number(speed, 3), " m/s, ", number(edges, 2),
               " of an edge in a macro step; above ", number(most, 2),
@@ -55,7 +66,7 @@ inline std::vector<std::string> him_advice(const Problem& problem, const std::ve
              number(std::cbrt(last.vertices) - 1, 2),
              " cells across; with 343 to 512, 6 to 7 across, errors of contact are 1.5 to 2 times smaller: "
              "expected a finer last one in body.levels, or {coarsen: 430}"));
-  if (std::string fast = too_fast_for_him(problem.contact, macro_step, levels.front().mean_edge); !fast.empty())
+  if (std::string fast = too_fast_for_him(problem, macro_step, levels.front().mean_edge); !fast.empty())
     sentences.push_back(std::move(fast));
   return sentences;
 }

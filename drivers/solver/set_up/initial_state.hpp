@@ -9,6 +9,9 @@ namespace plica {
 /// Whether a body starts in another shape than that of its rest.
 bool starts_deformed(const InitialOptions& options);
 
+/// The points of a body's surface as they are placed; none where it has no surface.
+std::vector<Point> places_at_start(const Body& body);
+
 /// Per vertex of level 0 at rest, before it is placed, as if all were free: its displacement at the start [m]. `box` is that
 /// mesh's bounding box. The same seed gives the same places everywhere, vertex by vertex.
 std::vector<Point> initial_displacement(const InitialOptions& options, const TetMesh& mesh, const Box& box);

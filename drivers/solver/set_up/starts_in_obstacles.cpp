@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/solver/turning.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
@@ -12,15 +15,6 @@ namespace {
 
 constexpr double bearable_depth = 0.5;  // of an edge
 
-/// Of the surface that touches.
-std::vector<Point> places_at_start(const Body& body) {
-  const Box box = bounding_box(body.levels.front().vertices);
-  const Point shift = body.initial.position ? Point(*body.initial.position - (box.min + box.max) / 2) : Point::Zero();
-  std::vector<Point> places = body.surface->vertices;
-  for (Point& place : places) place += shift;
-  return places;
-}
-
 /// The deepest of some places in a solid, and how many are in it.
 struct Deepest {
   std::size_t place = 0, inside = 0;
@@ -28,13 +22,18 @@ struct Deepest {
 };
 
 /// A sampled surface is looked at when it has been sampled.
-Deepest deepest_in(const ShapeOptions& options, const std::vector<Point>& places) {
+Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& places) {
   Deepest found;
-  visit_shape(options, [&](auto shape, const auto& its) {
+  std::vector<PathKnot> knots;
+  const Path path = make_path(options.motion, knots);
+  ObstaclePlace<Backend<double, Kokkos::DefaultHostExecutionSpace>> start;
+  start.displacement = path_at(path, knots.data(), 0).displacement;
+  visit_shape(options.shape, [&](auto shape, const auto& its) {
     if constexpr (requires { shape.template shape<double>(its); }) {
       const auto gap = shape.template shape<double>(its);
+      if (options.turn) start.turn = Turning(*options.turn, turned_about(options)).at(0);
       for (std::size_t i = 0; i < places.size(); ++i) {
-        const double depth = -gap(vec3<double>(places[i])).distance;
+        const double depth = -gap(start.local(vec3<double>(places[i]))).distance;
         if (depth > 0) ++found.inside;
         if (depth > found.depth) found.depth = depth, found.place = i;
       }
@@ -52,7 +51,7 @@ std::vector<std::string> starts_in_obstacles(const Problem& problem) {
   const std::vector<Point> places = places_at_start(problem.body);
   const double edge = mean_edge_length(problem.body.levels.front());
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const Deepest found = deepest_in(obstacles[i].shape, places);
+    const Deepest found = deepest_in(obstacles[i], places);
     const std::string path = "contact.obstacles." + std::to_string(i);
     if (found.inside == places.size())
       throw InputError(path + " contains the whole body at the start; expected a body outside");

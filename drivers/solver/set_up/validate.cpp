@@ -40,6 +40,7 @@ void check_times(const std::string& path, const Knots& knots) {
                        "; expected a time after that of the entry before, " + shown(i - 1));
 }
 void check_together(const std::string& path, const PathMotion& o) { check_times(path, o.knots); }
+void check_together(const std::string& path, const PathTurn& o) { check_times(path, o.knots); }
 void check_together(const std::string& path, const PolygonCourse& o) { check_times(path, o.knots); }
 
 void check_together(const std::string& path, const TwistOptions& o) { check_apart(path, o.from, o.to); }
@@ -156,6 +157,8 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   check_values(path, o);
   if (!o.mass && (o.coupling.stiffness > 0 || o.coupling.damping))
     throw InputError(path + ".coupling is of an obstacle with mass; expected " + path + ".mass, or no coupling");
+  if (o.mass && o.turn)
+    throw InputError(path + " has mass and turn; expected one of them: a tool with mass translates only");
   if (o.grasp) check_grasp(path + ".grasp", *o.grasp);
 }
 
@@ -277,6 +280,8 @@ void check_points(const Body& body) {
 }
 
 }  // namespace
+
+void validate_turn(const Turn& turn, const std::string& path) { check_values(path, turn); }
 
 void validate_options(const Problem& problem, std::size_t levels) {
   check_values("body", problem.body);

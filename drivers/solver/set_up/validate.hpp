@@ -23,6 +23,9 @@ void validate_shares(const IntegrationOptions& options, std::size_t levels);
 /// The part of it about obstacles, bodies that touch each other, and what obstacles hold.
 void validate_contact(const Problem& problem);
 
+/// How an obstacle turns, as far as that needs no obstacle; keys are those below `path`.
+void validate_turn(const Turn& turn, const std::string& path = "turn");
+
 /// The part of it about cavities whose volume is given.
 void validate_cavities(const Problem& problem);
 

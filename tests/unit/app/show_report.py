@@ -53,6 +53,20 @@ def use_film(page):
     check(page.run("page.mark ? 0 : " + PIXELS + ".drawn") == 0, "layers can be taken away")
 
 
+# How far the obstacle "quarter" reaches along x, y and z at a frame. It is a bar along x that has made a quarter turn about z at the end.
+REACH = """((frame) => {
+  show_frame(frame);
+  const {corners} = page.obstacles.find((one) => one.name === "quarter").surface;
+  return [0, 1, 2].map((k) => { const own = corners.filter((_, i) => i % 3 === k); return Math.max(...own) - Math.min(...own); });
+})"""
+
+
+def use_turn(page):
+    first, last = page.run(REACH + "(0)"), page.run(REACH + "(1e9)")
+    check(all(abs(a - b) < 1e-3 * max(first) for a, b in zip(first, (last[1], last[0], last[2]))), f"it turns: {first} {last}")
+    check(first[0] > 2 * first[1], f"it is a bar along x: {first}")
+
+
 def main(folder, picture=None):
     if not browser.found():
         print("skipped: no Chromium here")
@@ -68,6 +82,8 @@ def main(folder, picture=None):
                 print("skipped: no WebGL 2 here")
                 sys.exit(77)
             use_film(page)
+        if page.run("page.obstacles.some((one) => one.name === 'quarter')"):
+            use_turn(page)
         check(page.run("document.querySelectorAll('.card').length") > 0, "there are charts")
         page.press("d")
         check(page.run("document.documentElement.classList.contains('dark')"), "the key d makes it dark")

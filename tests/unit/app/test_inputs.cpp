@@ -9,6 +9,7 @@
 #include <plica/meshes/generators.hpp>
 #include <stdexcept>
 
+#include "support/refusal.hpp"
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
@@ -52,6 +53,28 @@ TEST(Inputs, Motions) {
   const auto& sine = std::get<SineMotion>(scene.problem.contact.obstacles[0].motion);
   EXPECT_EQ(sine.frequency, 3);
   EXPECT_DOUBLE_EQ(sine.phase, -pi / 2);
+}
+
+TEST(Inputs, Turns) {
+  const auto turn = [](const std::string& keys) {
+    return with({"contact.obstacles.0.turn={" + keys + "}"}).problem.contact.obstacles[0].turn;
+  };
+  const auto steady =
+      turn("axis: [0, 2, 0], about: [1 cm, 0, 0], rotation: [180 deg, 0, 0], angular_velocity: 90 deg/s");
+  EXPECT_EQ(steady->axis, Point(0, 2, 0));
+  EXPECT_EQ(*steady->about, Point(0.01, 0, 0));
+  EXPECT_DOUBLE_EQ(steady->rotation[0], pi);
+  EXPECT_DOUBLE_EQ(std::get<SteadyTurn>(steady->angle).angular_velocity, pi / 2);
+  const auto path = turn("path: [{time: 0, angle: 0 deg}, {time: 20 ms, angle: -30 deg}]");
+  EXPECT_FALSE(path->about);
+  EXPECT_DOUBLE_EQ(std::get<PathTurn>(path->angle).knots.at(1).angle, -pi / 6);
+  const auto sine = turn("sine: {amplitude: 10 deg, frequency: 2 Hz}");
+  EXPECT_DOUBLE_EQ(std::get<SineTurn>(sine->angle).amplitude, pi / 18);
+  const auto refused = [&](const std::string& keys) { return plica::test::refusal([&] { turn(keys); }); };
+  EXPECT_NE(refused("axs: [0, 0, 1]").find("turn: unknown key 'axs'; did you mean 'axis'?"), std::string::npos);
+  EXPECT_NE(refused("axis: [0, 0, 0]").find("turn.axis"), std::string::npos);
+  EXPECT_NE(refused("angular_velocity: 3 Hz").find("turn.angular_velocity"), std::string::npos);
+  EXPECT_NE(refused("angular_velocity: 3 rad/s, path: [{time: 0, angle: 0}]").find("path"), std::string::npos);
 }
 
 TEST(Inputs, Loads) {

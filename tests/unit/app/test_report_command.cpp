@@ -81,6 +81,19 @@ TEST_F(ReportCommand, UpIsAgainstGravity) {
   use(out);
 }
 
+TEST_F(ReportCommand, DrawsObstaclesAsTheyTurn) {
+  ASSERT_EQ(run({"body.surface.boundary=true",
+                 "contact.obstacles=[{name: quarter, box: {centre: [0.3, 0, 0], size: [0.2, "
+                 "0.02, 0.05]}, turn: {path: [{time: 0, angle: 0}, {time: 20 ms, angle: 90 deg}]}}]"})
+                .status,
+            0);
+  ASSERT_EQ(plica({"report", out, "--quiet"}).status, 0);
+  const Json turn = data()["summary"]["obstacles"][0]["turn"];
+  EXPECT_EQ(turn["about"], Json({0.3, 0, 0}));
+  EXPECT_NEAR(turn["path"][1]["angle"], 1.5707963, 1e-6);
+  use(out);
+}
+
 TEST_F(ReportCommand, MarksTheElementOfTheDiagnosis) {
   ASSERT_EQ(run({"duration=1 s", "integration.allow_unstable=true", "integration.macro_step=20 ms",
                  "integration.substeps=1", "body.initial.angular_velocity=[0, 3, 0]", "output.every=20 ms"})

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+#include <plica/drivers/solver/courses.hpp>
+#include <plica/drivers/solver/turning.hpp>
+#include <plica/kernels/boundary_conditions.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <type_traits>
+
+namespace plica {
+
+namespace {
+
+struct AlongAxis {
+  Point axis;
+  Motion operator()(const SteadyTurn& o) const { return SteadyMotion(o.angular_velocity * axis); }
+  Motion operator()(const SineTurn& o) const { return SineMotion{o.amplitude * axis, o.frequency, o.phase}; }
+  Motion operator()(const PathTurn& o) const {
+    PathMotion path;
+    for (const auto& knot : o.knots) path.knots.push_back({knot.time, knot.angle * axis});
+    return path;
+  }
+};
+
+}  // namespace
+
+Motion angle_of(const Turn& turn) { return std::visit(AlongAxis{turn.axis.normalized()}, turn.angle); }
+
+bool moves(const ObstacleOptions& o) { return o.mass || moves(o.motion) || (o.turn && moves(angle_of(*o.turn))); }
+
+Point turned_about(const ObstacleOptions& obstacle) {
+  if (obstacle.turn && obstacle.turn->about) return *obstacle.turn->about;
+  Point origin = Point::Zero();
+  visit_shape(obstacle.shape, [&](auto shape, const auto& o) { origin = shape.origin(o); });
+  return origin;
+}
+
+double reach_from(const Point& on_line, const Point& along, const ShapeOptions& shape) {
+  const Point axis = along.normalized();
+  const auto beside = [&](const Point& x) { return axis.cross(x - on_line).norm(); };
+  double reach = std::numeric_limits<double>::infinity();
+  visit_shape(shape, [&](auto, const auto& o) {
+    using O = std::decay_t<decltype(o)>;
+    if constexpr (requires { o.to_radius; })
+      reach = std::max(beside(o.from) + o.radius, beside(o.to) + o.to_radius);
+    else if constexpr (requires { o.to; })
+      reach = std::max(beside(o.from), beside(o.to)) + o.radius;
+    else if constexpr (std::is_same_v<O, SphereOptions>)
+      reach = beside(o.centre) + o.radius;
+    else if constexpr (std::is_same_v<O, BlockOptions>)
+      reach = beside(o.centre) + o.size.norm() / 2;
+    else if constexpr (std::is_same_v<O, SurfaceOptions>)
+      reach = 0;
+    if constexpr (std::is_same_v<O, SurfaceOptions>)
+      for (const Point& x : o.surface.vertices) reach = std::max(reach, beside(x));
+  });
+  return reach;
+}
+
+Mat3<double> rotation_by(const Point& vector) {
+  const double angle = vector.norm();
+  if (!(angle > 0)) return Mat3<double>::identity();
+  const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Point(vector / angle)).toRotationMatrix();
+  Mat3<double> rotation;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) rotation[i][j] = R(i, j);
+  return rotation;
+}
+
+Point rotation_vector(const Mat3<double>& rotation) {
+  Eigen::Matrix3d R;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) R(i, j) = rotation[i][j];
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+Turning::Turning(const Turn& turn, const Point& about)
+    : turned_(true),
+      centre_(vec3<double>(turn.about.value_or(about))),
+      before_(rotation_by(turn.rotation)),
+      angle_(make_path(angle_of(turn), knots_)) {}
+
+Attitude Turning::at(double time, double ahead) const {
+  if (!turned_) return {};
+  const PathPoint now = path_step(angle_, knots_.data(), time, ahead);
+  const Vec3<double>& angle = now.displacement;
+  return {true, centre_, rotation_by({angle[0], angle[1], angle[2]}) * before_, now.velocity};
+}
+
+}  // namespace plica

@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <plica/core/error.hpp>
+#include <plica/drivers/solver/energy_budget.hpp>
+#include <plica/drivers/solver/him/advice.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/solver/turning.hpp>
+#include <plica/drivers/study/level_probe.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/refusal.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Obstacles that turn about an axis, besides their motion.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+constexpr double pi = std::numbers::pi, side = 0.06;
+
+/// A cube from 0 to `side` along every axis, its boundary as surface.
+Problem cube() {
+  Problem p = body_of({box_mesh({{0, 0, 0}, {side, side, side}}, {4, 4, 4})}, "neo_hookean");
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  return p;
+}
+
+Eigen::Matrix3d rotation(const Point& vector) {
+  return Eigen::AngleAxisd(vector.norm(), vector.normalized()).toRotationMatrix();
+}
+
+std::vector<Point> mapped(const TetMesh& mesh, const auto& f) {
+  std::vector<Point> values;
+  for (const Point& x : mesh.vertices) values.push_back(f(x));
+  return values;
+}
+
+double largest_difference(const std::vector<Point>& a, const std::vector<Point>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+// --- Where they are, and how fast -------------------------------------------------------------------------------------------
+
+const Point about(0.02, -0.01, 0.03), axis(1, -2, 2);
+const double angle = 0.7;
+
+/// A shape, and the same shape built turned by `angle` about `axis` through `about`.
+struct Twins {
+  ShapeOptions shape, turned;
+};
+std::vector<Twins> twins() {
+  const Point by = angle * axis.normalized();
+  const Eigen::Matrix3d R = rotation(by);
+  const auto at = [&](const Point& x) { return Point(about + R * (x - about)); };
+  const Point low(-0.02, 0.02, 0.05), high(0.05, 0.03, 0.07), centre(0.02, 0.02, 0.05), size(0.05, 0.04, 0.03);
+  return {{PlaneOptions{{0, 0, 0.03}, {0.3, 0, 1}}, PlaneOptions{at({0, 0, 0.03}), R * Point(0.3, 0, 1)}},
+          {SphereOptions{centre, 0.03}, SphereOptions{at(centre), 0.03}},
+          {CapsuleOptions{low, high, 0.02}, CapsuleOptions{at(low), at(high), 0.02}},
+          {ConeOptions{low, high, 0.03, 0.01}, ConeOptions{at(low), at(high), 0.03, 0.01}},
+          {CylinderOptions{low, high, 0.03}, CylinderOptions{at(low), at(high), 0.03}},
+          {BlockOptions{centre, size, {0, 0, 0}}, BlockOptions{at(centre), size, by}}};
+}
+
+template <class B>
+class TurningToolsOn : public testing::Test {};
+TYPED_TEST_SUITE(TurningToolsOn, EachBackend);
+
+// A tool that has got to an angle does to a body that goes with it what one built so does to a body at rest: places, normals, friction, and
+// velocities relative to it. On points and, of thin tools, on faces.
+TYPED_TEST(TurningToolsOn, DoWhatOnesBuiltTurnedDo) {
+  using Real = typename TypeParam::Real;
+  constexpr double time = 0.1;
+  const Point speed(0.3, -0.2, 0.1), way = time * speed, rate = angle / time * axis.normalized();
+  for (const Twins& pair : twins())
+    for (const char* rule : {"never", "always"}) {
+      Problem still = cube();
+      still.contact.whole_surface = rule;
+      still.contact.obstacles = {{pair.turned, 0.4, PathMotion{{{0, way}}}}};
+      Problem turning = still;
+      turning.contact.obstacles = {{pair.shape, 0.4, SteadyMotion{speed}}};
+      turning.contact.obstacles[0].turn = Turn{axis, about, {0, 0, 0}, SteadyTurn{angle / time}};
+      LevelProbe<TypeParam> built(still), turned(turning);
+      const TetMesh& mesh = still.body.levels[0];
+      const auto u = random_field(mesh.vertices.size(), 2e-3, 3), own = random_field(mesh.vertices.size(), 0.2, 4);
+      auto v = own;
+      for (std::size_t a = 0; a < v.size(); ++a) {
+        const Point x = mesh.vertices[a] + u[a];
+        v[a] += speed + rate.cross(x - about - way);
+      }
+      const auto want = built.force(u, own, time), got = turned.force(u, v, time);
+      double size = 0;
+      for (const Point& f : want) size = std::max(size, f.norm());
+      EXPECT_GT(size, 10);
+      EXPECT_LE(largest_difference(want, got), round_off<Real>(20000, size)) << rule;
+      EXPECT_GT(largest_difference(want, turned.force(u, own, time)), 1e-3 * size);  // had it no speed
+    }
+}
+
+TEST(TurningTools, TurnByAngleAndBySine) {
+  const Motion path = angle_of({{0, 0, 2}, {}, {0, 0, 0}, PathTurn{{{0, 0}, {2, 1}}}});
+  EXPECT_EQ(std::get<PathMotion>(path).knots[1].displacement, Point(0, 0, 1));
+  const Motion sine = angle_of({{3, 0, 0}, {}, {0, 0, 0}, SineTurn{0.5, 2, 0.1}});
+  EXPECT_EQ(std::get<SineMotion>(sine).amplitude, Point(0.5, 0, 0));
+  for (const Point& r : {Point(0, 0, 0), Point(0.3, -1, 2), Point(0, 0, 3.1)})
+    EXPECT_LE((rotation_vector(rotation_by(r)) - r).norm(), 1e-14);
+}
+
+// What is turned from the start by `rotation`, and then by its angle, is where both take it.
+TEST(TurningTools, StartTurned) {
+  Problem p = cube();
+  p.contact.obstacles = {{BlockOptions{{0.1, 0, -1}, {0.02, 0.02, 0.02}, {0, 0, 0}}, {}, SteadyMotion{Point(1, 0, 0)}}};
+  p.contact.obstacles[0].turn = Turn{{0, 0, 1}, Point(0, 0, 0), {pi / 2, 0, 0}, SteadyTurn{pi}};
+  Simulation<Host> s(p);
+  s.set_time(0.5);
+  const Point want =
+      Eigen::AngleAxisd(pi / 2, Point::UnitZ()) * (Eigen::AngleAxisd(pi / 2, Point::UnitX()) * Point(0.1, 0, -1));
+  EXPECT_LE((s.obstacle_origin(0) - want - Point(0.5, 0, 0)).norm(), 1e-14);
+  EXPECT_EQ(s.obstacle_displacement(0), Point(0.5, 0, 0));
+  const Point r = s.obstacle_rotation(0);
+  EXPECT_LE((rotation(r) * Point(0.1, 0, -1) - want).norm(), 1e-14);
+}
+
+// --- What they do to bodies -------------------------------------------------------------------------------------------------
+
+Point momentum_about_z(const Problem& p,
+                       const Simulation<Host>& s) {  // of the mass: centre's velocity x, y; angular velocity
+  const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
+  const auto x = s.positions(), v = s.velocities();
+  double all = 0, inertia = 0, turning = 0;
+  Point centre = Point::Zero(), speed = Point::Zero();
+  for (std::size_t a = 0; a < x.size(); ++a) all += mass[a], centre += mass[a] * x[a], speed += mass[a] * v[a];
+  centre /= all, speed /= all;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const Point r = x[a] - centre;
+    inertia += mass[a] * (r[0] * r[0] + r[1] * r[1]);
+    turning += mass[a] * r.cross(v[a] - speed)[2];
+  }
+  return {speed[0], speed[1], turning / inertia};
+}
+
+// On a turntable a cube is taken along by friction until it turns as fast, about the same axis.
+TEST(TurningTools, TurntableTakesACubeAlong) {
+  for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
+    Problem p = cube();
+    p.gravity = {0, 0, -9.81};
+    p.integration.integrator = {integrator};
+    p.integration.macro_step = integrator == std::string("implicit_euler") ? 1e-3 : 2e-4;
+    p.contact.obstacles = {{PlaneOptions{{side / 2, side / 2, 0}, {0, 0, 1}}, 0.5, {}}};
+    p.contact.obstacles[0].turn = Turn{{0, 0, 1}, {}, {0, 0, 0}, SteadyTurn{3}};
+    Simulation<Host> s(p);
+    while (s.time() < 0.3) advance(s, 1);
+    Point mean = Point::Zero();
+    int steps = 0;
+    for (; s.time() < 0.6; ++steps) advance(s, 1), mean += momentum_about_z(p, s);
+    mean /= steps;
+    EXPECT_NEAR(mean[2], 3, 0.03) << integrator;
+    EXPECT_LT(std::hypot(mean[0], mean[1]), 0.02 * 3 * side) << integrator;
+  }
+}
+
+// A drum beside a free body throws it off at no more than its rim's speed; frictionless it does nothing along the rim.
+TEST(TurningTools, DrumDragsAtTheSpeedOfItsRim) {
+  for (const bool rough : {true, false}) {
+    Problem p = cube();
+    p.body.damping.mass = 0;
+    const double radius = 0.2, rate = 5;  // the rim goes at 1 m/s to the right
+    p.gravity = {0, 0, -9.81};
+    CylinderOptions drum{{side / 2, -0.2, -radius}, {side / 2, 0.3, -radius}, radius};
+    p.contact.obstacles = {{drum, rough ? std::optional<double>(1) : std::nullopt, {}}};
+    p.contact.obstacles[0].turn = Turn{{0, 1, 0}, {}, {0, 0, 0}, SteadyTurn{rate}};
+    p.integration.macro_step = 2e-4;
+    Simulation<Host> s(p);
+    double most = 0;
+    for (int n = 0; n < 600; ++n) advance(s, 1), most = std::max(most, momentum_about_z(p, s)[0]);
+    if (rough) {
+      EXPECT_GT(most, 0.6);  // in 0.1 s friction alone gives it 1 m/s
+      EXPECT_LT(most, 1.15);
+    } else {
+      EXPECT_LT(most, 0.05);
+    }
+  }
+}
+
+// A floor that tilts about its edge carries the cube up to its slope of friction, and its wrench is the weight; then the cube slides.
+TEST(TurningTools, TiltedFloorHoldsUpToTheAngleOfFriction) {
+  for (const double slope : {0.2, 0.5}) {  // tan 0.2 = 0.20, tan 0.5 = 0.55
+    Problem p = cube();
+    p.gravity = {0, 0, -9.81};
+    p.body.damping.mass = 5;
+    p.contact.obstacles = {{BlockOptions{{0.1, side / 2, -0.1}, {0.6, 0.6, 0.2}, {0, 0, 0}}, 0.35, {}}};
+    p.contact.obstacles[0].turn = Turn{{0, -1, 0}, Point(0, 0, 0), {0, 0, 0}, PathTurn{{{0, 0}, {0.3, slope}}}};
+    p.integration.macro_step = 2e-4;
+    Simulation<Host> s(p);
+    while (s.time() < 0.6) advance(s, 1);
+    Point force = Point::Zero();
+    for (int n = 0; n < 500; ++n) advance(s, 1), force += s.wrenches()[0].force / 500;
+    const Eigen::Matrix3d back = rotation({0, slope, 0});
+    Point mean = Point::Zero(), rest = Point::Zero();
+    const auto x = s.positions();
+    for (std::size_t a = 0; a < x.size(); ++a) mean += back * x[a], rest += p.body.levels[0].vertices[a];
+    const double down = (rest - mean)[0] / static_cast<double>(x.size()), height = mean[2] / rest[2];
+    EXPECT_NEAR(height, 1, 0.05) << slope;  // on the floor, which has turned below it
+    if (slope < 0.3) {
+      EXPECT_LT(std::abs(down), 0.05 * side);
+      double weight = 0;
+      for (const double m : lumped_masses(p.body.levels[0], {p.body.material.density})) weight += 9.81 * m;
+      EXPECT_LE((force - Point(0, 0, weight)).norm(), 0.02 * weight);
+    } else {
+      EXPECT_GT(down, 0.5 * side);
+    }
+  }
+}
+
+// A blade swings by many times its thickness in a step: it takes the points along that it meets, and no others.
+TEST(TurningTools, FastBladeDoesNotPassPoints) {
+  Problem p = cube();
+  p.body.material.young_modulus = 2e6;
+  const double rate = 500, hinge = -0.1;  // 65 m/s at the cube's middle
+  ObstacleOptions blade{BlockOptions{{hinge / 2 + 0.02, 0.08, side / 2}, {0.24, 0.4e-3, 0.2}, {0, 0, 0}}, {}, {}};
+  blade.turn = Turn{{0, 0, -1}, Point(hinge, 0.08, side / 2), {0, 0, 0}, SteadyTurn{rate}};
+  p.contact.obstacles = {blade};
+  Simulation<Host> s(p);
+  const auto before = s.positions();
+  const double way = rate * s.macro_step() * (side / 2 - hinge);
+  ASSERT_GT(way, 4 * 0.4e-3);
+  bool met = false;
+  for (int n = 0; n < 200 && !met; ++n) {
+    s.step();
+    met = s.wrenches()[0].force.norm() > 0;
+  }
+  ASSERT_TRUE(met);
+  s.step(), s.step();
+  const Point x0(hinge, 0.08, side / 2), across = rotation({0, 0, -s.time() * rate}) * Point(0, 1, 0);
+  for (const Point& x : s.surface_positions())  // all are still below the blade
+    EXPECT_LT(across.dot(x - x0), 0.5 * way);
+}
+
+// --- Grasp ------------------------------------------------------------------------------------------------------------------
+
+/// A plate above the cube holds its top, and turns about a hinge beside it.
+Problem carried(const Turn& turn) {
+  Problem p = cube();
+  ObstacleOptions plate{BlockOptions{{side / 2, side / 2, side + 0.0105}, {0.2, 0.2, 0.02}, {0, 0, 0}}, {}, {}};
+  plate.name = "plate", plate.grasp = GraspOptions{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = {}};
+  plate.turn = turn;
+  p.contact.obstacles = {plate};
+  p.integration.macro_step = 2e-4;
+  return p;
+}
+
+const Point hinge(0.1, 0, 0.02);
+const Turn quarter{{0, 1, 0}, hinge, {0, 0, 0}, PathTurn{{{0, 0}, {0.3, pi / 2}}}};
+
+TEST(TurningTools, CarryAndTurnWhatTheyHold) {
+  const Eigen::Matrix3d R = rotation({0, pi / 2, 0});
+  for (const char* cycle : {"single", "rs", "him"}) {
+    Problem p = carried(quarter);
+    p.body.damping.mass = 20;
+    p.integration.cycle = cycle;
+    if (p.integration.cycle != "single") p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
+    Simulation<Host> s(p);
+    while (s.time() < 0.8) advance(s, 1);
+    const auto held = s.held()[0].points;
+    ASSERT_EQ(held.size(), 25u);
+    Point mean = Point::Zero();
+    for (const int point : held) {
+      const auto i = static_cast<std::size_t>(point);
+      const Point off = s.surface_positions()[i] - hinge - R * (p.body.surface->vertices[i] - hinge);
+      mean += off / 25;
+      EXPECT_LE(off.norm(), (p.integration.cycle == "single" ? 0.01 : 0.1) * side) << point;
+    }
+    EXPECT_LE(mean.norm(), 0.03 * side) << cycle;
+    // and the cube below it is turned, too
+    const auto x = s.positions();
+    double worst = 0;
+    for (std::size_t a = 0; a < x.size(); ++a)
+      worst = std::max(worst, (x[a] - hinge - R * (p.body.levels[0].vertices[a] - hinge)).norm());
+    EXPECT_LT(worst, 0.05 * side) << cycle;
+  }
+}
+
+// Angular momentum changes by the wrench's torque about the plate's centre, which turns with it: by leapfrog to rounding.
+TEST(TurningTools, TorqueIsTheChangeOfAngularMomentum) {
+  Problem p = carried({{1, 2, 0}, hinge, {0, 0, 0}, SineTurn{0.5, 4, 0.3}});
+  p.contact.obstacles[0].motion = SteadyMotion{Point(0.1, 0, 0)};
+  Simulation<Host> s(p);
+  const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
+  const auto turning = [&] {
+    Point sum = Point::Zero();
+    const auto x = s.positions(), v = s.velocities();
+    for (std::size_t a = 0; a < x.size(); ++a) sum += mass[a] * x[a].cross(v[a]);
+    return sum;
+  };
+  Point before = turning();
+  double most = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Point at = s.obstacle_origin(0);
+    advance(s, 1);
+    const Point now = turning();
+    const Wrench w = s.wrenches()[0];
+    EXPECT_LE((now - before - 2e-4 * (w.torque + at.cross(w.force))).norm(), round_off<double>(20000, 0.01)) << n;
+    before = now, most = std::max(most, w.torque.norm());
+  }
+  EXPECT_GT(most, 0.01);
+}
+
+// The work of the plate, its force times the way of its centre and its torque times its angle, is the energy that the body gets.
+TEST(TurningTools, WorkIsTheEnergyOfTheBody) {
+  Problem p = carried({{1, 2, 0}, hinge, {0, 0, 0}, SineTurn{0.3, 4, 0}});
+  p.contact.damping_scale = 0;
+  p.integration.macro_step = 5e-5;
+  Simulation<Host> s(p);
+  advance(s, 1);
+  ObstacleWork<Host> work(s, p);
+  const double start = s.energies().total();
+  double most = 0, off = 0;
+  for (int n = 0; n < 4000; ++n) {
+    advance(s, 1), work.step(s);
+    if (n % 50 > 0) continue;
+    const double now = s.energies().total() - start;
+    most = std::max(most, std::abs(now)), off = std::max(off, std::abs(now - work.done()));
+  }
+  EXPECT_GT(most, 0.01);
+  EXPECT_LT(off, 0.03 * most);
+  EXPECT_FALSE(moves(cube().contact.obstacles.emplace_back()));
+  EXPECT_TRUE(moves(p.contact.obstacles[0]));
+}
+
+TEST(TurningTools, GoOnFromASavedState) {
+  for (const char* cycle : {"single", "him"}) {
+    Problem p = carried({{1, 2, 0}, hinge, {0, 0, 0.1}, SineTurn{0.3, 4, 0}});
+    p.integration.cycle = cycle;
+    if (p.integration.cycle == "him") p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
+    Simulation<Host> s(p), other(p);
+    advance(s, 100);
+    const SavedState saved = s.save();
+    advance(s, 100);
+    other.restore(saved);
+    advance(other, 100);
+    EXPECT_TRUE(same_bits(s.positions(), other.positions())) << cycle;
+  }
+}
+
+// --- By a program -----------------------------------------------------------------------------------------------------------
+
+// Turned step by step to the angles of a path, with a displacement beside it, it goes as by the path.
+TEST(TurningTools, GoByAProgramAsByAPath) {
+  const Point velocity(0.02, 0, 0.01), along = Point(1, 2, 0).normalized();
+  Problem by_path = carried({{1, 2, 0}, hinge, {0, 0, 0}, SteadyTurn{2}}), by_program = by_path;
+  by_path.contact.obstacles[0].motion = SteadyMotion{velocity};
+  by_program.contact.obstacles[0].turn->angle = SteadyTurn{0};
+  Simulation<Host> told(by_path), moved(by_program);
+  for (int n = 1; n <= 300; ++n) {
+    const double time = told.time() + told.macro_step();
+    moved.move_obstacle(0, time * velocity, 2 * time * along);
+    advance(told, 1), advance(moved, 1);
+    EXPECT_LE((moved.obstacle_rotation(0) - 2 * time * along).norm(), 1e-12);
+    EXPECT_LE((moved.obstacle_origin(0) - told.obstacle_origin(0)).norm(), 1e-12);
+  }
+  EXPECT_LE(largest_difference(told.positions(), moved.positions()), 1e-9);
+}
+
+TEST(TurningTools, TurnOnWhileTheyAreMoved) {
+  Simulation<Host> s(carried({{0, 0, 1}, {}, {0, 0, 0}, SteadyTurn{2}}));
+  s.move_obstacle(0, {0, 0, 0.001});
+  advance(s, 10);
+  EXPECT_LE((s.obstacle_rotation(0) - Point(0, 0, 2 * s.time())).norm(), 1e-12);
+  EXPECT_EQ(s.obstacle_displacement(0), Point(0, 0, 0.001));
+  s.set_obstacle_turn(0, {});
+  EXPECT_EQ(s.obstacle_rotation(0), Point(0, 0, 0));
+  s.set_obstacle_turn(0, Turn{{1, 0, 0}, {}, {0, 0, 0}, PathTurn{{{0, 1}}}});
+  EXPECT_LE((s.obstacle_rotation(0) - Point(1, 0, 0)).norm(), 1e-14);
+}
+
+// --- What is said of them ---------------------------------------------------------------------------------------------------
+
+TEST(TurningTools, AreRefusedWhereTheyCannotBe) {
+  const auto why = [](const Turn& turn) {
+    const Problem p = carried(turn);
+    return refusal([&] { Simulation<Host>{p}; });
+  };
+  EXPECT_NE(why({.axis = {0, 0, 0}}).find("contact.obstacles.0.turn.axis"), std::string::npos);
+  EXPECT_NE(why({.about = Point(0, NAN, 0)}).find("contact.obstacles.0.turn.about"), std::string::npos);
+  EXPECT_NE(why({.angle = SineTurn{1, 0, 0}}).find("contact.obstacles.0.turn.sine.frequency is 0 1/s; expected"),
+            std::string::npos);
+  EXPECT_EQ(why({.angle = PathTurn{}}), "contact.obstacles.0.turn.path is empty; expected at least one time");
+  EXPECT_EQ(why({.angle = PathTurn{{{0.1, 0}, {0.1, 1}}}}),
+            "contact.obstacles.0.turn.path.1.time is 0.1 s; expected a time after that of the entry before, 0.1 s");
+  Problem p = carried(quarter);
+  p.contact.obstacles[0].mass = 1;
+  EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
+            "contact.obstacles.0 has mass and turn; expected one of them: a tool with mass translates only");
+  p.contact.obstacles[0].turn.reset();
+  Simulation<Host> heavy(p);
+  EXPECT_NE(refusal([&] { heavy.set_obstacle_turn(0, quarter); }).find("plate has mass"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              heavy.move_obstacle(0, Point::Zero(), {0, 0, 1});
+            }).find("plate has mass"),
+            std::string::npos);
+  EXPECT_EQ(heavy.obstacle_displacement(0), Point(0, 0, 0));
+  Simulation<Host> s(carried(quarter));
+  EXPECT_NE(refusal([&] { s.set_obstacle_turn(0, Turn{.axis = {0, 0, 0}}); }).find("turn.axis"), std::string::npos);
+  EXPECT_NE(refusal([&] { s.move_obstacle(0, {NAN, 0, 0}, {0, 0, 1}); }).find("displacement"), std::string::npos);
+  EXPECT_NE(refusal([&] { s.move_obstacle(0, {0, 0, 0}, {0, 0, NAN}); }).find("rotation"), std::string::npos);
+}
+
+// Where it starts is where its turn has it.
+TEST(TurningTools, StartOutsideOrInsideByTheirTurn) {
+  Problem p = cube();
+  p.contact.obstacles = {{BlockOptions{{side / 2, side / 2, 1}, {1, 1, 1.8}, {0, 0, 0}}, {}, {}}};
+  EXPECT_TRUE(starts_in_obstacles(p).empty());
+  p.contact.obstacles[0].turn = Turn{{0, 0, 1}, Point(0, 0, 0), {pi, 0, 0}, SteadyTurn{0}};
+  EXPECT_TRUE(starts_in_obstacles(p).empty());
+  p.contact.obstacles[0].turn->about = Point(side / 2, side / 2, 0.5);
+  EXPECT_NE(refusal([&] { starts_in_obstacles(p); }).find("contains the whole body"), std::string::npos);
+}
+
+// The speed that is too fast for him is that of the tool where the body is: of a needle that turns about itself that of its rim, of a
+// lever that of its arm, of a plane that of the body's furthest point.
+TEST(TurningTools, AreAsFastAsTheirFastestPlaceAtTheBody) {
+  Problem p = cube();
+  const Point x(side / 2, side / 2, 0);
+  const auto speed = [&](const ShapeOptions& shape, const Point& about_what) {
+    p.contact.obstacles = {{shape, {}, SteadyMotion{Point(0.1, 0, 0)}}};
+    p.contact.obstacles[0].turn = Turn{{0, 0, 1}, about_what, {0, 0, 0}, SteadyTurn{10}};
+    return fastest_obstacle(p);
+  };
+  EXPECT_NEAR(speed(CapsuleOptions{x, x + Point(0, 0, 1), 1e-3}, x), 0.1 + 10 * 1e-3, 1e-12);
+  EXPECT_NEAR(speed(CapsuleOptions{x, x + Point(0.03, 0, 0), 1e-3}, x), 0.1 + 10 * 0.031, 1e-12);
+  EXPECT_NEAR(speed(CapsuleOptions{x, x + Point(9, 0, 0), 1e-3}, x), 0.1 + 10 * side / std::sqrt(2), 1e-12);
+  EXPECT_NEAR(speed(PlaneOptions{x, {0, 0, 1}}, x), 0.1 + 10 * side / std::sqrt(2), 1e-12);
+  EXPECT_NEAR(speed(ConeOptions{x, x + Point(0, 0, 1), 1e-3, 2e-3}, x), 0.1 + 10 * 2e-3, 1e-12);
+  EXPECT_NEAR(speed(SphereOptions{x, 0.01}, x), 0.1 + 10 * 0.01, 1e-12);
+}
+
+}  // namespace
