@@ -68,6 +68,15 @@ def test_obstacles_are_turned_by_the_caller():
         heavy.move_obstacle("lever", [0, 0, 0], [0, 0, 1])
 
 
+def test_pictures_have_obstacles_where_their_turn_has_them():
+    from obstacles import motion
+
+    turn = {"axis": [0, 0, 1], "about": [0.1, 0, 0], "rotation": [np.pi / 2, 0, 0], "sine": {"amplitude": np.pi / 2, "frequency": 1, "phase": 0}}
+    places = motion({"velocity": [1, 0, 0], "turn": turn})
+    # (0.2, 0, -1) is 0.1 beside the axis and comes to (0.2, 1, 0), then a quarter turn about it to (-0.9, 0.1, 0), and on by 0.25 m
+    assert np.allclose(places(np.array([[0.2, 0, -1]]), 0.25), [[-0.65, 0.1, 0]])
+
+
 def test_tools_follow_where_the_caller_leads_them():
     finger = {**PRESS["contact"]["obstacles"][0], "mass": "50 g", "coupling": {"stiffness": "100 N/m"}}
     sim = plica.Simulation({**PRESS, "duration": "0.3 s", "contact": {"obstacles": [finger]}})
