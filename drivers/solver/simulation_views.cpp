@@ -109,21 +109,21 @@ void Simulation<B>::set_obstacle_turn(int obstacle, const std::optional<Turn>& t
 }
 
 namespace {
-void expect_finite(const char* name, const Point& value) {
+void expect_finite_move(const char* name, const Point& value) {
   if (!value.allFinite()) throw InputError(std::string(name) + ": expected finite numbers");
 }
 }  // namespace
 
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
-  expect_finite("displacement", displacement);
+  expect_finite_move("displacement", displacement);
   const double now = inside_->time;
   set_obstacle_motion(obstacle,
                       PathMotion{{{now, obstacle_displacement(obstacle)}, {now + inside_->next_span(), displacement}}});
 }
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const Point& rotation) {
-  expect_finite("displacement", displacement), expect_finite("rotation", rotation);
+  expect_finite_move("displacement", displacement), expect_finite_move("rotation", rotation);
   const ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
   const Vec3<double>& about = place.turn.turned ? place.turn.centre : place.origin;
   const Point before = obstacle_rotation(obstacle);

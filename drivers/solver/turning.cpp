@@ -50,9 +50,7 @@ double reach_from(const Point& on_line, const Point& along, const ShapeOptions& 
     else if constexpr (std::is_same_v<O, BlockOptions>)
       reach = beside(o.centre) + o.size.norm() / 2;
     else if constexpr (std::is_same_v<O, SurfaceOptions>)
-      reach = 0;
-    if constexpr (std::is_same_v<O, SurfaceOptions>)
-      for (const Point& x : o.surface.vertices) reach = std::max(reach, beside(x));
+      reach = beside(*std::ranges::max_element(o.surface.vertices, {}, beside));
   });
   return reach;
 }

@@ -17,7 +17,7 @@ bool moves(const ObstacleOptions& obstacle);
 /// The point that it turns about at t = 0 [m].
 Point turned_about(const ObstacleOptions& obstacle);
 
-/// How far a shape goes from a line [m]; infinity: without end.
+/// How far a shape goes from a line [m]; infinity: without end, or not known.
 double reach_from(const Point& on_line, const Point& along, const ShapeOptions& shape);
 
 Mat3<double> rotation_by(const Point& vector);

@@ -114,6 +114,35 @@ TYPED_TEST(TurningToolsOn, DoWhatOnesBuiltTurnedDo) {
     }
 }
 
+// A tool and a body that are turned together feel the same forces, turned: also of shapes that cannot be built turned.
+TYPED_TEST(TurningToolsOn, FeelTheSameTurnedAlong) {
+  using Real = typename TypeParam::Real;
+  constexpr double time = 0.1;
+  const Point unit = axis.normalized(), rate = angle / time * unit;
+  const Eigen::Matrix3d R = rotation(angle * unit);
+  const TriangleSurface ball = boundary_surface(ball_mesh({0.03, 0.02, 0.05}, 0.03, 6)).surface;
+  for (const ShapeOptions& shape :
+       {ShapeOptions(BowlOptions{{0.03, 0.03, 0.05}, 0.06, 0.05}), ShapeOptions(SurfaceOptions{ball, 16})}) {
+    Problem p = cube();
+    p.contact.obstacles = {{shape, 0.3, {}}};
+    LevelProbe<TypeParam> still(p);
+    p.contact.obstacles[0].turn = Turn{axis, about, {0, 0, 0}, SteadyTurn{angle / time}};
+    LevelProbe<TypeParam> turned(p);
+    const std::vector<Point>& rest = p.body.levels[0].vertices;
+    const auto u = random_field(rest.size(), 2e-3, 3), v = random_field(rest.size(), 0.2, 4);
+    auto u_turned = u, v_turned = v;
+    for (std::size_t a = 0; a < rest.size(); ++a) {
+      const Point arm = R * (rest[a] + u[a] - about);
+      u_turned[a] = about + arm - rest[a], v_turned[a] = R * v[a] + rate.cross(arm);
+    }
+    auto want = still.force(u, v);
+    double size = 0;
+    for (Point& f : want) f = R * f, size = std::max(size, f.norm());
+    EXPECT_GT(size, 10);
+    EXPECT_LE(largest_difference(want, turned.force(u_turned, v_turned, time)), round_off<Real>(50000, size));
+  }
+}
+
 TEST(TurningTools, TurnByAngleAndBySine) {
   const Motion path = angle_of({{0, 0, 2}, {}, {0, 0, 0}, PathTurn{{{0, 0}, {2, 1}}}});
   EXPECT_EQ(std::get<PathMotion>(path).knots[1].displacement, Point(0, 0, 1));
