@@ -65,9 +65,9 @@ struct SineTurn {
 struct Turn {
   Point axis = Point::UnitZ();      ///< counter-clockwise where it points at the eye; its length does not matter
   std::optional<Point> about = {};  ///< on the axis, at t = 0 [m]; none: what torques on the obstacle are about
-  Point rotation =
-      Point::Zero();  ///< before the angle, about the same point: its direction is the axis, its length the angle [rad]
-  std::variant<SteadyTurn, PathTurn, SineTurn> angle = {};
+  /// Before the angle, about the same point: its direction is the axis, its length the angle [rad].
+  Point rotation = Point::Zero();
+  std::variant<SteadyTurn, PathTurn, SineTurn> angle = {};  ///< how far it has turned
 };
 
 }  // namespace plica

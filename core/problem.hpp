@@ -206,7 +206,8 @@ struct IntegrationOptions {
 
 /// Points of one of several bodies, held by springs without length to the places on another one's surface that they start nearest to.
 struct AttachmentOptions {
-  std::string body, to;                  ///< names of two bodies
+  std::string body;                      ///< whose points are attached
+  std::string to;                        ///< the body that they are attached to
   std::optional<Selection> where = {};   ///< of the body's surface points where they start; none: all of them
   double reach = 0;                      ///< how far from the other's surface a point may be that is attached [m]
   std::optional<double> stiffness = {};  ///< of each point's spring [N/m]; none: as contact has it

@@ -103,6 +103,7 @@ class Contact {
   int sites() const { return points_ + faces_.triangles; }
   int whole() const;                                ///< obstacles that touch the surface between its points
   int attached() const { return attached_count_; }  ///< points that are attached to another body
+  const AttachedPoints<B>& attached_points() const { return attached_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
   ObstaclePlace<B> place(int obstacle, double time) const {
     return obstacles_[static_cast<std::size_t>(obstacle)]->place(time);

@@ -43,6 +43,11 @@ std::size_t bytes_of(const EmbeddedSurface<B>& s) {
   return bytes(s.rest, s.vertex, s.first, s.point, s.weight) + bytes_of(s.embedding);
 }
 
+template <class B>
+std::size_t bytes_of(const AttachedPoints<B>& a) {
+  return bytes(a.attachment, a.triangle, a.weight, a.law);
+}
+
 std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
@@ -156,7 +161,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
       touching
           ? counted(attached, "attachment") + ", " + counted(static_cast<std::size_t>(touching->attached()), "point")
           : "",
-      "none asked for", 0);
+      "none asked for", attached > 0 ? bytes_of(touching->attached_points()) : 0);
   const std::size_t grids = touching ? touching->grid_bytes() : 0;
   add("distance grids", grids > 0, "contact.obstacles", "no obstacle is a triangulated surface", grids);
   add("friction", friction, "contact.obstacles", "neither obstacles nor pairs have it", 0);

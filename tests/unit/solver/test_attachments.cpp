@@ -60,6 +60,11 @@ TEST(Attachments, CarryAWeightByTheirSprings) {
     Problem p = hanging(stiffness);
     p.body.regions.at("lower").damping.mass = p.body.regions.at("upper").damping.mass = 30;
     Simulation<Host> s(p);
+    for (const Part& part : s.parts())
+      if (part.name == "attachments") {
+        EXPECT_TRUE(part.in && part.bytes > 0) << part.reason;
+        EXPECT_EQ(part.reason, "1 attachment, 16 points");
+      }
     EXPECT_EQ(s.levels()[0].critical_step, Simulation<Host>(apart).levels()[0].critical_step);
     while (s.time() < 0.6) advance(s, 10);
     const auto wrenches = s.wrenches();
