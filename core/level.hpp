@@ -53,7 +53,7 @@ struct FollowerLoad {
   double pressure = 0;       ///< [Pa]
   LoadCourse course;
   std::optional<Cavity> cavity = {};  ///< its fluid has the pressure then
-  Doubles<B> volume = {};             ///< [1] of that one, as of the last evaluation [m^3]
+  Doubles<B> volume = {};  ///< [1] that they enclose, up to a constant, as last measured [m^3]; [0]: rims move
 };
 
 /// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A symmetric matrix is xx yy zz xy xz yz.

@@ -15,8 +15,8 @@ SolverLevel<B>::SolverLevel(Level<B>&& data, StageClock<B>& clock, int number)
     : Level<B>(std::move(data)), clock_(&clock), number_(number) {
   int most = 0;
   for (const FollowerLoad<B>& load : this->followers)
-    if (load.cavity) most = std::max(most, load.count);
-  if (most > 0) volumes_ = BlockSums<B>(most);
+    if (load.volume.extent(0) > 0) most = std::max(most, load.count);
+  if (most > 0) volumes_ = BlockSums<B>(most), rate_ = zeros<Doubles<B>>("plica::volume_rate", 1);
 }
 template <class B>
 SolverLevel<B>::SolverLevel(SolverLevel&&) noexcept = default;
@@ -48,22 +48,75 @@ void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
 }
 
 template <class B>
-void SolverLevel<B>::add_followers(const State<B>& at, double time, const Vectors<B>& force) const {
+GivenPressure<typename B::Real> SolverLevel<B>::given_pressure(const FollowerLoad<B>& load, double time) const {
+  return {static_cast<typename B::Real>(load.pressure * load_factor(load.course, time))};
+}
+
+template <class B>
+void SolverLevel<B>::add_followers(const State<B>& at, double time, const Vectors<B>& force) {
+  follower_time_ = time;
   const auto add = [&]<class Pressure>(const FollowerLoad<B>& load, const Pressure& pressure) {
     update_vertices<B>(exec(), "plica::follower_pressure", load.count,
                        AddFollowerPressure<B, Pressure>{{load, at.u}, force, pressure});
   };
   for (const FollowerLoad<B>& load : this->followers) {
-    if (load.cavity)
-      add(load, fluid_pressure(load, at.u, time));
-    else
-      add(load, GivenPressure{static_cast<typename B::Real>(load.pressure * load_factor(load.course, time))});
+    if (load.cavity) {
+      measure(load, at.u);
+      add(load, last_pressure(load, time));
+    } else {
+      add(load, given_pressure(load, time));
+    }
   }
 }
 
 template <class B>
-FluidPressure<B> SolverLevel<B>::fluid_pressure(const FollowerLoad<B>& load, const Vectors<B>& u, double time) const {
+void SolverLevel<B>::add_follower_product(const State<B>& at, const Vectors<B>& p, double scale, bool positive,
+                                          const Vectors<B>& q) const {
+  const auto add = [&]<class Pressure>(const FollowerPlaces<B>& place, const Pressure& pressure) {
+    update_vertices<B>(exec(), "plica::follower_product", place.load.count,
+                       AddFollowerProduct<B, Pressure>{place, p, q, pressure, static_cast<typename B::Real>(scale)});
+  };
+  for (const FollowerLoad<B>& load : this->followers) {
+    const FollowerPlaces<B> place{load, at.u};
+    if (!load.cavity) {
+      if (!positive) add(place, given_pressure(load, follower_time_));
+      continue;
+    }
+    const FluidPressure<B> fluid = last_pressure(load, follower_time_);
+    if (!positive) add(place, fluid);
+    reduce<B, 1>(exec(), "plica::volume_rate", load.count, VolumeRateOfCorner<B>{place, p}, volumes_, rate_);
+    update_vertices<B>(exec(), "plica::fluid_product", load.count,
+                       AddFluidProduct<B>{place, q, rate_, fluid.stiffness, scale});
+  }
+}
+
+template <class B>
+double SolverLevel<B>::follower_energy(double time) const {
+  double sum = 0;
+  for (const FollowerLoad<B>& load : this->followers) {
+    if (load.volume.extent(0) == 0) continue;
+    const double volume = enclosed_volume(load), pressure = load.pressure * load_factor(load.course, time);
+    if (!load.cavity)
+      sum -= pressure * volume;
+    else
+      sum += last_pressure(load, time).energy(volume);
+  }
+  return sum;
+}
+
+template <class B>
+void SolverLevel<B>::measure(const FollowerLoad<B>& load, const Vectors<B>& u) const {
   reduce<B, 1>(exec(), "plica::enclosed_volume", load.count, VolumeOfCorner<B>{{load, u}}, volumes_, load.volume);
+}
+
+template <class B>
+double SolverLevel<B>::enclosed_volume(const FollowerLoad<B>& load) const {
+  measure(load, this->state.u);
+  return host_values(exec(), load.volume)[0];
+}
+
+template <class B>
+FluidPressure<B> SolverLevel<B>::last_pressure(const FollowerLoad<B>& load, double time) const {
   const Cavity& cavity = *load.cavity;
   return {load.volume, cavity.goal(load_factor(load.course, time)) - cavity.caps, cavity.stiffness()};
 }
@@ -73,9 +126,8 @@ std::vector<CavityState> SolverLevel<B>::cavities(double time) const {
   std::vector<CavityState> all;
   for (const FollowerLoad<B>& load : this->followers) {
     if (!load.cavity) continue;
-    const FluidPressure<B> fluid = fluid_pressure(load, this->state.u, time);
-    const double volume = host_values(exec(), load.volume)[0];
-    all.push_back({load.cavity->load, volume + load.cavity->caps, fluid.stiffness * (fluid.goal - volume)});
+    const double volume = enclosed_volume(load);
+    all.push_back({load.cavity->load, volume + load.cavity->caps, last_pressure(load, time).at(volume)});
   }
   return all;
 }
@@ -166,6 +218,7 @@ void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const Impl
   tangent(at, p, weights.b / weights.a, positive);
   update_vertices<B>(exec, "plica::system_product", this->model.vertices,
                      SystemProduct<B>{this->model, p, this->partial, q, a, b});
+  add_follower_product(at, p, weights.a, positive, q);
   if (contact_) contact_->add_product(exec, *this, p, response_.points(), q);
   if (external_)
     update_vertices<B>(exec, "plica::external_product", this->model.vertices,

@@ -61,6 +61,13 @@ class SolverLevel : public Level<B> {
 
   /// Volumes and pressures of its cavities at its state; waits.
   std::vector<CavityState> cavities(double time) const;
+  /// Of pressures that follow it, at its state [J]: what their forces are the negative derivative of, where their triangles enclose a volume;
+  /// waits there.
+  double follower_energy(double time) const;
+  /// q += scale K p, K the stiffness of the pressures that follow the body, at the state and time of the last evaluation: its symmetric
+  /// part, with `positive` that of the fluids alone.
+  void add_follower_product(const State<B>& state, const Vectors<B>& p, double scale, bool positive,
+                            const Vectors<B>& q) const;
 
   /// f = those that do not depend on the state: gravity, loads, a correction.
   void dead(double time, const Vectors<B>& f) const;
@@ -120,14 +127,20 @@ class SolverLevel : public Level<B> {
   Blocks<B> external_stiffness_;  ///< implicit levels only
   long evaluations_ = 0;
   int evaluation_ = 0;
-  BlockSums<B> volumes_;  ///< of cavities
+  BlockSums<B> volumes_;      ///< of cavities
+  Doubles<B> rate_;           ///< [1] likewise
+  double follower_time_ = 0;  ///< when pressures were last asked for [s]
 
   void elastic_and_gravity(const State<B>& state, double time, const Vectors<B>& f);
   void ask_caller(const State<B>& state, double time, double step, double ahead, const Vectors<B>& f);
   void add_loads(double time, const Vectors<B>& f) const;
-  /// Pressures that follow the state; linear systems leave their derivative out.
-  void add_followers(const State<B>& state, double time, const Vectors<B>& f) const;
-  FluidPressure<B> fluid_pressure(const FollowerLoad<B>& load, const Vectors<B>& u, double time) const;
+  /// Pressures that follow the state.
+  void add_followers(const State<B>& state, double time, const Vectors<B>& f);
+  GivenPressure<typename B::Real> given_pressure(const FollowerLoad<B>& load, double time) const;
+  void measure(const FollowerLoad<B>& load, const Vectors<B>& u) const;
+  double enclosed_volume(const FollowerLoad<B>& load) const;  ///< at its state, up to a constant [m^3]
+  /// Of the volume that was last measured.
+  FluidPressure<B> last_pressure(const FollowerLoad<B>& load, double time) const;
 };
 
 }  // namespace plica

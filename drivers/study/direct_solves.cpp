@@ -107,7 +107,7 @@ void SparseStiffness::linearise(const std::vector<Point>& u) {
   for (const auto& together : colours_)
     for (std::size_t k = 0; k < 3; ++k) {
       for (const int b : together) p[static_cast<std::size_t>(b)][static_cast<Eigen::Index>(k)] = 1;
-      const auto columns = probe.stiffness(u, p);
+      const auto columns = linear_ ? probe.stiffness(u, p) : probe.tangent(u, p);
       for (const int b : together) {
         p[static_cast<std::size_t>(b)].setZero();
         const Eigen::Index column = row_of[3 * static_cast<std::size_t>(b) + k];
@@ -150,7 +150,7 @@ Eigen::VectorXd SparseStiffness::solve(const Factor& factor, const Eigen::Vector
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), r = b, z = factor.solve(r), p = z;
   double rz = r.dot(z);
   for (int i = 0; i < 5000 && r.norm() > 1e-12 * b.norm(); ++i) {
-    const Eigen::VectorXd q = part(probe_.stiffness(at_, field(p))) + shifted.cwiseProduct(p);
+    const Eigen::VectorXd q = part(probe_.tangent(at_, field(p))) + shifted.cwiseProduct(p);
     if (!(p.dot(q) > 0)) break;
     const double alpha = rz / p.dot(q);
     x += alpha * p, r -= alpha * q;

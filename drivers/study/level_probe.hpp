@@ -52,6 +52,16 @@ class LevelProbe {
     return q;
   }
 
+  /// K(u) p with the pressures that follow the body, at the time of the last evaluation, which was at u
+  std::vector<Point> tangent(const std::vector<Point>& u, const std::vector<Point>& p) {
+    std::vector<Point> q = stiffness(u, p);
+    const Vectors<B> added = device_field<B>(zero());
+    at(0).add_follower_product(state(u, p), device_field<B>(p), 1, false, added);
+    const auto follower = to_host<B>(built.hierarchy->exec(), added);
+    for (std::size_t a = 0; a < q.size(); ++a) q[a] += follower[a];
+    return q;
+  }
+
   /// [J], a sum of the vertices' shares
   double elastic_energy(const std::vector<Point>& u) {
     const Level<B>& level = at(0);

@@ -138,12 +138,18 @@ class StageSolver {
   SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start, bool positive) {
     const int n = level.model.vertices;
     const StageAt<B> stage = at(level, w);
+    Vectors<B> force = level.f;
     if (from_start) {
       update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, change_});
+      if (!level.followers.empty()) {
+        copy(level.exec(), right_side_, force);
+        level.add_follower_product(level.state, change_, -1, positive, right_side_);
+        force = right_side_;
+      }
       level.tangent(level.state, change_);
     }
     update_vertices<B>(level.exec(), "plica::stage_right_side", n,
-                       StageRightSide<B>{stage, level.f, level.partial, right_side_, from_start});
+                       StageRightSide<B>{stage, force, level.partial, right_side_, from_start});
     SolveOutcome out;
     level.book("solve", [&] {
       solver_->prepare(level, level.state, w, positive);
@@ -279,13 +285,13 @@ class StageSolver {
     const double energy = stored(level, end);
     return {terms[0] + energy, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(energy)};
   }
-  /// Of elements and contact at the level's state [J].
+  /// Of elements, contact and pressures that follow the body at the level's state [J].
   double stored(const SolverLevel<B>& level, double end) const {
     level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
                  blocks_, result_);
-    const double elastic = read(level.exec())[0];
-    return level.contact() ? elastic + level.contact()->energy(level.exec(), level, end, true, blocks_) : elastic;
+    const double body = read(level.exec())[0] + level.follower_energy(end);
+    return level.contact() ? body + level.contact()->energy(level.exec(), level, end, true, blocks_) : body;
   }
 };
 

@@ -49,16 +49,15 @@ const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
-  if (by_matrix())
-    update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
-  else
-    forces_->product(state_, p, weights_, positive_, q);
+  if (!by_matrix()) return forces_->product(state_, p, weights_, positive_, q);
+  update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
+  forces_->add_follower_product(state_, p, weights_.a, positive_, q);
 }
 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
                              const Doubles<B>& curvature) const {
-  if (by_matrix())
+  if (by_matrix_alone())
     return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{pattern_.matrix, p, q}, sums,
                         curvature);
   product(exec, p, q);
@@ -67,7 +66,7 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
 
 template <class B>
 void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
-  if (by_matrix())
+  if (by_matrix_alone())
     update_vertices<B>(exec, "plica::space_products", rows(), SpaceProducts<B>{pattern_.matrix, space});
   else
     for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);

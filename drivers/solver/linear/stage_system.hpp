@@ -48,6 +48,8 @@ class StageSystem {
   bool positive_ = false;
 
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
+  /// Pressures that follow the body are not in the matrix.
+  bool by_matrix_alone() const { return by_matrix() && level_->followers.empty(); }
 };
 
 }  // namespace plica

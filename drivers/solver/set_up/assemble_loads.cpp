@@ -57,6 +57,8 @@ std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh, con
 
 }  // namespace
 
+bool has_follower_loads(const Body& body) { return std::ranges::any_of(body.loads, follows); }
+
 std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
                                           int level, const std::vector<AssembledLoad>& finest) {
   std::vector<AssembledLoad> all;
@@ -135,6 +137,7 @@ template <class B>
 std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
                                             int level) {
   std::vector<FollowerLoad<B>> all;
+  const std::vector<char> still = still_vertices(constants);
   for (std::size_t i = 0; i < body.loads.size(); ++i) {
     const LoadOptions& load = body.loads[i];
     if (!follows(load)) continue;
@@ -142,11 +145,11 @@ std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mes
     const auto triangles = select_triangles(mesh, load.where, who);
     std::optional<Cavity> cavity;
     if (const auto* given = std::get_if<EnclosedVolume>(&load.load))
-      cavity = make_cavity(*given, static_cast<int>(i), mesh, triangles, still_vertices(constants), who);
-    all.push_back(follower_load<B>(mesh, triangles, cavity ? cavity->origin : Point::Zero()));
+      cavity = make_cavity(*given, static_cast<int>(i), mesh, triangles, still, who);
+    all.push_back(follower_load<B>(mesh, triangles, centre_of(mesh, triangles)));
     FollowerLoad<B>& made = all.back();
     made.course = load.course, made.cavity = cavity;
-    if (cavity) made.volume = zeros<Doubles<B>>("plica::follower.volume", 1);
+    if (has_still_rims(triangles, still)) made.volume = zeros<Doubles<B>>("plica::follower.volume", 1);
     if (const auto* follower = std::get_if<FollowerPressure>(&load.load)) made.pressure = follower->value;
   }
   return all;

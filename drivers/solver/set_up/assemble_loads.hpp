@@ -14,6 +14,9 @@ struct AssembledLoad {
   Point resultant = Point::Zero();  ///< their sum [N]
 };
 
+/// Whether pressures follow the body, given or of fluids in it.
+bool has_follower_loads(const Body& body);
+
 /// All loads on a level's mesh at rest. A traction is integrated over the level's own boundary and scaled to the resultant it has on
 /// level 0, `finest`, which is empty there: loads do not depend on the resolution. InputError where a load finds nothing to
 /// act on, or nothing that is free to move.

@@ -17,27 +17,48 @@ using Triangle = std::array<int, 3>;
 
 double cone(const Point& a, const Point& b, const Point& c) { return a.dot(b.cross(c)) / 6; }
 
-/// From vertex to vertex along the rims, as the triangles that are missing there would run.
-std::map<int, int> rims(const std::vector<Triangle>& triangles, const std::string& option) {
-  std::set<std::pair<int, int>> edges;
+using Edge = std::pair<int, int>;
+
+/// Edges that one triangle has alone, as the triangles that are missing there would run.
+std::vector<Edge> rim_edges(const std::vector<Triangle>& triangles) {
+  std::set<Edge> edges;
   for (const Triangle& t : triangles)
     for (std::size_t c = 0; c < 3; ++c) edges.emplace(t[c], t[(c + 1) % 3]);
-  std::map<int, int> next;
+  std::vector<Edge> alone;
   for (const auto& [a, b] : edges)
-    if (!edges.contains({b, a}) && !next.emplace(b, a).second)
-      throw InputError(text(option, ": the rim of its triangles meets itself at vertex ", b));
+    if (!edges.contains({b, a})) alone.emplace_back(b, a);
+  return alone;
+}
+
+/// From vertex to vertex along the rims.
+std::map<int, int> rims(const std::vector<Triangle>& triangles, const std::string& option) {
+  std::map<int, int> next;
+  for (const auto& [a, b] : rim_edges(triangles))
+    if (!next.emplace(a, b).second)
+      throw InputError(text(option, ": the rim of its triangles meets itself at vertex ", a));
   return next;
 }
 
 }  // namespace
 
+bool has_still_rims(const std::vector<Triangle>& triangles, const std::vector<char>& still) {
+  return std::ranges::all_of(rim_edges(triangles), [&](const Edge& e) {
+    return still[static_cast<std::size_t>(e.first)] && still[static_cast<std::size_t>(e.second)];
+  });
+}
+
+Point centre_of(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
+  Point sum = Point::Zero();
+  for (const Triangle& t : triangles)
+    for (const int v : t) sum += mesh.vertices[static_cast<std::size_t>(v)];
+  return sum / (3.0 * static_cast<double>(triangles.size()));
+}
+
 Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh, const std::vector<Triangle>& triangles,
                    const std::vector<char>& still, const Selecting& who) {
   const std::string option = who.option + ".enclosed_volume";
   const auto x = [&](int v) -> const Point& { return mesh.vertices[static_cast<std::size_t>(v)]; };
-  Cavity cavity{load, 0, 0, given.ratio, given.bulk_modulus, Point::Zero()};
-  for (const Triangle& t : triangles)
-    for (const int v : t) cavity.origin += x(v) / (3.0 * static_cast<double>(triangles.size()));
+  Cavity cavity{load, 0, 0, given.ratio, given.bulk_modulus, centre_of(mesh, triangles)};
   const auto from = [&](int v) -> Point { return x(v) - cavity.origin; };
   for (const Triangle& t : triangles) cavity.rest -= cone(from(t[0]), from(t[1]), from(t[2]));
   std::map<int, int> next = rims(triangles, option);

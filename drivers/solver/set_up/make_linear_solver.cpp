@@ -2,6 +2,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/linear/list.hpp>
+#include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
@@ -71,7 +72,8 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   const bool fixed = o.iterations > 0, multigrid = has_multigrid(body, level);
   const bool nodal = element_of(body, level) == Element::nodal;
   if (solver == "auto") {
-    const bool small = on_host && !fixed && !nodal && body.levels[level].vertices.size() <= most_direct;
+    const bool small = on_host && !fixed && !nodal && body.levels[level].vertices.size() <= most_direct &&
+                       !has_follower_loads(body);  // whose stiffness is in products alone
     solver = small && o.preconditioner == "auto" && o.matrix != "free" ? Direct::name : ConjugateGradients::name;
   }
   o.solver = std::move(solver);

@@ -87,18 +87,21 @@ void check_pairs(const Problem& problem) {
 
 }  // namespace
 
-/// Neither the matrices of implicit steps nor the inertia of him knows the stiffness of a fluid.
+/// The inertia of him, factors and V-cycles alone do not know the stiffness of a fluid.
 void validate_cavities(const Problem& problem) {
   const auto& loads = problem.body.loads;
+  const IntegrationOptions& o = problem.integration;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (!std::holds_alternative<EnclosedVolume>(loads[i].load)) continue;
-    const std::string given = "body.loads." + std::to_string(i) + ".enclosed_volume",
-                      why = ", but " + given + " is for explicit integrators without him; expected ";
-    for (const std::string& name : problem.integration.integrator)
-      if (is_implicit(name)) throw InputError("integration.integrator is " + name + why + "one, or follower_pressure");
-    if (problem.integration.cycle == "him" || problem.integration.cycle == "auto")
-      throw InputError("integration.cycle is " + problem.integration.cycle + why +
-                       "cycle single, or follower_pressure");
+    const std::string given = ", but body.loads." + std::to_string(i) + ".enclosed_volume needs ";
+    if (o.cycle == "him" || o.cycle == "auto")
+      throw InputError("integration.cycle is " + o.cycle + given + "cycle single, or follower_pressure instead");
+    for (const std::string& name : o.integrator) {
+      if (name == VCycleEuler::name)
+        throw InputError("integration.integrator is " + name + given + "an explicit integrator, or implicit_euler");
+      if (is_implicit(name) && o.implicit.solver != "auto" && o.implicit.solver != "conjugate_gradients")
+        throw InputError("integration.implicit.solver is " + o.implicit.solver + given + "conjugate_gradients");
+    }
   }
 }
 

@@ -132,66 +132,6 @@ std::string refusal_after(const Change& change) {
   return refusal([&] { Simulation<Host>{p}; });
 }
 
-// Everywhere on the boundary it is -p dV/dx of the body as it is: no sum, work 3 p V, and none of what turns with it.
-TYPED_TEST(Loads, PressureFollowsTheBody) {
-  using Real = typename TypeParam::Real;
-  constexpr double pressure = 40;
-  Problem p = cube_levels(2, 4, "rs");
-  p.body.material.model = "linear";
-  p.body.initial.position = Point(1, 2, 3);  // only directions and areas count
-  LevelProbe<TypeParam> without(p);
-  p.body.loads = {{Box{{-1, -1, -1}, {1, 1, 1}}, FollowerPressure{pressure}, RampCourse{2}}};
-  LevelProbe<TypeParam> with(p);
-  std::mt19937 random(3);
-  const Eigen::Matrix3d F = random_rotation(random) * Point(1.2, 0.7, 0.9).asDiagonal();
-  for (int i = 0; i < 2; ++i) {
-    const TetMesh& mesh = p.body.levels[static_cast<std::size_t>(i)];
-    const auto u = affine_field(mesh, F, Point::Zero());
-    const auto f = minus(with.force(u, with.zero(i), 1, i), without.force(u, with.zero(i), 1, i));
-    double work = 0;
-    for (std::size_t a = 0; a < f.size(); ++a) work -= f[a].dot(mesh.vertices[a] + u[a]);
-    const double at_one = pressure / 2, volume = 1e-3 * F.determinant();
-    EXPECT_NEAR(work, 3 * at_one * volume, round_off<Real>(1e4, at_one * volume)) << i;
-    EXPECT_LE(sum(f).norm(), round_off<Real>(1e4, at_one * 0.06)) << i;
-  }
-}
-
-// On one face it is at first the traction against it; at a quarter turn it still is, where the traction is not
-TEST(Loads, PressureAtRestIsTractionAgainstTheFace) {
-  Problem p = body_of({jittered_box(decimetre, {3, 3, 3})});
-  p.body.loads = {{right_face, FollowerPressure{-10}, {}}};
-  LevelProbe<Host> follower(p);
-  p.body.loads = {{right_face, Traction{{10, 0, 0}}, {}}};
-  LevelProbe<Host> dead(p);
-  const auto pull = follower.force(follower.zero()), same = dead.force(dead.zero());
-  EXPECT_LE(largest_difference(pull, same), 1e-15);
-  Eigen::Matrix3d R;
-  R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  const auto turned = follower.force(affine_field(p.body.levels[0], R, Point::Zero()));
-  for (std::size_t a = 0; a < pull.size(); ++a) EXPECT_LE((turned[a] - R * pull[a]).norm(), 1e-12) << a;
-}
-
-// Newton's method finds the balance though its matrix leaves the pressure's derivative out
-TEST(Loads, PressureIsBalancedInImplicitSteps) {
-  Problem p = body_of({box_mesh({{0, 0, 0}, {0.4, 0.1, 0.1}}, {8, 2, 2})}, "neo_hookean");
-  p.body.fixed = {left_face()};
-  p.body.loads = {{Box{{0, 0, 0}, {1, 1, 0}}, FollowerPressure{60}, RampCourse{0.5}}};
-  p.body.damping.mass = 4;  // [1/s], about critical: at rest after 10 s
-  p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.05;
-  p.integration.implicit.newton_iterations = 30, p.integration.implicit.newton_tolerance = 1e-8;
-  Simulation<Host> simulation(p);
-  advance(simulation, 200);
-  EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
-  LevelProbe<Host> probe(p);
-  const std::vector<Point> u = displacements(simulation, p.body.levels[0]);
-  EXPECT_GT(largest(u), 0.05);
-  const auto f = probe.force(u, probe.zero(), 10);
-  for (std::size_t a = 0; a < f.size(); ++a)
-    if (p.body.levels[0].vertices[a][0] > 1e-9) {
-      EXPECT_LE(f[a].norm(), 1e-5) << a;  // of 2.4 N in all
-    }
-}
-
 TEST(Loads, WithoutEffectAreRefused) {
   const std::string held = refusal_after([](Body& b) {
     b.fixed = {right_face};
