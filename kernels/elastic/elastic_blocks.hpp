@@ -177,6 +177,17 @@ struct OwnBlocks {
   }
 };
 
+/// 2. and 3.
+template <class B>
+void finish_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
+                   const ImplicitWeights& weights, const Blocks9<B>& shares, const BlockMatrix<B>& A) {
+  Kokkos::parallel_for("plica::add_shares",
+                       Kokkos::RangePolicy<typename B::Exec>(exec, 0, static_cast<int>(pairs.shared_upper.extent(0))),
+                       AddShares<B>{pairs, shares, {A}});
+  Kokkos::parallel_for("plica::own_blocks", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
+                       OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
+}
+
 /// A of vertices that are free; the others' rows keep their mass alone.
 template <class B, class Material, template <class> class Tangent>
 void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
@@ -191,11 +202,16 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
   Kokkos::parallel_for("plica::elastic_blocks", policy,
                        Kernel{model.patches, pairs, u, place, shares, scale, static_cast<Real>(weights.a)});
-  Kokkos::parallel_for("plica::add_shares",
-                       Kokkos::RangePolicy<typename B::Exec>(exec, 0, static_cast<int>(pairs.shared_upper.extent(0))),
-                       AddShares<B>{pairs, shares, place});
-  Kokkos::parallel_for("plica::own_blocks", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
-                       OwnBlocks<B>{A, model.mass, model.damping, static_cast<Real>(weights.b)});
+  finish_blocks<B>(exec, model, pairs, weights, shares, A);
 }
+
+// What is the same for all materials is compiled once, in elastic_blocks.cpp.
+#define PLICA_ELASTIC_BLOCKS(EXTERN, ...)                                                                 \
+  EXTERN template void finish_blocks<__VA_ARGS__>(const __VA_ARGS__::Exec&, const Model<__VA_ARGS__>&,    \
+                                                  const PatchPairs<__VA_ARGS__>&, const ImplicitWeights&, \
+                                                  const Blocks9<__VA_ARGS__>&, const BlockMatrix<__VA_ARGS__>&);
+#define PLICA_EXTERN_ELASTIC_BLOCKS(Real, Exec) PLICA_ELASTIC_BLOCKS(extern, Backend<Real, Exec>)
+PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_ELASTIC_BLOCKS)
+#undef PLICA_EXTERN_ELASTIC_BLOCKS
 
 }  // namespace plica

@@ -322,6 +322,14 @@ struct MeanOfDomains {
   }
 };
 
+template <class B>
+void mean_of_domains(const typename B::Exec& exec, const Level<B>& level, const Scalars<B>& von_mises,
+                     const Scalars<B>& J) {
+  const NodalRows<B>& rows = level.model.rows;
+  Kokkos::parallel_for("plica::nodal_means", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.model.vertices),
+                       MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
+}
+
 template <class B, class Material>
 void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& von_mises,
                   const Scalars<B>& J) {
@@ -332,8 +340,21 @@ void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vec
     for_rows<B>(exec, "plica::nodal_stress", rows,
                 NodalStress<B, Material, smoothed>{rows, level.nodal, {level.nodal.pressure, 1}, level.stress.lost});
   });
-  Kokkos::parallel_for("plica::nodal_means", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.model.vertices),
-                       MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
+  mean_of_domains<B>(exec, level, von_mises, J);
 }
+
+// What is the same for all materials, as in nodal_rows.hpp.
+#define PLICA_NODAL_ELEMENTS(EXTERN, ...)                                                                            \
+  EXTERN template void smooth_pressures<__VA_ARGS__, 1>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,     \
+                                                        const NodalWork<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&); \
+  EXTERN template void smooth_pressures<__VA_ARGS__, 2>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,     \
+                                                        const NodalWork<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&); \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&,   \
+                                             const RowVolumes<__VA_ARGS__, 1>&);                                     \
+  EXTERN template void mean_of_domains<__VA_ARGS__>(const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&,             \
+                                                    const Scalars<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&);
+#define PLICA_EXTERN_NODAL_ELEMENTS(Real, Exec) PLICA_NODAL_ELEMENTS(extern, Backend<Real, Exec>)
+PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_ELEMENTS)
+#undef PLICA_EXTERN_NODAL_ELEMENTS
 
 }  // namespace plica

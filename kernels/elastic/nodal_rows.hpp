@@ -211,4 +211,16 @@ void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>
   for_rows<B>(exec, "plica::nodal_forces", rows, RowForces<B>{rows, level.nodal.records, level.partial});
 }
 
+// What is the same for all materials is compiled once, in nodal_elements.cpp.
+#define PLICA_NODAL_ROWS(EXTERN, ...)                                                                              \
+  EXTERN template void lay_out<__VA_ARGS__, 1>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,            \
+                                               const NodalWork<__VA_ARGS__>&, const Vectors<__VA_ARGS__>(&)[1]);   \
+  EXTERN template void lay_out<__VA_ARGS__, 2>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,            \
+                                               const NodalWork<__VA_ARGS__>&, const Vectors<__VA_ARGS__>(&)[2]);   \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&, \
+                                             const RowForces<__VA_ARGS__>&);
+#define PLICA_EXTERN_NODAL_ROWS(Real, Exec) PLICA_NODAL_ROWS(extern, Backend<Real, Exec>)
+PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_ROWS)
+#undef PLICA_EXTERN_NODAL_ROWS
+
 }  // namespace plica
