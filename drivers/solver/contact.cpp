@@ -174,7 +174,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   points.law = implicit ? implicit_laws_ : laws_;
   points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
   if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
-    points.pairs.partner = zeros<Indices<B>>("plica::contact.partner", n);
+    points.pairs.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(n, -1));
     points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);
     points.pairs.from = zeros<Indices<B>>("plica::contact.from", triangles + 1);
     points.pairs.point = zeros<Indices<B>>("plica::contact.point", n);
@@ -186,8 +186,8 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
   points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
   points.force = zeros<Vectors<B>>("plica::contact.force", records);
-  points.depth = zeros<Scalars<B>>("plica::contact.depth", records);
-  Kokkos::deep_copy(points.depth, std::numeric_limits<Real>::lowest());  // what no kernel looks at
+  points.depth = to_device<Scalars<B>>(
+      "contact.depth", std::vector<Real>(records, std::numeric_limits<Real>::lowest()));  // what no kernel looks at
   points.mobility = zeros<Scalars<B>>("plica::contact.mobility", records);
   points.count = zeros<Doubles<B>>("plica::contact.count", 1);
   if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", n);

@@ -97,12 +97,11 @@ WorstElement worst_element(const TetMesh& mesh, const std::vector<Point>& displa
 
 template <class B>
 std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field) {
-  const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), field);
-  Kokkos::deep_copy(exec, host, field);
-  exec.fence("plica::to_host");
+  const auto numbers = host_values(exec, field);
   std::vector<Point> points(field.extent(0));
   for (std::size_t a = 0; a < points.size(); ++a)
-    for (int k = 0; k < 3; ++k) points[a][k] = static_cast<double>(host(a, static_cast<std::size_t>(k)));
+    for (std::size_t k = 0; k < 3; ++k)
+      points[a][static_cast<Eigen::Index>(k)] = static_cast<double>(numbers[3 * a + k]);
   return points;
 }
 

@@ -25,10 +25,8 @@ EnergyMeter<B>::EnergyMeter(const Hierarchy<B>& hierarchy, const TetMesh& mesh, 
 
 template <class B>
 std::array<double, 6> EnergyMeter<B>::read() const {
-  const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), result_);
-  Kokkos::deep_copy(hierarchy_.exec(), host, result_);
-  hierarchy_.exec().fence("plica::energies");
-  return {host(0), host(1), host(2), host(3), host(4), host(5)};
+  const std::vector<double> sums = host_values(hierarchy_.exec(), result_);
+  return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
 }
 
 template <class B>

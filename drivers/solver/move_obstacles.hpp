@@ -50,7 +50,7 @@ template <class Exec, class View>
 void copy_memory(const Exec& exec, const View& from, View& to) {
   if (from.extent(0) == 0) return;
   if (to.extent(0) == 0) to = View("plica::contact.kept_memory", from.extent(0));
-  Kokkos::deep_copy(exec, to, from);
+  copy(exec, to, from);
 }
 
 /// A tool with mass takes one step of its coupling in every macro step: no more than the spring turns in it.

@@ -28,7 +28,6 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
   grid_.listed = zeros<Indices<B>>("plica::pairs.listed", n * static_cast<std::size_t>(PairGrid<B>::longest));
   count_ = zeros<Indices<B>>("plica::pairs.count", triangles);
-  Kokkos::deep_copy(points.pairs.partner, -1);
 }
 
 template <class B>

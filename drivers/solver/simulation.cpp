@@ -34,6 +34,7 @@
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/move_obstacles.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 #include <plica/drivers/solver/turning.hpp>
@@ -368,10 +369,7 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
     if (from.size() != to.extent(0))
       throw InputError(std::string("set_state: ") + std::to_string(from.size()) + " " + what + " for " +
                        std::to_string(to.extent(0)) + " vertices of level 0");
-    const auto host = Kokkos::create_mirror_view(to);
-    for (std::size_t a = 0; a < from.size(); ++a)
-      for (int k = 0; k < 3; ++k) host(a, static_cast<std::size_t>(k)) = static_cast<typename B::Real>(from[a][k]);
-    Kokkos::deep_copy(to, host);
+    plica::copy(s.hierarchy().exec(), to, to_device<Vectors<B>>(what, rows<typename B::Real>(from)));
   };
   s.remember();
   s.hierarchy().exec().fence("plica::set_state");

@@ -189,7 +189,7 @@ void SolverLevel<B>::set_external(const ExternalForces<B>& forces, const Vectors
 
 template <class B>
 void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, double ahead, const Vectors<B>& force) {
-  if (implicit_) Kokkos::deep_copy(exec(), external_stiffness_, typename B::Real(0));
+  if (implicit_) fill(exec(), external_stiffness_, typename B::Real(0));
   external_({exec(), number_, time, rest_, at.u, at.v, force, this->surface, step, ahead, external_stiffness_});
 }
 

@@ -91,8 +91,7 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
   const std::vector<int> regions = regions_of_sets(mesh, level);
   constants_ = nodal ? level.model.rows.constants : level.model.patches.constants;
   set_region_ = to_device<Indices<B>>("viscosity.set_region", regions);
-  whole_ = Scalars<B>("plica::viscosity.whole", constants_.extent(0));
-  Kokkos::deep_copy(whole_, constants_);
+  whole_ = to_device<Scalars<B>>("viscosity.whole", host_values(Exec(), constants_));
   half_ = constants_of_sets<B>("viscosity.half", regions, constants.half);
   isochoric_ = constants_of_sets<B>("viscosity.isochoric", regions, constants.isochoric);
   const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots() : level.model.patches.packs * B::lanes);
@@ -144,13 +143,13 @@ void Viscosity<B>::take_share(const Exec& exec, double t) {
 template <class B>
 void Viscosity<B>::keep(const Exec& exec, const Level<B>& level, Kept& to) const {
   if (to.memory.extent(0) == 0) to.memory = Scalars<B>("plica::viscosity.kept", level.stress.memory.extent(0));
-  Kokkos::deep_copy(exec, to.memory, level.stress.memory);
+  copy(exec, to.memory, level.stress.memory);
   to.time = time_;
 }
 
 template <class B>
 void Viscosity<B>::put_back(const Exec& exec, const Level<B>& level, const Kept& from) {
-  Kokkos::deep_copy(exec, level.stress.memory, from.memory);
+  copy(exec, level.stress.memory, from.memory);
   set_time(from.time);
 }
 

@@ -73,27 +73,24 @@ template <class B>
 Eigen::VectorXd CycleMap<B>::apply(const Eigen::VectorXd& x, int macro_steps) const {
   Hierarchy<B>& hierarchy = *built_.hierarchy;
   const State<B>& state = hierarchy[0].state;
-  const auto u = Kokkos::create_mirror_view(state.u), v = Kokkos::create_mirror_view(state.v);
+  auto u = host_values(hierarchy.exec(), state.u), v = host_values(hierarchy.exec(), state.v);
   const auto each = [&](const auto& visit) {
     Eigen::Index i = 0;
     for (const std::size_t a : free_)
-      for (std::size_t k = 0; k < 3; ++k, ++i) visit(u(a, k), v(a, k), i, i + size() / 2);
+      for (std::size_t k = 0; k < 3; ++k, ++i) visit(u[3 * a + k], v[3 * a + k], i, i + size() / 2);
   };
-  hierarchy.exec().fence("plica::cycle_map");
   each([&](auto& ua, auto& va, Eigen::Index iu, Eigen::Index iv) {
     using Real = typename B::Real;
     ua = static_cast<Real>(x[iu]), va = static_cast<Real>(x[iv] / macro_step());
   });
-  Kokkos::deep_copy(state.u, u);
-  Kokkos::deep_copy(state.v, v);
+  fields::upload<typename B::Memory>(state.u.data(), u.data(), fields::bytes_of(state.u));
+  fields::upload<typename B::Memory>(state.v.data(), v.data(), fields::bytes_of(state.v));
   built_.stepper->begin(hierarchy);
   for (int n = 0; n < macro_steps; ++n) {
     for (auto& part : hierarchy.levels) part.begin_macro_step();
     built_.stepper->step(hierarchy, 0, macro_step());
   }
-  hierarchy.exec().fence("plica::cycle_map");
-  Kokkos::deep_copy(u, state.u);
-  Kokkos::deep_copy(v, state.v);
+  u = host_values(hierarchy.exec(), state.u), v = host_values(hierarchy.exec(), state.v);
   Eigen::VectorXd y(size());
   each([&](auto ua, auto va, Eigen::Index iu, Eigen::Index iv) {
     y[iu] = static_cast<double>(ua), y[iv] = static_cast<double>(va) * macro_step();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <vector>
 
 namespace plica {
@@ -11,12 +12,7 @@ namespace plica {
 /// A host field on the device.
 template <class B>
 Vectors<B> device_field(const std::vector<Point>& field) {
-  Vectors<B> view("test.field", field.size());
-  const auto host = Kokkos::create_mirror_view(view);
-  for (std::size_t a = 0; a < field.size(); ++a)
-    for (int k = 0; k < 3; ++k) host(a, static_cast<std::size_t>(k)) = static_cast<typename B::Real>(field[a][k]);
-  Kokkos::deep_copy(view, host);
-  return view;
+  return to_device<Vectors<B>>("field", rows<typename B::Real>(field));
 }
 
 /// The levels of a problem with their forces, one product at a time and without any integrator.

@@ -78,11 +78,8 @@ void start(BuiltHierarchy<B>& built, double t) {
     if (inverse(a) > 0) mass.push_back(1 / static_cast<double>(inverse(a)));
   }
   if (mass.size() == velocity.size()) take_rigid(built.meshes.front().vertices, mass, velocity);
-  const auto v = Kokkos::create_mirror_view(level.state.v);
-  for (std::size_t a = 0; a < velocity.size(); ++a)
-    for (int k = 0; k < 3; ++k) v(a, static_cast<std::size_t>(k)) = static_cast<typename B::Real>(velocity[a][k]);
-  Kokkos::deep_copy(level.state.v, v);
-  Kokkos::deep_copy(level.state.u, typename B::Real(0));
+  copy(hierarchy.exec(), level.state.v, to_device<Vectors<B>>("start", rows<typename B::Real>(velocity)));
+  fill(hierarchy.exec(), level.state.u, 0);
   for (auto& part : hierarchy.levels) part.integrator->forget();
   built.stepper->begin(hierarchy);
 }

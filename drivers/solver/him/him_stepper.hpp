@@ -132,7 +132,7 @@ class HimStepper final : public Stepper<B> {
     const Level<B>& level = h[0];
     lost_ = watched(h.exec()) > 1;
     const auto& exec = h.exec();
-    Kokkos::deep_copy(exec, a_, level.state.u);
+    copy(exec, a_, level.state.u);
     const auto half = static_cast<Real>(0.5 * parts_.fit.step);
     combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1, a_, a_);
     parts_.inverse_mass->turn(exec, a_, moved_);
@@ -217,8 +217,8 @@ class HimStepper final : public Stepper<B> {
   /// What the next step takes from the last, but for momenta.
   void forget(const typename B::Exec& exec) {
     first_ = true;
-    Kokkos::deep_copy(exec, watch_, 0.0);
-    Kokkos::deep_copy(exec, parts_.inverse_mass->axes().share(), Real(0));
+    fill(exec, watch_, 0.0);
+    fill(exec, parts_.inverse_mass->axes().share(), Real(0));
   }
 
   /// v = A p; with a count only where that is above 0.

@@ -53,7 +53,7 @@ class StageSolver {
     if (!carries()) return solve_stage(level, time, ahead, weights);
     const Scalars<B> pressure = std::exchange(level.nodal.pressure, carrying_);
     if (fresh_) {
-      Kokkos::deep_copy(level.exec(), change_, Real(0));
+      fill(level.exec(), change_, Real(0));
       carry_pressures<B>(level.exec(), level, level.state.u, change_);
       fresh_ = 0;
     }
@@ -160,7 +160,7 @@ class StageSolver {
     residual_ = std::max(residual_, out.relative_residual);
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     if (carries()) {
-      if (iterates()) Kokkos::deep_copy(level.exec(), last_carried_, carried_);
+      if (iterates()) copy(level.exec(), last_carried_, carried_);
       carry_pressures<B>(level.exec(), level, level.state.u, change_);
       ++updates_;
     }
@@ -169,7 +169,7 @@ class StageSolver {
 
   bool newton(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
     level.dead(end, dead_);
-    Kokkos::deep_copy(level.exec(), change_, Real(0));
+    fill(level.exec(), change_, Real(0));
     const Potential now = potential(level, end, w);
     const double enough = std::max(options_.newton_residual, options_.newton_tolerance * now.residual);
     const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
@@ -264,14 +264,12 @@ class StageSolver {
   /// Takes back what is left of a change.
   void undo(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
     retreat(level, w, part);
-    if (carries()) Kokkos::deep_copy(level.exec(), carried_, last_carried_);
+    if (carries()) copy(level.exec(), carried_, last_carried_);
   }
 
   std::array<double, 4> read(const Exec& exec) const {
-    const auto host = Kokkos::create_mirror_view(Kokkos::HostSpace(), result_);
-    Kokkos::deep_copy(exec, host, result_);
-    exec.fence("plica::stage");
-    return {host(0), host(1), host(2), host(3)};
+    const std::vector<double> sums = host_values(exec, result_);
+    return {sums[0], sums[1], sums[2], sums[3]};
   }
   /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
   std::array<double, 4> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w, double back) const {

@@ -142,7 +142,7 @@ class HierarchyBuilder {
         throw InputError("body.initial: " + inverted +
                          ", which this material may not; expected "
                          "body.material.allow_inversion: true, or a start without inverted elements");
-    Kokkos::deep_copy(state.u, to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
+    copy(built_.hierarchy->exec(), state.u, to_device<Vectors<B>>("start", rows<typename B::Real>(u)));
   }
 
   void report_mesh(std::size_t i) {

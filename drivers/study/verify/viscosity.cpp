@@ -48,7 +48,7 @@ class StretchedBox {
   void apply(double size, double time, bool final) {
     const std::vector<Point> u = affine_field(probe_.problem.body.levels[0], 1 / std::sqrt(size) * F0_, Point::Zero());
     auto& level = probe_.at(0);
-    Kokkos::deep_copy(level.state.u, device_field<HostBackend>(u));
+    copy(level.exec(), level.state.u, device_field<HostBackend>(u));
     if (final) level.remember(time);
     f_ = probe_.force(u, std::vector<Point>(u.size(), Point::Zero()), time);
   }
