@@ -6,6 +6,7 @@
 #include <limits>
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
+#include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/small_motion.hpp>
