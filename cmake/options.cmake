@@ -38,13 +38,20 @@ endif()
 
 # Sources of a library that are compiled several at a time share the parsing of headers and what these instantiate. Names in their
 # anonymous namespaces must differ within the library.
-function(plica_unity library)
+function(plica_unity library at_a_time)
   set(unity OFF)
   if(PLICA_UNITY AND NOT Kokkos_ENABLE_CUDA) # where a compiler works on one kernel long enough
     set(unity ON)
   endif()
-  set_target_properties(${library} PROPERTIES UNITY_BUILD ${unity} UNITY_BUILD_BATCH_SIZE 5
+  set_target_properties(${library} PROPERTIES UNITY_BUILD ${unity} UNITY_BUILD_BATCH_SIZE ${at_a_time}
     UNITY_BUILD_CODE_AFTER_INCLUDE "#undef PLICA_INSTANTIATE")
+endfunction()
+
+# For code that no step waits for: three quarters of the time to compile it. Products and sums are contracted as at -O3, so that
+# results keep their bits. Not for a library whose templates the solver instantiates, too: the linker keeps one of the copies.
+function(plica_optimise_less library)
+  target_compile_options(${library} PRIVATE
+    $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-O1$<SEMICOLON>-fexpensive-optimizations>)
 endfunction()
 
 # Bytes of a vector register under these flags and Kokkos's own; on a GPU a thread works on one number.

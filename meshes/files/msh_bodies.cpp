@@ -159,7 +159,8 @@ void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather&
 
 namespace {
 
-constexpr NumberType tag_type = NumberType::int32, size_type = NumberType::uint64, real = NumberType::float64;
+constexpr NumberType tag_type = NumberType::int32, size_type = NumberType::uint64,
+                     coordinate_type = NumberType::float64;
 constexpr const char* dimension_names[] = {"point", "curve", "surface", "volume"};
 
 std::int64_t read_dimension(Numbers& numbers) {
@@ -210,7 +211,7 @@ void Msh4Bodies::read_entity(std::int64_t dimension, bool partitioned, Numbers& 
     const auto partitions = numbers.count(size_type, "the number of partitions of an entity", tag_type, 1);
     numbers.skip(partitions, tag_type, "a partition");
   }
-  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) numbers.number(real, "a coordinate of an entity");
+  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) numbers.number(coordinate_type, "a coordinate of an entity");
   std::vector<std::int64_t>& groups = groups_[entity];
   groups.clear();
   const auto count = numbers.count(size_type, "the number of physical groups of an entity", tag_type, 1);
@@ -277,7 +278,7 @@ std::string Msh4Bodies::nodes(Numbers& numbers, MshGather& gather) const {
     for (const auto& [tag, place] : tags) {
       numbers.begin("the coordinates of node", ++done, all.total);
       gather.add_node(tag, numbers, place);
-      if (parametric == 1) numbers.skip(dimension, real, "a parametric coordinate");
+      if (parametric == 1) numbers.skip(dimension, coordinate_type, "a parametric coordinate");
       numbers.end("the coordinates of a node");
     }
   }

@@ -8,11 +8,11 @@ namespace plica {
 
 namespace {
 
-struct TypeName {
+struct PlyType {
   const char* name;
   NumberType type;
 };
-constexpr TypeName type_names[] = {
+constexpr PlyType ply_types[] = {
     {"char", NumberType::int8},       {"int8", NumberType::int8},       {"uchar", NumberType::uint8},
     {"uint8", NumberType::uint8},     {"short", NumberType::int16},     {"int16", NumberType::int16},
     {"ushort", NumberType::uint16},   {"uint16", NumberType::uint16},   {"int", NumberType::int32},
@@ -94,7 +94,7 @@ void PlyParser::format() {
 
 NumberType PlyParser::type(std::size_t word) const {
   std::vector<std::string> choices;
-  for (const TypeName& known : type_names) {
+  for (const PlyType& known : ply_types) {
     if (lines_.words()[word] == known.name) return known.type;
     choices.emplace_back(known.name);
   }

@@ -11,7 +11,7 @@ namespace plica {
 
 namespace {
 
-constexpr std::array<std::int8_t, 256> digits = [] {
+constexpr std::array<std::int8_t, 256> base64_digits = [] {
   constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<std::int8_t, 256> table = {};
   table.fill(-1);
@@ -31,7 +31,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
   for (std::size_t at = 0; at < text.size(); at += 4) {
     std::uint32_t group = 0;
     for (std::size_t k = at; k < at + 4; ++k) {
-      const int digit = k + padding >= text.size() ? 0 : digits[static_cast<unsigned char>(text[k])];
+      const int digit = k + padding >= text.size() ? 0 : base64_digits[static_cast<unsigned char>(text[k])];
       if (digit < 0) return {};
       group = group << 6 | static_cast<std::uint32_t>(digit);
     }

@@ -7,7 +7,7 @@ namespace plica {
 
 namespace {
 
-constexpr int tet_type = 10;
+constexpr int vtk_tet = 10;
 
 WrittenMesh noted(const TetMesh& mesh, const MeshGroups& groups) {
   WrittenMesh written;
@@ -54,7 +54,7 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
   out.text(end + "CELLS " + cells + " " + std::to_string(5 * mesh.tets.size()) + "\n");
   for (const auto& [a, b, c, d] : mesh.tets) out.int32(4).int32(a).int32(b).int32(c).int32(d).end();
   out.text(end + "CELL_TYPES " + cells + "\n");
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.int32(tet_type).end();
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.int32(vtk_tet).end();
   out.text(end);
   if (!mesh.region.empty() || !mesh.tet_vectors.empty()) out.text("CELL_DATA " + cells + "\n");
   if (!mesh.region.empty()) {
@@ -89,7 +89,7 @@ WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh, co
     corners.insert(corners.end(), tet.begin(), tet.end());
     ends.push_back(static_cast<std::int64_t>(corners.size()));
   }
-  const std::vector<std::uint8_t> types(mesh.tets.size(), tet_type);
+  const std::vector<std::uint8_t> types(mesh.tets.size(), vtk_tet);
   Appended appended;
   TextOut out;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
