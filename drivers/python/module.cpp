@@ -205,11 +205,10 @@ void set_forces(const Handle& simulation, const nb::object& callback) {
 }
 
 /// Until Ctrl-C, which raises KeyboardInterrupt. listening(address) is called once.
-void show_live(const Handle& simulation, int port, const nb::object& listening) {
+void show_live(const Handle& simulation, const app::Port& port, const nb::object& listening) {
   Signals signals;
   const nb::gil_scoped_release release;
-  app::LiveOptions options;
-  options.port = port;
+  app::LiveOptions options{port};
   options.listening = [&](const std::string& address) {
     const nb::gil_scoped_acquire gil;
     listening(address);
@@ -220,6 +219,7 @@ void show_live(const Handle& simulation, int port, const nb::object& listening) 
 
 void bind_simulation(nb::module_& m) {
   using H = Handle;
+  nb::class_<app::Port>(m, "Port").def(nb::init<int>());
   nb::class_<H>(m, "Simulation")
       .def("close", &H::close)
       .def("advance",

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import textwrap
@@ -138,6 +139,16 @@ def test_frames_are_written_as_by_the_program(tmp_path):
     with pytest.raises(plica.InputError, match="holds a run already"):
         sim.run("10 ms", every="5 ms", folder=tmp_path / "run")
     assert len(list(sim.run("10 ms", every="5 ms", folder=tmp_path / "run", force=True))) == 2
+
+
+def test_a_port_that_cannot_be_had_is_refused_before_the_scene_is_read():
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        with pytest.raises(plica.InputError, match=f"port {port} is in use.*choose another port"):
+            plica.view("no such scene.yaml", port=port, browser=False)
+    for port in (-1, 65536, "http"):
+        with pytest.raises(plica.InputError, match=f"port: expected 0 to 65535, got {port!r}"):
+            plica.view("no such scene.yaml", port=port, browser=False)
 
 
 def test_a_view_is_served_and_ctrl_c_ends_it():

@@ -14,7 +14,6 @@
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
 #include <plica/drivers/app/view/hands.hpp>
 #include <plica/drivers/app/view/live_view.hpp>
-#include <plica/drivers/app/view/web_server.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <set>
@@ -94,7 +93,7 @@ class LiveView {
 
   void run() {
     WebServer server(options_.port, page(), [this](const std::string& text) { return take(text); });
-    if (options_.listening) options_.listening(fmt::format("http://127.0.0.1:{}", server.port()));
+    if (options_.listening) options_.listening(fmt::format("http://127.0.0.1:{}", options_.port.number()));
     auto due = LiveClock::now(), before = due;
     while (!options_.ended || !options_.ended()) {
       const Controls controls = said();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <plica/drivers/app/scene/scene.hpp>
+#include <plica/drivers/app/view/web_server.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
@@ -11,8 +12,8 @@ namespace plica::app {
 
 /// How a simulation is watched.
 struct LiveOptions {
-  int port = 8642;                                         ///< of the page's address; 0: any free one
-  std::string method;                                      ///< that runs, in words
+  const Port& port;                                        ///< of the page's address
+  std::string method = {};                                 ///< that runs, in words
   std::function<void(const std::string&)> listening = {};  ///< is called once with the page's address
   std::function<bool()> ended =
       {};  ///< is asked between macro steps, fifty times a second or more often: whether to return
@@ -24,7 +25,7 @@ std::string live_method(const Scene& scene, const Simulation<B>& simulation, con
 
 /// Serves a page that shows the simulation while it goes on, from the state that it has, and lets one pull at the body, push it with a
 /// ball and change gravity. It rests while no page is open. Adds its forces to `forces`, the simulation's own, which are alone again
-/// at the end. InputError where the port cannot be had, or the back end is not on the host.
+/// at the end. InputError where the back end is not on the host.
 template <class B>
 void show_live(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options,
                const ExternalForces<B>& forces = {});

@@ -71,6 +71,7 @@ bool is_ours(const std::string& host, const std::string& origin) {
 }
 
 int listen_on(int port) {
+  if (port < 0 || port > 65535) throw InputError(fmt::format("port: expected 0 to 65535, got {}", port));
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int on = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -83,21 +84,26 @@ int listen_on(int port) {
   close(socket);
   throw InputError(
       why == EADDRINUSE
-          ? fmt::format("port {} is in use, perhaps by another view; expected a free one, or 0 for any", port)
+          ? fmt::format(
+                "port {} is in use, perhaps by another view: end that, or choose another port (0: any free one)", port)
           : fmt::format("cannot listen on port {}: {}", port, std::strerror(why)));
-}
-
-int port_of(int socket) {
-  sockaddr_in address{};
-  socklen_t size = sizeof address;
-  getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
-  return ntohs(address.sin_port);
 }
 
 }  // namespace
 
-WebServer::WebServer(int port, std::string page, Take take)
-    : page_(std::move(page)), take_(std::move(take)), listener_(listen_on(port)), port_(port_of(listener_)) {
+Port::Port(int number) : socket_(listen_on(number)) {}
+
+Port::~Port() { close(socket_); }
+
+int Port::number() const {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+  return ntohs(address.sin_port);
+}
+
+WebServer::WebServer(const Port& port, std::string page, Take take)
+    : page_(std::move(page)), take_(std::move(take)), listener_(port.socket()) {
   thread_ = std::thread([this] { accept_all(); });
 }
 
@@ -112,7 +118,6 @@ WebServer::~WebServer() {
   news_.notify_all();
   thread_.join();
   for (Connection& one : connections_) one.thread.join();
-  close(listener_);
 }
 
 void WebServer::publish(std::string frame) {

@@ -32,7 +32,7 @@ TEST_F(ViewCommand, AMousePullsTheBodyAndABallPushesIt) {
   EXPECT_EQ(used.status, 0) << used.errors;
 }
 
-TEST_F(ViewCommand, APortInUseIsNamed) {
+TEST_F(ViewCommand, APortInUseIsNamedAtOnce) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET, address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -41,10 +41,13 @@ TEST_F(ViewCommand, APortInUseIsNamed) {
   ASSERT_EQ(listen(socket, 1), 0);
   ASSERT_EQ(getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size), 0);
   const std::string port = std::to_string(ntohs(address.sin_port));
-  const Child child = plica({"view", scene, "--no-browser", "--port", port});
+  // The scene is bad as well: it is not read, and nothing is set up
+  const Child child = plica({"view", scene, "--set", "body.fixed=3", "--no-browser", "--port", port});
   close(socket);
   EXPECT_EQ(child.status, 2);
   EXPECT_NE(child.errors.find("port " + port + " is in use"), std::string::npos) << child.errors;
+  EXPECT_NE(child.errors.find("choose another port (0: any free one)"), std::string::npos) << child.errors;
+  EXPECT_EQ(child.errors.find("body.fixed"), std::string::npos) << child.errors;
 }
 
 TEST_F(ViewCommand, BadScenesAreBadHereToo) {
