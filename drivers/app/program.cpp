@@ -256,6 +256,7 @@ class CommandLine {
     fill->add_option("--with", make_.with,
                      "gmsh: it fits the surface; lattice: of cubes over it; left out: Gmsh where it is installed")
         ->check(CLI::IsMember({"gmsh", "lattice"}));
+    fill->add_option("--time-limit", make_.time_limit, "stop Gmsh after this time (10 min)");
     CLI::App* coarsen = add_making(mesh, "coarsen", "make a coarser lattice mesh over a mesh", "a mesh", mesh_coarsen);
     coarsen->add_option("--vertices", make_.vertices, "it has at most, and about")->required();
   }

@@ -102,6 +102,7 @@ struct MakeMeshArguments {
   std::string size;         ///< of the cells of a lattice, as text
   int vertices = 0;         ///< of a coarser mesh, at most
   std::string with;         ///< what fills a surface: gmsh or lattice; empty: Gmsh where it is installed and able
+  std::string time_limit = "10 min";  ///< of Gmsh, as text
 };
 
 /// plica run: simulates the scene and writes its files. A folder that holds a run already is refused, unless the arguments say

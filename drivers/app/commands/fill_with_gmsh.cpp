@@ -61,9 +61,33 @@ std::string gmsh_script(const std::filesystem::path& surface, double size) {
       surface.string(), size, size / 2);
 }
 
+// The lines in which Gmsh names an error; where there are none the last one
+std::string errors_in(const std::filesystem::path& said) {
+  std::ifstream file(said);
+  std::string errors, last;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("Error")) errors += "\n  " + line;
+    if (!line.empty()) last = line;
+  }
+  return errors.empty() ? "\n  " + last : errors;
+}
+
+// Why a process that runs since `start` is to be stopped; nothing: it is not
+std::string why_stopped(const std::filesystem::path& said, std::chrono::steady_clock::time_point start,
+                        double time_limit) {
+  std::error_code none_yet;
+  if (const auto size = std::filesystem::file_size(said, none_yet); !none_yet && size > many_words)
+    return "its messages did not end";
+  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < time_limit) return "";
+  return fmt::format(
+      "it had made no mesh after {:.3g} s: give it longer (--time-limit), choose a larger --size, or mend "
+      "the surface (it may meet itself)",
+      time_limit);
+}
+
 // Its exit status, negative where it did not end by itself; what it says goes to a file
-int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh,
-             const std::filesystem::path& said) {
+int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh, const std::filesystem::path& said,
+             double time_limit) {
   std::array<std::string, 8> words = {"gmsh", script.string(), "-3",      "-format", "msh22",
                                       "-o",   mesh.string(),   "-nopopup"};
   std::array<char*, words.size() + 1> pointers = {};
@@ -76,24 +100,17 @@ int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& m
   const int failure = posix_spawnp(&id, "gmsh", &files, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (failure != 0) return -1;
+  const auto start = std::chrono::steady_clock::now();
   int status = 0;
   while (waitpid(id, &status, WNOHANG) == 0) {
-    std::error_code none_yet;
-    if (const auto size = std::filesystem::file_size(said, none_yet); !none_yet && size > many_words) kill(id, SIGKILL);
+    if (const std::string why = why_stopped(said, start, time_limit); !why.empty()) {
+      kill(id, SIGKILL);
+      waitpid(id, &status, 0);
+      throw InputError("Gmsh was stopped, since " + why + "; its last words:" + errors_in(said));
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-// The lines in which Gmsh names an error; where there are none the last one
-std::string errors_in(const std::filesystem::path& said) {
-  std::ifstream file(said);
-  std::string errors, last;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("Error")) errors += "\n  " + line;
-    if (!line.empty()) last = line;
-  }
-  return errors.empty() ? "\n  " + last : errors;
 }
 
 }  // namespace
@@ -106,15 +123,12 @@ bool has_gmsh() {
   return false;
 }
 
-TetMesh fill_with_gmsh(const TriangleSurface& surface, double size) {
+TetMesh fill_with_gmsh(const TriangleSurface& surface, double size, double time_limit) {
   const TemporaryFolder folder;
   const auto stl = folder / "surface.stl", geo = folder / "fill.geo", msh = folder / "mesh.msh", said = folder / "said";
   write_files(write_surface(stl, surface).files);
   write_file(geo, gmsh_script(stl, size));
-  const int status = run_gmsh(geo, msh, said);
-  if (status < 0 && std::filesystem::exists(said) && std::filesystem::file_size(said) > many_words)
-    throw InputError("Gmsh was stopped, since its messages did not end; the last one:" + errors_in(said));
-  if (status != 0 || !std::filesystem::exists(msh))
+  if (run_gmsh(geo, msh, said, time_limit) != 0 || !std::filesystem::exists(msh))
     throw InputError("Gmsh made no mesh that fits; it says:" + errors_in(said));
   TetMesh mesh = read_mesh(msh);
   mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();

@@ -46,18 +46,20 @@ ExitStatus write_new(const MakeMeshArguments& arguments, const TetMesh& mesh, co
 }
 
 // Gmsh is asked where it is named or installed; what it cannot do a lattice can
-TetMesh filled(const TriangleSurface& surface, double size, const std::string& with) {
+TetMesh filled(const TriangleSurface& surface, double size, const MakeMeshArguments& arguments) {
   check_cell_size(surface.vertices, size);
-  if (with == "lattice") return lattice_mesh(surface, size);
+  double time_limit = 0;
+  read_option("--time-limit", arguments.time_limit, Quantity{duration, positive}, time_limit);
+  if (arguments.with == "lattice") return lattice_mesh(surface, size);
   std::string why = "there is no gmsh on PATH";
   if (has_gmsh()) {
     try {
-      return fill_with_gmsh(surface, size);
+      return fill_with_gmsh(surface, size, time_limit);
     } catch (const InputError& error) {
       why = error.what();
     }
   }
-  if (with == "gmsh") throw InputError("--with gmsh: " + why + "; expected --with lattice");
+  if (arguments.with == "gmsh") throw InputError("--with gmsh: " + why + "; expected --with lattice");
   std::cout << why << "\na lattice of cubes instead, which does not fit the surface\n";
   return lattice_mesh(surface, size);
 }
@@ -86,7 +88,7 @@ ExitStatus mesh_fill(const MakeMeshArguments& arguments) {
   if (!report.closed()) throw InputError("the surface " + why_open(report), {arguments.in.string()});
   for (Point& p : surface.vertices) p *= scale;
   warn(arguments.in, surface_warnings(report));
-  return write_new(arguments, placed(arguments.in, [&] { return filled(surface, size, arguments.with); }));
+  return write_new(arguments, placed(arguments.in, [&] { return filled(surface, size, arguments); }));
 }
 
 ExitStatus mesh_coarsen(const MakeMeshArguments& arguments) {

@@ -160,19 +160,26 @@ TEST_F(MeshCommands, LatticesOverSurfacesAndMeshes) {
 }
 
 // A stand-in for Gmsh, so that what follows from it does not depend on what is installed
-TEST_F(MeshCommands, FillsWithGmshWhereThereIsOne) {
-  const std::string path = getenv("PATH");
-  const auto with_gmsh = [&](const std::string& does) {
+class FillsWithGmsh : public MeshCommands {
+ protected:
+  ~FillsWithGmsh() override { setenv("PATH", path.c_str(), 1); }
+  void with_gmsh(const std::string& does) const {
     std::ofstream(at("gmsh")) << "#!/bin/sh\n" << does;
     std::filesystem::permissions(at("gmsh"), std::filesystem::perms::owner_all);
     setenv("PATH", (at("") + ":" + path).c_str(), 1);
-  };
-  const std::vector<std::string> fill = {"fill", sample("blocks.ply"), "-o", at("a.vtu"), "--size", "5 mm"};
-  const auto asked = [&](const std::string& with) {
+  }
+  std::vector<std::string> fill_and(const std::vector<std::string>& more) const {
     std::vector<std::string> words = fill;
-    words.insert(words.end(), {"--with", with});
+    words.insert(words.end(), more.begin(), more.end());
     return words;
-  };
+  }
+  std::vector<std::string> asked(const std::string& with) const { return fill_and({"--with", with}); }
+
+  const std::string path = getenv("PATH");
+  const std::vector<std::string> fill = {"fill", sample("blocks.ply"), "-o", at("a.vtu"), "--size", "5 mm"};
+};
+
+TEST_F(FillsWithGmsh, WhereThereIsOne) {
   with_gmsh("cp '" + sample("blocks_22.msh") + "' \"$6\"\n");
   const Child fitted = plica(fill);
   EXPECT_EQ(fitted.status, 0) << fitted.errors;
@@ -188,7 +195,7 @@ TEST_F(MeshCommands, FillsWithGmshWhereThereIsOne) {
                  "--with gmsh: Gmsh made no mesh that fits; it says:\n  Error : the surface meets itself");
 
   with_gmsh("exec yes 'Info : once more'\n");
-  expect_refused(asked("gmsh"), "Gmsh was stopped, since its messages did not end; the last one:\n");
+  expect_refused(asked("gmsh"), "Gmsh was stopped, since its messages did not end; its last words:\n");
 
   with_gmsh("cp '" + sample("../ball.msh") + "' \"$6\"\n");
   expect_refused(asked("gmsh"), "of a surface that encloses");
@@ -198,6 +205,25 @@ TEST_F(MeshCommands, FillsWithGmshWhereThereIsOne) {
   EXPECT_NE(plica(fill).output.find("there is no gmsh on PATH\na lattice of cubes instead"), std::string::npos);
   setenv("PATH", path.c_str(), 1);
   expect_refused(asked("tetgen"), "--with");
+}
+
+TEST_F(FillsWithGmsh, WhichIsStoppedWhereItHangs) {
+  const std::string temporary = at("temporary");
+  std::filesystem::create_directory(temporary);
+  setenv("TMPDIR", temporary.c_str(), 1);
+  with_gmsh("echo 'Info : Meshing surface 3' && touch \"$6\" && exec sleep 1000\n");
+  expect_refused(fill_and({"--with", "gmsh", "--time-limit", "0.3 s"}),
+                 "blocks.ply: --with gmsh: Gmsh was stopped, since it had made no mesh after 0.3 s: give it longer "
+                 "(--time-limit), choose a larger --size, or mend the surface (it may meet itself); its last words:\n"
+                 "  Info : Meshing surface 3");
+  EXPECT_FALSE(std::filesystem::exists(at("a.vtu")));
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+  const Child instead = plica(fill_and({"--time-limit", "300 ms"}));
+  EXPECT_EQ(instead.status, 0) << instead.errors;
+  EXPECT_NE(instead.output.find("no mesh after 0.3 s"), std::string::npos) << instead.output;
+  EXPECT_NE(instead.output.find("225 vertices"), std::string::npos) << instead.output;
+  unsetenv("TMPDIR");
+  expect_refused(fill_and({"--time-limit", "-1 s"}), "--time-limit");
 }
 
 TEST_F(MeshCommands, PipesAndHugeNamesAreRefused) {
