@@ -10,6 +10,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
+#include <plica/drivers/app/scene/shared_integration.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/solver/him/advice.hpp>
@@ -211,6 +212,7 @@ Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
     throw InputError("cannot resume in " + arguments.precision + ": the run is in " + from.precision);
   Tree tree = arguments.scene.empty() ? from.scene : read_tree(arguments.scene);
   for (const Override& given : arguments.overrides) override_value(tree, given.assignment, given.label);
+  tree = shared_integration(tree);  // as that of the checkpoint
   if (const std::string difference = first_difference(from.scene, tree, "duration"); !difference.empty())
     throw InputError("cannot resume another scene: " + difference + "; only the duration may change");
   Scene scene = load_scene(tree);

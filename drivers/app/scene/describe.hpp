@@ -157,13 +157,18 @@ void describe(V& v, BodyKeys& o) {
   v("surface", o.surface, Group{}, "embedded in every level: it touches the obstacles, and frames show it");
 }
 
+inline constexpr const char* body_integration_help =
+    "over the scene's; bodies are stepped together, so all that have one must come to the same";
+
 template <class V>
 void describe(V& v, BodyRecipe& o) {
   BodyKeys keys{o.levels, o.lattices, o.jitter, o.body, o.surface};
   describe(v, keys);
+  IntegrationOptions integration;  // shared_integration() takes it
+  v("integration", integration, Group{}, body_integration_help);
 }
 
-/// A map of names to what `body` may say.
+/// A map of names to what `body` may say, and `integration`.
 struct BodyMap {};
 
 template <class V>

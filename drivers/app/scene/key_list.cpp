@@ -154,7 +154,7 @@ class Catalogue {
   static const char* words_of(const List&) { return "a list of maps"; }
   static const char* words_of(const ListOrMap&) { return "a list of maps, or a map"; }
   static const char* words_of(const Map&) { return "a map of maps"; }
-  static const char* words_of(const BodyMap&) { return "a map of maps, each as body"; }
+  static const char* words_of(const BodyMap&) { return "a map of maps, each as body, and with integration"; }
   template <class T>
   static const char* words_of(const Case<T>&) {
     return "a map";
@@ -212,8 +212,11 @@ class Catalogue {
     return {{"type", "object"}, {"additionalProperties", object<T>(path + ".<name>")}};
   }
   template <class T>
-  static Json inside(T&, const BodyMap&, const std::string&) {
-    return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", {{"$ref", "#/properties/body"}}}};
+  Json inside(T&, const BodyMap&, const std::string& path) {
+    keys_.push_back({path + ".<name>.integration", "a map, as integration", "", body_integration_help});
+    Json body = properties_.at("body");
+    body["properties"]["integration"] = {{"$ref", "#/properties/integration"}, {"description", body_integration_help}};
+    return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", body}};
   }
   template <class Target, class T>
   Json inside(Target&, const Case<T>&, const std::string& path) {

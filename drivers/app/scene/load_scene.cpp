@@ -7,6 +7,7 @@
 #include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
+#include <plica/drivers/app/scene/shared_integration.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
@@ -258,7 +259,8 @@ Scene load_body(const Tree& tree) {
   return scene;
 }
 
-Scene load_scene(const Tree& tree) {
+Scene load_scene(const Tree& given) {
+  const Tree tree = shared_integration(given);
   Scene scene = tree.find("bodies") != nullptr ? load_bodies(tree) : load_body(tree);
   with_places(tree, [&] { validate(scene.problem); });
   for (const std::string& doubt : doubts(scene.problem)) scene.warnings.push_back(scene.file + ": " + doubt);

@@ -67,6 +67,49 @@ TEST(BodiesScene, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(said("duration: 1\nbodies: {}").find("at least one body"), std::string::npos);
 }
 
+// What one of them says of its steps holds for all, over what the scene says
+TEST(BodiesScene, TakeTheStepsOfEachIfTheyAreTheSame) {
+  const auto both = [](const std::string& left, const std::string& right) {
+    const std::string line = "\n    integration: {";
+    std::string text = two + "integration: {safety: 0.8, macro_step: 2 ms, him: {sigma: 0.7}}\n";
+    text.replace(text.find("\n    fixed:"), 0, left.empty() ? "" : line + left + "}");
+    return text.replace(text.find("\n    initial:"), 0, right.empty() ? "" : line + right + "}");
+  };
+  const IntegrationOptions one =
+      scene_of(both("", "macro_step: 1 ms, cycle: rs, him: {smoothing: false}")).problem.integration;
+  EXPECT_EQ(one.macro_step, 1e-3);
+  EXPECT_EQ(one.cycle, "rs");
+  EXPECT_EQ(one.safety, 0.8);
+  EXPECT_EQ(one.him.sigma, 0.7);
+  EXPECT_FALSE(one.him.smoothing);
+  const IntegrationOptions same =
+      scene_of(both("macro_step: 0.001, cycle: single", "macro_step: 1 ms")).problem.integration;
+  EXPECT_EQ(same.macro_step, 1e-3);
+  EXPECT_EQ(scene_of(both("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.3, 0.7]"))
+                .problem.integration.shares[1],
+            0.7);
+
+  const auto said = [&](const std::string& left, const std::string& right) {
+    return refusal([&] { scene_of(both(left, right)); });
+  };
+  EXPECT_EQ(said("macro_step: 1 ms", "macro_step: 3 ms"),
+            "two.yaml:12: bodies.right.integration.macro_step is 0.003 s, but bodies.left.integration.macro_step is "
+            "0.001 s; expected the same: bodies are stepped together, since they may touch");
+  EXPECT_NE(said("him: {sigma: 0.5}", "safety: 0.8").find("bodies.right.integration.him.sigma is 0.7, but bodies.left"),
+            std::string::npos)
+      << said("him: {sigma: 0.5}", "safety: 0.8");
+  EXPECT_NE(said("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.4, 0.6]")
+                .find("distribution is custom 0.4 0.6, but"),
+            std::string::npos)
+      << said("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.4, 0.6]");
+  EXPECT_NE(said("", "macro_stepp: 1 ms").find("two.yaml:11: bodies.right.integration: unknown key 'macro_stepp'"),
+            std::string::npos)
+      << said("", "macro_stepp: 1 ms");
+  EXPECT_NE(said("cycle: rs, macro_step: 3 s", "").find("two.yaml:7: integration.macro_step is 3 s; expected at most"),
+            std::string::npos)
+      << said("cycle: rs, macro_step: 3 s", "");
+}
+
 // One of them known by its surface alone, which lattices fill
 TEST(BodiesScene, LatticesStandBesideMeshes) {
   const std::string box = "[{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]\n    initial",
