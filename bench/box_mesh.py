@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Boxes of tetrahedra as Gmsh files, which every program here reads: six in a cell, vertices moved at random within their faces."""
 import itertools
+import math
 import random
 
 CORNERS = [(0, 1, 3), (0, 3, 2), (0, 2, 6), (0, 6, 4), (0, 4, 5), (0, 5, 1)]  # with corner 7, around the cell's diagonal
@@ -11,7 +12,7 @@ class BoxMesh:
 
     def __init__(self, size, cells, jitter=0.0, seed=1):
         draw = random.Random(seed)
-        self.size, self.cells = size, cells
+        self.size, self.cells, self.volume = size, cells, math.prod(size)
         inner = lambda i, k: 0 < i < cells[k]
         self.vertices = [tuple(size[k] / cells[k] * (i[k] + (jitter * draw.uniform(-1, 1) if inner(i[k], k) else 0)) for k in range(3))
                          for i in itertools.product(*(range(n + 1) for n in cells))]
@@ -43,3 +44,12 @@ class BoxMesh:
             out.write(f"$EndNodes\n$Elements\n{len(self.tets)}\n")
             out.writelines(f"{t} 4 2 0 0 {' '.join(str(a + 1) for a in tet)}\n" for t, tet in enumerate(self.tets, 1))
             out.write("$EndElements\n")
+
+
+class CookMesh(BoxMesh):
+    """Cook's membrane: corners (0, 0), (48, 44), (48, 60), (0, 44) mm in x and z, 10 mm thick."""
+
+    def __init__(self, cells, jitter=0.0, seed=1):
+        super().__init__((1, 1, 1), cells, jitter, seed)
+        self.vertices = [(0.048 * x, 0.01 * y, 1e-3 * (44 * x + (44 - 28 * x) * z)) for x, y, z in self.vertices]
+        self.size, self.volume = (0.048, 0.01, 0.06), 48 * 30 * 10e-9

@@ -17,9 +17,8 @@ class Flex:
     """One thread, double; clamped at the lower end of an axis. `damping` [1/s] is proportional to the mass; `forces` [N] act along z."""
 
     def __init__(self, mesh, file, young, poisson, density, step, integrator="Euler", gravity=0.0, damping=0.0, forces=None, axis=0):
-        volume = mesh.size[0] * mesh.size[1] * mesh.size[2]
         self.model = mujoco.MjModel.from_xml_string(SCENE.format(
-            step=step, gravity=gravity, integrator=integrator, file=file, mass=density * volume, young=young, poisson=poisson,
+            step=step, gravity=gravity, integrator=integrator, file=file, mass=density * mesh.volume, young=young, poisson=poisson,
             pins=" ".join(map(str, mesh.clamped(axis)))))
         self.data, self.rest = mujoco.MjData(self.model), mesh.vertices
         mujoco.mj_forward(self.model, self.data)
