@@ -269,6 +269,15 @@ def test_what_a_force_raises_comes_out(cube):
 # -- errors
 
 
+def test_what_is_left_out_of_an_installation_is_named(cube, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)  # as if it were not installed
+    with pytest.raises(ImportError, match="plica.study needs pandas: pip install pandas"):
+        plica.study(CUBE)
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    with pytest.raises(ImportError, match="to_pyvista needs pyvista"):
+        cube.to_pyvista()
+
+
 @pytest.mark.parametrize("make, message", [
     (lambda s: plica.Scene("nowhere.yaml"), "nowhere.yaml: there is no such file"),
     (lambda s: plica.Scene(CUBE, integration={"cycle": "rvs"}), "did you mean 'rsv'"),
@@ -299,6 +308,10 @@ def test_what_a_force_raises_comes_out(cube):
     (lambda s: plica.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, np.inf]], [[0, 1, 2, 3]]), r"got inf at \[3, 2\]"),
     (lambda s: plica.Scene(duration=1, body={"levels": [plica.Mesh(np.zeros((4, 3)), [[0, 1, 2, 3]])]}),
      "^scene: plica.Mesh 0, its numbers from 1: tetrahedron 1 .* has no volume"),
+    (lambda s: plica.Scene(CUBE, set=["duration=1"]), "set: expected a dict such as .* got list"),
+    (lambda s: plica.Mesh.from_meshio("liver.vtu"), "expected a meshio.Mesh, got str"),
+    (lambda s: (s.set_forces(lambda level, time, x, v, out: np.zeros_like(out)), s.step()), "expected it to add to `out` .* got ndarray"),
+    (lambda s: plica.init(threads=-1), "threads: expected a whole number >= 0, got -1"),
     (lambda s: plica.init(threads=plica.info()["threads"] + 1), "already runs with"),
 ])
 def test_bad_input_says_what_was_expected(cube, make, message):

@@ -30,6 +30,8 @@ def init(threads: int = 0) -> None:
 
     Without it Kokkos starts when a simulation first needs it. InputError where it runs already with another number.
     """
+    if not isinstance(threads, int) or threads < 0:
+        raise InputError(f"threads: expected a whole number >= 0, got {threads!r}")
     _plica.start(threads)
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from dataclasses import dataclass, field
 
@@ -25,6 +26,14 @@ def checked(name: str, values, shape: tuple, dtype=np.float64) -> np.ndarray:
         place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
         raise InputError(f"{name}: expected finite numbers, got {array[place]} at {list(place)}")
     return np.ascontiguousarray(array, dtype=dtype)
+
+
+def needed(module: str, by: str):
+    """A module that Plica itself does without."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"{by} needs {module}: pip install {module}") from error
 
 
 @dataclass
@@ -72,6 +81,8 @@ class Mesh:
 
         scale: metres per unit of its points, such as 0.001.
         """
+        if not hasattr(mesh, "cells"):
+            raise InputError(f"from_meshio: expected a meshio.Mesh, got {type(mesh).__name__}; plica.Mesh.read(file) reads files")
         blocks = [i for i, block in enumerate(mesh.cells) if block.type == "tetra"]
         if not blocks:
             kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "nothing"

@@ -78,6 +78,8 @@ class Scene:
     _scene = None  # until it is read
 
     def __init__(self, source=None, *, set: dict | None = None, **overrides):
+        if set is not None and not isinstance(set, dict):
+            raise InputError(f'set: expected a dict such as {{"body.levels.0.box.cells": [8, 8, 8]}}, got {type(set).__name__}')
         values, file, text = dict(overrides), "", ""
         with tempfile.TemporaryDirectory(prefix="plica_") as folder:
             plain = _Plain(folder)

@@ -18,7 +18,7 @@ import numpy as np
 
 from . import _plica
 from ._plica import Diagnosis, Energies, InputError
-from .mesh import checked
+from .mesh import checked, needed
 from .quantities import Cavity, Tool, Wrench
 from .scene import made
 
@@ -316,8 +316,7 @@ class Simulation:
 
     def to_pyvista(self, level: int = 0):
         """A pyvista.UnstructuredGrid of a level as it is now, with displacement [m], velocity [m/s], von_mises [Pa] and J."""
-        import pyvista
-
+        pyvista = needed("pyvista", "to_pyvista")
         mesh = self.scene.mesh(level)
         cells = np.hstack([np.full((len(mesh.tets), 1), 4), mesh.tets])
         grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), pyvista.CellType.TETRA), self.positions(level).copy())
@@ -347,7 +346,12 @@ class Simulation:
         """
         if forces is not None and not callable(forces):
             raise InputError(f"forces: expected a function, or None, got {type(forces).__name__}")
-        self._open().set_forces(forces)
+
+        def added(level, time, positions, velocities, out):
+            if (answer := forces(level, time, positions, velocities, out)) is not None and answer is not out:
+                raise InputError(f"forces: expected it to add to `out` and return nothing, got {type(answer).__name__}")
+
+        self._open().set_forces(forces and added)
 
     def save(self) -> bytes:
         """All that is needed to go on from here with the same bits; for restore() of the same scene."""

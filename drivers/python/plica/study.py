@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 
 from . import _plica
+from .mesh import needed
 from .scene import made
 from .simulation import _interval
 
@@ -17,8 +18,7 @@ def study(scene=None, *, budget: float | str | None = None, set: dict | None = N
     budget: wall time of all of it, seconds or "60 s"; what does not fit is left out.
     Columns are those of study.csv: method, macro_step [s], error, wall_time [s], status, pareto ... Ctrl-C stops it.
     """
-    import pandas
-
+    pandas = needed("pandas", "plica.study")
     scene = made("study", scene, set, overrides)
     seconds = None if budget is None else _interval(budget, "budget")[0]
     return pandas.read_csv(io.StringIO(_plica.study(scene._scene, seconds)))
