@@ -15,6 +15,7 @@ import atexit
 from . import _plica
 from ._plica import Diagnosis, Energies, FileError, InputError
 from .mesh import Mesh
+from .mesh import whole as _whole
 from .scene import Scene, keys
 from .quantities import Cavity, Tool, Wrench
 from .simulation import Diverged, Simulation, close_all, report, view
@@ -30,9 +31,7 @@ def init(threads: int = 0) -> None:
 
     Without it Kokkos starts when a simulation first needs it. InputError where it runs already with another number.
     """
-    if not isinstance(threads, int) or threads < 0:
-        raise InputError(f"threads: expected a whole number >= 0, got {threads!r}")
-    _plica.start(threads)
+    _plica.start(_whole("threads", threads))
 
 
 def info() -> dict:

@@ -28,6 +28,13 @@ def checked(name: str, values, shape: tuple, dtype=np.float64) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=dtype)
 
 
+def whole(name: str, value, least: int = 0) -> int:
+    """The value, a whole number; InputError says what was expected and what was given."""
+    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and value >= least:
+        return int(value)
+    raise InputError(f"{name}: expected a whole number >= {least}, got {value!r}")
+
+
 def needed(module: str, by: str):
     """A module that Plica itself does without."""
     try:

@@ -18,7 +18,7 @@ import numpy as np
 
 from . import _plica
 from ._plica import Diagnosis, Energies, InputError
-from .mesh import checked, needed
+from .mesh import checked, needed, whole
 from .quantities import Cavity, Tool, Wrench
 from .scene import made
 
@@ -46,9 +46,7 @@ def report(folder, *, frames: int = 200) -> Path:
 
     frames: of a run, at most so many, evenly.
     """
-    if frames < 2:
-        raise InputError(f"frames: expected 2 or more, got {frames}")
-    file, notes = _plica.report(os.fspath(folder), frames)
+    file, notes = _plica.report(os.fspath(folder), whole("frames", frames, 2))
     for note in notes:
         warnings.warn(note, stacklevel=2)
     return Path(file)
@@ -180,10 +178,9 @@ class Simulation:
 
     def step(self, macro_steps: int = 1) -> Simulation:
         """So many macro steps."""
-        if macro_steps < 0:
-            raise InputError(f"macro_steps: expected 0 or more, got {macro_steps}")
+        count = whole("macro_steps", macro_steps)
         self._open().end_at(math.inf)
-        return self._advance(math.inf, macro_steps)
+        return self._advance(math.inf, count)
 
     def _advance(self, until: float, at_most: int = _forever) -> Simulation:
         diagnosis = self._open().advance(until, at_most)
@@ -225,11 +222,11 @@ class Simulation:
 
     def positions(self, level: int = 0) -> np.ndarray:
         """[vertices, 3] m, of a level; follows the simulation."""
-        return self._open().positions(level)
+        return self._open().positions(whole("level", level))
 
     def velocities(self, level: int = 0) -> np.ndarray:
         """[vertices, 3] m/s, of a level; follows the simulation."""
-        return self._open().velocities(level)
+        return self._open().velocities(whole("level", level))
 
     def surface_positions(self) -> np.ndarray:
         """[points, 3] m, of the embedded surface; no rows without one; follows the simulation."""
@@ -241,11 +238,11 @@ class Simulation:
 
     def von_mises(self, level: int = 0) -> np.ndarray:
         """Equivalent stress now [Pa]: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
-        return self._open().element_fields(level)[1]
+        return self._open().element_fields(whole("level", level))[1]
 
     def J(self, level: int = 0) -> np.ndarray:
         """Volume ratio now: [vertices] of a level with nodal elements, [tetrahedra] with linear ones."""
-        return self._open().element_fields(level)[2]
+        return self._open().element_fields(whole("level", level))[2]
 
     def energies(self) -> Energies:
         """Of level 0 now [J]: kinetic, elastic, potential, contact, total."""
@@ -322,7 +319,7 @@ class Simulation:
         grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), pyvista.CellType.TETRA), self.positions(level).copy())
         grid.point_data["displacement"] = self.positions(level) - (mesh.points + self.scene._scene.placement)
         grid.point_data["velocity"] = self.velocities(level).copy()
-        per_vertex, von_mises, J = self._open().element_fields(level)
+        per_vertex, von_mises, J = self._open().element_fields(whole("level", level))
         for name, values in (("von_mises", von_mises), ("J", J)):
             (grid.point_data if per_vertex else grid.cell_data)[name] = values
         return grid
