@@ -62,7 +62,7 @@ Tree with_integration(Tree tree, const Tree& integration) {
   return tree;
 }
 
-KeyValues::All values_of(const Tree& tree) {
+KeyValues::All integration_values(const Tree& tree) {
   IntegrationOptions options = read_scene(tree).problem.integration;
   KeyValues::All all;
   KeyValues walk(all, "integration");
@@ -81,9 +81,9 @@ Tree shared_integration(const Tree& tree) {
   if (bodies.empty()) return tree;
   read_scene(tree);  // each by itself is as it should be
   Tree shared = with_integration(tree, *bodies.front()->find("integration"));
-  const KeyValues::All first = values_of(shared);
+  const KeyValues::All first = integration_values(shared);
   for (const Tree* body : bodies) {
-    const KeyValues::All here = values_of(with_integration(tree, *body->find("integration")));
+    const KeyValues::All here = integration_values(with_integration(tree, *body->find("integration")));
     const auto [one, other] = std::ranges::mismatch(here, first);
     if (one == here.end()) continue;
     const std::string path = fmt::format("bodies.{}.{}", body->key, one->first);
