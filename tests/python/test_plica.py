@@ -269,15 +269,6 @@ def test_what_a_force_raises_comes_out(cube):
 # -- errors
 
 
-def test_what_is_left_out_of_an_installation_is_named(cube, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pandas", None)  # as if it were not installed
-    with pytest.raises(ImportError, match="plica.study needs pandas: pip install pandas"):
-        plica.study(CUBE)
-    monkeypatch.setitem(sys.modules, "pyvista", None)
-    with pytest.raises(ImportError, match="to_pyvista needs pyvista"):
-        cube.to_pyvista()
-
-
 @pytest.mark.parametrize("make, message", [
     (lambda s: plica.Scene("nowhere.yaml"), "nowhere.yaml: there is no such file"),
     (lambda s: plica.Scene(CUBE, integration={"cycle": "rvs"}), "did you mean 'rsv'"),
@@ -405,9 +396,3 @@ def test_a_study_is_a_table():
     table = plica.study(CUBE, duration="5 ms", study={"methods": ["single/symplectic_euler"], "samples": 3, "timed_runs": 1})
     assert isinstance(table, pandas.DataFrame) and {"method", "macro_step", "error", "wall_time", "pareto"} <= set(table.columns)
     assert (table.status == "completed").any()
-
-
-def test_stubs_are_there():
-    package = Path(plica._plica.__file__).parent
-    assert (package / "py.typed").exists()
-    assert "class Diagnosis" in (package / "_plica.pyi").read_text()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a wheel has is enough, without the folders it was built in."""
+"""What a wheel has is enough, without the folders it was built in; what it leaves to others is named."""
 import os
 import re
 import shutil
@@ -12,10 +12,11 @@ import pytest
 
 EVERYWHERE = re.compile(r"(lib(c|m|dl|rt|pthread|stdc\+\+|gcc_s|z)\.so|ld-).*")
 
-USE = """
+BLOCK = {"duration": "10 ms", "body": {"levels": [{"box": {"size": [0.1, 0.1, 0.1], "cells": [2, 2, 2]}}]}}
+USE = f"""
 import plica
-plica.Simulation(duration="10 ms", body={"levels": [{"box": {"size": [0.1, 0.1, 0.1], "cells": [2, 2, 2]}}]}).run()
-print(plica.__file__, *{line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}, sep="\\n")
+plica.Simulation({BLOCK}).run()
+print(plica.__file__, *{{line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}}, sep="\\n")
 """
 
 
@@ -42,3 +43,18 @@ def test_a_wheel_needs_nothing_else(tmp_path):
     module, *libraries = map(Path, child.stdout.split("\n")[:-1])
     assert module.parent == package
     assert carried <= {library.name for library in libraries if library.parent == package / "lib"}
+
+
+def test_what_is_left_out_of_an_installation_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)  # as if it were not installed
+    with pytest.raises(ImportError, match="plica.study needs pandas: pip install pandas"):
+        plica.study(duration=1)
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    with pytest.raises(ImportError, match="to_pyvista needs pyvista"):
+        plica.Simulation(BLOCK).to_pyvista()
+
+
+def test_stubs_are_there():
+    package = Path(plica._plica.__file__).parent
+    assert (package / "py.typed").exists()
+    assert "class Diagnosis" in (package / "_plica.pyi").read_text()

@@ -57,14 +57,8 @@ def view(scene=None, *, port: int = 8642, browser: bool = True, precision: str =
 
     scene: a plica.Scene, or what makes one.
     """
-    taken = _taken(port)  # before the set-up, which may take long
+    taken = _plica.Port(whole("port", port))  # before the set-up, which may take long
     return Simulation(scene, precision=precision, set=set, **overrides)._view(taken, browser)
-
-
-def _taken(port: int) -> _plica.Port:
-    if not isinstance(port, int):
-        raise InputError(f"port: expected 0 to 65535, got {port!r}")
-    return _plica.Port(port)
 
 
 def _invite(browser: bool, address: str) -> None:
@@ -303,7 +297,7 @@ class Simulation:
 
         port: of the page's address on this machine; 0: any free one. browser: whether one is opened.
         """
-        return self._view(_taken(port), browser)
+        return self._view(_plica.Port(whole("port", port)), browser)
 
     def _view(self, port: _plica.Port, browser: bool) -> Simulation:
         self._open().end_at(math.inf)
