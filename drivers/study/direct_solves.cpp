@@ -91,6 +91,7 @@ SparseStiffness::SparseStiffness(LevelProbe<HostBackend>& probe, const Held& hel
   const std::vector<Point>& rest = probe.built.meshes[0].vertices;
   for (const int dof : probe.free())
     if (!held || !held(rest[static_cast<std::size_t>(dof / 3)], dof % 3)) free_.push_back(dof);
+  probe.force(probe.zero());
   linearise(probe.zero());
 }
 

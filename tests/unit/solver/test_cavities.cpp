@@ -127,11 +127,11 @@ TEST(Cavity, StiffnessIsTheDerivativeOfItsForces) {
     EXPECT_LE((all[a] - elastic[a] - (down[a] - up[a]) / (2 * h)).norm(), 1e-6 * size) << a;
 }
 
-// A fluid a hundred times as stiff as the wall, in steps 60 times those that are stable explicitly: with a matrix that does not know
-// the fluid the first of them is lost
+// A fluid that is much stiffer than the wall, in steps far above those that are stable explicitly
 TEST(Cavity, IsFilledInImplicitSteps) {
-  Problem p = balloon(1.3, 100 * K);
+  Problem p = balloon(1.3, 1e4 * K);
   p.body.damping.mass = 100;
+  EXPECT_LT(Simulation<Host>(p).levels()[0].critical_step, 0.02 / 200);
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.02;
   for (const int newton : {1, 20})
     for (const char* matrix : {"assembled", "free"}) {
@@ -139,8 +139,8 @@ TEST(Cavity, IsFilledInImplicitSteps) {
       Simulation<Host> simulation(p);
       advance(simulation, 50);
       const CavityState full = simulation.cavities().at(0);
-      EXPECT_NEAR(full.volume, 1.3 * hole * hole * hole, 0.01 * full.volume) << matrix << newton;
-      EXPECT_NEAR(full.pressure, 100 * K * (1.3 - full.volume / (hole * hole * hole)), 1e-6 * full.pressure);
+      EXPECT_NEAR(full.volume, 1.3 * hole * hole * hole, 1e-3 * full.volume) << matrix << newton;
+      EXPECT_NEAR(full.pressure, 1e4 * K * (1.3 - full.volume / (hole * hole * hole)), 1e-6 * full.pressure);
       if (newton > 1) {
         EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
       }
