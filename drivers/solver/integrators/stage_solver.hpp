@@ -130,7 +130,11 @@ class StageSolver {
   bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     level.linearise(level.state, time, weights, ahead, level.f);
     if (iterates()) return newton(level, time + ahead, weights);
-    correct(level, weights, true, options_.tangent == "positive");
+    const SolveOutcome out = correct(level, weights, true, options_.tangent == "positive");
+    if (!out.indefinite || options_.tangent != "auto" || level.followers.empty() || level.prescribed.count > 0)
+      return true;
+    undo(level, weights, 1);  // the pressure takes more stiffness away than there is
+    correct(level, weights, false, true);
     return true;
   }
 
