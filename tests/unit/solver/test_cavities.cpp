@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <numbers>
 #include <plica/drivers/study/level_probe.hpp>
+#include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/sample_gradients.hpp>
 #include <plica/meshes/generators.hpp>
 #include <plica/meshes/organs.hpp>
@@ -107,11 +108,7 @@ TEST(Cavity, StiffnessIsTheDerivativeOfItsForces) {
   LevelProbe<Host> with(p);
   p.body.loads.clear();
   LevelProbe<Host> without(p);
-  std::mt19937 random(7);
-  std::normal_distribution<double> normal(0, 1);
-  auto u = with.zero(), e = u;
-  for (std::size_t a = 0; a < u.size(); ++a)
-    for (int k = 0; k < 3; ++k) u[a][k] = 3e-3 * normal(random), e[a][k] = normal(random);
+  const auto u = random_field(with.vertices(), 3e-3, 7), e = random_field(with.vertices(), 1, 8);
   const auto force = [&](double ahead) {
     auto x = u;
     for (std::size_t a = 0; a < x.size(); ++a) x[a] += ahead * e[a];

@@ -5,7 +5,6 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/study/level_probe.hpp>
-#include <plica/drivers/study/sample_gradients.hpp>
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
