@@ -45,7 +45,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   make_memory(std::ranges::any_of(all, [](const ObstacleOptions& o) { return o.mass.has_value(); }));
   for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles()));
   make_laws(options, surface, stiff ? most_stiffening : 1);
-  if (stiff) choose_whole(options.whole_surface, surface.surface);
+  choose_whole(options.whole_surface, surface.surface);
   if (pairs || whole() > 0) connect(surface.surface, pairs);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge), static_cast<Real>(pair_margin * surface.edge),
@@ -62,7 +62,6 @@ void Contact<B>::make_memory(bool tools) {
     held_.memory = memory_ = zeros<Doubles<B>>("plica::contact.memory", static_cast<std::size_t>(size));
 }
 
-/// Not of implicit levels, whose matrices couple the points of one tetrahedron alone.
 template <class B>
 void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& surface) {
   const double edge = mean_surface_edge(surface);
@@ -87,7 +86,7 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     const auto x = [&](std::size_t c) { return of.surface.vertices[static_cast<std::size_t>(t[c])]; };
     area[part(t[0])] += 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   }
-  std::vector<PenaltyLaw<Real>> laws, implicit_laws, held_laws;
+  std::vector<PenaltyLaw<Real>> laws, held_laws;
   const auto add_row = [&](const std::optional<double>& friction, const std::optional<GraspOptions>& grasp) {
     for (std::size_t b = 0; b < of.parts.size(); ++b) {
       const MaterialOptions& material = *of.parts[b].material;
@@ -101,7 +100,7 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
                                 static_cast<Real>(friction ? options.tangential_damping_scale * critical(k) : 0),
                                 static_cast<Real>(friction.value_or(0))};
       };
-      laws.push_back(law(stiffening * soft)), implicit_laws.push_back(law(soft));
+      laws.push_back(law(stiffening * soft));
       const double spring = grasp && grasp->stiffness ? *grasp->stiffness : stiffening * soft;
       held_laws.push_back(law(spring));
       if (laws.size() == 1) stiffness_ = stiffening * soft, damping_ = options.damping_scale * critical(stiffness_);
@@ -111,9 +110,8 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
   add_row(options.friction, {});
   laws_.body = of.body.empty() ? Indices<B>{} : to_device<Indices<B>>("contact.body", of.body);
   laws_.bodies = static_cast<int>(of.parts.size());
-  implicit_laws_ = held_.law = laws_;
+  held_.law = laws_;
   laws_.law = to_device<decltype(laws_.law)>("contact.laws", laws);
-  implicit_laws_.law = to_device<decltype(laws_.law)>("contact.implicit_laws", implicit_laws);
   if (held_.records > 0) held_.law.law = to_device<decltype(laws_.law)>("contact.held_laws", held_laws);
   if (attached_count_ > 0) attach(options, of, {laws.end() - laws_.bodies, laws.end()});
 }
@@ -171,7 +169,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   const std::size_t n = static_cast<std::size_t>(points_);
   TouchingPoints<B> points;
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
-  points.law = implicit ? implicit_laws_ : laws_;
+  points.law = laws_;
   points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
   if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
     points.pairs.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(n, -1));
@@ -190,63 +188,30 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
       "contact.depth", std::vector<Real>(records, std::numeric_limits<Real>::lowest()));  // what no kernel looks at
   points.mobility = zeros<Scalars<B>>("plica::contact.mobility", records);
   points.count = zeros<Doubles<B>>("plica::contact.count", 1);
-  if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", n);
+  if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", records);
   return points;
 }
 
 template <class B>
-void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time, double ahead,
                       const TouchingPoints<B>& points) const {
   for (int o = 0; o < obstacles(); ++o)
-    obstacles_[static_cast<std::size_t>(o)]->find(exec, level.surface, s, time, o, points);
+    obstacles_[static_cast<std::size_t>(o)]->find(exec, level.surface, s, time, ahead, o, points);
   for (std::size_t o = 0; o < whole_.size(); ++o)
-    if (whole_[o]) obstacles_[o]->find_on_faces(exec, level.surface, s, time, static_cast<int>(o), points);
+    if (whole_[o]) obstacles_[o]->find_on_faces(exec, level.surface, s, time, ahead, static_cast<int>(o), points);
   for (int o = 0; o < obstacles(); ++o)
     if (grasp_options(o))
       update_vertices<B>(exec, "plica::contact_held", points_,
-                         StretchHeld<B>{level.surface, s, place(o, time), points, o});
+                         StretchHeld<B>{level.surface, s, place(o, time, ahead), points, o});
 }
 
 template <class B>
-void Contact<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
-                           const ImplicitWeights& w, double ahead, const TouchingPoints<B>& points,
-                           const Vectors<B>& f) const {
-  for (int o = 0; o < obstacles(); ++o)
-    obstacles_[static_cast<std::size_t>(o)]->linearise(exec, level.surface, s, time, w, ahead, o, points);
-  update_vertices<B>(exec, "plica::contact_scatter", level.surface.touched,
-                     ScatterContact<B>{level.surface, points, f});
-}
-
-template <class B>
-void Contact<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p,
-                             const TouchingPoints<B>& points, const Vectors<B>& q) const {
-  Kokkos::parallel_for("plica::contact_product", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.points),
-                       PointProduct<B>{level.surface, p, points.block, points.force});
-  scatter_to_vertices<B>(exec, level.surface, points.force, q);
-}
-
-template <class B>
-void Contact<B>::add_diagonal(const Exec& exec, const Level<B>& level, const TouchingPoints<B>& points,
-                              const Blocks<B>& diagonal) const {
-  Kokkos::parallel_for("plica::contact_diagonal", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
-                       AddPointBlocks<B>{level.surface, points.block, diagonal});
-}
-
-template <class B>
-void Contact<B>::add_matrix(const Exec& exec, const Level<B>& level, const TouchingPoints<B>& points,
-                            const BlockMatrix<B>& A) const {
-  Kokkos::parallel_for("plica::contact_matrix", Kokkos::RangePolicy<Exec>(exec, 0, level.surface.touched),
-                       AddContact<B>{level.surface, points.block, A});
-}
-
-template <class B>
-double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, bool implicit,
-                          const BlockSums<B>& blocks) const {
+double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, const BlockSums<B>& blocks) const {
   const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
   double total = 0;
   for (int o = 0; o < obstacles(); ++o) {
-    obstacles_[static_cast<std::size_t>(o)]->energy(exec, level.surface, level.state, time, o,
-                                                    implicit ? implicit_laws_ : laws_, held_, blocks, result);
+    obstacles_[static_cast<std::size_t>(o)]->energy(exec, level.surface, level.state, time, o, laws_, held_, blocks,
+                                                    result);
     total += host_values(exec, result)[0];
   }
   return total;
@@ -260,7 +225,7 @@ void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double e
 template <class B>
 void Contact<B>::grasp(const Exec& exec, const Level<B>& level, double time, int obstacle,
                        const TouchingPoints<B>& points) const {
-  find(exec, level, level.state, time, points);
+  find(exec, level, level.state, time, 0, points);
   const auto reach = static_cast<Real>(grasp_options(obstacle)->reach);
   update_vertices<B>(exec, "plica::contact_grasp", points_,
                      TakeHold<B>{level.surface, level.state.u, place(obstacle, time), points, obstacle, reach});

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
-#include <plica/core/block_matrix.hpp>
-#include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/set_up/attachments.hpp>
 #include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/pair_grid.hpp>
 #include <plica/kernels/contact/penalty.hpp>
-#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <vector>
 
@@ -21,21 +18,18 @@ class Obstacle {
  public:
   using Exec = typename B::Exec;
   virtual ~Obstacle() = default;
-  /// Its forces on the surface points of the state at `time`, and the blocks of an implicit stage; contact is predicted `ahead` of
-  /// the state [s]. `number`: which of the obstacles it is.
-  virtual void linearise(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, const ImplicitWeights&,
-                         double ahead, int number, const TouchingPoints<B>&) const = 0;
-  /// Its gap to every point of a state.
-  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
+  /// Its gap to every point of a state, where it is now, and the points' velocities against what it will have on average `ahead` of
+  /// now [s]. `number`: which of the obstacles it is.
+  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double ahead, int number,
                     const TouchingPoints<B>&) const = 0;
   /// Where it is deepest in each triangle; after find().
-  virtual void find_on_faces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
-                             const TouchingPoints<B>&) const = 0;
+  virtual void find_on_faces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double ahead,
+                             int number, const TouchingPoints<B>&) const = 0;
   /// Energy stored in its penalties by these laws, and in the springs of what it holds [J], into result(0).
   virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
                       const PointLaws<B>&, const HeldPoints<B>&, const BlockSums<B>&,
                       const Doubles<B>& result) const = 0;
-  virtual ObstaclePlace<B> place(double time) const = 0;
+  virtual ObstaclePlace<B> place(double time, double ahead) const = 0;
   /// From now on it moves so.
   virtual void set_motion(const Motion& motion) = 0;
   virtual void set_turn(const std::optional<Turn>& turn) = 0;
@@ -79,19 +73,10 @@ class Contact {
 
   /// Work arrays of one level; blocks on an implicit one only.
   TouchingPoints<B> make_points(bool implicit) const;
-  /// The gaps of a state, on the whole surface of thin obstacles.
-  void find(const Exec&, const Level<B>&, const State<B>&, double time, const TouchingPoints<B>&) const;
-  /// f += the forces of a stage, linearised about a state
-  void linearise(const Exec&, const Level<B>&, const State<B>&, double time, const ImplicitWeights&, double ahead,
-                 const TouchingPoints<B>&, const Vectors<B>& f) const;
-  /// q += W^T block W p, and diagonal += its vertex blocks
-  void add_product(const Exec&, const Level<B>&, const Vectors<B>& p, const TouchingPoints<B>&,
-                   const Vectors<B>& q) const;
-  void add_diagonal(const Exec&, const Level<B>&, const TouchingPoints<B>&, const Blocks<B>& diagonal) const;
-  /// A += W^T block W
-  void add_matrix(const Exec&, const Level<B>&, const TouchingPoints<B>&, const BlockMatrix<B>& A) const;
-  /// Of an implicit level, or of an explicit one.
-  double energy(const Exec&, const Level<B>&, double time, bool implicit, const BlockSums<B>&) const;
+  /// The gaps of a state, on the whole surface of thin obstacles; `ahead` as of an obstacle's.
+  void find(const Exec&, const Level<B>&, const State<B>&, double time, double ahead, const TouchingPoints<B>&) const;
+  /// Stored in what obstacles do to the points of the level's state [J]. Waits.
+  double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
 
   /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
   int take_lost(const Exec&) const;
@@ -101,12 +86,14 @@ class Contact {
   double damping() const { return damping_; }      ///< along the normal, likewise [N s/m]
   int points() const { return points_; }
   int sites() const { return points_ + faces_.triangles; }
-  int whole() const;                                ///< obstacles that touch the surface between its points
+  int whole() const;  ///< obstacles that touch the surface between its points
+  /// It couples vertices of several tetrahedra, for which assembled matrices have no room.
+  bool couples() const { return pairs_.triangles > 0 || whole() > 0; }
   int attached() const { return attached_count_; }  ///< points that are attached to another body
   const AttachedPoints<B>& attached_points() const { return attached_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
-  ObstaclePlace<B> place(int obstacle, double time) const {
-    return obstacles_[static_cast<std::size_t>(obstacle)]->place(time);
+  ObstaclePlace<B> place(int obstacle, double time, double ahead = 0) const {
+    return obstacles_[static_cast<std::size_t>(obstacle)]->place(time, ahead);
   }
   /// From now on this obstacle moves so; work that is enqueued already has the motion it had.
   void set_motion(int obstacle, const Motion& motion) const {
@@ -137,7 +124,7 @@ class Contact {
   int points_, attached_count_;
   double stiffness_, damping_, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
-  PointLaws<B> laws_, implicit_laws_;
+  PointLaws<B> laws_;
   Doubles<B> memory_;
   HeldPoints<B> held_;
   AttachedPoints<B> attached_;

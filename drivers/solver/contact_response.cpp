@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <limits>
 #include <plica/drivers/solver/contact_response.hpp>
 #include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/find_pairs.hpp>
+#include <plica/kernels/contact/linearised.hpp>
 
 namespace plica {
 
@@ -25,9 +25,9 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, i
 }
 
 template <class B>
-void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double ahead,
                               const TouchingPoints<B>& points) const {
-  contact_->find(exec, level, state, time, points);
+  contact_->find(exec, level, state, time, ahead, points);
   if (search_) search_->find(exec, level.surface, state, points, blocks_);
 }
 
@@ -46,7 +46,7 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
   law.entry = static_cast<Real>(step.entry);
   law.points.span = law.h;
-  find(exec, level, state, time, law.points);
+  find(exec, level, state, time, 0, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
   sum_up(exec, static_cast<double>(law.bounding()));
   for (int sweep = 0; sweep <= contact_sweeps; ++sweep) {  // the first for rho and the forces by e alone
@@ -67,8 +67,7 @@ void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, con
   const AnswerByMass<B> answer{level.surface, level.model, points_, answer_, damped};
   solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, false, true},
         [&] { where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer); });
-  where_touching<B>(exec, points_.count, "plica::contact_scatter", touched,
-                    ScatterContact<B>{level.surface, points_, f});
+  scatter(exec, level, f);
 }
 
 template <class B>
@@ -93,21 +92,63 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, co
 }
 
 template <class B>
-double ContactResponse<B>::pair_energy(const Exec& exec, const Level<B>& level) const {
-  if (!search_) return 0;
-  search_->find(exec, level.surface, level.state, points_, blocks_);
-  const auto result = zeros<Doubles<B>>("plica::pair_energy", 1);
-  reduce<B, 1>(exec, "plica::pair_energy", level.surface.points, PairEnergy<B>{points_}, blocks_, result);
-  return host_values(exec, result)[0];
+double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, double time) const {
+  double total = contact_->energy(exec, level, time, blocks_);
+  if (!contact_->couples()) return total;
+  const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
+  find(exec, level, level.state, time, 0, all_points());
+  if (search_) {
+    reduce<B, 1>(exec, "plica::pair_energy", level.surface.points, PairEnergy<B>{points_}, blocks_, result);
+    total += host_values(exec, result)[0];
+  }
+  if (contact_->whole() > 0) {
+    reduce<B, 1>(exec, "plica::face_energy", points_.faces.triangles, FaceEnergy<B>{points_}, blocks_, result);
+    total += host_values(exec, result)[0];
+  }
+  return total;
 }
 
 template <class B>
-double ContactResponse<B>::face_energy(const Exec& exec, const Level<B>& level, double time) const {
-  if (contact_->whole() == 0) return 0;
-  contact_->find(exec, level, level.state, time, points_);
-  const auto result = zeros<Doubles<B>>("plica::face_energy", 1);
-  reduce<B, 1>(exec, "plica::face_energy", points_.faces.triangles, FaceEnergy<B>{points_}, blocks_, result);
-  return host_values(exec, result)[0];
+void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                                   const ImplicitWeights& w, double ahead, const Vectors<B>& f) {
+  points_.span = static_cast<Real>(ahead);
+  find(exec, level, state, time, ahead, all_points());
+  reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(),
+               LineariseTouching<B>{points_, static_cast<Real>(ahead), static_cast<Real>(w.a), static_cast<Real>(w.b)},
+               blocks_, points_.count);
+  sum_up(exec, -1);
+  scatter(exec, level, f);
+}
+
+/// f += W^T of the last forces
+template <class B>
+void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const {
+  where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched,
+                    ScatterContact<B>{level.surface, points_, f});
+}
+
+template <class B>
+void ContactResponse<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
+                                     const Vectors<B>& q) const {
+  if (beside && !contact_->couples()) return;
+  where_touching<B>(exec, points_.count, "plica::contact_product", contact_->sites(),
+                    ContactProduct<B>{level.surface, p, points_, beside});
+  sum_up(exec, -1);
+  scatter(exec, level, q);
+}
+
+template <class B>
+void ContactResponse<B>::add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
+                                      const Blocks<B>& diagonal) const {
+  if (beside && !contact_->couples()) return;
+  where_touching<B>(exec, points_.count, "plica::contact_diagonal", level.surface.touched,
+                    AddContactBlocks<B>{level.surface, points_, beside, diagonal});
+}
+
+template <class B>
+void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, const BlockMatrix<B>& A) const {
+  where_touching<B>(exec, points_.count, "plica::contact_matrix", level.surface.touched,
+                    AddContactToMatrix<B>{level.surface, points_, A});
 }
 
 template <class B>

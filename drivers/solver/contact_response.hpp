@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
+#include <limits>
 #include <memory>
+#include <plica/core/block_matrix.hpp>
+#include <plica/core/implicit_weights.hpp>
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/pair_search.hpp>
 
@@ -27,26 +30,35 @@ class ContactResponse {
   /// last forces, in `answer`.
   void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
                const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) {
-    TouchingPoints<B> points = points_;
-    points.reach = std::numeric_limits<Real>::max();  // what no record is further than
-    solve(exec, level, state, time, step, {level.surface, points, smooth, answer, 0, 0, 0, true, false}, respond);
+    solve(exec, level, state, time, step, {level.surface, all_points(), smooth, answer, 0, 0, 0, true, false}, respond);
   }
 
   /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.
   void forget_impulse(const Exec& exec) const;
   void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
   const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
-  /// Energy stored in the pairs' penalties of the level's state [J]. Waits.
-  double pair_energy(const Exec& exec, const Level<B>& level) const;
-  /// The same of thin obstacles between the points. Waits.
-  double face_energy(const Exec& exec, const Level<B>& level, double time) const;
+  /// Stored in all contact of the level's state [J]. Waits.
+  double energy(const Exec& exec, const Level<B>& level, double time) const;
+
+  // Of implicit levels, see kernels/contact/linearised.hpp:
+
+  /// f += the forces of a stage on a state, linearised about it, with contact `ahead` of it [s]
+  void linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ImplicitWeights&,
+                 double ahead, const Vectors<B>& f);
+  /// q += W^T C W p; `beside`: of what add_matrix() leaves out alone
+  void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
+                   const Vectors<B>& q) const;
+  /// diagonal += its vertex blocks, likewise
+  void add_diagonal(const Exec& exec, const Level<B>& level, bool beside, const Blocks<B>& diagonal) const;
+  /// A += W^T C W, of points that touch obstacles
+  void add_matrix(const Exec& exec, const Level<B>& level, const BlockMatrix<B>& A) const;
 
   const TouchingPoints<B>& points() const { return points_; }
   std::size_t bytes() const;
 
  private:
   std::shared_ptr<const Contact<B>> contact_;
-  TouchingPoints<B> points_;
+  TouchingPoints<B> points_;                     ///< `span`: of the last linearisation
   std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
   BlockSums<B> blocks_;
   Vectors<B> smooth_, answer_;  ///< of the vertices, on explicit levels
@@ -54,9 +66,16 @@ class ContactResponse {
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
              TouchLaw<B> law, const Respond& respond) const;
-  void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+  void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double ahead,
             const TouchingPoints<B>& points) const;
+  /// They look at obstacles along the nearest normal, however far that is.
+  TouchingPoints<B> all_points() const {
+    TouchingPoints<B> points = points_;
+    points.reach = std::numeric_limits<Real>::max();
+    return points;
+  }
   void sum_up(const Exec& exec, double reaction) const;
+  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const;
 };
 
 }  // namespace plica

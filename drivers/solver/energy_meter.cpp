@@ -50,9 +50,7 @@ Energies EnergyMeter<B>::all(double time) const {
   reduce<B, 1>(exec, "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial}, blocks_,
                result_);
   e.elastic = read()[0];
-  if (level.contact())
-    e.contact = level.contact()->energy(exec, level, time, level.response().points().block.extent(0) > 0, blocks_) +
-                level.response().pair_energy(exec, level) + level.response().face_energy(exec, level, time);
+  if (level.contact()) e.contact = level.response().energy(exec, level, time);
   return e;
 }
 

@@ -33,11 +33,6 @@ class ObstacleOf final : public Obstacle<B> {
   Doubles<B> tools_;  // the obstacles' memory, with mass only
   int first_;         // its own of them
 
-  ObstaclePlace<B> at(double time, double ahead) const {
-    const PathPoint now = path_step(path_, knots_.data(), time, ahead);
-    return {origin_, now.displacement, now.velocity, time, tools_, first_, turning_.at(time, ahead)};
-  }
-
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
              const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number)
@@ -54,32 +49,28 @@ class ObstacleOf final : public Obstacle<B> {
     set_turn(options.turn);
   }
 
-  void linearise(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
-                 const ImplicitWeights& w, double ahead, int number, const TouchingPoints<B>& points) const override {
-    update_vertices<B>(
-        exec, "plica::contact_forces", surface.points,
-        ObstacleContact<B, Shape>{surface, s.u, s.v, shape_, at(time, ahead), watch_, static_cast<Real>(ahead),
-                                  static_cast<Real>(w.a), static_cast<Real>(w.b), number, points});
-  }
-  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
-            const TouchingPoints<B>& points) const override {
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double ahead,
+            int number, const TouchingPoints<B>& points) const override {
     update_vertices<B>(
         exec, "plica::contact_find", surface.points,
-        FindTouching<B, Shape>{surface, s, shape_, place(time), watch_, points.record(number, 0), points});
+        FindTouching<B, Shape>{surface, s, shape_, place(time, ahead), watch_, points.record(number, 0), points});
   }
-  void find_on_faces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
-                     const TouchingPoints<B>& points) const override {
-    update_vertices<B>(
-        exec, "plica::contact_faces", points.faces.triangles,
-        FindOnFaces<B, Shape>{surface, s, shape_, place(time), number, points, std::numeric_limits<Real>::lowest()});
+  void find_on_faces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double ahead,
+                     int number, const TouchingPoints<B>& points) const override {
+    update_vertices<B>(exec, "plica::contact_faces", points.faces.triangles,
+                       FindOnFaces<B, Shape>{surface, s, shape_, place(time, ahead), number, points,
+                                             std::numeric_limits<Real>::lowest()});
   }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
               const PointLaws<B>& law, const HeldPoints<B>& held, const BlockSums<B>& blocks,
               const Doubles<B>& result) const override {
     reduce<B, 1>(exec, "plica::contact_energy", surface.points,
-                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time), law, held, number}, blocks, result);
+                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time, 0), law, held, number}, blocks, result);
   }
-  ObstaclePlace<B> place(double time) const override { return at(time, 0); }
+  ObstaclePlace<B> place(double time, double ahead) const override {
+    const PathPoint now = path_step(path_, knots_.data(), time, ahead);
+    return {origin_, now.displacement, now.velocity, time, tools_, first_, turning_.at(time, ahead)};
+  }
   void set_motion(const Motion& motion) override {
     knots_.clear();
     path_ = make_path(motion, knots_);
@@ -91,8 +82,8 @@ class ObstacleOf final : public Obstacle<B> {
     if (!options_.mass) return;
     const double m = *options_.mass, k = options_.coupling.stiffness;
     update_vertices<B>(exec, "plica::contact_tool", 3,
-                       MoveTool<B>{place(end), path_step(path_, knots_.data(), end + span, 0), wrench, 6 * number, span,
-                                   m, k, options_.coupling.damping.value_or(2 * std::sqrt(k * m))});
+                       MoveTool<B>{place(end, 0), path_step(path_, knots_.data(), end + span, 0), wrench, 6 * number,
+                                   span, m, k, options_.coupling.damping.value_or(2 * std::sqrt(k * m))});
   }
   double radius() const override { return radius_; }
   std::size_t bytes() const override { return storage_.span() * sizeof(Real); }

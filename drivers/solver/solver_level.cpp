@@ -91,6 +91,13 @@ void SolverLevel<B>::add_follower_product(const State<B>& at, const Vectors<B>& 
 }
 
 template <class B>
+void SolverLevel<B>::add_product_beside_matrix(const State<B>& at, const Vectors<B>& p, const ImplicitWeights& weights,
+                                               bool positive, const Vectors<B>& q) const {
+  add_follower_product(at, p, weights.a, positive, q);
+  if (contact_) response_.add_product(exec(), *this, p, true, q);
+}
+
+template <class B>
 double SolverLevel<B>::follower_energy(double time) const {
   double sum = 0;
   for (const FollowerLoad<B>& load : this->followers) {
@@ -174,8 +181,7 @@ void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWe
   elastic_and_gravity(at, time + ahead, force);
   add_loads(time + ahead, force);
   add_followers(at, time + ahead, force);
-  if (contact_)
-    book("contact", [&] { contact_->linearise(exec(), *this, at, time, weights, ahead, response_.points(), force); });
+  if (contact_) book("contact", [&] { response_.linearise(exec(), *this, at, time, weights, ahead, force); });
   if (external_) book("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
   add_correction(force);
 }
@@ -219,7 +225,7 @@ void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const Impl
   update_vertices<B>(exec, "plica::system_product", this->model.vertices,
                      SystemProduct<B>{this->model, p, this->partial, q, a, b});
   add_follower_product(at, p, weights.a, positive, q);
-  if (contact_) contact_->add_product(exec, *this, p, response_.points(), q);
+  if (contact_) response_.add_product(exec, *this, p, false, q);
   if (external_)
     update_vertices<B>(exec, "plica::external_product", this->model.vertices,
                        AddBlockProduct<B>{external_stiffness_, p, q, a});
@@ -235,7 +241,7 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }
-  if (contact_) contact_->add_diagonal(exec, *this, response_.points(), blocks);
+  if (contact_) response_.add_diagonal(exec, *this, false, blocks);
   if (external_) add<B>(exec, "plica::external_diagonal", a, external_stiffness_, blocks);
 }
 
@@ -244,7 +250,7 @@ void SolverLevel<B>::assemble(const State<B>& at, const ImplicitWeights& weights
                               const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const {
   const Exec& exec = clock_->exec();
   elasticity_->blocks(exec, this->model, pairs, at.u, weights, positive, shares, A);
-  if (contact_) contact_->add_matrix(exec, *this, response_.points(), A);
+  if (contact_) response_.add_matrix(exec, *this, A);
   if (external_)
     update_vertices<B>(exec, "plica::external_matrix", this->model.vertices,
                        AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});

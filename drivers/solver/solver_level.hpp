@@ -77,6 +77,10 @@ class SolverLevel : public Level<B> {
   /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights. `positive`: see Elasticity::tangent.
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
                const Vectors<B>& q) const;
+  /// q += what of that assemble() leaves out: pressures that follow the body, and contact that couples several tetrahedra.
+  void add_product_beside_matrix(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
+                                 bool positive, const Vectors<B>& q) const;
+  bool is_all_in_matrix() const { return this->followers.empty() && !(contact_ && contact_->couples()); }
   /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz; with nodal elements those of linear ones.
   void diagonal(const State<B>& state, const ImplicitWeights& weights, const Blocks<B>& blocks) const;
   /// A itself, in blocks, with nodal elements that of linear ones; `positive`: of elements whose tangents are projected to positive

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/model.hpp>
 #include <plica/core/surface.hpp>
 #include <plica/kernels/contact/attached_points.hpp>
 #include <plica/kernels/contact/face_sites.hpp>
@@ -42,7 +41,7 @@ struct TouchingPoints {
   Scalars<B> depth;     ///< > 0 inside [m]
   Scalars<B> mobility;  ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
   Vectors<B> force;     ///< on the point [N]
-  Blocks<B> block;      ///< [points][6] kg, of all obstacles, on implicit levels only
+  Blocks<B> block;      ///< [records][6] kg, on implicit levels only, see LineariseTouching
   Doubles<B> count;     ///< [1] records that touch
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 1 : 0); }
@@ -75,8 +74,35 @@ struct TouchingPoints {
       x += faces.weight(faces.site(row, t), c) * vector_at<B>(surface.rest, faces.corner(3 * t + c));
     return x;
   }
+  /// The same against what the site touches: in the row of pairs with `reaction` times the triangle's value.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> difference(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row,
+                                               int site, Real reaction = -1) const {
+    const Vec3<Real> own = value(surface, x, row, site);
+    return row == obstacles ? own + reaction * pairs.across(surface, x, site) : own;
+  }
+  /// What vertex a has of that difference.
+  KOKKOS_INLINE_FUNCTION Real share(const EmbeddedSurface<B>& surface, int row, int site, int a) const {
+    const auto of = [&](int p) {
+      Real sum = 0;
+      for (int c = 0; c < 4; ++c)
+        if (surface.embedding.source(p, c) == a) sum += surface.embedding.weight(p, c);
+      return sum;
+    };
+    Real sum = site < points ? of(site) : Real(0);
+    for (int c = 0; c < 3; ++c) {
+      if (site >= points)
+        sum += faces.weight(faces.site(row, site - points), c) * of(faces.corner(3 * (site - points) + c));
+      else if (row == obstacles)
+        sum -= pairs.weight(site, c) * of(pairs.corner(3 * pairs.partner(site) + c));
+    }
+    return sum;
+  }
+  /// It couples the vertices of one tetrahedron alone.
+  KOKKOS_INLINE_FUNCTION bool is_of_one(int row, int site) const { return site < points && row < obstacles; }
   static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
   KOKKOS_INLINE_FUNCTION bool near(int r) const { return mobility(r) > 0; }
+  /// It is in the linear system.
+  KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const { return block(r, 0) + block(r, 1) + block(r, 2) > 0; }
   KOKKOS_INLINE_FUNCTION Vec3<Real> force_on_point(int p) const {
     return pairs.sum.extent(0) > 0 ? vector_at<B>(pairs.sum, p) : force_of_obstacles(p);
   }
@@ -127,42 +153,6 @@ struct SumPointForces {
   }
 };
 
-/// Forces of one obstacle on the surface points [N], and each point's symmetric
-/// 3x3 block (a k + b d) n n + b drag (1 - n n - slip slip) [kg], as xx yy zz xy xz yz, set by the first obstacle and added to by the
-/// others, see ImplicitWeights: the coupling of friction to the normal force is left out, which keeps the matrix symmetric.
-template <class B, class Shape>
-struct ObstacleContact {
-  using Real = typename B::Real;
-  EmbeddedSurface<B> surface;
-  Vectors<B> u, v;
-  Shape shape;
-  ObstaclePlace<B> place;  ///< at the time of the state
-  DepthWatch<B> watch;
-  Real ahead, a, b;
-  int obstacle;
-  TouchingPoints<B> points;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    Vec3<Real> x, speed;
-    surface_point(surface, u, v, p, x, speed);
-    Gap<Real> gap = shape(place.local(x));
-    gap.normal = place.outward(gap.normal);
-    watch.look(p, gap.distance);
-    const PenaltyLaw<Real>& law = points.law(obstacle, p);
-    const PointContact<Real> c = penalty_contact(law, gap, speed - place.velocity(x), ahead);
-    set_vector<B>(points.force, points.record(obstacle, p), c.force);
-    const Real along = c.active ? a * law.stiffness + b * law.damping : Real(0),
-               across = c.active ? b * c.drag : Real(0);
-    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
-    for (int k = 0; k < 6; ++k) {
-      const int i = row[k], j = column[k];
-      const Real nn = c.normal[i] * c.normal[j], ss = c.slip[i] * c.slip[j];
-      points.block(p, k) = (obstacle == 0 ? Real(0) : points.block(p, k)) + along * nn +
-                           across * ((i == j ? Real(1) : Real(0)) - nn - ss);
-    }
-  }
-};
-
 /// x = 0
 template <class B>
 struct ZeroVectors {
@@ -206,32 +196,6 @@ void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>&
                        ScatterToVertices<B>{surface, force, f});
 }
 
-/// y_p = block_p * (sum of weight * x), the point part of a product with the tangent.
-template <class B>
-struct PointProduct {
-  EmbeddedSurface<B> surface;
-  Vectors<B> x;
-  Blocks<B> block;
-  Vectors<B> y;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    set_vector<B>(y, p, block_at<B>(block, p) * value_at<B>(surface.embedding, x, p));
-  }
-};
-
-/// Adds the point blocks' share to the vertices' own 3x3 blocks, [vertices][6] as above.
-template <class B>
-struct AddPointBlocks {
-  EmbeddedSurface<B> surface;
-  Blocks<B> block, diagonal;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const int a = surface.vertex(i);
-    for (int s = surface.first(i); s < surface.first(i + 1); ++s)
-      for (int k = 0; k < 6; ++k) diagonal(a, k) += surface.weight(s) * surface.weight(s) * block(surface.point(s), k);
-  }
-};
-
 /// Potential energy of the penalties and springs of one obstacle, as a field of the points [J].
 template <class B, class Shape>
 struct ContactEnergy {
@@ -253,31 +217,6 @@ struct ContactEnergy {
     }
     const Real penetration = max(-shape(place.local(x)).distance, Real(0));
     return {{0.5 * static_cast<double>(law(obstacle, p).stiffness * penetration * penetration)}};
-  }
-};
-
-/// A += W^T C W with the symmetric blocks C [points][6] of surface points and their weights W: a row of A per work item, its
-/// points in order. Vertices of one tetrahedron are coupled in A already, unless the row's motion is given.
-template <class B>
-struct AddContact {
-  using Real = typename B::Real;
-  EmbeddedSurface<B> surface;
-  Blocks<B> block;
-  BlockMatrix<B> A;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    const int a = surface.vertex(item), first = A.first(a), last = A.first(a + 1);
-    for (int s = surface.first(item); s < surface.first(item + 1); ++s) {
-      const int p = surface.point(s);
-      const SymMat3<Real> C = block_at<B>(block, p);
-      for (int c = 0; c < 4; ++c) {
-        int at = first;
-        while (at < last && A.column(at) != surface.embedding.source(p, c)) ++at;
-        if (at == last) continue;
-        const Real w = surface.weight(s) * surface.embedding.weight(p, c);
-        add_block<B>(A, at, w, C);
-      }
-    }
   }
 };
 

@@ -120,11 +120,8 @@ struct TouchLaw {
   bool by_work;    ///< see ContactByWork; `ahead` is h/2
   bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
-  /// The site's value, in the row of pairs with `reaction` times the triangle's.
   KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int row, int p, Real reaction = -1) const {
-    Vec3<Real> value = points.value(surface, x, row, p);
-    if (row == points.obstacles) value += reaction * points.pairs.across(surface, x, p);
-    return value;
+    return points.difference(surface, x, row, p, reaction);
   }
   /// What triangles get of unit forces, see SumPointForces.
   KOKKOS_INLINE_FUNCTION Real bounding() const { return isotropic ? Real(1) : Real(-1); }

@@ -293,7 +293,7 @@ class StageSolver {
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
                  blocks_, result_);
     const double body = read(level.exec())[0] + level.follower_energy(end);
-    return level.contact() ? body + level.contact()->energy(level.exec(), level, end, true, blocks_) : body;
+    return level.contact() ? body + level.response().energy(level.exec(), level, end) : body;
   }
 };
 

@@ -31,10 +31,12 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
   const Exec& exec = level.exec();
   level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
   const int n = rows();
-  if (by_matrix() || positive)
+  if (by_matrix() || positive) {
     update_vertices<B>(exec, "plica::take_diagonal", n, TakeDiagonal<B>{matrix(exec), inverse_diagonal_});
-  else
+    if (level.contact()) level.response().add_diagonal(exec, level, true, inverse_diagonal_);
+  } else {
     level.diagonal(state, weights, inverse_diagonal_);
+  }
   update_vertices<B>(exec, "plica::invert_blocks", n,
                      InvertBlocks<B>{level.model, inverse_diagonal_, static_cast<typename B::Real>(weights.b)});
 }
@@ -51,7 +53,7 @@ template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const {
   if (!by_matrix()) return forces_->product(state_, p, weights_, positive_, q);
   update_vertices<B>(exec, "plica::block_product", rows(), BlockProduct<B>{pattern_.matrix, p, q});
-  forces_->add_follower_product(state_, p, weights_.a, positive_, q);
+  forces_->add_product_beside_matrix(state_, p, weights_, positive_, q);
 }
 
 template <class B>

@@ -48,8 +48,7 @@ class StageSystem {
   bool positive_ = false;
 
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
-  /// Pressures that follow the body are not in the matrix.
-  bool by_matrix_alone() const { return by_matrix() && level_->followers.empty(); }
+  bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
 };
 
 }  // namespace plica

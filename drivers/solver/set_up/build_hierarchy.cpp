@@ -22,6 +22,7 @@
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/compare_levels.hpp>
 #include <plica/meshes/mesh_quality.hpp>
@@ -267,6 +268,8 @@ class HierarchyBuilder {
     for (std::size_t i = 0; i < levels_; ++i)
       Integrators::visit(integrator_of(i),
                          [&](auto integrator) { stiff = stiff && decltype(integrator)::is_explicit; });
+    ContactOptions options = p.contact;
+    if (options.whole_surface == "auto" && !needs_matrix(p.integration).empty()) options.whole_surface = "never";
     TouchingSurface touching{.surface = surface_,
                              .parts = {},
                              .body = parts_of_points(p.body.parts),
@@ -277,7 +280,7 @@ class HierarchyBuilder {
       touching.parts.push_back({&p.body.parts[b].material, locators_[0]->mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
     if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
-    contact_ = std::make_shared<const Contact<B>>(p.contact, touching, has_pairs(p), stiff);
+    contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p), stiff);
   }
 
   double body_size() const {
@@ -300,6 +303,7 @@ class HierarchyBuilder {
       const auto make_solver = [&] {
         std::string solver = implicit.solver;
         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
+        if (solver == "auto" && contact_ && contact_->couples()) solver = "conjugate_gradients";
         const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);

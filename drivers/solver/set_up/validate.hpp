@@ -26,6 +26,9 @@ void validate_contact(const Problem& problem);
 /// How an obstacle turns, as far as that needs no obstacle; keys are those below `path`.
 void validate_turn(const Turn& turn, const std::string& path = "turn");
 
+/// What asks for all of an implicit stage's system in a matrix, as "integration.integrator is v_cycle_euler"; empty: nothing.
+std::string needs_matrix(const IntegrationOptions& options);
+
 /// The part of it about cavities whose volume is given.
 void validate_cavities(const Problem& problem);
 

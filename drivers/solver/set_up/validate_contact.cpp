@@ -31,18 +31,12 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
   Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,", enclosed_volume(surface));
 }
 
-/// Contact that the matrices of implicit levels do not have.
-bool is_implicit(const std::string& integrator) {
-  bool implicit = false;
-  Integrators::visit(integrator, [&](auto it) { implicit = !decltype(it)::is_explicit; });
-  return implicit;
-}
-
-void refuse_implicit(const Problem& problem, const std::string& contact, const std::string& instead) {
-  for (const std::string& name : problem.integration.integrator)
-    if (is_implicit(name))
-      throw InputError("integration.integrator is " + name + ", but " + contact +
-                       ", which only explicit steps and cycle him take; expected one of these, or " + instead);
+/// `what` is in products of the stage's system alone.
+void refuse_matrix(const Problem& problem, const std::string& what) {
+  if (const std::string by = needs_matrix(problem.integration); !by.empty())
+    throw InputError(by + ", whose matrix has no room for " + what +
+                     "; expected an explicit integrator, or an implicit one with integration.implicit.solver "
+                     "conjugate_gradients or auto");
 }
 
 void check_attachments(const Problem& problem) {
@@ -81,27 +75,33 @@ void check_pairs(const Problem& problem) {
                        ": it has no surface, which touching other bodies needs; expected bodies." + part.name +
                        ".surface, or " + instead);
   check_closed("body.surface", *body.surface);
-  if (!problem.contact.attachments.empty()) refuse_implicit(problem, "bodies are attached", "no attachments");
-  refuse_implicit(problem, "surfaces touch each other (" + key + ")", instead);
+  refuse_matrix(problem, key);
 }
 
 }  // namespace
 
-/// The inertia of him, factors and V-cycles alone do not know the stiffness of a fluid.
+std::string needs_matrix(const IntegrationOptions& options) {
+  bool implicit = false;
+  for (const std::string& name : options.integrator) {
+    if (name == VCycleEuler::name) return "integration.integrator is " + name;
+    Integrators::visit(name, [&](auto it) { implicit = implicit || !decltype(it)::is_explicit; });
+  }
+  const std::string& solver = options.implicit.solver;
+  return implicit && solver != "auto" && solver != "conjugate_gradients" ? "integration.implicit.solver is " + solver
+                                                                         : "";
+}
+
+/// The inertia of him does not know the stiffness of a fluid.
 void validate_cavities(const Problem& problem) {
   const auto& loads = problem.body.loads;
   const IntegrationOptions& o = problem.integration;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (!std::holds_alternative<EnclosedVolume>(loads[i].load)) continue;
-    const std::string given = ", but body.loads." + std::to_string(i) + ".enclosed_volume needs ";
+    const std::string name = "body.loads." + std::to_string(i) + ".enclosed_volume";
     if (o.cycle == "him" || o.cycle == "auto")
-      throw InputError("integration.cycle is " + o.cycle + given + "cycle single, or follower_pressure instead");
-    for (const std::string& name : o.integrator) {
-      if (name == VCycleEuler::name)
-        throw InputError("integration.integrator is " + name + given + "an explicit integrator, or implicit_euler");
-      if (is_implicit(name) && o.implicit.solver != "auto" && o.implicit.solver != "conjugate_gradients")
-        throw InputError("integration.implicit.solver is " + o.implicit.solver + given + "conjugate_gradients");
-    }
+      throw InputError("integration.cycle is " + o.cycle + ", but " + name +
+                       " needs cycle single, or follower_pressure instead");
+    refuse_matrix(problem, name);
   }
 }
 
@@ -113,8 +113,7 @@ void validate_contact(const Problem& problem) {
   if (!obstacles.empty() && problem.body.surface->triangles.empty())
     throw InputError("body.surface has no triangle; contact needs its area");
   if (!obstacles.empty() && problem.contact.whole_surface == "always")
-    refuse_implicit(problem, "obstacles touch the surface between its points (contact.whole_surface: always)",
-                    "contact.whole_surface: auto");
+    refuse_matrix(problem, "contact.whole_surface: always");
   std::map<std::string, std::size_t> named;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const std::string name = obstacle_name(problem.contact, i),
@@ -127,12 +126,6 @@ void validate_contact(const Problem& problem) {
       throw InputError(path + " is '" + name + "', as is that of obstacle " + std::to_string(other->second) +
                        "; expected names that differ");
   }
-  for (std::size_t i = 0; i < obstacles.size(); ++i)
-    if (obstacles[i].grasp)
-      refuse_implicit(problem,
-                      obstacle_name(problem.contact, i) + " takes hold of points (contact.obstacles." +
-                          std::to_string(i) + ".grasp)",
-                      "no grasp");
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
       check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);

@@ -178,8 +178,6 @@ TEST(Attachments, RefuseWhatTheyCannotHold) {
         p.contact.attachments.push_back(again);
       }),
       "attachments.1 holds a point of bodies.lower that attachments.0 holds too");
-  has(said([](Problem& p, AttachmentOptions&) { p.integration.integrator = {"implicit_euler"}; }),
-      "bodies are attached");
   Problem alone;
   alone.body = cube({0, 0, 0}, 2);
   alone.contact.attachments = {{.body = "a", .to = "b"}};

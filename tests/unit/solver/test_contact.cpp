@@ -98,40 +98,6 @@ TYPED_TEST(ContactOn, EnergyIsHalfStiffnessTimesDepthSquared) {
   EXPECT_NEAR(simulation.energies().contact, 16 * 0.5 * k * 1e-6, round_off<Real>(2000, k * 1e-6));
 }
 
-// The matrix of an implicit step against differences of the forces, sticking and slipping. The friction's dependence on the
-// normal force is left out of it, so that slipping points are only moved along the plane.
-TEST(Contact, IsLinearisedAsItActs) {
-  for (const Point& sliding : {Point(0.01, -0.02, -0.1), Point(3, 4, -0.1)}) {
-    Problem p = cube_over(-0.002, 0.4);
-    p.integration.integrator = {"implicit_euler"};
-    p.integration.macro_step = 0.01;
-    LevelProbe<Host> probe(p);
-    const double h = 0.01, e = 1e-5;
-    const auto u = random_field(probe.vertices(), 1e-4, 1);
-    auto direction = random_field(probe.vertices(), 1, 2);
-    if (sliding.norm() > 1)
-      for (Point& x : direction) x[2] = 0;
-    const std::vector<Point> v(probe.vertices(), sliding);
-    const auto force = [&](double t) {
-      auto x = u, speed = v;
-      for (std::size_t a = 0; a < x.size(); ++a) speed[a] += t * direction[a], x[a] += h * t * direction[a];
-      return probe.force(x, speed);
-    };
-    auto want = minus(force(-e), force(e));
-    const auto mass = probe.mass();
-    for (std::size_t a = 0; a < want.size(); ++a) want[a] = h / (2 * e) * want[a] + mass[a] * direction[a];
-
-    plica::State<Host> state;
-    state.u = device_field<Host>(u), state.v = device_field<Host>(v);
-    const Vectors<Host> q("test.q", probe.vertices());
-    auto& part = probe.at(0);
-    part.linearise(state, 0, {h * h, h}, 0, part.f);
-    part.product(state, device_field<Host>(direction), {h * h, h}, false, q);
-    const auto product = to_host<Host>({}, q);
-    EXPECT_LE(largest_difference(product, want), 1e-6 * largest(want)) << sliding.transpose();
-  }
-}
-
 // Sum of contact forces at rest: the mean over a long time balances the weight.
 TEST(Contact, CarriesTheWeightAtRest) {
   for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/drivers/solver/linear/stage_system.hpp>
+#include <plica/drivers/solver/set_up/join_bodies.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/drivers/study/level_probe.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/refusal.hpp"
+#include "support/simulate.hpp"
+#include "support/tolerance.hpp"
+
+// Contact in the linear systems of implicit levels: obstacles and points, held points, thin tools, bodies.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+constexpr double side = 0.06, slip = 1e-4, h = 0.01;
+
+Body cube(const Point& at, std::array<int, 3> cells) {
+  Body body = body_of({box_mesh({at, at + Point(side, side, side)}, cells)}, "neo_hookean").body;
+  body.surface = boundary_surface(body.levels[0]).surface;
+  return body;
+}
+
+Problem implicit(Problem p, const std::string& integrator = "implicit_euler", int newton_iterations = 1) {
+  p.integration.integrator = {integrator};
+  p.integration.macro_step = h;
+  p.integration.implicit.newton_iterations = newton_iterations;
+  p.integration.implicit.relative_residual = 1e-10, p.integration.implicit.max_iterations = 2000;
+  return p;
+}
+
+/// A cube that is a little inside a plane.
+Problem on_a_plane() {
+  Problem p;
+  p.body = cube({0, 0, -slip}, {3, 3, 3});
+  p.contact.obstacles = {{PlaneOptions{}, 0.4, {}}};
+  return implicit(p);
+}
+
+/// A cube under a plate that holds its top.
+Problem held() {
+  Problem p;
+  p.body = cube({0, 0, 0}, {3, 3, 3});
+  ObstacleOptions plate{BlockOptions{{side / 2, side / 2, side + 0.0105}, {0.2, 0.2, 0.02}}, {}, {}};
+  plate.name = "plate", plate.grasp = GraspOptions{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = 300};
+  p.contact.obstacles = {plate};
+  return implicit(p);
+}
+
+/// A cube and needles that are a little inside its top: in the middle of a triangle, and on an edge.
+Problem under_needles() {
+  Problem p;
+  p.body = cube({0, 0, 0}, {3, 3, 3});
+  for (const Point& at : {Point(0.02 + 0.02 / 3, 0.02 + 0.02 / 3, side), Point(0.05, 0.05, side)}) {
+    const Point low = at + Point(0, 0, 0.001 - slip);
+    p.contact.obstacles.push_back({CapsuleOptions{low, low + Point(0, 0, 0.1), 0.001}, {}, {}});
+  }
+  p.contact.whole_surface = "always";
+  return implicit(p);
+}
+
+/// A cube a little inside another one of other cells.
+Problem stacked(const std::vector<AttachmentOptions>& attachments = {}) {
+  Problem p;
+  p.body =
+      join_bodies({{"lower", cube({0, 0, 0}, {3, 3, 3})}, {"upper", cube({0.013, 0.007, side - slip}, {4, 3, 2})}});
+  p.contact.attachments = attachments;
+  return implicit(p);
+}
+
+Problem attached() { return stacked({{.body = "upper", .to = "lower", .reach = 2 * slip, .stiffness = 300}}); }
+
+/// A level whose contact at rest is linearised.
+struct Linearised {
+  LevelProbe<Host> probe;
+  ImplicitWeights weights{h * h, h};
+  std::vector<Point> u, v;
+
+  Linearised(const Problem& p, const Point& velocity) : probe(p), u(probe.zero()), v(probe.vertices(), velocity) {
+    if (p.contact.obstacles.size() == 1 && p.contact.obstacles[0].grasp)
+      level().contact()->grasp({}, level(), 0, 0, level().response().points());
+    level().linearise(state(), 0, weights, 0, level().f);
+  }
+  SolverLevel<Host>& level() { return probe.at(0); }
+  State<Host> state() const { return {device_field<Host>(u), device_field<Host>(v)}; }
+
+  /// (M + h^2 K + h C) direction by differences of the forces.
+  std::vector<Point> difference(const std::vector<Point>& direction, double e) {
+    const auto force = [&](double t) {
+      auto x = u, speed = v;
+      for (std::size_t a = 0; a < x.size(); ++a) speed[a] += t * direction[a], x[a] += h * t * direction[a];
+      return probe.force(x, speed);
+    };
+    auto q = minus(force(-e), force(e));
+    const auto mass = probe.mass();
+    for (std::size_t a = 0; a < q.size(); ++a) q[a] = h / (2 * e) * q[a] + mass[a] * direction[a];
+    level().linearise(state(), 0, weights, 0, level().f);
+    return q;
+  }
+  std::vector<Point> product(const std::vector<Point>& direction) {
+    const Vectors<Host> q("test.q", direction.size());
+    level().product(state(), device_field<Host>(direction), weights, false, q);
+    return to_host<Host>({}, q);
+  }
+};
+
+struct ContactCase {
+  const char* name;
+  Problem problem;
+  Point moved;      ///< a field's part along each axis: in which no normal turns and nothing is left out
+  bool as_a_whole;  ///< every body
+  Point sliding = {0.0001, -0.0002, 0};
+  double change = 1e-5;  ///< of velocities [m/s]
+};
+std::vector<ContactCase> cases() {
+  return {{"sticks", on_a_plane(), {1, 1, 1}, false},
+          {"slips", on_a_plane(), {1, 1, 0}, false, {3, 4, 0}},
+          {"held", held(), {1, 1, 1}, false},
+          {"needles", under_needles(), {0, 0, 1}, true, {0, 0, 0}, 0.5 * slip / h},  // the site is found to 1/1000
+          {"pairs", stacked(), {0, 0, 1}, true},
+          {"attached", attached(), {1, 1, 1}, false}};
+}
+
+// Against differences of the forces. The friction's dependence on the normal force is left out, so what slips is not moved along it.
+TEST(ImplicitContact, IsLinearisedAsItActs) {
+  for (const ContactCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    Linearised it(c.problem, c.sliding);
+    auto direction = random_field(it.probe.vertices(), 1, 2);
+    for (std::size_t a = 0; a < direction.size(); ++a) {
+      if (c.as_a_whole) direction[a] = direction[a < 64 ? 0 : 64];
+      direction[a] = direction[a].cwiseProduct(c.moved);
+    }
+    const auto want = it.difference(direction, c.change), got = it.product(direction);
+    EXPECT_LE(largest_difference(got, want), (c.change > 1e-5 ? 1e-3 : 2e-6) * largest(want));
+    Problem without = c.problem;
+    without.contact = {}, without.contact.bodies = false;
+    EXPECT_GE(largest_difference(Linearised(without, c.sliding).product(direction), want), 1e-5);
+  }
+}
+
+// The vertex blocks are those of the product, and so is the assembled matrix with what it has no room for.
+TEST(ImplicitContact, HasOneSystem) {
+  for (const ContactCase& c : cases()) {
+    SCOPED_TRACE(c.name);
+    Linearised it(c.problem, {0.001, -0.002, 0});
+    const auto state = it.state();
+    const Blocks<Host> diagonal("test.diagonal", it.probe.vertices());
+    it.level().diagonal(state, it.weights, diagonal);
+    const auto direction = random_field(it.probe.vertices(), 1, 2);
+    const auto want = it.product(direction);
+    for (std::size_t a = 0; a < it.probe.vertices(); a += 3)
+      for (int k = 0; k < 3; ++k) {
+        auto unit = it.probe.zero();
+        unit[a][k] = 1;
+        const Point column = it.product(unit)[a];
+        const SymMat3<double> block = block_at<Host>(diagonal, static_cast<int>(a));
+        for (int i = 0; i < 3; ++i)
+          EXPECT_NEAR(block[SymMat3<double>::place(3 * i + k)], column[i], 1e-12 * column.norm()) << a;
+      }
+    StageSystem<Host> assembled(it.level(), true);
+    assembled.prepare(it.level(), state, it.weights, false);
+    const Vectors<Host> q("test.q", direction.size());
+    assembled.product({}, device_field<Host>(direction), q);
+    EXPECT_LE(largest_difference(to_host<Host>({}, q), want), 1e-12 * largest(want));
+  }
+}
+
+// --- Steps ------------------------------------------------------------------------------------------------------------------
+
+struct Method {
+  const char* integrator;
+  int newton_iterations;
+};
+constexpr Method methods[] = {
+    {"implicit_euler", 1}, {"implicit_euler", 20}, {"newmark", 20}, {"bdf2", 1}, {"generalized_alpha", 20}};
+
+Point momentum(const Simulation<Host>& s, const std::vector<double>& mass) {
+  Point sum = Point::Zero();
+  const auto v = s.velocities();
+  for (std::size_t a = 0; a < mass.size(); ++a) sum += mass[a] * v[a];
+  return sum;
+}
+
+// Two cubes meet: momentum to what the linear solves leave, no energy gained, and they fly apart.
+TEST(ImplicitContact, TurnsCollidingBodies) {
+  for (const Method& m : methods) {
+    SCOPED_TRACE(std::string(m.integrator) + " " + std::to_string(m.newton_iterations));
+    Body left = cube({0, 0, 0}, {3, 3, 3}), right = cube({side + 0.001, 0.007, 0.004}, {4, 3, 2});
+    left.initial.velocity = {0.3, 0, 0}, right.initial.velocity = {-0.3, 0, 0};
+    Problem p;
+    p.body = join_bodies({{"left", left}, {"right", right}});
+    p = implicit(p, m.integrator, m.newton_iterations);
+    p.integration.macro_step = 1e-3;
+    Simulation<Host> s(p);
+    const auto mass = lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
+    const Point before = momentum(s, mass);
+    const double energy = s.energies().total(), size = 0.3 * s.levels()[0].mass;
+    double contact = 0;
+    while (s.time() < 0.1) {
+      advance(s, 1);
+      const Energies e = s.energies();
+      EXPECT_LE(e.total(), 1.02 * energy);
+      contact = std::max(contact, e.contact);
+    }
+    EXPECT_GT(contact, 0.03 * energy);
+    EXPECT_LE((momentum(s, mass) - before).norm(), 1e-8 * size);
+    Point of_left = Point::Zero();
+    for (std::size_t a = 0; a < 64; ++a) of_left += mass[a] * s.velocities()[a];
+    EXPECT_LT(of_left[0], -0.1 * size / 2);  // it came with 1
+  }
+}
+
+// A held cube, and one that is attached to another, pull by their weight.
+TEST(ImplicitContact, HoldsWhatHangs) {
+  for (const Method& m : methods) {
+    SCOPED_TRACE(std::string(m.integrator) + " " + std::to_string(m.newton_iterations));
+    Problem one = implicit(held(), m.integrator, m.newton_iterations),
+            two = implicit(attached(), m.integrator, m.newton_iterations);
+    for (auto& [name, region] : two.body.regions) region.damping.mass = 30;
+    one.body.damping.mass = 30;
+    one.gravity = {0, 0, -9.81}, two.gravity = {0, 0, 9.81};
+    two.body.fixed = {HalfSpaceSelection{{0, 0, 1e-6}, {0, 0, 1}}};
+    const double weight = 9.81 * 1000 * side * side * side;
+    for (const Problem* p : {&one, &two}) {
+      Simulation<Host> s(*p);
+      while (s.time() < 1) advance(s, 1);
+      EXPECT_NEAR(std::abs(s.wrenches().back().force[2]), weight, 0.005 * weight);
+    }
+  }
+}
+
+// Needles between the points of the top come down by half an edge: points alone let them pass.
+TEST(ImplicitContact, StopsNeedles) {
+  Problem p = under_needles();
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 1e-6}, {0, 0, 1}}};
+  p.body.damping.mass = 30;
+  for (auto& o : p.contact.obstacles) o.motion = PathMotion{{{0, {0, 0, 0}}, {0.1, {0, 0, -0.01}}}};
+  const auto force = [&](const std::string& rule, const std::string& integrator, int newton_iterations) {
+    Problem of = implicit(p, integrator, newton_iterations);
+    of.contact.whole_surface = rule;
+    Simulation<Host> s(of);
+    while (s.time() < 0.3) advance(s, 1);
+    return s.wrenches()[0].force[2];
+  };
+  const double want = force("auto", "implicit_euler", 1);
+  EXPECT_LT(want, -0.3);
+  EXPECT_EQ(force("never", "implicit_euler", 1), 0);
+  for (const Method& m : methods)
+    EXPECT_NEAR(force("auto", m.integrator, m.newton_iterations), want, 0.03 * -want) << m.integrator;
+}
+
+// Factorisations and V-cycles need all of the system in a matrix.
+TEST(ImplicitContact, IsRefusedWhereAMatrixHasNoRoom) {
+  const auto said = [](Problem p, const std::string& what) {
+    const std::string by_factors = "integration.implicit.solver is direct, whose matrix has no room for " + what;
+    p.integration.implicit.solver = "direct";
+    EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find(by_factors), std::string::npos) << what;
+    p.integration.implicit.solver = "auto", p.integration.integrator = {"v_cycle_euler"};
+    EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find("integration.integrator is v_cycle_euler, whose matrix"),
+              std::string::npos)
+        << what;
+    p.integration.integrator = {"implicit_euler"};
+    EXPECT_EQ(Simulation<Host>(p).levels()[0].linear_solver.find("direct"), std::string::npos) << what;
+  };
+  said(stacked(), "contact.bodies");
+  said(attached(), "contact.bodies");
+  said(under_needles(), "contact.whole_surface: always");
+  Problem p = under_needles();
+  p.contact.whole_surface = "auto", p.integration.implicit.solver = "direct";
+  EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }), "");
+  p = held(), p.integration.implicit.solver = "direct";
+  EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }), "");
+}
+
+}  // namespace
