@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
@@ -154,9 +155,10 @@ class SimulationOf final : public AnySimulation {
   }
 
   const app::Numbering& numbering(int level) const {
-    if (level < 0 || static_cast<std::size_t>(level) >= simulation_.levels().size())
+    const std::size_t meshes = std::min(simulation_.levels().size(), scene_->numbering.size());
+    if (level < 0 || static_cast<std::size_t>(level) >= meshes)
       throw InputError("level: there is no level " + std::to_string(level) + "; the simulation has " +
-                       std::to_string(simulation_.levels().size()) + ", counted from 0, the finest");
+                       std::to_string(meshes) + ", counted from 0, the finest");
     return scene_->numbering[static_cast<std::size_t>(level)];
   }
 

@@ -93,8 +93,12 @@ KokkosSession::KokkosSession(const KokkosArguments& arguments) {
 }
 
 std::vector<LevelReport> in_input_numbers(std::vector<LevelReport> levels, const Scene& scene) {
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    for (StiffElement& e : levels[i].stiffest) e.element = input_number(scene.numbering[i].tet_ids, e.element);
+  auto numbering = scene.numbering.begin();  // of meshes; spaces may lie between them
+  for (LevelReport& level : levels) {
+    if (level.tets == 0) continue;
+    for (StiffElement& e : level.stiffest) e.element = input_number(numbering->tet_ids, e.element);
+    ++numbering;
+  }
   return levels;
 }
 

@@ -98,7 +98,7 @@ std::string spaces_text(const Plan& plan) {
                       level.kind == LevelKind::space ? in_units(level.mean_edge, "m") : "slivers follow",
                       fmt::format("{:.1f}", level.nonzeros)});
   }
-  return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0 (body.levels: coarsen)\n" + text_table(rows, ">>>>");
+  return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0\n" + text_table(rows, ">>>>");
 }
 
 // Two tables: what a level is, then what it does in a macro step
@@ -129,16 +129,16 @@ std::string levels_text(const Scene& scene, const Plan& plan) {
 }
 
 std::string transfers_text(const Plan& plan) {
-  if (plan.levels.size() < 2) return {};
   std::vector<std::vector<std::string>> rows = {
       {"levels", "coarse vertices outside", "fine vertices outside", "largest miss / edge"}};
-  for (std::size_t i = 1; i < plan.levels.size(); ++i) {
+  for (std::size_t i = 1, finer = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
-    if (!has_elements(level)) return {};
-    rows.push_back({fmt::format("{} - {}", i - 1, i), std::to_string(level.outside_down),
+    if (!has_elements(level)) continue;
+    rows.push_back({fmt::format("{} - {}", finer, i), std::to_string(level.outside_down),
                     std::to_string(level.outside_up), fmt::format("{:.2g}", level.largest_miss)});
+    finer = i;
   }
-  return "\nBetween the levels\n" + text_table(rows, ">>>>");
+  return rows.size() == 1 ? "" : "\nBetween the levels\n" + text_table(rows, ">>>>");
 }
 
 std::string parts_text(const Plan& plan) {

@@ -10,7 +10,7 @@ namespace plica {
 
 namespace {
 
-// Times the critical step of the finest level, slivers left out
+// Times the critical step of the finest level; over spaces made of it, slivers left out
 constexpr double automatic_step = 8, step_with_contact = 4;
 
 void expect_small(const TetMesh& coarsest, std::size_t level) {
@@ -31,10 +31,12 @@ LevelsBelow coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
   return levels_below(levels, setup.constants[0].mass, K, options, setup.problem.integration.him.smoothing);
 }
 
-/// What the reports say of spaces: they have no elements.
+/// What the reports say of spaces: they have no elements. They come below the finest level, above coarser meshes.
 void report_spaces(const std::vector<CoarseSpace>& made, std::vector<LevelReport>& reports) {
+  auto place = reports.begin();
   for (const CoarseSpace& space : made) {
-    LevelReport& report = reports.emplace_back();
+    place = reports.emplace(place + 1);
+    LevelReport& report = *place;
     report.kind = space.slivers ? LevelKind::slivers : LevelKind::space;
     report.vertices = static_cast<int>(space.points.size());
     report.mean_edge = space.spacing;
@@ -57,7 +59,7 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   const auto spaces = mass_spaces(coarser.transfers, constants.mass);
   HimParts<B> parts;
   parts.options = setup.problem.integration.him;
-  parts.detail = !coarser.made.empty() && coarser.made.front().slivers;
+  parts.detail = meshes.size() == 1 && !coarser.made.empty() && coarser.made.front().slivers;
   std::optional<CoarseModes> modes;
   AxesShape axes;
   if (!spaces.empty()) {

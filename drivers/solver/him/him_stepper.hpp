@@ -93,8 +93,8 @@ struct HimParts {
   std::optional<FreeMotion<B>> free;         ///< of a body that nothing holds
   Vectors<B> contact_force, contact_answer;  ///< of the vertices, with obstacles [N], [m/s^2]
   InertiaFit fit;
-  std::size_t detail =
-      0;  ///< the level by whose critical step an automatic one goes: the one below a space for slivers
+  /// The level by whose critical step an automatic one goes: without coarser meshes the one below a space for slivers.
+  std::size_t detail = 0;
 };
 
 /// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per macro step. Forces go down to

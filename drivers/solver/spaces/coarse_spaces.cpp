@@ -32,7 +32,7 @@ RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& const
   return kept;
 }
 
-/// None where there are no slivers. Vertices whose motion is given have no part in it.
+/// None where there are no slivers. Vertices whose motion is given have no column.
 std::optional<CoarseSpace> slivers_of(const TetMesh& mesh, const std::vector<char>& constrained,
                                       const std::vector<double>& mass, const BlockRows& K) {
   auto slivers = sliver_space(mesh, constrained, mass, K);
@@ -44,6 +44,16 @@ std::optional<CoarseSpace> slivers_of(const TetMesh& mesh, const std::vector<cha
 
 void drop_constrained_rows(RowMatrix& P, const std::vector<char>& constrained) {
   P.prune([&](Eigen::Index a, Eigen::Index, double) { return !constrained[static_cast<std::size_t>(a)]; });
+}
+
+RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (RowMatrix::InnerIterator entry(P, rows[i]); entry; ++entry)
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(entry.col()), entry.value());
+  RowMatrix some(static_cast<Eigen::Index>(rows.size()), P.cols());
+  some.setFromTriplets(entries.begin(), entries.end());
+  return some;
 }
 
 }  // namespace
@@ -108,6 +118,13 @@ LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector
     };
     below.transfers.push_back(
         transfer(coarse.up ? *coarse.up : embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate)));
+  }
+  if (!options.slivers) return below;
+  if (auto slivers = slivers_of(finest.mesh, finest.constrained, mass, K)) {
+    drop_constrained_rows(slivers->up, finest.constrained);
+    below.transfers.front() = rows_of(below.transfers.front(), slivers->points);
+    below.transfers.insert(below.transfers.begin(), slivers->up);
+    below.made.push_back(std::move(*slivers));
   }
   return below;
 }

@@ -68,7 +68,7 @@ struct LevelsBelow {
   std::vector<CoarseSpace> made;  ///< those of them that are no meshes
 };
 
-/// The coarser meshes, or coarse_spaces() of a mesh alone.
+/// The coarser meshes, where asked for with a sliver space in front of them, or coarse_spaces() of a mesh alone.
 /// @param levels  meshes, finest first
 /// @param smooth  the transfers of meshes: see transfer_matrix()
 LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass, const BlockRows& K,

@@ -195,6 +195,29 @@ TEST_F(Program, ExplainsForPeopleAndPrograms) {
   EXPECT_TRUE(json["parts"][0].contains("bytes"));
 }
 
+// A space for slivers lies between the meshes: tables and files number it like them
+TEST_F(Program, ExplainsTheSpaceForSliversAboveAGivenMesh) {
+  const std::string organ = PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk", coarse = folder / "coarse.vtk";
+  ASSERT_EQ(plica({"mesh", "coarsen", organ, "-o", coarse, "--vertices", "300"}).status, 0);
+  const auto explain = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"explain", scene,
+                                      "--set",   "integration={cycle: him}",
+                                      "--set",   "body.levels=[{file: " + organ + "}, {file: " + coarse + "}]"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Child child = plica(words);
+    EXPECT_EQ(child.status, 0) << child.errors;
+    return child.output;
+  };
+  const std::string text = explain({});
+  EXPECT_NE(text.find("slivers follow"), std::string::npos) << text;
+  EXPECT_NE(text.find("0 - 2"), std::string::npos) << text;
+  const Json levels = Json::parse(explain({"--json"}))["levels"];
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels[1]["kind"], "slivers");
+  EXPECT_EQ(levels[1]["tets"], 0);
+  EXPECT_EQ(levels[2]["kind"], "mesh");
+}
+
 TEST_F(Program, ExplainsWhatCycleAutoChose) {
   const std::vector<std::string> sets = {"--set", "integration.cycle=auto", "--set", "integration.macro_step=auto"};
   const auto with_sets = [&](std::vector<std::string> words) {
