@@ -22,8 +22,10 @@ class Elasticity {
   /// semi-definite, which only nodal ones have without a matrix.
   virtual void tangent(const Exec&, const Level<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
                        bool positive = false) const = 0;
-  /// Column `direction` of the vertices' own blocks of K(u), of linear elements: for shares of the patches.
-  virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction, double over) const = 0;
+  /// Of the vertices' own blocks of K(u) column `direction`: its numbers on the diagonal and in the next row (cyclic) at least. Without what
+  /// nodal elements smooth.
+  virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction, double over,
+                        bool positive = false) const = 0;
   /// A = (1 + b c) M + a K(u) as blocks, of linear elements; `positive`: of such whose tangent is projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u, const ImplicitWeights&,
                       bool positive, const Blocks9<B>& shares, const BlockMatrix<B>& A) const = 0;

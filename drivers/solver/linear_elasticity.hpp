@@ -25,8 +25,8 @@ class LinearElasticity final : public Elasticity<B> {
                bool) const override {
     elastic_tangent<B, Material>(exec, level.model.patches, u, p, over, level.partial);
   }
-  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction,
-                double over) const override {
+  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction, double over,
+                bool) const override {
     elastic_diagonal<B, Material>(exec, level.model.patches, u, direction, over, level.partial);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/elasticity.hpp>
-#include <plica/kernels/elastic/nodal_elements.hpp>
+#include <plica/kernels/elastic/nodal_diagonal.hpp>
 #include <plica/kernels/elastic/remember_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
@@ -28,9 +28,12 @@ class NodalElasticity final : public Elasticity<B> {
     else
       nodal_tangent<B, Material, Material::template Tangent>(exec, level, u, p, over);
   }
-  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction,
-                double over) const override {
-    linear_->diagonal(exec, level, u, direction, over);
+  void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction, double over,
+                bool positive) const override {
+    if (positive)
+      nodal_diagonal<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, over, direction);
+    else
+      nodal_diagonal<B, Material, Material::template Tangent>(exec, level, u, over, direction);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,
               const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,

@@ -232,12 +232,13 @@ void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const Impl
 }
 
 template <class B>
-void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights, const Blocks<B>& blocks) const {
+void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights, bool positive,
+                              const Blocks<B>& blocks) const {
   using Real = typename B::Real;
   const Exec& exec = clock_->exec();
   const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
   for (int direction = 0; direction < 3; ++direction) {
-    elasticity_->diagonal(exec, *this, at.u, direction, weights.b / weights.a);
+    elasticity_->diagonal(exec, *this, at.u, direction, weights.b / weights.a, positive);
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }

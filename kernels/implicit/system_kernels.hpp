@@ -22,7 +22,8 @@ struct SystemProduct {
   }
 };
 
-/// Vertex blocks of A: (1 + b c) m on the diagonal, plus a times column `direction` of the stiffness' own block.
+/// Vertex blocks of A: (1 + b c) m on the diagonal, plus a times column `direction` of the stiffness' own block, in the rows of the
+/// diagonal and the next (cyclic).
 template <class B>
 struct DiagonalColumn {
   using Real = typename B::Real;
@@ -33,10 +34,10 @@ struct DiagonalColumn {
   int direction;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const Vec3<Real> sum = sum_of_shares<B>(model.patches.shares, partial, i);
+    const Vec3<Real> sum = sum_of_shares<B>(model.shares, partial, i);
     diagonal(i, direction) = (1 + b * model.damping(i)) * model.mass(i) + a * sum[direction];
-    if (direction > 0) diagonal(i, 3) = direction == 1 ? a * sum[0] : diagonal(i, 3);
-    if (direction == 2) diagonal(i, 4) = a * sum[0], diagonal(i, 5) = a * sum[1];
+    const int beside = direction == 0 ? 3 : direction == 1 ? 5 : 4;
+    diagonal(i, beside) = a * sum[(direction + 1) % 3];
   }
 };
 

@@ -36,7 +36,7 @@ struct ConjugateGradients {
       if (restored_ && fitted_) preconditioner_->refit(exec);
       restored_ = false;
       if (!preconditioner_ || (fitted_ && weights.a == a_ && weights.b == b_ && spent_ < patience)) return;
-      preconditioner_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
+      system_.fit(exec, *preconditioner_);
       fitted_ = 1, a_ = weights.a, b_ = weights.b, per_decade_ = spent_ = 0, ++fits_;
     }
 

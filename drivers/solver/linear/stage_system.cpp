@@ -21,6 +21,7 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
   if (pattern_.matrix.rows == 0) {
     pattern_ = block_pattern<B>(level_->model);
     shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
+    if (nodal_) blocks_of_matrix_ = zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
   }
   return pattern_.matrix;
 }
@@ -30,15 +31,30 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
                              bool positive) {
   const Exec& exec = level.exec();
   level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
-  const int n = rows();
-  if (by_matrix() || positive) {
-    update_vertices<B>(exec, "plica::take_diagonal", n, TakeDiagonal<B>{matrix(exec), inverse_diagonal_});
-    if (level.contact()) level.response().add_diagonal(exec, level, true, inverse_diagonal_);
-  } else {
-    level.diagonal(state, weights, inverse_diagonal_);
-  }
-  update_vertices<B>(exec, "plica::invert_blocks", n,
-                     InvertBlocks<B>{level.model, inverse_diagonal_, static_cast<typename B::Real>(weights.b)});
+  if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
+  level.diagonal(state, weights, positive, inverse_diagonal_);
+  invert_blocks(exec, inverse_diagonal_);
+}
+
+template <class B>
+void StageSystem<B>::invert_blocks(const Exec& exec, const Blocks<B>& blocks) const {
+  update_vertices<B>(exec, "plica::invert_blocks", rows(),
+                     InvertBlocks<B>{level_->model, blocks, static_cast<typename B::Real>(weights_.b)});
+}
+
+template <class B>
+void StageSystem<B>::invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks) {
+  update_vertices<B>(exec, "plica::take_diagonal", rows(), TakeDiagonal<B>{matrix(exec), blocks});
+  if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, true, blocks);
+  invert_blocks(exec, blocks);
+}
+
+template <class B>
+void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
+  const BlockMatrix<B>& A = matrix(exec);
+  if (!nodal_) return preconditioner.fit(exec, A, inverse_diagonal_);
+  invert_blocks_of_matrix(exec, blocks_of_matrix_);
+  preconditioner.fit(exec, A, blocks_of_matrix_);
 }
 
 template <class B>
@@ -78,9 +94,9 @@ template <class B>
 std::size_t StageSystem<B>::bytes() const {
   const BlockMatrix<B>& A = pattern_.matrix;
   const PatchPairs<B>& P = pattern_.pairs;
-  return bytes_of_views(inverse_diagonal_, shares_, A.first, A.column, A.diagonal, A.value, P.first_pair,
-                        P.first_shared, P.first_slot, P.first_turned, P.slot, P.upper, P.lower, P.first_share,
-                        P.shared_upper, P.shared_lower);
+  return bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column, A.diagonal, A.value,
+                        P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.upper, P.lower,
+                        P.first_share, P.shared_upper, P.shared_lower);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/linear/block_pattern.hpp>
+#include <plica/drivers/solver/linear/multigrid.hpp>
 #include <plica/drivers/solver/solver_level.hpp>
 #include <plica/kernels/linear/krylov.hpp>
 
 namespace plica {
 
 /// The system A of an implicit stage on one level: its product without a matrix or by an assembled one, and its vertex blocks. With
-/// nodal elements the product is without a matrix, and the matrix and the blocks, to precondition with, are those of linear ones.
+/// nodal elements the product is without a matrix; the matrix, to precondition with, is that of linear ones.
 template <class B>
 class StageSystem {
  public:
@@ -31,6 +32,8 @@ class StageSystem {
   const Blocks<B>& inverse_diagonal() const { return inverse_diagonal_; }
   /// A itself, assembled if it is not.
   const BlockMatrix<B>& matrix(const Exec& exec);
+  /// Fits a preconditioner to that matrix.
+  void fit(const Exec& exec, Preconditioner<B>& preconditioner);
   /// Its pattern alone; with nodal elements that of linear ones.
   const BlockMatrix<B>& pattern();
   int rows() const { return level_->model.vertices; }
@@ -40,13 +43,15 @@ class StageSystem {
   bool nodal_, assembled_, ready_ = false;  ///< the matrix is that of this stage
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
-  Blocks<B> inverse_diagonal_;
+  Blocks<B> inverse_diagonal_, blocks_of_matrix_;  ///< inverses; the latter with nodal elements only
   const Level<B>* level_ = nullptr;
   const SolverLevel<B>* forces_ = nullptr;
   State<B> state_;
   ImplicitWeights weights_;
   bool positive_ = false;
 
+  void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
+  void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
   bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
 };

@@ -77,7 +77,7 @@ struct VCycleSolver {
 
     void fit(const Exec& exec) {
       if (projects_) system_.project();
-      cycle_->fit(exec, system_.matrix(exec), system_.inverse_diagonal());
+      system_.fit(exec, *cycle_);
       fitted_ = 1, first_ = 0, ++fits_;
     }
 

@@ -74,7 +74,7 @@ TEST(ElasticMesh, StiffnessIsSymmetricAndItsBlocksAreTheDiagonals) {
     state.u = device_field<Host>(u), state.v = device_field<Host>(probe.zero());
     const Blocks<Host> blocks("test.blocks", probe.vertices());
     const double h = 0.01;
-    probe.at(0).diagonal(state, {h * h, h}, blocks);
+    probe.at(0).diagonal(state, {h * h, h}, false, blocks);
     const auto m = probe.mass();
     for (Eigen::Index a = 0; a < static_cast<Eigen::Index>(m.size()); ++a) {
       const Eigen::Matrix3d A =

@@ -184,6 +184,35 @@ TEST(NodalElements, TangentIsMinusTheDerivativeOfTheForceAndSymmetric) {
   });
 }
 
+TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
+  for_each_material([](const std::string& material) {
+    const Problem problem = nodal(layered_cube(material, 2), "plain");
+    LevelProbe<Host> probe(problem);
+    SolverLevel<Host>& level = probe.at(0);
+    const State<Host> state(device_field<Host>(random_field(probe.vertices(), 0.006, 1)),
+                            device_field<Host>(probe.zero()));
+    const ImplicitWeights weights{1e-4, 1e-2};
+    const Blocks<Host> blocks("test.blocks", probe.vertices());
+    Vectors<Host> q("test.q", probe.vertices());
+    for (const bool positive : {false, true}) {
+      SCOPED_TRACE(positive);
+      level.diagonal(state, weights, positive, blocks);
+      for (std::size_t a = 0; a < probe.vertices(); ++a)
+        for (int k = 0; k < 3; ++k) {
+          auto p = probe.zero();
+          p[a][k] = 1;
+          level.product(state, device_field<Host>(p), weights, positive, q);
+          for (int i = 0; i < 3; ++i) {
+            const int number = i == k ? i : i + k + 2;
+            EXPECT_NEAR(blocks(a, static_cast<std::size_t>(number)), q(a, static_cast<std::size_t>(i)),
+                        1e-11 * std::abs(q(a, static_cast<std::size_t>(k))))
+                << a << ' ' << i << ' ' << k;
+          }
+        }
+    }
+  });
+}
+
 /// Forces and moments on a body that is turned and strained.
 template <class B>
 class NodalElementsOn : public testing::Test {};

@@ -189,7 +189,7 @@ TEST(LinearSolvers, PreconditionersAreSymmetricAndPositive) {
     StageSystem<Host> system(stage.level(), true);
     const auto preconditioner = make_preconditioner<Host>(parts, system);
     system.prepare(stage.level(), stage.state, stage.weights, false);
-    preconditioner->fit(stage.exec(), system.matrix(stage.exec()), system.inverse_diagonal());
+    system.fit(stage.exec(), *preconditioner);
     const auto free = stage.probe.free();
     const auto n = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd C(n, n);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/elastic/nodal_elements.hpp>
+
+// The vertices' own blocks of the stiffness of nodal elements. A displacement of vertex b along d moves every domain a around it by
+// G_a = d (x) C_ab / V_a, so that with the tangents T_a = dP/dF at F_a
+//
+//   d.K_bb d = sum_a V_a G_a:(T_a - beta mu):G_a + beta mu w_bb |d|^2,   a: the neighbours of b, and b itself.
+//
+// Of smoothed pressures, which act beyond neighbours, nothing is in it.
+namespace plica {
+
+/// Leaves as records, of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a neighbour's c = C_ab makes of a
+/// domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z c_z, c_x c_y, c_x c_z, c_y c_z, over V_a.
+template <class B, class Material, template <class> class Tangent>
+struct NodalDiagonal {
+  static constexpr int fields = 1;
+  using T = RowPack<B>;
+  RowScales<B> scales;
+  Scalars<B> inverse_volume;
+  typename B::Real over;  ///< [1/s]
+  int direction;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1], const RowsAt<B>& at, int region,
+                                         Mat3<T>& Q, Vec3<T>& v) const {
+    const T weight = T(scales.tangent(region, over)) * load_rows<B>(&inverse_volume(at.slot));
+    const Tangent<T> tangent(Mat3<T>::identity() + G[0],
+                             load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot));
+    Mat3<T> dP[3];  // by the column of F that moves
+    for (int j = 0; j < 3; ++j) {
+      Mat3<T> dF;
+      dF[direction][j] = T(1);
+      dP[j] = tangent(dF) - T(scales.stabiliser(region)) * dF;
+    }
+    T number[12];
+    for (int row = 0; row < 2; ++row) {
+      const int i = (direction + row) % 3;
+      T* const to = number + 6 * row;
+      for (int j = 0; j < 3; ++j) to[j] = weight * dP[j][i][j];
+      to[3] = weight * (dP[0][i][1] + dP[1][i][0]);
+      to[4] = weight * (dP[0][i][2] + dP[2][i][0]);
+      to[5] = weight * (dP[1][i][2] + dP[2][i][1]);
+    }
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) Q[i][j] = number[4 * j + i];
+      v[j] = number[4 * j + 3];
+    }
+  }
+};
+
+/// Column `direction` of the blocks, but for its number in the third place after the diagonal's, which is left 0.
+template <class B>
+struct RowDiagonal {
+  using Real = typename B::Real;
+  using T = RowPack<B>;
+  NodalRows<B> rows;
+  RowScales<B> scales;
+  Scalars<B> records;
+  Vectors<B> partial;
+  Real over;
+  int direction;
+
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    T diagonal = T(0), next = T(0), coupling = T(0);
+    const auto add = [&](const Vec3<T>& c, const auto& slot) {
+      T number[12];
+      for (int j = 0; j < 3; ++j) {
+        T four[4];
+        load_fours([&](int l) { return records.data() + slot(l) * 12 + 4 * j; }, four);
+        for (int i = 0; i < 4; ++i) number[4 * j + i] = four[i];
+      }
+      const T square[6] = {c[0] * c[0], c[1] * c[1], c[2] * c[2], c[0] * c[1], c[0] * c[2], c[1] * c[2]};
+      for (int k = 0; k < 6; ++k) diagonal += number[k] * square[k], next += number[6 + k] * square[k];
+    };
+    Vec3<T> sum;
+    for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
+      const int* const neighbour = &rows.neighbour(e, at.offset);
+      const Vec3<T> C = load_gradient<B>(rows.gradient, e, at.offset);
+      sum += C;
+      coupling += load_rows<B>(&rows.coupling(e, at.offset));
+      add(surface_part(at, neighbour) - C, [=](int l) { return neighbour[l]; });
+    }
+    add(sum, [=](int l) { return at.slot + l; });
+    const int region = rows.region(at.slice);
+    diagonal -= T(scales.tangent(region, over) * scales.stabiliser(region)) * coupling;
+    for (int l = 0; l < B::lanes; ++l) {
+      partial(at.slot + l, direction) = lane(diagonal, l);
+      partial(at.slot + l, (direction + 1) % 3) = lane(next, l);
+      partial(at.slot + l, (direction + 2) % 3) = 0;
+    }
+  }
+
+  /// S_ab of one entry, 0 inside the body.
+  KOKKOS_INLINE_FUNCTION Vec3<T> surface_part(const RowsAt<B>& at, const int* neighbour) const {
+    Vec3<T> S;
+    for (int e = rows.first_surface(at.slice); e < rows.first_surface(at.slice + 1); ++e) {
+      const int* const other = &rows.surface_neighbour(e, at.offset);
+      for (int l = 0; l < B::lanes; ++l)
+        if (other[l] == neighbour[l])
+          for (int k = 0; k < 3; ++k) set_lane(S[k], l, lane(S[k], l) + rows.surface_gradient(e, k, at.offset + l));
+    }
+    return S;
+  }
+};
+
+template <class B, class Material, template <class> class Tangent>
+void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, double over,
+                    int direction) {
+  const NodalRows<B>& rows = level.model.rows;
+  const RowScales<B> scales(rows);
+  const auto rate = static_cast<typename B::Real>(over);
+  lay_out<B>(exec, rows, level.nodal, {u});
+  for_rows<B>(exec, "plica::nodal_diagonal", rows,
+              RowStresses<B, NodalDiagonal<B, Material, Tangent>>{
+                  rows, level.nodal, {scales, rows.inverse_volume, rate, direction}});
+  for_rows<B>(exec, "plica::nodal_own_blocks", rows,
+              RowDiagonal<B>{rows, scales, level.nodal.records, level.partial, rate, direction});
+}
+
+// What is the same for all materials, as in nodal_rows.hpp.
+#define PLICA_NODAL_DIAGONAL(EXTERN, ...)                                                                          \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&, \
+                                             const RowDiagonal<__VA_ARGS__>&);
+#define PLICA_EXTERN_NODAL_DIAGONAL(Real, Exec) PLICA_NODAL_DIAGONAL(extern, Backend<Real, Exec>)
+PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_DIAGONAL)
+#undef PLICA_EXTERN_NODAL_DIAGONAL
+
+}  // namespace plica
