@@ -154,7 +154,7 @@ TEST(ImplicitContact, HasOneSystem) {
     Linearised it(c.problem, {0.001, -0.002, 0});
     const auto state = it.state();
     const Blocks<Host> diagonal("test.diagonal", it.probe.vertices());
-    it.level().diagonal(state, it.weights, diagonal);
+    it.level().diagonal(state, it.weights, false, diagonal);
     const auto direction = random_field(it.probe.vertices(), 1, 2);
     const auto want = it.product(direction);
     for (std::size_t a = 0; a < it.probe.vertices(); a += 3)
