@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
 #include <cstring>
 #include <plica/core/fields.hpp>
+
+#if __has_include(<sys/mman.h>)
+#include <sys/mman.h>
+#endif
 
 namespace plica {
 
@@ -23,7 +28,29 @@ ConstBytes<Memory> at(const void* x, std::size_t bytes) {
   return ConstBytes<Memory>(static_cast<const unsigned char*>(x), bytes);
 }
 
+/// Whole pages of these bytes, before they are first written.
+void ask_for_huge_pages([[maybe_unused]] void* x, [[maybe_unused]] std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  constexpr std::size_t huge = std::size_t{1} << 21;
+  if (bytes < 2 * huge) return;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(x) + huge - 1) / huge * huge;
+  const auto end = (reinterpret_cast<std::uintptr_t>(x) + bytes) / huge * huge;
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a hint: a system without them goes on
+#endif
+}
+
 }  // namespace
+
+template <class Memory>
+void clear_new(void* x, std::size_t bytes) {
+  if (bytes == 0) return;
+  if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>) {
+    ask_for_huge_pages(x, bytes);
+    std::memset(x, 0, bytes);
+  } else {
+    Kokkos::deep_copy(at<Memory>(x, bytes), static_cast<unsigned char>(0));
+  }
+}
 
 template <class Exec>
 void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes) {
@@ -62,7 +89,9 @@ void set(const Exec& exec, Number* x, std::size_t count, Number value) {
   template void set<Exec, int>(const Exec&, int*, std::size_t, int);
 PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE_SPACE)
 
-#define PLICA_INSTANTIATE_MEMORY(Memory) template void upload<Memory>(void*, const void*, std::size_t);
+#define PLICA_INSTANTIATE_MEMORY(Memory)                         \
+  template void upload<Memory>(void*, const void*, std::size_t); \
+  template void clear_new<Memory>(void*, std::size_t);
 PLICA_FOR_EACH_MEMORY(PLICA_INSTANTIATE_MEMORY)
 
 }  // namespace fields

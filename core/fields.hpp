@@ -15,6 +15,9 @@ namespace fields {
 /// Copies bytes within the memory of an execution space, in the order of `exec`.
 template <class Exec>
 void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes);
+/// New memory is 0. Where it is large and the host's, it is asked to be in huge pages: kernels that read it in order then wait less.
+template <class Memory>
+void clear_new(void* x, std::size_t bytes);
 /// Bytes from the host to a memory space. Waits for all work.
 template <class Memory>
 void upload(void* to, const void* from, std::size_t bytes);
@@ -36,7 +39,9 @@ std::size_t bytes_of(const View& x) {
 /// A field of n rows, all zero.
 template <class View>
 View zeros(const std::string& label, std::size_t n) {
-  return View(label, n);
+  const View view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), n);
+  fields::clear_new<typename View::memory_space>(view.data(), fields::bytes_of(view));
+  return view;
 }
 
 /// x = value, in the order of `exec`.

@@ -3,6 +3,7 @@
 #include <any>
 #include <optional>
 #include <plica/core/motion.hpp>
+#include <plica/core/selection.hpp>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct GraspOptions {
   std::vector<double> until = {};        ///< it opens, after each of these [s]; may lack the last: it stays closed
   double reach = 0;                      ///< how far outside it a point may be that it takes hold of [m]
   std::optional<double> stiffness = {};  ///< of the spring of each point [N/m]; none: as contact has it
+  std::optional<Selection> where = {};   ///< of the points near it, by where they start; none: all
 };
 
 /// A shape, how rough it is and how it moves.

@@ -44,6 +44,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   for (const ObstacleOptions& o : all) grasps_.push_back(o.grasp);
   make_memory(std::ranges::any_of(all, [](const ObstacleOptions& o) { return o.mass.has_value(); }));
   for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles()));
+  choose_held(surface.held);
   make_laws(options, surface, stiff ? most_stiffening : 1);
   choose_whole(options.whole_surface, surface.surface);
   if (pairs || whole() > 0) connect(surface.surface, pairs);
@@ -60,6 +61,19 @@ void Contact<B>::make_memory(bool tools) {
     held_.records = count * points_;
   if (const int size = held_.at(held_.records); size > 0)
     held_.memory = memory_ = zeros<Doubles<B>>("plica::contact.memory", static_cast<std::size_t>(size));
+}
+
+template <class B>
+void Contact<B>::choose_held(const std::vector<std::vector<int>>& chosen) {
+  if (std::ranges::all_of(chosen, [](const auto& points) { return points.empty(); })) return;
+  std::vector<int> left_out(static_cast<std::size_t>(held_.records), 0);
+  auto own = left_out.begin();
+  for (const auto& points : chosen) {
+    if (!points.empty()) std::fill(own, own + points_, 1);
+    for (const int p : points) own[p] = 0;
+    own += points_;
+  }
+  held_.left_out = to_device<Indices<B>>("contact.left_out", left_out);
 }
 
 template <class B>
@@ -183,6 +197,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   const std::size_t records = n * static_cast<std::size_t>(points.rows()) + faces;
   points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
   points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
+  points.smooth = zeros<Vectors<B>>("plica::contact.smooth", records);
   points.force = zeros<Vectors<B>>("plica::contact.force", records);
   points.depth = to_device<Scalars<B>>(
       "contact.depth", std::vector<Real>(records, std::numeric_limits<Real>::lowest()));  // what no kernel looks at

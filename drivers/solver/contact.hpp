@@ -57,6 +57,7 @@ struct TouchingSurface {
   std::vector<Part> parts;
   std::vector<int> body;                ///< of each point its part; empty: there is one
   std::vector<AttachedPoint> attached;  ///< to another of its bodies
+  std::vector<std::vector<int>> held;   ///< of each obstacle the points that it may hold; empty: all
   double edge = 0;                      ///< mean, of all [m]
   double size = 0;                      ///< of the whole: a point deeper than that is lost [m]
 };
@@ -139,6 +140,7 @@ class Contact {
   void attach(const ContactOptions& options, const TouchingSurface& surface,
               const std::vector<PenaltyLaw<Real>>& pair_laws);
   void make_memory(bool tools);  ///< `tools`: some have mass
+  void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
   void connect(const TriangleSurface& surface, bool pairs);
 };

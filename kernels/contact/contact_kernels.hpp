@@ -38,6 +38,7 @@ struct TouchingPoints {
   AttachedPoints<B> attached;  ///< empty where bodies are not attached to each other; in the row of pairs
   Vectors<B> normal;    ///< [records][3] out of the obstacle, or of the triangle; of a held point its stretch [m]
   Vectors<B> velocity;  ///< of the point relative to it [m/s]
+  Vectors<B> smooth;    ///< its acceleration without contact, likewise, where it is near [m/s^2]
   Scalars<B> depth;     ///< > 0 inside [m]
   Scalars<B> mobility;  ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
   Vectors<B> force;     ///< on the point [N]

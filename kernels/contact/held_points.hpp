@@ -14,10 +14,12 @@ struct HeldPoints {
   int records = 0;    ///< 0: no obstacle can hold anything, no arrays
   Doubles<B> memory;  ///< of the obstacles; these numbers begin with its number `first`
   int first = 0;
-  PointLaws<B> law;  ///< stiffness and damping, in all directions
+  Indices<B> left_out;  ///< [records] 1: of a point that its obstacle never holds; empty: none
+  PointLaws<B> law;     ///< stiffness and damping, in all directions
 
   KOKKOS_INLINE_FUNCTION int at(int r) const { return first + numbers * r; }
   KOKKOS_INLINE_FUNCTION bool holds(int r) const { return r < records && memory(at(r) + 3) > 0; }
+  KOKKOS_INLINE_FUNCTION bool may_hold(int r) const { return left_out.extent(0) == 0 || left_out(r) == 0; }
   KOKKOS_INLINE_FUNCTION void hold(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
     for (int k = 0; k < 3; ++k) memory(at(r) + k) = static_cast<double>(x[k]) - moved[k];
     memory(at(r) + 3) = 1;

@@ -77,7 +77,7 @@ struct TakeHold {
   typename B::Real reach;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const int r = points.record(obstacle, p);
-    if (points.held.holds(r) || !(-points.depth(r) <= reach)) return;
+    if (points.held.holds(r) || !points.held.may_hold(r) || !(-points.depth(r) <= reach)) return;
     const auto x = points.place(surface, u, obstacle, p);
     points.held.hold(r, x, place.way(x));
   }
@@ -180,12 +180,12 @@ struct StartTouching {
       const int r = points.record(row, p);
       const bool near = points.near(r);
       points.mobility(r) = 0;
-      Vec3<Real> unit;
+      Vec3<Real> unit, e;
+      if (near) set_vector<B>(points.smooth, r, e = law.at(law.smooth, row, p));
       if (near && points.is_held(row, p)) {
         unit = law.any_direction();
         count += 1;
       } else if (near) {
-        const Vec3<Real> e = law.at(law.smooth, row, p);
         const PenaltyLaw<Real> of = points.law_of(row, p);
         const Real depth = law.depth(r, e);
         if (law.by_work ? law.work(of, r).force(depth) > 0 : depth > 0 && law.pressure(of, r, e) > 0) {
@@ -212,7 +212,7 @@ struct SweepTouching {
       const Vec3<Real> force = vector_at<B>(points.force, r);
       if (!(first ? dot(force, force) > 0 : points.mobility(r) > 0)) continue;
       const Vec3<Real> answer = law.at(law.answer, row, p, first ? law.bounding() : Real(-1));
-      Vec3<Real> e = law.at(law.smooth, row, p);
+      Vec3<Real> e = vector_at<B>(points.smooth, r);
       if (first) {
         constexpr Real smallest = Kokkos::Experimental::norm_min_v<Real>;
         points.mobility(r) = Kokkos::max(Kokkos::sqrt(dot(answer, answer)), smallest);

@@ -56,12 +56,12 @@ int part_named(const std::vector<BodyPart>& parts, const std::string& name) {
 std::vector<int> chosen_points(const TriangleSurface& surface, const std::vector<int>& part, int body,
                                const std::optional<Selection>& where, const std::string& path) {
   std::vector<int> points;
-  TetMesh cloud;
+  std::vector<Point> places;
   for (std::size_t p = 0; p < part.size(); ++p)
-    if (part[p] == body) points.push_back(static_cast<int>(p)), cloud.vertices.push_back(surface.vertices[p]);
+    if (part[p] == body) points.push_back(static_cast<int>(p)), places.push_back(surface.vertices[p]);
   if (!where) return points;
   std::vector<int> chosen;
-  for (const int i : select_vertices(cloud, *where, {path + ".where", 0}))
+  for (const int i : select_points(places, *where, path + ".where"))
     chosen.push_back(points[static_cast<std::size_t>(i)]);
   return chosen;
 }

@@ -274,6 +274,7 @@ class HierarchyBuilder {
                              .parts = {},
                              .body = parts_of_points(p.body.parts),
                              .attached = attached_points(p.contact.attachments, surface_, p.body.parts),
+                             .held = holdable(),
                              .edge = built_.reports.front().mean_edge,
                              .size = body_size()};
     for (std::size_t b = 0; b < p.body.parts.size(); ++b)
@@ -281,6 +282,17 @@ class HierarchyBuilder {
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
     if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
     contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p), stiff);
+  }
+
+  /// Of each obstacle that chooses them the surface points that it may hold.
+  std::vector<std::vector<int>> holdable() const {
+    std::vector<std::vector<int>> points;
+    for (const ObstacleOptions& o : problem_.contact.obstacles) {
+      const std::string option = text("contact.obstacles.", points.size(), ".grasp.where");
+      const bool chooses = o.grasp && o.grasp->where;
+      points.push_back(chooses ? select_points(surface_.vertices, *o.grasp->where, option) : std::vector<int>{});
+    }
+    return points;
   }
 
   double body_size() const {

@@ -56,15 +56,20 @@ std::string described(const Selection& selection) {
   return "the plane at " + coordinates(half.point) + " m with normal " + coordinates(half.normal);
 }
 
-std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points, const Selection& selection,
-                        const Selecting& who, const std::string& what) {
-  const Box all = bounding_box(mesh.vertices);
+/// `what` is chosen among, of what reaches over `all` so.
+std::vector<int> select(const std::vector<Point>& points, const Selection& selection, const std::string& option,
+                        const std::string& what, const Box& all, const std::string& when) {
   const auto chosen = std::visit(Among{points, 1e-9 * (all.max - all.min).norm()}, selection);
   if (chosen.empty())
-    throw InputError(who.option + ": " + described(selection) + " selects no " + what + " on level " +
-                     std::to_string(who.level) + ", which reaches from " + coordinates(all.min) + " to " +
-                     coordinates(all.max) + " m at rest");
+    throw InputError(option + ": " + described(selection) + " selects no " + what + ", which reaches from " +
+                     coordinates(all.min) + " to " + coordinates(all.max) + " m " + when);
   return chosen;
+}
+
+std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points, const Selection& selection,
+                        const Selecting& who, const std::string& what) {
+  return select(points, selection, who.option, what + " on level " + std::to_string(who.level),
+                bounding_box(mesh.vertices), "at rest");
 }
 
 const std::string* name_in(const Selection& selection) {
@@ -114,6 +119,17 @@ std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection
     return vertices_of(mesh, region_named(mesh, *name, who, group));
   }
   return select(mesh, mesh.vertices, selection, who, "vertex");
+}
+
+void expect_without_name(const Selection& selection, const std::string& option) {
+  if (name_in(selection))
+    throw InputError(option + ": a surface has no groups and regions; expected box, sphere, plane or nearest");
+}
+
+std::vector<int> select_points(const std::vector<Point>& points, const Selection& selection,
+                               const std::string& option) {
+  expect_without_name(selection, option);
+  return select(points, selection, option, "point of the surface", bounding_box(points), "at the start");
 }
 
 std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection, const Selecting& who) {

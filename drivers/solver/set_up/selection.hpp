@@ -18,6 +18,11 @@ struct Selecting {
 /// of that name.
 std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection, const Selecting& who);
 
+/// The points of a surface, where they start, that a selection chooses, ascending; at least one. InputError where there is none, and
+/// for groups and regions, which a surface has not.
+std::vector<int> select_points(const std::vector<Point>& points, const Selection& selection, const std::string& option);
+void expect_without_name(const Selection& selection, const std::string& option);  ///< of a group or region: InputError
+
 /// The elements whose centroid it chooses, or of the region it names; likewise.
 std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection, const Selecting& who);
 

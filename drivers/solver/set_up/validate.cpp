@@ -159,7 +159,9 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
     throw InputError(path + ".coupling is of an obstacle with mass; expected " + path + ".mass, or no coupling");
   if (o.mass && o.turn)
     throw InputError(path + " has mass and turn; expected one of them: a tool with mass translates only");
-  if (o.grasp) check_grasp(path + ".grasp", *o.grasp);
+  if (!o.grasp) return;
+  check_grasp(path + ".grasp", *o.grasp);
+  if (o.grasp->where) expect_without_name(*o.grasp->where, path + ".grasp.where");
 }
 
 void check_multigrid(const Body& body, const ImplicitOptions& o) {

@@ -5,6 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -45,15 +46,18 @@ void check_attachments(const Problem& problem) {
   const auto& all = problem.contact.attachments;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string path = "attachments." + std::to_string(i);
+    for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
+      if (const std::string to = obstacle_name(problem.contact, o); to == all[i].to)
+        throw InputError(path + ".to: " + to +
+                         " is an obstacle; expected a body, or in place of this contact.obstacles." +
+                         std::to_string(o) + ".grasp with from: 0, where and reach, which holds points from the start");
     if (bodies.empty()) throw InputError(path + ": there is one body; expected several, by the key bodies");
     for (const auto& [key, name] : {std::pair{".body", all[i].body}, std::pair{".to", all[i].to}})
       if (std::ranges::find(bodies, name) == bodies.end())
         throw InputError(path + key + ": " + unknown_name("body", name, bodies));
     if (all[i].body == all[i].to)
       throw InputError(path + ".to is " + all[i].to + ", as is the body that is attached; expected another one");
-    if (all[i].where && (std::holds_alternative<GroupSelection>(*all[i].where) ||
-                         std::holds_alternative<RegionSelection>(*all[i].where)))
-      throw InputError(path + ".where: a surface has no groups and regions; expected box, sphere, plane or nearest");
+    if (all[i].where) expect_without_name(*all[i].where, path + ".where");
     Quantity{length, not_negative}.check(path + ".reach", all[i].reach);
     if (all[i].stiffness) Quantity{{.mass = 1, .time = -2}, positive}.check(path + ".stiffness", *all[i].stiffness);
   }

@@ -182,6 +182,9 @@ TEST(Attachments, RefuseWhatTheyCannotHold) {
   alone.body = cube({0, 0, 0}, 2);
   alone.contact.attachments = {{.body = "a", .to = "b"}};
   has(refusal([&] { Simulation<Host> s(alone); }), "expected several");
+  alone.contact.obstacles.push_back({.shape = PlaneOptions{}, .friction = {}, .motion = {}, .name = "b"});
+  has(refusal([&] { Simulation<Host> s(alone); }),
+      "b is an obstacle; expected a body, or in place of this contact.obstacles.0.grasp");
 }
 
 }  // namespace

@@ -306,6 +306,30 @@ TEST(Grasp, HoldsOnEveryLevel) {
   }
 }
 
+// It holds the points that are chosen, of those in reach, and two obstacles choose for themselves.
+TEST(Grasp, HoldsWhatIsChosen) {
+  Problem p = cube_and_plate(from_the_start);
+  ObstacleOptions second = p.contact.obstacles[0];
+  second.name = "second";
+  p.contact.obstacles.push_back(second);
+  p.contact.obstacles[0].grasp->where = Box{{0, 0, 0}, {side / 2, side, side}};  // more than is in reach
+  p.contact.obstacles[1].grasp->where = NearestSelection{{side, side, top}};
+  const auto chosen = [&](const auto& inside) {
+    std::vector<int> points;
+    for (std::size_t i = 0; i < p.body.surface->vertices.size(); ++i)
+      if (const Point x = p.body.surface->vertices[i]; x[2] > top - 1e-9 && inside(x))
+        points.push_back(static_cast<int>(i));
+    return points;
+  };
+  Simulation<Host> s(p);
+  advance(s, 1);
+  const auto held = s.held();
+  ASSERT_EQ(held.size(), 2u);
+  EXPECT_EQ(held[0].points.size(), 15u);
+  EXPECT_EQ(held[0].points, chosen([](const Point& x) { return x[0] < side / 2 + 1e-9; }));
+  EXPECT_EQ(held[1].points, chosen([](const Point& x) { return x[0] > side - 1e-9 && x[1] > side - 1e-9; }));
+}
+
 TEST(Grasp, IsRefusedWhereItCannotBe) {
   const auto why = [](const Problem& p) { return refusal([&] { Simulation<Host>{p}; }); };
   const auto with = [&](const GraspOptions& grasp) { return why(cube_and_plate(grasp)); };
@@ -317,6 +341,13 @@ TEST(Grasp, IsRefusedWhereItCannotBe) {
   EXPECT_NE(with({.from = {}, .until = {}, .reach = -1}).find("grasp.reach"), std::string::npos);
   EXPECT_NE(with({.from = {}, .until = {}, .reach = 0, .stiffness = 0}).find("grasp.stiffness"), std::string::npos);
   Problem p = cube_and_plate(from_the_start);
+  p.contact.obstacles[0].grasp->where = Box{{1, 1, 1}, {2, 2, 2}};
+  EXPECT_NE(
+      why(p).find("contact.obstacles.0.grasp.where: the box from [1, 1, 1] to [2, 2, 2] m selects no point of the "
+                  "surface, which reaches from [0, 0, 0] to [0.06, 0.06, 0.06] m at the start"),
+      std::string::npos);
+  p.contact.obstacles[0].grasp->where = GroupSelection{"top"};
+  EXPECT_NE(why(p).find("contact.obstacles.0.grasp.where: a surface has no groups and regions"), std::string::npos);
   p.contact.obstacles[0].grasp.reset();
   Simulation<Host> s(p);
   EXPECT_EQ(refusal([&] { s.grasp(0); }), "obstacle plate cannot hold anything; expected contact.obstacles.0.grasp");
