@@ -5,6 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/join_bodies.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
 
