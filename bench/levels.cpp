@@ -2,8 +2,10 @@
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
+#include <plica/drivers/solver/set_up/join_bodies.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/transfer.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
 
 #include "beam.hpp"
@@ -36,6 +38,29 @@ Problem ball_problem(std::size_t levels, int subdivisions) {
   return p;
 }
 
+/// A ball of 20 480 triangles in 105 456 tetrahedra, and a probe that is pressed into its top.
+Problem probe_problem() {
+  Problem p = ball_problem(1, 5);
+  p.body.levels = {box_mesh({Point::Zero(), Point::Constant(0.11)}, {26, 26, 26})};
+  p.body.initial.position = Point::Zero();
+  p.contact.obstacles = {{CapsuleOptions{{0.055, 0.055, 0.112}, {0.055, 0.055, 0.2}, 0.008}, 0.3, {}}};
+  return p;
+}
+
+/// Two blocks of 48 600 tetrahedra and 2 882 points each, one a little inside the other.
+Problem blocks_problem() {
+  const auto block = [](double z) {
+    Body body;
+    body.element = {"linear"};
+    body.levels = {box_mesh({{0, 0, z}, {0.3, 0.3, z + 0.09}}, {30, 30, 9})};
+    body.surface = boundary_surface(body.levels[0]).surface;
+    return body;
+  };
+  Problem p;
+  p.body = join_bodies({{"lower", block(0)}, {"upper", block(0.0897)}});
+  return p;
+}
+
 template <class B>
 std::shared_ptr<BuiltHierarchy<B>> built(const Problem& problem) {
   return std::make_shared<BuiltHierarchy<B>>(build_hierarchy<B>(problem, {}));
@@ -62,13 +87,12 @@ void transfer(benchmark::State& state, bool down) {
   state.counters["rows_per_second"] = rows.rows / time;
 }
 
-/// Forces of the bowl on the ball's surface points, and from there on the vertices. Compulsory: points with their rows,
-/// their transpose, displacement and velocity of the vertices touched, force in and out.
+/// Contact of one step, from where points are to the forces on vertices; what is found is kept from call to call, as in slow steps.
+/// Compulsory: points with their rows, their transpose, displacement and velocity of the vertices touched, force in and out.
 template <class Real>
-void contact(benchmark::State& state, int subdivisions) {
+void contact(benchmark::State& state, const std::string& name, Problem (*scene)()) {
   using B = Backend<Real, Exec>;
-  auto& b = fixture<BuiltHierarchy<B>>(std::string("contact ") + precision_name<Real>() + std::to_string(subdivisions),
-                                       [&] { return built<B>(ball_problem(1, subdivisions)); });
+  auto& b = fixture<BuiltHierarchy<B>>("contact " + name, [&] { return built<B>(scene()); });
   SolverLevel<B>& h = (*b.hierarchy)[0];
   const auto& surface = h.surface;
   const double s = sizeof(Real), points = surface.points;
@@ -116,8 +140,14 @@ void register_precision() {
   };
   add("transfer/restrict/" + real + "/" + medium, transfer<Real>, true);
   add("transfer/interpolate/" + real + "/" + medium, transfer<Real>, false);
-  add("contact/bowl/" + real + "/642", contact<Real>, 3);
-  add("contact/bowl/" + real + "/10242", contact<Real>, 5);
+  const auto add_contact = [&](const std::string& scene, const std::string& points, Problem (*make)()) {
+    const std::string name = "contact/" + scene + "/" + real + "/" + points;
+    add(name, contact<Real>, name, make);
+  };
+  add_contact("bowl", "642", [] { return ball_problem(1, 3); });
+  add_contact("bowl", "10242", [] { return ball_problem(1, 5); });
+  add_contact("probe", "10242", probe_problem);
+  add_contact("bodies", "5764", blocks_problem);
   add("cycle/single/neo_hookean/" + real + "/29478", cycle<Real>, std::size_t{1});
   add("cycle/rsv/neo_hookean/" + real + "/29478", cycle<Real>, std::size_t{4});
   add("set_up/patches/" + real + "/" + medium, set_up_patches<Real>);
