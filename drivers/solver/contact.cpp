@@ -185,11 +185,11 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
   points.law = laws_;
   points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
-  if (const auto triangles = static_cast<std::size_t>(pairs_.triangles); triangles > 0) {
+  if (pairs_.triangles > 0) {
     points.pairs.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(n, -1));
     points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);
-    points.pairs.from = zeros<Indices<B>>("plica::contact.from", triangles + 1);
-    points.pairs.point = zeros<Indices<B>>("plica::contact.point", n);
+    points.pairs.from = zeros<Indices<B>>("plica::contact.from", n + 1);
+    points.pairs.part = zeros<Indices<B>>("plica::contact.part", 3 * n);
   }
   const auto faces = static_cast<std::size_t>(points.obstacles) * static_cast<std::size_t>(faces_.triangles);
   if (pairs_.triangles > 0 || faces > 0) points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);

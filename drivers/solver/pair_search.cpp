@@ -27,7 +27,7 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.centre = zeros<Vectors<B>>("plica::pairs.centre", triangles);
   grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
   grid_.listed = zeros<Indices<B>>("plica::pairs.listed", n * static_cast<std::size_t>(PairGrid<B>::longest));
-  count_ = zeros<Indices<B>>("plica::pairs.count", triangles);
+  count_ = zeros<Indices<B>>("plica::pairs.count", n);
 }
 
 template <class B>
@@ -40,7 +40,7 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
   make_grid(exec, points);
   where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, ListClose<B>{find});
   reduce<B, 1>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find}, blocks, near_);
-  list_partners(exec, points.pairs);
+  list_parts(exec, points.pairs);
 }
 
 /// Where it is stale.
@@ -61,16 +61,15 @@ void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points)
   where_touching<B>(exec, stale, "plica::pairs_fill", triangles, FillCells<B>{of});
 }
 
+/// `count_` is 0 before and after.
 template <class B>
-void PairSearch<B>::list_partners(const Exec& exec, const PairedPoints<B>& pairs) const {
-  const int points = static_cast<int>(pairs.partner.extent(0)), triangles = pairs.triangles;
-  where_touching<B>(exec, near_, "plica::pairs_clear", triangles, ClearInts<B>{count_});
-  where_touching<B>(exec, near_, "plica::pairs_partners", points, CountPartners<B>{pairs, count_});
-  Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, triangles + 1),
-                        SumBefore<B>{count_, pairs.from, triangles, near_});
-  where_touching<B>(exec, near_, "plica::pairs_clear", triangles, ClearInts<B>{count_});
-  where_touching<B>(exec, near_, "plica::pairs_list", points, ListPartners<B>{pairs, count_});
-  where_touching<B>(exec, near_, "plica::pairs_sort", triangles, SortPartners<B>{pairs});
+void PairSearch<B>::list_parts(const Exec& exec, const PairedPoints<B>& pairs) const {
+  const int points = static_cast<int>(pairs.partner.extent(0));
+  where_touching<B>(exec, near_, "plica::pairs_parts", points, CountParts<B>{pairs, count_});
+  Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, points + 1),
+                        SumBefore<B>{count_, pairs.from, points, near_});
+  where_touching<B>(exec, near_, "plica::pairs_list", points, ListParts<B>{pairs, count_});
+  where_touching<B>(exec, near_, "plica::pairs_sort", points, SortParts<B>{pairs});
 }
 
 template <class B>

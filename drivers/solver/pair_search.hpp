@@ -13,7 +13,7 @@ class PairSearch {
   using Real = typename B::Real;
 
   PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B>& points);
-  /// Depth, normal, velocity, triangle and weights of each point near one, and the points near each triangle.
+  /// Depth, normal, velocity, triangle and weights of each point near one, and the pairs that each point is a corner of.
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state, const TouchingPoints<B>& points,
             const BlockSums<B>& blocks) const;
   std::size_t bytes() const;
@@ -22,10 +22,10 @@ class PairSearch {
   PairGrid<B> grid_;
   BlockSums<B> blocks_;  ///< for triangles
   Doubles<B> near_;      ///< [1] points near a triangle
-  Indices<B> count_;     ///< [triangles]
+  Indices<B> count_;     ///< [points]
 
   void make_grid(const Exec& exec, const TouchingPoints<B>& points) const;
-  void list_partners(const Exec& exec, const PairedPoints<B>& pairs) const;
+  void list_parts(const Exec& exec, const PairedPoints<B>& pairs) const;
 };
 
 }  // namespace plica

@@ -144,13 +144,9 @@ struct SumPointForces {
   KOKKOS_INLINE_FUNCTION void add_pairs(int q, Vec3<Real>& sum) const {
     const PairedPoints<B>& pairs = points.pairs;
     sum += vector_at<B>(points.force, points.record(points.obstacles, q));
-    for (int s = pairs.first(q); s < pairs.first(q + 1); ++s) {
-      const int t = pairs.triangle(s);
-      for (int i = pairs.from(t); i < pairs.from(t + 1); ++i) {
-        const int p = pairs.point(i);
-        sum += (reaction * pairs.weight_of(p, t, q)) * vector_at<B>(points.force, points.record(points.obstacles, p));
-      }
-    }
+    pairs.each_pair_at(q, [&](int p, Real weight) {
+      sum += (reaction * weight) * vector_at<B>(points.force, points.record(points.obstacles, p));
+    });
   }
 };
 

@@ -80,21 +80,35 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION bool has(int t, int q) const {
     return corner(t, 0) == q || corner(t, 1) == q || corner(t, 2) == q;
   }
-  /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see SignedDistance.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> outward(int t, const Vec3<Real>& w) const {
+  /// The corner that has all the weight, or -1.
+  KOKKOS_INLINE_FUNCTION int lone_corner(int t, const Vec3<Real>& w) const {
+    int last = -1, count = 0;
+    for (int c = 0; c < 3; ++c)
+      if (w[c] > 0) last = corner(t, c), ++count;
+    return count == 1 ? last : -1;
+  }
+  /// look(triangle) for all that have the place of the triangle t with these weights: t itself, or those around an edge or a vertex.
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void each_at(int t, const Vec3<Real>& w, const Look& look) const {
     int on[3], n = 0;
     for (int c = 0; c < 3; ++c)
       if (w[c] > 0) on[n++] = corner(t, c);
-    if (n == 3) return unit(face(t));
+    if (n == 3) return look(t);
+    for (int s = points.pairs.first(on[0]); s < points.pairs.first(on[0] + 1); ++s)
+      if (const int other = points.pairs.triangle(s); n == 1 || has(other, on[1])) look(other);
+  }
+  /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see SignedDistance.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> outward(int t, const Vec3<Real>& w) const {
+    const int vertex = lone_corner(t, w);
     Vec3<Real> sum;
-    for (int s = points.pairs.first(on[0]); s < points.pairs.first(on[0] + 1); ++s) {
-      const int other = points.pairs.triangle(s);
-      if (n == 1)
-        sum += angle_at(other, on[0]) * unit(face(other));
-      else if (has(other, on[1]))
-        sum += unit(face(other));
-    }
+    each_at(t, w, [&](int other) { sum += (vertex < 0 ? Real(1) : angle_at(other, vertex)) * unit(face(other)); });
     return unit(sum);
+  }
+  /// Whether d, from that place, leads into the body. Where all faces around it agree, no normal is needed.
+  KOKKOS_INLINE_FUNCTION bool leads_in(const Vec3<Real>& d, int t, const Vec3<Real>& w) const {
+    bool in = false, out = false;
+    each_at(t, w, [&](int other) { (dot(d, face(other)) < 0 ? in : out) = true; });
+    return in && out ? dot(d, outward(t, w)) < 0 : in;
   }
 };
 
@@ -129,6 +143,7 @@ struct NearestTriangles {
     int triangle = -1;
     Real square;
     Vec3<Real> weight;
+    bool inside = false;  ///< of the surface there; of what partner() returns
   };
   FindPairs<B> find;
 
@@ -165,6 +180,10 @@ struct NearestTriangles {
     n.square = dot(d, d);
     return n;
   }
+  KOKKOS_INLINE_FUNCTION Nearest sided(int p, Nearest n) const {
+    n.inside = find.leads_in(away_from(p, n), n.triangle, n.weight);
+    return n;
+  }
   /// Whether all of a triangle is further away than that, by the box around it.
   KOKKOS_INLINE_FUNCTION bool is_beyond(const Vec3<Real>& at, int t, Real square) const {
     const Vec3<Real> a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
@@ -194,8 +213,8 @@ struct NearestTriangles {
       if (!is_beyond(at, t, nearest.square)) take_nearer(p, t, nearest);
     });
     if (nearest.triangle < 0) return nearest;
-    if (fast) return on_path(p, nearest);
-    return facing(p, nearest);
+    nearest = sided(p, nearest);
+    return fast ? on_path(p, nearest) : facing(p, nearest);
   }
 
   /// What a fast point is near: if it will be held before its path leads through anything, what it is nearest to, else what it leads
@@ -204,7 +223,7 @@ struct NearestTriangles {
     constexpr Real third = Real(1) / 3, little = Real(0.05);
     const Real h = find.points.span, ordinary = find.grid.limits.reach;
     const Vec3<Real> at = find.x(p), d = away_from(p, nearest);
-    if (dot(d, find.outward(nearest.triangle, nearest.weight)) < 0) return facing(p, nearest);
+    if (nearest.inside) return facing(p, nearest);
     Real when = 2;
     int first = -1;
     find.each_near(p, [&](int t) {
@@ -215,13 +234,13 @@ struct NearestTriangles {
     });
     if (first < 0) return nearest.square < ordinary * ordinary ? nearest : Nearest{};
     const Real closing = when * h * dot(d, speed(p, nearest.triangle, nearest.weight));
-    return nearest.square + closing <= little * nearest.square ? nearest : near(p, first);
+    return nearest.square + closing <= little * nearest.square ? nearest : sided(p, near(p, first));
   }
 
   /// A point that is inside came through a triangle that its own surface faces: so it does not leave a thin body on the far side.
   KOKKOS_INLINE_FUNCTION Nearest facing(int p, const Nearest& nearest) const {
     const int own = nearest.triangle;
-    if (find.one_body(p, own) || !(dot(away_from(p, nearest), find.outward(own, nearest.weight)) < 0)) return nearest;
+    if (find.one_body(p, own) || !nearest.inside) return nearest;
     const Vec3<Real> out = find.outward_at(p);
     if (!(dot(out, find.face(own)) > 0)) return nearest;
     Nearest other;
@@ -230,7 +249,7 @@ struct NearestTriangles {
       if (!find.one_body(p, t) && dot(out, find.face(t)) < 0) take_nearer(p, t, other);
     });
     if (other.triangle < 0 || !(dot(away_from(p, other), find.face(other.triangle)) < 0)) return nearest;
-    return other;
+    return sided(p, other);
   }
 
   /// The record of a point that is attached to a triangle.
@@ -249,13 +268,15 @@ struct NearestTriangles {
     constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
     const TouchingPoints<B>& points = find.points;
     const int t = found.triangle;
-    const Vec3<Real>&w = found.weight, d = away_from(p, found), out = find.outward(t, w);
-    const bool inside = dot(d, out)<0, on_face = w[0]> 0 && w[1] > 0 && w[2] > 0;
-    const Real distance = Kokkos::sqrt(dot(d, d)), limit = find.grid.limits.reach;
+    const bool inside = found.inside;
+    const Vec3<Real>&w = found.weight, d = away_from(p, found);
+    const Real distance = Kokkos::sqrt(found.square), limit = find.grid.limits.reach;
+    const bool on_face = w[0] > 0 && w[1] > 0 && w[2] > 0;
     // The far side of a thin part of its own body is no partner
     if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
     points.depth(r) = inside ? distance : -distance, points.mobility(r) = 1;
-    set_vector<B>(points.normal, r, on_face || distance < tiny * limit ? out : ((inside ? -1 : 1) / distance) * d);
+    const bool by_surface = on_face || distance < tiny * limit;
+    set_vector<B>(points.normal, r, by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d);
     set_vector<B>(points.velocity, r, speed(p, t, w));
     set_vector<B>(points.pairs.weight, p, w);
     points.pairs.partner(p) = t;
@@ -263,38 +284,40 @@ struct NearestTriangles {
   }
 };
 
-/// How many points are near each triangle.
+/// Of how many pairs each point is a corner with a weight.
 template <class B>
-struct CountPartners {
+struct CountParts {
   PairedPoints<B> pairs;
   Indices<B> count;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    if (pairs.partner(p) >= 0) Kokkos::atomic_inc(&count(pairs.partner(p)));
+    for (int c = 0; c < 3; ++c)
+      if (const int q = pairs.corner_of(p, c); q >= 0) Kokkos::atomic_inc(&count(q));
   }
 };
 
-/// Lists them; `count` starts from 0.
+/// Lists its parts of them, in any order; `count` falls to 0.
 template <class B>
-struct ListPartners {
+struct ListParts {
   PairedPoints<B> pairs;
   Indices<B> count;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    const int t = pairs.partner(p);
-    if (t >= 0) pairs.point(pairs.from(t) + Kokkos::atomic_fetch_add(&count(t), 1)) = p;
+    for (int c = 0; c < 3; ++c)
+      if (const int q = pairs.corner_of(p, c); q >= 0)
+        pairs.part(pairs.from(q) + Kokkos::atomic_fetch_sub(&count(q), 1) - 1) = 3 * p + c;
   }
 };
 
-/// Sorts each triangle's list, which is short.
+/// Sorts each point's list, which is short.
 template <class B>
-struct SortPartners {
+struct SortParts {
   PairedPoints<B> pairs;
-  KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    const int begin = pairs.from(t), end = pairs.from(t + 1);
+  KOKKOS_INLINE_FUNCTION void operator()(int q) const {
+    const int begin = pairs.from(q), end = pairs.from(q + 1);
     for (int i = begin + 1; i < end; ++i) {
-      const int p = pairs.point(i);
+      const int part = pairs.part(i);
       int j = i;
-      for (; j > begin && pairs.point(j - 1) > p; --j) pairs.point(j) = pairs.point(j - 1);
-      pairs.point(j) = p;
+      for (; j > begin && pairs.part(j - 1) > part; --j) pairs.part(j) = pairs.part(j - 1);
+      pairs.part(j) = part;
     }
   }
 };

@@ -102,7 +102,8 @@ struct AddContactBlocks {
       const int q = surface.point(s);
       const Real w = surface.weight(s);
       for (int row = beside ? points.obstacles : 0; row < points.rows(); ++row) add(sum, a, row, q, w);
-      if (points.pairs.triangles > 0) add_partners(sum, a, q, w);
+      if (points.pairs.triangles > 0)
+        points.pairs.each_pair_at(q, [&](int p, Real weight) { add(sum, a, points.obstacles, p, -w * weight); });
       if (points.faces.triangles > 0) add_faces(sum, a, q, w);
     }
     set_block<B>(diagonal, a, sum);
@@ -112,14 +113,6 @@ struct AddContactBlocks {
   KOKKOS_INLINE_FUNCTION void add(SymMat3<Real>& sum, int a, int row, int site, Real part) const {
     const int r = points.record(row, site);
     if (points.is_stiff(r)) add_scaled(sum, part * points.share(surface, row, site, a), block_at<B>(points.block, r));
-  }
-  KOKKOS_INLINE_FUNCTION void add_partners(SymMat3<Real>& sum, int a, int q, Real w) const {
-    const PairedPoints<B>& pairs = points.pairs;
-    for (int s = pairs.first(q); s < pairs.first(q + 1); ++s) {
-      const int t = pairs.triangle(s);
-      for (int k = pairs.from(t); k < pairs.from(t + 1); ++k)
-        add(sum, a, points.obstacles, pairs.point(k), -w * pairs.weight_of(pairs.point(k), t, q));
-    }
   }
   KOKKOS_INLINE_FUNCTION void add_faces(SymMat3<Real>& sum, int a, int q, Real w) const {
     const FaceSites<B>& faces = points.faces;

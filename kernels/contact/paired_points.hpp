@@ -15,7 +15,7 @@ struct PairedPoints {
   Indices<B> first, triangle;  ///< [points + 1] into the triangles around each point
   Indices<B> partner;          ///< [points] the triangle it is near; -1: none
   Vectors<B> weight;           ///< [points][3] of that one's corners, where it is nearest
-  Indices<B> from, point;      ///< [triangles + 1] into the points near each triangle, ascending
+  Indices<B> from, part;       ///< [points + 1] into the parts of pairs that each point has as a corner, ascending
   Vectors<B> sum;              ///< [points][3] all forces on each point, also of faces without pairs [N]
 
   /// Of a field, the triangle's value that point p is near.
@@ -24,11 +24,14 @@ struct PairedPoints {
     for (int c = 0; c < 3; ++c) value += weight(p, c) * value_at<B>(surface.embedding, x, corner(3 * partner(p) + c));
     return value;
   }
-  /// The part of p's pair that corner q of its triangle t has.
-  KOKKOS_INLINE_FUNCTION Real weight_of(int p, int t, int q) const {
-    for (int c = 0; c < 3; ++c)
-      if (corner(3 * t + c) == q) return weight(p, c);
-    return 0;
+  /// The c-th corner of the triangle that p is near, where it has a weight; else -1.
+  KOKKOS_INLINE_FUNCTION int corner_of(int p, int c) const {
+    return partner(p) >= 0 && weight(p, c) != 0 ? corner(3 * partner(p) + c) : -1;
+  }
+  /// use(point, weight) for all pairs in whose triangle point q has a weight, always in the same order.
+  template <class Use>
+  KOKKOS_INLINE_FUNCTION void each_pair_at(int q, const Use& use) const {
+    for (int i = from(q); i < from(q + 1); ++i) use(part(i) / 3, weight(part(i) / 3, part(i) % 3));
   }
 };
 
