@@ -19,6 +19,7 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, i
       blocks_(contact_->sites()),
       smooth_(zeros<Vectors<B>>("plica::contact.smooth", static_cast<std::size_t>(vertices))),
       answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(vertices))),
+      reached_(zeros<Indices<B>>("plica::contact.reached", static_cast<std::size_t>(vertices))),
       sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
       impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
   if (points_.pairs.triangles > 0) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), points_);
@@ -64,10 +65,12 @@ void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, con
   const Real damped = static_cast<Real>(step.damped);
   update_vertices<B>(exec, "plica::contact_smooth", touched,
                      FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
-  const AnswerByMass<B> answer{level.surface, level.model, points_, answer_, damped};
-  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, false, true},
-        [&] { where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer); });
-  scatter(exec, level, f);
+  AnswerByMass<B> answer{level.surface, level.model, points_, answer_, reached_, damped, true};
+  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, false, true}, [&] {
+    where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer);
+    answer.first = false;
+  });
+  scatter(exec, level, f, reached_);
 }
 
 template <class B>
@@ -122,9 +125,10 @@ void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, cons
 
 /// f += W^T of the last forces
 template <class B>
-void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const {
+void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
+                                 const Indices<B>& reached) const {
   where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched,
-                    ScatterContact<B>{level.surface, points_, f});
+                    ScatterContact<B>{level.surface, points_, f, reached});
 }
 
 template <class B>

@@ -62,6 +62,7 @@ class ContactResponse {
   std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
   BlockSums<B> blocks_;
   Vectors<B> smooth_, answer_;  ///< of the vertices, on explicit levels
+  Indices<B> reached_;          ///< of the touched ones, by contact in the last step
   Doubles<B> sums_, impulse_;
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
@@ -75,7 +76,7 @@ class ContactResponse {
     return points;
   }
   void sum_up(const Exec& exec, double reaction) const;
-  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const;
+  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {}) const;
 };
 
 }  // namespace plica

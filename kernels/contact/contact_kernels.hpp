@@ -173,14 +173,16 @@ struct ScatterToVertices {
   }
 };
 
-/// The same of all obstacles' forces.
+/// The same of all contact's forces.
 template <class B>
 struct ScatterContact {
   EmbeddedSurface<B> surface;
   TouchingPoints<B> points;
   Vectors<B> f;
+  Indices<B> reached = {};  ///< [touched] 0: none on that vertex; empty: not known
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (reached.extent(0) > 0 && reached(i) == 0) return;
     const int a = surface.vertex(i);
     set_vector<B>(f, a, vector_at<B>(f, a) + points.force_on(surface, i));
   }

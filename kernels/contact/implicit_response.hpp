@@ -276,7 +276,8 @@ struct FreeAcceleration {
   }
 };
 
-/// answer = m^-1 W^T force / (1 + damped c)
+/// answer = m^-1 W^T force / (1 + damped c). The first answers the unit forces, and finds the vertices that contact reaches; the others
+/// have 0 from then on.
 template <class B>
 struct AnswerByMass {
   using Real = typename B::Real;
@@ -284,10 +285,15 @@ struct AnswerByMass {
   Model<B> model;
   TouchingPoints<B> points;
   Vectors<B> answer;
+  Indices<B> reached;  ///< [touched] 1 or 0
   Real damped;
+  bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (!first && reached(i) == 0) return;
     const int a = surface.vertex(i);
-    set_vector<B>(answer, a, (model.inverse_mass(a) * kept<B>(model, a, damped)) * points.force_on(surface, i));
+    const Vec3<Real> force = points.force_on(surface, i);
+    if (first) reached(i) = force[0] > 0 ? 1 : 0;  // of parts that are all along x
+    set_vector<B>(answer, a, (model.inverse_mass(a) * kept<B>(model, a, damped)) * force);
   }
 };
 
