@@ -1,52 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <plica/drivers/solver/element_bound.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 namespace plica {
 
+namespace {
+
+/// Of one element alone. With B its strains per displacement and C Hooke's law, V cancelling against the lumped rho V / 4, w^2 is
+/// 4 / rho times the largest eigenvalue of B^T C B. In the principal axes of G, the sum of g g^T over its corners' gradients g,
+/// shear and stretch part; shear's mu (G_i + G_j) is never the largest, and stretch has (lambda 1 1^T + 2 mu) G.
+double element_step(const TetMesh& mesh, std::size_t e, const std::vector<Lame<double>>& lame,
+                    const std::vector<double>& density) {
+  const auto region = mesh.region.empty() ? std::size_t{0} : static_cast<std::size_t>(mesh.region[e]);
+  const auto& t = mesh.tets[e];
+  Eigen::Matrix3d edges;
+  for (int c = 0; c < 3; ++c)
+    edges.col(c) = mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)])] -
+                   mesh.vertices[static_cast<std::size_t>(t[0])];
+  const Eigen::Matrix3d inverse = edges.inverse();
+  const Eigen::RowVector3d first = inverse.colwise().sum();
+  const Eigen::Matrix3d G = inverse.transpose() * inverse + first.transpose() * first;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(G, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d root = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const auto& [lambda, mu] = lame[region];
+  Eigen::Matrix3d stretch = lambda * root * root.transpose();
+  stretch.diagonal() += 2 * mu * root.cwiseAbs2();
+  solver.compute(stretch, Eigen::EigenvaluesOnly);
+  return std::sqrt(density[region] / solver.eigenvalues()[2]);  // 2/w
+}
+
+}  // namespace
+
 std::vector<double> element_steps(const TetMesh& mesh, const std::vector<Lame<double>>& lame,
                                   const std::vector<double>& density) {
-  std::vector<double> steps;
-  steps.reserve(mesh.tets.size());
-  for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const auto region = mesh.region.empty() ? std::size_t{0} : static_cast<std::size_t>(mesh.region[e]);
-    const auto& t = mesh.tets[e];
-    Eigen::Matrix3d edges;
-    for (int c = 0; c < 3; ++c)
-      edges.col(c) = mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)])] -
-                     mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Eigen::Matrix3d inverse = edges.inverse();
-    Eigen::Matrix<double, 6, 12> strain =
-        Eigen::Matrix<double, 6, 12>::Zero();  // Voigt: xx yy zz and engineering xy yz zx
-    for (int c = 0; c < 4; ++c) {
-      const Eigen::RowVector3d g =
-          c > 0 ? Eigen::RowVector3d(inverse.row(c - 1)) : Eigen::RowVector3d(-inverse.colwise().sum());
-      for (int k = 0; k < 3; ++k) strain(k, 3 * c + k) = g[k];
-      strain(3, 3 * c) = g[1], strain(3, 3 * c + 1) = g[0];
-      strain(4, 3 * c + 1) = g[2], strain(4, 3 * c + 2) = g[1];
-      strain(5, 3 * c) = g[2], strain(5, 3 * c + 2) = g[0];
-    }
-    const auto& [lambda, mu] = lame[region];
-    Eigen::Matrix<double, 6, 6> hooke = Eigen::Matrix<double, 6, 6>::Zero();
-    hooke.topLeftCorner<3, 3>().setConstant(lambda);
-    hooke.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
-    // the nonzero eigenvalues of B^T C B, V cancelling against the lumped rho V / 4, are those of L^T B B^T L with C = L L^T
-    const Eigen::Matrix<double, 6, 6> L = hooke.llt().matrixL();
-    const Eigen::Matrix<double, 6, 6> S = L.transpose() * (strain * strain.transpose()) * L;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(S, Eigen::EigenvaluesOnly);
-    steps.push_back(std::sqrt(density[region] / solver.eigenvalues()[5]));  // 2/w, w^2 = 4/rho times the eigenvalue
-  }
+  std::vector<double> steps(mesh.tets.size());
+  for_row_ranges(steps.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) steps[e] = element_step(mesh, e, lame, density);
+  });
   return steps;
 }
 
 double element_bound(const TetMesh& mesh, const std::vector<Lame<double>>& lame, const std::vector<double>& density) {
-  return std::ranges::min(element_steps(mesh, lame, density));
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < mesh.tets.size(); ++e) least = std::min(least, element_step(mesh, e, lame, density));
+  return least;
 }
 
 std::vector<StiffElement> stiffest_elements(const TetMesh& mesh, const std::vector<double>& steps, std::size_t count) {

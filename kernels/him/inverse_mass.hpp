@@ -3,12 +3,13 @@
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/small.hpp>
 #include <plica/kernels/transfer.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // The coarsest level of the hierarchical inverse mass: acceleration = weight R S R^T force.
 namespace plica {
 
 /// A middle level: acceleration = weight Q force + P (the coarser level's), Q = D^-1 + D^-1 (1 - M D^-1): the lumped mass,
-/// corrected once by the consistent one (Richardson).
+/// corrected once by the consistent one (Richardson). Without a P there is no coarser one; Q without weight is not worked out.
 template <class B>
 struct AnswerOfLevel {
   using Real = typename B::Real;
@@ -17,7 +18,10 @@ struct AnswerOfLevel {
   Vectors<B> force, coarser, acceleration;
   Real weight;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Vec3<Real> lumped = row_product<B>(mass, a, force), below = row_product<B>(up, a, coarser);
+    Vec3<Real> below;
+    if (up.rows > 0) below = row_product<B>(up, a, coarser);
+    if (weight == 0) return set_vector<B>(acceleration, a, below);
+    const Vec3<Real> lumped = row_product<B>(mass, a, force);
     const Real w = weight * inverse_diagonal(a);
     for (int k = 0; k < 3; ++k) acceleration(a, k) = w * (2 * force(a, k) - lumped[k]) + below[k];
   }

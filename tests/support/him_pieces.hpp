@@ -58,9 +58,10 @@ struct Pieces {
         transfers.push_back(std::move(space.up));
     const auto spaces = mass_spaces(transfers, probe.mass());
     for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
+    const RowMatrix whole = to_finest(spaces);
     inverse_mass =
-        std::make_unique<InverseMass<Host>>(level, spaces,
-                                            made ? axes_of_space(levels.front(), to_finest(spaces), probe.mass())
+        std::make_unique<InverseMass<Host>>(level, spaces, whole,
+                                            made ? axes_of_space(levels.front(), whole, probe.mass())
                                                  : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
     fitter = std::make_unique<InertiaFitter<Host>>(typename Host::Exec{}, level,
                                                    make_elasticity<Host>(problem.body.material.model), *inverse_mass,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
@@ -62,13 +63,15 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   parts.detail = meshes.size() == 1 && !coarser.made.empty() && coarser.made.front().slivers;
   std::optional<CoarseModes> modes;
   AxesShape axes;
+  RowMatrix whole;
   if (!spaces.empty()) {
     for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
     modes.emplace(dense_matrix(K), spaces.back().mass);
+    whole = to_finest(spaces);
     axes = meshes.size() > 1 ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
-                             : axes_of_space(meshes.front(), to_finest(spaces), constants.mass);
+                             : axes_of_space(meshes.front(), whole, constants.mass);
   }
-  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
+  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, whole, axes);
   parts.fitter =
       std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, *parts.inverse_mass, std::move(modes));
   if (setup.contact) {

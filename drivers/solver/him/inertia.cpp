@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <cmath>
 #include <plica/core/dense.hpp>
@@ -81,6 +82,30 @@ namespace {
 
 constexpr double least_scale = 1e-4, parts_tolerance = 1e-3, fit_tolerance = 1e-2;
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
+constexpr int scales = 1 << halvings, most_guesses = 5;
+
+/// Scale k of those from least_scale, k = 0, to `most`, which would be the next after the last: what halving the interval finds.
+double scale_at(int k, double most) {
+  double low = least_scale, high = most;
+  for (int half = scales / 2, at = 0; at != k; half /= 2) {
+    const double middle = std::sqrt(low * high);
+    if (k >= at + half)
+      low = middle, at += half;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/// A scale and t^2 lambda_max(A K) there.
+struct Tried {
+  double scale, product;
+};
+
+/// Where the product is `limit` if it is linear between these two, as it nearly is.
+double between(const Tried& below, const Tried& above, double limit) {
+  return below.scale + (above.scale - below.scale) * (limit - below.product) / (above.product - below.product);
+}
 
 double kappa_of(double sigma) { return 0.4 * 4 * sigma * sigma; }
 
@@ -101,6 +126,7 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
       elasticity_(std::move(elasticity)),
       inverse_mass_(inverse_mass),
       modes_(std::move(modes)) {
+  const Kokkos::Profiling::ScopedRegion region("plica: critical steps of the parts of the inertia");
   const auto levels = static_cast<std::size_t>(inverse_mass_.levels());
   const Vectors<B> rest = zeros<Vectors<B>>("plica::him.rest", static_cast<std::size_t>(level.model.vertices));
   const auto n = modes_ ? static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices) : 0;
@@ -163,6 +189,7 @@ InertiaFit InertiaFitter<B>::weigh(double t, double sigma, double scale) {
 
 template <class B>
 std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u, double scale) {
+  const Kokkos::Profiling::ScopedRegion region("plica: fitting the inertia");
   set_answer(t, sigma);
   double product = 0;  // of the last scale that was tried
   const auto fits = [&](double gamma) {
@@ -178,18 +205,25 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
   const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
   if (plain <= scale && fits(plain)) return found(plain);
   if (fits(scale)) return found(scale);
-  double low = least_scale, high = scale, of_low = 0;
-  if (!modes_ || !fits(low)) return {};
-  of_low = product;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = std::sqrt(low * high);
-    if (fits(middle))
-      low = middle, of_low = product;
+  if (!modes_) return {};
+  // the largest of the scales that fits: the product grows with them, from the coarsest level's own
+  const double limit = 4 * sigma * sigma;
+  Tried below{0, modes_->largest(t, kappa_of(sigma))}, above{scale, product};
+  int fitting = -1, failing = scales;
+  for (int guesses = 0; failing - fitting > 1; ++guesses) {
+    const double guess = between(below, above, limit);
+    int next = fitting + 1;  // the last below the guess; where that is known to fit the one after it
+    while (next + 1 < failing && scale_at(next + 1, scale) <= guess) ++next;
+    if (guesses >= most_guesses) next = (fitting + failing) / 2;
+    const double gamma = scale_at(next, scale);
+    if (fits(gamma))
+      fitting = next, below = {gamma, product};
     else
-      high = middle;
+      failing = next, above = {gamma, product};
   }
-  product = of_low;
-  return found(low);
+  if (fitting < 0) return {};
+  product = below.product;
+  return found(below.scale);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                                     \

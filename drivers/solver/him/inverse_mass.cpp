@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/him/inverse_mass.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <plica/drivers/solver/spaces/sparse_product.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -18,8 +18,11 @@ MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
     // E D^-1 (2 - M D^-1) E = E^2 D^-1 (2 - E^-1 M D^-1 E)
     const auto n = static_cast<Eigen::Index>(space.scale.size());
     const Eigen::Map<const Eigen::VectorXd> inverse(space.inverse_diagonal.data(), n), E(space.scale.data(), n);
-    level.mass = sparse_rows<B>(
-        "him.mass", RowMatrix(E.cwiseInverse().asDiagonal() * space.mass * inverse.cwiseProduct(E).asDiagonal()));
+    RowMatrix mass = space.mass;
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (RowMatrix::InnerIterator entry(mass, a); entry; ++entry)
+        entry.valueRef() = 1 / E[a] * entry.value() * (inverse[entry.col()] * E[entry.col()]);
+    level.mass = sparse_rows<B>("him.mass", mass);
     std::vector<Real> own;
     for (Eigen::Index a = 0; a < n; ++a) own.push_back(static_cast<Real>(E[a] * E[a] * inverse[a]));
     level.inverse_diagonal = to_device<Scalars<B>>("him.inverse_diagonal", own);
@@ -32,15 +35,17 @@ MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
 }  // namespace
 
 template <class B>
-InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes)
+InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const RowMatrix& to_finest,
+                            const AxesShape& axes)
     : vertices_(finest.model.vertices), inverse_mass_(finest.model.inverse_mass), weights_{1} {
   for (std::size_t i = 0; i < spaces.size(); ++i) coarser_.push_back(mass_level<B>(spaces[i], i + 1 == spaces.size()));
   if (spaces.empty()) return;
-  axes_ = TurningAxes<B>(axes, to_finest(spaces));
-  const RowMatrix spread = axes.restriction.transpose();
+  weights_.resize(spaces.size() + 1, 0);
+  axes_ = TurningAxes<B>(axes, to_finest);
+  RowMatrix share = axes.restriction.transpose();
   for (std::size_t i = 0; i + 1 < spaces.size(); ++i) {
-    const std::vector<MassSpace> above(spaces.begin(), spaces.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    coarser_[i].share = sparse_rows<B>("him.share", RowMatrix(RowMatrix(to_finest(above).transpose()) * spread));
+    share = product(RowMatrix(spaces[i].up.transpose()), share);
+    coarser_[i].share = sparse_rows<B>("him.share", share);
   }
   constexpr std::size_t block = CoarseFilter<B>::block;
   const auto n = static_cast<std::size_t>(coarser_.back().vertices);
@@ -71,7 +76,7 @@ void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B
 template <class B>
 void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) const {
   if (coarser_.empty()) return;
-  go_down(exec, q, {});
+  go_down(exec, q, coarser_.size(), {});
   const auto filter = [&](const Vectors<B>& momentum, const Doubles<B>& open) -> const Scalars<B>& {
     filter_forces(exec, momentum, open);
     return filtered_;
@@ -96,9 +101,17 @@ void InverseMass<B>::push_and_apply(const Exec& exec, double t, const Vectors<B>
 }
 
 template <class B>
-void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count) const {
+std::size_t InverseMass<B>::weighed() const {
+  std::size_t levels = coarser_.size();
+  while (levels > 0 && weights_[levels] == 0) --levels;
+  return levels;
+}
+
+template <class B>
+void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels, const Doubles<B>& count) const {
   Vectors<B> finer = f;
-  for (const MassLevel<B>& level : coarser_) {
+  for (std::size_t i = 0; i < levels; ++i) {
+    const MassLevel<B>& level = coarser_[i];
     where_touching<B>(exec, count, "plica::him_down", level.vertices, MultiplyRows<B>{level.down, finer, level.force});
     finer = level.force;
   }
@@ -113,13 +126,15 @@ void InverseMass<B>::filter_forces(const Exec& exec, const Vectors<B>& force, co
 
 template <class B>
 void InverseMass<B>::go_up(const Exec& exec, const Doubles<B>& count) const {
-  if (coarser_.empty()) return;
-  const MassLevel<B>& coarsest = coarser_.back();
-  filter_forces(exec, coarsest.force, count);
-  where_touching<B>(exec, count, "plica::him_turn_back", coarsest.vertices,
-                    TurnBack<B>{filter_, filtered_, coarsest.acceleration, static_cast<Real>(weights_.back())});
-  for (std::size_t i = coarser_.size(); i-- > 1;) {
-    const MassLevel<B>&level = coarser_[i - 1], &below = coarser_[i];
+  const std::size_t last = weighed();
+  if (last == coarser_.size() && last > 0) {
+    const MassLevel<B>& coarsest = coarser_.back();
+    filter_forces(exec, coarsest.force, count);
+    where_touching<B>(exec, count, "plica::him_turn_back", coarsest.vertices,
+                      TurnBack<B>{filter_, filtered_, coarsest.acceleration, static_cast<Real>(weights_.back())});
+  }
+  for (std::size_t i = std::min(last + 1, coarser_.size()); i-- > 1;) {
+    const MassLevel<B>&level = coarser_[i - 1], below = i < last ? coarser_[i] : MassLevel<B>{};
     where_touching<B>(exec, count, "plica::him_up", level.vertices,
                       AnswerOfLevel<B>{level.mass, below.up, level.inverse_diagonal, level.force, below.acceleration,
                                        level.acceleration, static_cast<Real>(weights_[i])});
@@ -128,13 +143,13 @@ void InverseMass<B>::go_up(const Exec& exec, const Doubles<B>& count) const {
 
 template <class B>
 AnswerOfFinest<B> InverseMass<B>::answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const {
-  const MassLevel<B> below = coarser_.empty() ? MassLevel<B>{} : coarser_.front();
+  const MassLevel<B> below = weighed() == 0 ? MassLevel<B>{} : coarser_.front();
   return {below.up, inverse_mass_, f, below.acceleration, a, static_cast<Real>(weights_.front())};
 }
 
 template <class B>
 void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
-  go_down(exec, f, count);
+  go_down(exec, f, weighed(), count);
   go_up(exec, count);
   update_vertices<B>(exec, "plica::him_up", vertices_, answer_of_finest(f, a));
 }

@@ -16,8 +16,10 @@ class InverseMass {
   using Real = typename B::Real;
   using Count = Doubles<B>;
 
-  /// @param axes  of the coarsest space, where there is one
-  InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes);
+  /// @param to_finest  of these spaces, see to_finest(); where there are any
+  /// @param axes       of the coarsest one, likewise
+  InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const RowMatrix& to_finest,
+              const AxesShape& axes);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// The levels' weights b, finest first; they sum to 1.
@@ -49,7 +51,9 @@ class InverseMass {
   Scalars<B> filtered_;
   std::vector<double> weights_;
 
-  void go_down(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count) const;
+  /// The levels down to the last one that has a weight.
+  std::size_t weighed() const;
+  void go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels, const Doubles<B>& count) const;
   void filter_forces(const Exec& exec, const Vectors<B>& force, const Doubles<B>& count) const;
   void go_up(const Exec& exec, const Doubles<B>& count) const;
   AnswerOfFinest<B> answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
+#include <plica/drivers/solver/spaces/sparse_product.hpp>
 
 namespace plica {
 
@@ -92,12 +94,13 @@ std::vector<double> scale_of(const MassSpace& space) {
 }  // namespace
 
 std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::vector<double>& mass) {
+  const Kokkos::Profiling::ScopedRegion region("plica: coarse masses");
   RowMatrix M(static_cast<Eigen::Index>(mass.size()), static_cast<Eigen::Index>(mass.size()));
   M.setIdentity();
   M.diagonal() = Eigen::Map<const Eigen::VectorXd>(mass.data(), M.rows());
   std::vector<MassSpace> spaces;
   for (RowMatrix& P : transfers) {
-    M = RowMatrix(RowMatrix(P.transpose()) * M) * P;
+    M = product(product(RowMatrix(P.transpose()), M), P);
     MassSpace& space = spaces.emplace_back(MassSpace{std::move(P), M, inverse_row_sums(M), {}});
     if (&P != &transfers.back()) space.scale = scale_of(space);  // the last one's modes are its answer
   }
@@ -105,8 +108,8 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::
 }
 
 RowMatrix to_finest(const std::vector<MassSpace>& spaces) {
-  RowMatrix all = spaces.front().up;
-  for (std::size_t i = 1; i < spaces.size(); ++i) all = RowMatrix(all * spaces[i].up);
+  RowMatrix all = spaces.back().up;  // from the coarsest one on: fewer rows to begin with
+  for (std::size_t i = spaces.size() - 1; i-- > 0;) all = product(spaces[i].up, all);
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <plica/drivers/solver/him/turning_axes.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/sparse_product.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -160,7 +161,7 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const
   divide_by_row_sums(result.restriction);
   const std::vector<Point> x = restricted(result.restriction, finest.vertices);
   // W: from a point to what hangs on it and on to all the points that this hangs on
-  RowMatrix W = carried * weights;
+  RowMatrix W = product(carried, weights);
   divide_by_row_sums(W);
   // h_ab = sum over the finest vertices i of weight_ia m_i (X_i - x_a) Pi_ib, so that sum_b u_b h_ab^T is the moment of the
   // motion about x_a; smoothed once by W. The moment of rest positions makes a gradient of it
@@ -171,7 +172,7 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const
       for (RowMatrix::InnerIterator entry(lever, a); entry; ++entry)
         entry.valueRef() *=
             finest.vertices[static_cast<std::size_t>(entry.col())][k] - x[static_cast<std::size_t>(a)][k];
-    h[static_cast<std::size_t>(k)] = W * RowMatrix(lever * to_finest);
+    h[static_cast<std::size_t>(k)] = product(W, product(lever, to_finest));
   }
   result.gradient.resize(static_cast<std::size_t>(n)), result.at_rest.assign(static_cast<std::size_t>(n), 1.0);
   for (Eigen::Index a = 0; a < n; ++a) {
@@ -232,7 +233,7 @@ TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& to_finest)
   axes_.spread = sparse_rows<B>("axes.spread", spread);
   axes_.smoothing = sparse_rows<B>("axes.smoothing", shape.smoothing);
   axes_.smoothing_of = sparse_rows<B>("axes.smoothing_of", RowMatrix(shape.smoothing.transpose()));
-  axes_.response = sparse_rows<B>("axes.response", RowMatrix(RowMatrix(to_finest.transpose()) * spread));
+  axes_.response = sparse_rows<B>("axes.response", product(RowMatrix(to_finest.transpose()), spread));
   axes_.gradient_of = gradient_rows<B>(shape.gradient);
   axes_.gradient_to = gradient_rows<B>(transposed(shape.gradient));
   axes_.at_rest = to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(shape.at_rest.begin(), shape.at_rest.end()));

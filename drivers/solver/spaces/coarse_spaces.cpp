@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -77,6 +78,7 @@ std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrai
 std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<char>& constrained,
                                        const std::vector<double>& mass, const BlockRows& K,
                                        const SpaceOptions& options) {
+  const Kokkos::Profiling::ScopedRegion region("plica: coarse spaces");
   std::vector<CoarseSpace> spaces;
   if (options.sizes.empty()) return spaces;
   const EdgeGraph graph = edge_graph(mesh);
@@ -93,6 +95,7 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     int free = 0;
     for (auto point = order.begin(); free < size && point != order.end(); ++point)
       points.push_back(*point), free += !constrained[index_of(*point)];
+    std::ranges::sort(points);  // neighbours beside each other, as in the mesh
     const double spacing = mean_spacing(graph, points);
     const RowMatrix P = moving_least_squares(mesh, graph, rows, points, spacing, options.reach);
     spaces.push_back({without_constrained(P, constrained, points), points, spacing});

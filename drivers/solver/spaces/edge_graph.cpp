@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <plica/drivers/solver/spaces/edge_graph.hpp>
 #include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <queue>
 
 namespace plica {
 
@@ -11,19 +13,17 @@ namespace {
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
-/// Distances spread along the edges from the open vertices, wherever they shrink there; reached(from, to) for each that does.
-template <class Reached>
-void spread(const EdgeGraph& graph, DistanceQueue open, std::vector<double>& distance, const Reached& reached) {
-  walk_edges(
-      graph, open, [&](int v) { return distance[index_of(v)]; }, [](int, double) {},
-      [&](int from, int to, double d) {
-        distance[index_of(to)] = d;
-        reached(from, to);
-        return true;
-      });
-}
+constexpr std::size_t most_waves = 4096;
 
 }  // namespace
+
+WaveQueue::WaveQueue(const EdgeGraph& graph) {
+  const double width = std::max({graph.mean, 2 * graph.longest / static_cast<double>(most_waves), 1e-300});
+  per_metre_ = 1 / width;
+  std::size_t count = 4;  // a distance exceeds the last one taken by an edge at most
+  while (static_cast<double>(count) < graph.longest / width + 3) count *= 2;
+  waves_.resize(count), mask_ = count - 1;
+}
 
 EdgeGraph edge_graph(const TetMesh& mesh) {
   const auto edges = mesh_edges(mesh);
@@ -43,7 +43,11 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
     return (mesh.vertices[index_of(edge[1])] - mesh.vertices[index_of(edge[0])]).norm();
   };
   for (const auto& edge : edges) enter(edge[1], edge[0], length(edge));
-  for (const auto& edge : edges) enter(edge[0], edge[1], length(edge));
+  for (const auto& edge : edges) {
+    const double l = length(edge);
+    enter(edge[0], edge[1], l);
+    graph.mean += l / static_cast<double>(edges.size()), graph.longest = std::max(graph.longest, l);
+  }
   return graph;
 }
 
@@ -52,6 +56,7 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::v
   std::priority_queue<std::pair<double, int>> furthest;  // distances that may have shrunk since
   for (int v = 0; v < graph.vertices(); ++v) furthest.emplace(unreached, v);
   std::vector<int> points;
+  WaveQueue open(graph);
   for (int counted = 0; counted < count && !furthest.empty();) {
     const auto [known, point] = furthest.top();
     furthest.pop();
@@ -62,10 +67,18 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::v
     }
     points.push_back(point);
     counted += apart.empty() || !apart[index_of(point)];
-    DistanceQueue open;
     distance[index_of(point)] = 0;
-    open.emplace(0, point);
-    spread(graph, std::move(open), distance, [](int, int) {});
+    open.start();
+    open.put(0, point);
+    while (!open.empty()) {
+      const auto [d, v] = open.take();
+      if (d > distance[index_of(v)]) continue;
+      for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+        const int w = graph.neighbour[index_of(k)];
+        const double there = d + graph.length[index_of(k)];
+        if (there < distance[index_of(w)]) distance[index_of(w)] = there, open.put(there, w);
+      }
+    }
   }
   return points;
 }
@@ -75,12 +88,25 @@ double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points) {
   // way through it joins their points.
   std::vector<double> distance(index_of(graph.vertices()), unreached), nearest(points.size(), unreached);
   std::vector<int> owner(index_of(graph.vertices()), -1);
-  DistanceQueue open;
+  // the nearest on top: of two points as near, which one a vertex goes to depends on the order
+  using Open = std::pair<double, int>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   for (std::size_t j = 0; j < points.size(); ++j) {
     distance[index_of(points[j])] = 0, owner[index_of(points[j])] = static_cast<int>(j);
     open.emplace(0, points[j]);
   }
-  spread(graph, std::move(open), distance, [&](int from, int to) { owner[index_of(to)] = owner[index_of(from)]; });
+  while (!open.empty()) {
+    const auto [d, v] = open.top();
+    open.pop();
+    if (d > distance[index_of(v)]) continue;
+    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+      const int w = graph.neighbour[index_of(k)];
+      const double there = d + graph.length[index_of(k)];
+      if (!(there < distance[index_of(w)])) continue;
+      distance[index_of(w)] = there, owner[index_of(w)] = owner[index_of(v)];
+      open.emplace(there, w);
+    }
+  }
   for (int v = 0; v < graph.vertices(); ++v)
     for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
       const int w = graph.neighbour[index_of(k)], a = owner[index_of(v)], b = owner[index_of(w)];

@@ -4,6 +4,7 @@
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <plica/drivers/solver/spaces/sparse_product.hpp>
 
 namespace plica {
 
@@ -22,6 +23,16 @@ struct Near {
   double distance;  // [m]
 };
 
+/// How far a vertex is from the ball in which points count at all.
+struct BeyondBall {
+  const TetMesh& mesh;
+  int centre;
+  double radius;  // [m]
+  double operator()(int v) const {
+    return std::max(0.0, (mesh.vertices[index_of(v)] - mesh.vertices[index_of(centre)]).norm() - radius);
+  }
+};
+
 class Fitter {
  public:
   Fitter(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& points, double radius)
@@ -38,7 +49,7 @@ class Fitter {
   /// The rows that point j reaches; place: of a vertex among the rows, or -1.
   void reached(int j, const std::vector<int>& place, std::vector<Reached>& rows) {
     const int point = points_[index_of(j)];
-    walk_.from(point, edge_detour * radius_, [&](int v, double along) {
+    walk_.from(point, edge_detour * radius_, BeyondBall{mesh_, point, radius_}, [&](int v, double along) {
       if (place[index_of(v)] < 0) return;
       if (const double d = distance(v, point, along); d < radius_) rows.push_back({place[index_of(v)], d});
     });
@@ -50,7 +61,7 @@ class Fitter {
     if (good(a, near, radius_, row)) return;
     const double widest = radius_growth * radius_;
     std::vector<Near> more;
-    walk_.from(a, edge_detour * widest, [&](int v, double along) {
+    walk_.from(a, edge_detour * widest, BeyondBall{mesh_, a, widest}, [&](int v, double along) {
       if (number_[index_of(v)] >= 0) more.push_back({number_[index_of(v)], distance(a, v, along)});
     });
     std::sort(more.begin(), more.end(), [](const Near& x, const Near& y) { return x.point < y.point; });
@@ -128,12 +139,7 @@ RowMatrix moving_least_squares(const TetMesh& mesh, const EdgeGraph& graph, cons
     Fitter fitter(mesh, graph, points, reach * spacing);
     for (std::size_t i = first; i < last; ++i) fitter.fit(rows[i], near[i], fitted[i]);
   });
-  RowMatrix P(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(points.size()));
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const auto& [point, weight] : fitted[i]) entries.emplace_back(static_cast<int>(i), point, weight);
-  P.setFromTriplets(entries.begin(), entries.end());
-  return P;
+  return matrix_of_rows(fitted, static_cast<Eigen::Index>(points.size()));
 }
 
 }  // namespace plica

@@ -3,6 +3,7 @@
 #include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/sliver_space.hpp>
+#include <plica/drivers/solver/spaces/sparse_product.hpp>
 
 namespace plica {
 
@@ -24,10 +25,12 @@ class Elimination {
         mass_(std::move(mass)),
         K_(std::move(K)),
         gone_(mass_.size(), 0),
+        lambda_(mass_.size(), 0.0),
         locked_(mass_.size(), -1) {}
 
   std::optional<SliverSpace> run() {
     SliverSpace result;
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a) measure(a);
     std::vector<std::pair<double, int>> stiff = stiffnesses();
     if (stiff.empty()) return {};
     const auto middle = stiff.begin() + static_cast<std::ptrdiff_t>(stiff.size() / 2);
@@ -41,6 +44,8 @@ class Elimination {
       std::sort(stiff.begin(), stiff.end(), std::greater<>());
       const std::size_t before = order_.size();
       for (const auto& [lambda, a] : stiff) eliminate(a, round);
+      for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
+        if (locked_[index_of(a)] == round) measure(a);
       stiff = stiffnesses();
       if (order_.size() == before) break;
     }
@@ -55,20 +60,24 @@ class Elimination {
   std::vector<double> mass_;
   BlockRows K_;
   std::vector<char> gone_;
-  std::vector<int> locked_;   // the last round in which a neighbour was taken out
-  std::vector<int> order_;    // the vertices taken out
-  std::vector<Row> follows_;  // of each, the neighbours that it follows
+  std::vector<double> lambda_;  // lambda_a
+  std::vector<int> locked_;     // the last round in which a neighbour was taken out
+  std::vector<int> order_;      // the vertices taken out
+  std::vector<Row> follows_;    // of each, the neighbours that it follows
   LinearFit fit_;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver_;
   std::vector<double> weight_;
+
+  void measure(int a) {
+    if (gone_[index_of(a)] || constrained_[index_of(a)]) return;
+    solver_.computeDirect(block(a, a), Eigen::EigenvaluesOnly);
+    lambda_[index_of(a)] = solver_.eigenvalues()[2] / std::max(mass_[index_of(a)], 1e-300);
+  }
 
   std::vector<std::pair<double, int>> stiffnesses() const {
     std::vector<std::pair<double, int>> all;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    for (int a = 0; a < static_cast<int>(mass_.size()); ++a) {
-      if (gone_[index_of(a)] || constrained_[index_of(a)]) continue;
-      solver.computeDirect(block(a, a), Eigen::EigenvaluesOnly);
-      all.emplace_back(solver.eigenvalues()[2] / std::max(mass_[index_of(a)], 1e-300), a);
-    }
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
+      if (!gone_[index_of(a)] && !constrained_[index_of(a)]) all.emplace_back(lambda_[index_of(a)], a);
     return all;
   }
 
@@ -79,7 +88,6 @@ class Elimination {
     if (place == row.end() || place->first != b) place = row.insert(place, {b, Eigen::Matrix3d::Zero()});
     return place->second;
   }
-  const Eigen::Matrix3d& block(int a, int b) const { return const_cast<Elimination*>(this)->block(a, b); }
 
   void eliminate(int a, int round) {
     const auto row = K_[index_of(a)];  // with the own block
@@ -133,11 +141,7 @@ class Elimination {
       for (const auto& [column, value] : sum)
         if (std::abs(value) > least_followed) rows[index_of(order_[i])].emplace_back(column, value);
     }
-    result.up = RowMatrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(result.kept.size()));
-    std::vector<Eigen::Triplet<double>> entries;
-    for (std::size_t a = 0; a < rows.size(); ++a)
-      for (const auto& [column, value] : rows[a]) entries.emplace_back(static_cast<int>(a), column, value);
-    result.up.setFromTriplets(entries.begin(), entries.end());
+    result.up = matrix_of_rows(rows, static_cast<Eigen::Index>(result.kept.size()));
   }
 };
 
