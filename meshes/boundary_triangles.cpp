@@ -11,21 +11,43 @@ namespace {
 constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct Face {
-  std::array<int, 3> key;  // ascending, the same from both sides
-  std::size_t number;      // 4 * tetrahedron + corner across
+  std::array<int, 2> others;  // its vertices but the lowest, ascending: the same from both sides
+  std::size_t number;         // 4 * tetrahedron + corner across
 };
 
-std::vector<Face> sorted_faces(const TetMesh& mesh) {
-  std::vector<Face> faces;
-  faces.reserve(mesh.tets.size() * 4);
-  for (const auto& tet : mesh.tets)
-    for (const auto& [i, j, k] : outward_faces) {
-      std::array<int, 3> key = {tet[i], tet[j], tet[k]};
-      std::sort(key.begin(), key.end());
-      faces.push_back({key, faces.size()});
+// Those that one tetrahedron alone has, ascending. Put beside each other by the lowest vertex by counting, then sorted for each
+// vertex: several times faster than one sort of all
+std::vector<std::size_t> single_faces(const TetMesh& mesh) {
+  std::vector<std::size_t> start(mesh.vertices.size() + 1, 0);
+  const auto for_each = [&](auto visit) {
+    std::size_t number = 0;
+    for (const auto& tet : mesh.tets)
+      for (const auto& [i, j, k] : outward_faces) {
+        std::array<int, 3> key = {tet[i], tet[j], tet[k]};
+        std::sort(key.begin(), key.end());
+        visit(static_cast<std::size_t>(key[0]), Face{{key[1], key[2]}, number++});
+      }
+  };
+  for_each([&](std::size_t lowest, const Face&) { ++start[lowest + 1]; });
+  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+  std::vector<Face> faces(start.back());
+  std::vector<std::size_t> next(start.begin(), start.end() - 1);
+  for_each([&](std::size_t lowest, const Face& face) { faces[next[lowest]++] = face; });
+
+  std::vector<std::size_t> single;
+  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+    const auto first = faces.begin() + static_cast<std::ptrdiff_t>(start[v]);
+    const auto last = faces.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
+    std::sort(first, last, [](const Face& a, const Face& b) { return a.others < b.others; });
+    for (auto face = first; face != last;) {
+      auto other = face + 1;
+      while (other != last && other->others == face->others) ++other;
+      if (other == face + 1) single.push_back(face->number);
+      face = other;
     }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
-  return faces;
+  }
+  std::sort(single.begin(), single.end());
+  return single;
 }
 
 const Point& vertex(const TriangleSurface& surface, int v) { return surface.vertices[static_cast<std::size_t>(v)]; }
@@ -33,16 +55,7 @@ const Point& vertex(const TriangleSurface& surface, int v) { return surface.vert
 }  // namespace
 
 std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh) {
-  const std::vector<Face> faces = sorted_faces(mesh);
-  std::vector<std::size_t> single;
-  for (std::size_t f = 0; f < faces.size();) {
-    std::size_t end = f + 1;
-    while (end < faces.size() && faces[end].key == faces[f].key) ++end;
-    if (end == f + 1) single.push_back(faces[f].number);
-    f = end;
-  }
-  std::sort(single.begin(), single.end());
-
+  const std::vector<std::size_t> single = single_faces(mesh);
   std::vector<std::array<int, 3>> triangles;
   triangles.reserve(single.size());
   for (const std::size_t number : single) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/him/inverse_mass.hpp>
-#include <plica/drivers/solver/spaces/sparse_product.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
-#include <plica/drivers/solver/spaces/sparse_product.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {
 

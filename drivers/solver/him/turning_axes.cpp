@@ -4,7 +4,7 @@
 #include <map>
 #include <plica/drivers/solver/him/turning_axes.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/sparse_product.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {

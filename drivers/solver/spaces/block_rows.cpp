@@ -26,16 +26,16 @@ class RowSum {
  public:
   explicit RowSum(std::size_t columns) : place_(columns, -1) {}
 
-  void add(int column, double factor, const double* block) {
+  void add(int column, double factor, const double* __restrict__ block) {
     int& place = place_[index_of(column)];
     if (place < 0) {
       place = static_cast<int>(columns_.size());
       columns_.push_back(column);
       if (blocks_.size() < block_size * columns_.size()) blocks_.resize(2 * block_size * columns_.size());
-      double* const sum = blocks_.data() + block_size * index_of(place);
+      double* const __restrict__ sum = blocks_.data() + block_size * index_of(place);
       for (std::size_t k = 0; k < block_size; ++k) sum[k] = factor * block[k];
     } else {
-      double* const sum = blocks_.data() + block_size * index_of(place);
+      double* const __restrict__ sum = blocks_.data() + block_size * index_of(place);
       for (std::size_t k = 0; k < block_size; ++k) sum[k] += factor * block[k];
     }
   }

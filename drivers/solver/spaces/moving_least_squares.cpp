@@ -4,7 +4,7 @@
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
-#include <plica/drivers/solver/spaces/sparse_product.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {
 

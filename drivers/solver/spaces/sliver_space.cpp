@@ -3,7 +3,7 @@
 #include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/sliver_space.hpp>
-#include <plica/drivers/solver/spaces/sparse_product.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {
 

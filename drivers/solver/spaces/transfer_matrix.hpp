@@ -5,11 +5,18 @@
 #include <plica/core/mesh.hpp>
 #include <plica/core/sparse_rows.hpp>
 #include <plica/meshes/embedding.hpp>
+#include <utility>
 #include <vector>
 
 namespace plica {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+/// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same bits for any number of threads.
+RowMatrix product(const RowMatrix& A, const RowMatrix& B);
+
+/// The matrix of these rows of (column, value), columns ascending.
+RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns);
 
 /// Values at a mesh's vertices smoothed over their edges, [vertices x vertices]: each vertex takes a weighted average over itself
 /// and its neighbours, by moving least squares of degree one (Lancaster & Salkauskas 1981), so that linear fields stay as they

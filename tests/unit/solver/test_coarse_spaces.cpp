@@ -90,6 +90,47 @@ TEST(FarthestPoints, OfAllVerticesAreAll) {
   EXPECT_EQ(farthest_points(edge_graph(mesh), 1000).size(), mesh.vertices.size());
 }
 
+TEST(EdgeWalk, FindsTheShortestWays) {
+  const TetMesh mesh = irregular_beam();
+  const EdgeGraph graph = edge_graph(mesh);
+  constexpr double reach = 0.2, radius = 0.12;
+  const auto straight = [&](int v) { return (mesh.vertices[at(v)] - mesh.vertices[0]).norm(); };
+  std::vector<double> shortest(mesh.vertices.size(), 1e9);
+  shortest[0] = 0;
+  for (bool shrank = true; shrank;) {
+    shrank = false;
+    for (int v = 0; v < graph.vertices(); ++v)
+      for (int k = graph.first[at(v)]; k < graph.first[at(v + 1)]; ++k)
+        if (const double d = shortest[at(v)] + graph.length[at(k)]; d < shortest[at(graph.neighbour[at(k)])])
+          shortest[at(graph.neighbour[at(k)])] = d, shrank = true;
+  }
+  EdgeWalk walk(graph);
+  std::vector<double> all(shortest.size(), 1e9), near = all;
+  walk.from(0, reach, [&](int v, double d) { all[at(v)] = d; });
+  walk.from(
+      0, reach, [&](int v) { return std::max(0.0, straight(v) - radius); }, [&](int v, double d) { near[at(v)] = d; });
+  int reached = 0, left_out = 0;
+  for (std::size_t v = 0; v < shortest.size(); ++v) {
+    EXPECT_EQ(all[v], shortest[v] <= reach ? shortest[v] : 1e9);
+    EXPECT_TRUE(near[v] == all[v] || straight(static_cast<int>(v)) >= radius);
+    reached += all[v] < 1e9, left_out += all[v] < near[v];
+  }
+  EXPECT_GT(reached, 30);
+  EXPECT_GT(left_out, 5);
+}
+
+TEST(SparseProduct, IsThatOfTheFullMatrices) {
+  const TetMesh mesh = irregular_beam();
+  RowMatrix A = ring_smoothing(mesh);
+  A.prune([](Eigen::Index row, Eigen::Index, double) { return row % 3 != 1; });  // some rows are empty
+  const RowMatrix B = RowMatrix(A.transpose()), C = product(A, B);
+  const Eigen::MatrixXd full = Eigen::MatrixXd(A) * Eigen::MatrixXd(B);
+  EXPECT_LE((Eigen::MatrixXd(C) - full).norm(), 1e-14 * full.norm());
+  for (Eigen::Index row = 0; row < C.rows(); ++row)
+    for (int k = C.outerIndexPtr()[row] + 1; k < C.outerIndexPtr()[row + 1]; ++k)
+      EXPECT_LT(C.innerIndexPtr()[k - 1], C.innerIndexPtr()[k]);
+}
+
 TEST(MovingLeastSquares, ReproduceLinearFields) {
   for (const TetMesh& mesh : {irregular_beam(), blob_mesh(Point::Zero(), 0.12, 8)}) {
     const EdgeGraph graph = edge_graph(mesh);

@@ -63,6 +63,42 @@ TEST(InverseMass, IsFittedToTheStepItsSpectrumAllows) {
   }
 }
 
+TEST(InverseMass, LeavesOutNothingThatHasAWeight) {
+  for (const Problem& problem : {him_beam(false), him_beam_alone()}) {
+    Pieces pieces(problem);
+    ASSERT_TRUE(pieces.fit(6));
+    const auto levels = static_cast<std::size_t>(pieces.inverse_mass->levels());
+    const auto with = [&](const std::vector<double>& weights) {
+      pieces.inverse_mass->set_weights(weights);
+      return pieces.matrix();
+    };
+    const Eigen::MatrixXd all = with(std::vector<double>(levels, 1.0));
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(all.rows(), all.cols());
+    for (std::size_t i = 0; i < levels; ++i) {
+      std::vector<double> alone(levels, 0.0);
+      alone[i] = 1;
+      const Eigen::MatrixXd part = with(alone);
+      EXPECT_GT(part.norm(), 1e-3 * all.norm()) << "level " << i;
+      sum += part;
+    }
+    EXPECT_LE((sum - all).norm(), 1e-12 * all.norm());
+  }
+}
+
+TEST(InverseMass, HasTheLeastInertiaThatFits) {
+  for (const double over_critical : {4.0, 6.0, 12.0}) {
+    Pieces pieces(him_beam_alone());
+    const double t = over_critical * pieces.fitter->critical_steps()[0];
+    const Vectors<Host> rest("rest", pieces.levels[0].vertices.size());
+    const auto fit = pieces.fitter->fit(t, 0.8, rest);
+    ASSERT_TRUE(fit);
+    ASSERT_LT(fit->scale, 1) << "or there is nothing to look for";
+    EXPECT_EQ(pieces.fitter->fit(t, 0.8, rest, fit->scale)->scale, fit->scale);
+    const double next = 1.05 * fit->scale;  // they are 4 % apart
+    EXPECT_LT(pieces.fitter->fit(t, 0.8, rest, next)->scale, next);
+  }
+}
+
 // A is fixed, the step shrinks: the error of a linear swing falls like its square.
 TEST(Him, IsOfSecondOrderAtAFixedInverseMass) {
   Problem p = him_beam(true);
