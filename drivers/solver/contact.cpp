@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
@@ -170,12 +172,43 @@ void Contact<B>::connect(const TriangleSurface& surface, bool pairs) {
     first.push_back(static_cast<int>(triangle.size()));
   }
   const int triangles = static_cast<int>(surface.triangles.size());
+  pairs_.points = points_;
   pairs_.triangles = pairs ? triangles : 0;
   faces_.triangles = whole() > 0 ? triangles : 0;
   faces_.reach = static_cast<Real>(face_reach * reach_);
   faces_.corner = pairs_.corner = to_device<Indices<B>>("contact.corner", corner);
   faces_.first = pairs_.first = to_device<Indices<B>>("contact.first", first);
   faces_.triangle = pairs_.triangle = to_device<Indices<B>>("contact.triangle", triangle);
+  if (pairs) connect_edges(surface);
+}
+
+/// Edges in the order of their ends, the end with the lower number first.
+template <class B>
+void Contact<B>::connect_edges(const TriangleSurface& surface) {
+  std::map<std::array<int, 2>, std::array<int, 2>>
+      opposite;  // left and right of the way from the first end to the second
+  const auto each_side = [&](const auto& use) {
+    for (const auto& t : surface.triangles)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int a = t[c], b = t[(c + 1) % 3];
+        use(std::array{std::min(a, b), std::max(a, b)}, a < b ? 0u : 1u, t[(c + 2) % 3]);
+      }
+  };
+  each_side([&](const auto& ends, std::size_t right, int third) {
+    opposite.try_emplace(ends, std::array{-1, -1}).first->second[right] = third;
+  });
+  std::map<std::array<int, 2>, int> number;
+  std::vector<int> edge, side, first(surface.vertices.size() + 1, 0);
+  for (const auto& [ends, third] : opposite) {
+    number.emplace(ends, static_cast<int>(number.size()));
+    edge.insert(edge.end(), {ends[0], ends[1], third[0], third[1]});
+    ++first[static_cast<std::size_t>(ends[0]) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  each_side([&](const auto& ends, std::size_t, int) { side.push_back(number.at(ends)); });
+  pairs_.edge = to_device<Indices<B>>("contact.edge", edge);
+  pairs_.first_edge = to_device<Indices<B>>("contact.first_edge", first);
+  pairs_.side = to_device<Indices<B>>("contact.side", side);
 }
 
 template <class B>
@@ -187,9 +220,11 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
   if (pairs_.triangles > 0) {
     points.pairs.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(n, -1));
-    points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", n);
+    points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", 2 * n);
+    points.pairs.other = to_device<Indices<B>>("contact.other", std::vector<int>(6 * n, -1));
+    points.pairs.found = zeros<Doubles<B>>("plica::contact.found", 2);
     points.pairs.from = zeros<Indices<B>>("plica::contact.from", n + 1);
-    points.pairs.part = zeros<Indices<B>>("plica::contact.part", 3 * n);
+    points.pairs.part = zeros<Indices<B>>("plica::contact.part", 6 * n);
   }
   const auto faces = static_cast<std::size_t>(points.obstacles) * static_cast<std::size_t>(faces_.triangles);
   if (pairs_.triangles > 0 || faces > 0) points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);

@@ -143,6 +143,7 @@ class Contact {
   void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
   void connect(const TriangleSurface& surface, bool pairs);
+  void connect_edges(const TriangleSurface& surface);
 };
 
 }  // namespace plica

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/drivers/solver/contact_response.hpp>
 #include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/find_pairs.hpp>
@@ -16,8 +17,8 @@ template <class B>
 ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices, bool implicit)
     : contact_(std::move(contact)),
       points_(contact_->make_points(implicit)),
-      blocks_(contact_->sites()),
-      smooth_(zeros<Vectors<B>>("plica::contact.smooth", static_cast<std::size_t>(vertices))),
+      blocks_(std::max(contact_->sites(), 2 * contact_->points())),
+      smooth_(zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(vertices))),
       answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(vertices))),
       reached_(zeros<Indices<B>>("plica::contact.reached", static_cast<std::size_t>(vertices))),
       sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
@@ -34,10 +35,10 @@ void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const Sta
 
 /// Where points get forces from triangles, see SumPointForces.
 template <class B>
-void ContactResponse<B>::sum_up(const Exec& exec, double reaction) const {
+void ContactResponse<B>::sum_up(const Exec& exec, bool bounding) const {
   if (points_.pairs.sum.extent(0) > 0)
     where_touching<B>(exec, points_.count, "plica::contact_sum", contact_->points(),
-                      SumPointForces<B>{points_, static_cast<Real>(reaction)});
+                      SumPointForces<B>{points_, bounding});
 }
 
 template <class B>
@@ -49,11 +50,11 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
   law.points.span = law.h;
   find(exec, level, state, time, 0, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
-  sum_up(exec, static_cast<double>(law.bounding()));
+  sum_up(exec, law.isotropic);
   for (int sweep = 0; sweep <= contact_sweeps; ++sweep) {  // the first for rho and the forces by e alone
     if (sweep == 0 || step.span > 0) respond();
     where_touching<B>(exec, points_.count, "plica::contact_sweep", n, SweepTouching<B>{law, sweep == 0});
-    sum_up(exec, -1);
+    sum_up(exec);
     if (!(step.span > 0)) break;
   }
 }
@@ -101,7 +102,7 @@ double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, doubl
   const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
   find(exec, level, level.state, time, 0, all_points());
   if (search_) {
-    reduce<B, 1>(exec, "plica::pair_energy", level.surface.points, PairEnergy<B>{points_}, blocks_, result);
+    reduce<B, 1>(exec, "plica::pair_energy", 2 * level.surface.points, PairEnergy<B>{points_}, blocks_, result);
     total += host_values(exec, result)[0];
   }
   if (contact_->whole() > 0) {
@@ -119,7 +120,7 @@ void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, cons
   reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(),
                LineariseTouching<B>{points_, static_cast<Real>(ahead), static_cast<Real>(w.a), static_cast<Real>(w.b)},
                blocks_, points_.count);
-  sum_up(exec, -1);
+  sum_up(exec);
   scatter(exec, level, f);
 }
 
@@ -137,7 +138,7 @@ void ContactResponse<B>::add_product(const Exec& exec, const Level<B>& level, co
   if (beside && !contact_->couples()) return;
   where_touching<B>(exec, points_.count, "plica::contact_product", contact_->sites(),
                     ContactProduct<B>{level.surface, p, points_, beside});
-  sum_up(exec, -1);
+  sum_up(exec);
   scatter(exec, level, q);
 }
 

@@ -75,7 +75,7 @@ class ContactResponse {
     points.reach = std::numeric_limits<Real>::max();
     return points;
   }
-  void sum_up(const Exec& exec, double reaction) const;
+  void sum_up(const Exec& exec, bool bounding = false) const;
   void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {}) const;
 };
 

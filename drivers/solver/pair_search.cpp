@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <bit>
 #include <plica/drivers/solver/pair_search.hpp>
-#include <plica/kernels/contact/find_pairs.hpp>
+#include <plica/kernels/contact/find_crossings.hpp>
 
 namespace plica {
 
 template <class B>
 PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B>& points)
-    : blocks_(points.pairs.triangles), near_(zeros<Doubles<B>>("plica::pairs.near", 1)) {
+    : blocks_(points.pairs.triangles) {
   const auto n = static_cast<std::size_t>(points.points), triangles = static_cast<std::size_t>(points.pairs.triangles);
   const std::size_t buckets = std::bit_ceil(2 * triangles);
   grid_.limits = limits;
@@ -27,6 +27,10 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.centre = zeros<Vectors<B>>("plica::pairs.centre", triangles);
   grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
   grid_.listed = zeros<Indices<B>>("plica::pairs.listed", n * static_cast<std::size_t>(PairGrid<B>::longest));
+  grid_.about = zeros<Indices<B>>("plica::pairs.about", n);
+  grid_.crossings = zeros<Indices<B>>("plica::pairs.crossings", n);
+  grid_.crossing =
+      zeros<Indices<B>>("plica::pairs.crossing", 2 * n * static_cast<std::size_t>(PairGrid<B>::most_crossings));
   count_ = zeros<Indices<B>>("plica::pairs.count", n);
 }
 
@@ -39,7 +43,9 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
   update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_, points.span});
   make_grid(exec, points);
   where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, ListClose<B>{find});
-  reduce<B, 1>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find}, blocks, near_);
+  where_touching<B>(exec, grid_.stale, "plica::pairs_crossings", points.points, ListCrossings<B>{{find}});
+  update_vertices<B>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find});
+  reduce<B, 2>(exec, "plica::pairs_crossing", points.points, DeepestCrossings<B>{{find}}, blocks, points.pairs.found);
   list_parts(exec, points.pairs);
 }
 
@@ -64,19 +70,19 @@ void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points)
 /// `count_` is 0 before and after.
 template <class B>
 void PairSearch<B>::list_parts(const Exec& exec, const PairedPoints<B>& pairs) const {
-  const int points = static_cast<int>(pairs.partner.extent(0));
-  where_touching<B>(exec, near_, "plica::pairs_parts", points, CountParts<B>{pairs, count_});
+  const int points = pairs.points, all = 2 * points;
+  where_touching<B>(exec, pairs.found, "plica::pairs_parts", all, CountParts<B>{pairs, count_});
   Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, points + 1),
-                        SumBefore<B>{count_, pairs.from, points, near_});
-  where_touching<B>(exec, near_, "plica::pairs_list", points, ListParts<B>{pairs, count_});
-  where_touching<B>(exec, near_, "plica::pairs_sort", points, SortParts<B>{pairs});
+                        SumBefore<B>{count_, pairs.from, points, pairs.found});
+  where_touching<B>(exec, pairs.found, "plica::pairs_list", all, ListParts<B>{pairs, count_});
+  where_touching<B>(exec, pairs.found, "plica::pairs_sort", points, SortParts<B>{pairs});
 }
 
 template <class B>
 std::size_t PairSearch<B>::bytes() const {
   return (grid_.x.span() + grid_.built.span() + grid_.centre.span()) * sizeof(Real) +
          (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + grid_.listed.span() +
-          count_.span()) *
+          grid_.about.span() + grid_.crossings.span() + grid_.crossing.span() + count_.span()) *
              sizeof(int);
 }
 

@@ -21,7 +21,6 @@ class PairSearch {
  private:
   PairGrid<B> grid_;
   BlockSums<B> blocks_;  ///< for triangles
-  Doubles<B> near_;      ///< [1] points near a triangle
   Indices<B> count_;     ///< [points]
 
   void make_grid(const Exec& exec, const TouchingPoints<B>& points) const;

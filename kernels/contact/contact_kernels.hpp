@@ -23,8 +23,8 @@ struct DepthWatch {
   }
 };
 
-/// Contact of a level's surface points, on the device: a row of records for every obstacle, and with pairs one more; a record for
-/// every point in it. Then come records for the surface's faces, a row for every obstacle. A site is a point, or then a face.
+/// Contact of a level's surface points, on the device: a row of records for every obstacle, and with pairs two more, of points
+/// and triangles and of edges; a record for every point in each. Then come records for the surface's faces, a row for every obstacle. A site is a point, or then a face.
 template <class B>
 struct TouchingPoints {
   using Real = typename B::Real;
@@ -35,7 +35,7 @@ struct TouchingPoints {
   PairedPoints<B> pairs;       ///< empty where the surface does not touch itself
   FaceSites<B> faces;          ///< empty where no obstacle is thin
   HeldPoints<B> held;          ///< empty where no obstacle can hold anything
-  AttachedPoints<B> attached;  ///< empty where bodies are not attached to each other; in the row of pairs
+  AttachedPoints<B> attached;  ///< empty where bodies are not attached to each other; in the first row of pairs
   Vectors<B> normal;    ///< [records][3] out of the obstacle, or of the triangle; of a held point its stretch [m]
   Vectors<B> velocity;  ///< of the point relative to it [m/s]
   Vectors<B> smooth;    ///< its acceleration without contact, likewise, where it is near [m/s^2]
@@ -45,18 +45,19 @@ struct TouchingPoints {
   Blocks<B> block;      ///< [records][6] kg, on implicit levels only, see LineariseTouching
   Doubles<B> count;     ///< [1] records that touch
 
-  KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 1 : 0); }
+  KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 2 : 0); }
   KOKKOS_INLINE_FUNCTION int sites() const { return points + faces.triangles; }
-  KOKKOS_INLINE_FUNCTION int rows_of(int site) const { return site < points ? rows() : obstacles; }
+  /// The first rows, beyond which a site has nothing.
+  KOKKOS_INLINE_FUNCTION int rows_of(int site) const { return site < points ? obstacles + pairs.rows() : obstacles; }
   KOKKOS_INLINE_FUNCTION int record(int row, int site) const {
     return site < points ? row * points + site : rows() * points + faces.site(row, site - points);
   }
   KOKKOS_INLINE_FUNCTION const PenaltyLaw<Real>& law_of(int row, int site) const {
-    return law(row, site < points ? site : faces.corner(3 * (site - points)));
+    return law(Kokkos::min(row, obstacles), site < points ? site : faces.corner(3 * (site - points)));
   }
   /// Whether it is held by a spring, instead of pushed.
   KOKKOS_INLINE_FUNCTION bool is_held(int row, int site) const {
-    return row < obstacles ? held.holds(record(row, site)) : attached.holds(site);
+    return row < obstacles ? held.holds(record(row, site)) : row == obstacles && attached.holds(site);
   }
   KOKKOS_INLINE_FUNCTION const PenaltyLaw<Real>& spring_of(int row, int site) const {
     return row < obstacles ? held.law(row, site) : attached.law(attached.attachment(site));
@@ -75,11 +76,11 @@ struct TouchingPoints {
       x += faces.weight(faces.site(row, t), c) * vector_at<B>(surface.rest, faces.corner(3 * t + c));
     return x;
   }
-  /// The same against what the site touches: in the row of pairs with `reaction` times the triangle's value.
+  KOKKOS_INLINE_FUNCTION int pair(int row, int site) const { return (row - obstacles) * points + site; }
+  /// The same against what the site touches, see PairedPoints.
   KOKKOS_INLINE_FUNCTION Vec3<Real> difference(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row,
-                                               int site, Real reaction = -1) const {
-    const Vec3<Real> own = value(surface, x, row, site);
-    return row == obstacles ? own + reaction * pairs.across(surface, x, site) : own;
+                                               int site, bool bounding = false) const {
+    return row < obstacles ? value(surface, x, row, site) : pairs.difference(surface, x, pair(row, site), bounding);
   }
   /// What vertex a has of that difference.
   KOKKOS_INLINE_FUNCTION Real share(const EmbeddedSurface<B>& surface, int row, int site, int a) const {
@@ -89,12 +90,13 @@ struct TouchingPoints {
         if (surface.embedding.source(p, c) == a) sum += surface.embedding.weight(p, c);
       return sum;
     };
-    Real sum = site < points ? of(site) : Real(0);
+    const bool paired = row >= obstacles;
+    Real sum = site >= points ? Real(0) : paired ? pairs.own_weight(pair(row, site)) * of(site) : of(site);
     for (int c = 0; c < 3; ++c) {
       if (site >= points)
         sum += faces.weight(faces.site(row, site - points), c) * of(faces.corner(3 * (site - points) + c));
-      else if (row == obstacles)
-        sum -= pairs.weight(site, c) * of(pairs.corner(3 * pairs.partner(site) + c));
+      else if (const int i = pair(row, site); paired)
+        sum += pairs.weight(i, c) * of(pairs.other(3 * i + c));
     }
     return sum;
   }
@@ -128,13 +130,13 @@ struct TouchingPoints {
   }
 };
 
-/// The force on each point with pairs or faces: what it touches, and what touches triangles around it. `reaction`: what a triangle
-/// gets of a pair's force, -1; 1 where rows of W A W^T are bounded.
+/// The force on each point with pairs or faces: its own pairs', and those that have it as one of their others. `bounding`: by
+/// absolute weights, where rows of W A W^T are bounded.
 template <class B>
 struct SumPointForces {
   using Real = typename B::Real;
   TouchingPoints<B> points;
-  Real reaction;
+  bool bounding;
   KOKKOS_INLINE_FUNCTION void operator()(int q) const {
     const PairedPoints<B>& pairs = points.pairs;
     Vec3<Real> sum = points.force_of_obstacles(q);
@@ -143,10 +145,11 @@ struct SumPointForces {
   }
   KOKKOS_INLINE_FUNCTION void add_pairs(int q, Vec3<Real>& sum) const {
     const PairedPoints<B>& pairs = points.pairs;
-    sum += vector_at<B>(points.force, points.record(points.obstacles, q));
-    pairs.each_pair_at(q, [&](int p, Real weight) {
-      sum += (reaction * weight) * vector_at<B>(points.force, points.record(points.obstacles, p));
-    });
+    const auto force = [&](int pair) { return vector_at<B>(points.force, points.record(points.obstacles, 0) + pair); };
+    for (int row = 0, pair = q; row < pairs.rows(); ++row, pair += points.points)
+      sum += pairs.own_weight(pair) * force(pair);
+    pairs.each_pair_at(
+        q, [&](int pair, Real weight) { sum += weight * force(pair); }, bounding);
   }
 };
 

@@ -121,19 +121,20 @@ struct ListClose {
     const PairGrid<B>& grid = find.grid;
     const Vec3<Real> at = find.x(p);
     const Real far = grid.reach(0) + grid.limits.margin;
-    int count = 0;
+    int count = 0, about = 0;
     grid.around(at, [&](int t) {
       if (!find.allowed(p, t)) return;
+      ++about;
       const Vec3<Real> d = find.off(at, t, find.nearest(at, t));
       if (dot(d, d) > far * far || !find.may_touch(p, t)) return;
       if (count < grid.longest) grid.listed(p * grid.longest + count) = t;
       ++count;
     });
-    grid.close(p) = count;
+    grid.close(p) = count, grid.about(p) = about;
   }
 };
 
-/// Each point's record of its nearest triangle, the one with the lowest number where several are; counts them. What is fast looks as
+/// Each point's record of its nearest triangle, the one with the lowest number where several are. What is fast looks as
 /// far as it may get, and is near what its path leads through.
 template <class B>
 struct NearestTriangles {
@@ -147,21 +148,15 @@ struct NearestTriangles {
   };
   FindPairs<B> find;
 
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const TouchingPoints<B>& points = find.points;
     const int r = points.record(points.obstacles, p);
     points.depth(r) = -points.nowhere(), points.mobility(r) = 0;
     const int last = points.pairs.partner(p);
-    points.pairs.partner(p) = -1;
-    if (points.attached.ties(p)) {
-      const bool held = points.attached.holds(p);
-      if (held) stretch(p, r);
-      return {{held ? 1.0 : 0.0}};
-    }
-    if (find.grid.close(p) == 0) return {};
-    const Nearest found = partner(p, last);
-    if (found.triangle < 0 || !record(p, r, found)) return {};
-    return {{1}};
+    points.pairs.partner(p) = points.pairs.other(3 * p) = -1;
+    if (points.attached.holds(p)) stretch(p, r);
+    if (points.attached.ties(p) || find.grid.close(p) == 0) return;
+    if (const Nearest found = partner(p, last); found.triangle >= 0) record(p, r, found);
   }
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> corner(int t, int c) const { return find.x(find.corner(t, c)); }
@@ -252,6 +247,13 @@ struct NearestTriangles {
     return sided(p, other);
   }
 
+  KOKKOS_INLINE_FUNCTION void join(int p, int t, const Vec3<Real>& w) const {
+    const PairedPoints<B>& pairs = find.points.pairs;
+    pairs.partner(p) = t;
+    set_vector<B>(pairs.weight, p, Real(-1) * w);
+    for (int c = 0; c < 3; ++c) pairs.other(3 * p + c) = find.corner(t, c);
+  }
+
   /// The record of a point that is attached to a triangle.
   KOKKOS_INLINE_FUNCTION void stretch(int p, int r) const {
     const TouchingPoints<B>& points = find.points;
@@ -260,11 +262,10 @@ struct NearestTriangles {
     points.mobility(r) = 1;
     set_vector<B>(points.normal, r, find.off(find.x(p), t, w));
     set_vector<B>(points.velocity, r, speed(p, t, w));
-    set_vector<B>(points.pairs.weight, p, w);
-    points.pairs.partner(p) = t;
+    join(p, t, w);
   }
 
-  KOKKOS_INLINE_FUNCTION bool record(int p, int r, const Nearest& found) const {
+  KOKKOS_INLINE_FUNCTION void record(int p, int r, const Nearest& found) const {
     constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
     const TouchingPoints<B>& points = find.points;
     const int t = found.triangle;
@@ -273,25 +274,24 @@ struct NearestTriangles {
     const Real distance = Kokkos::sqrt(found.square), limit = find.grid.limits.reach;
     const bool on_face = w[0] > 0 && w[1] > 0 && w[2] > 0;
     // The far side of a thin part of its own body is no partner
-    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
+    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return;
     points.depth(r) = inside ? distance : -distance, points.mobility(r) = 1;
     const bool by_surface = on_face || distance < tiny * limit;
     set_vector<B>(points.normal, r, by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d);
     set_vector<B>(points.velocity, r, speed(p, t, w));
-    set_vector<B>(points.pairs.weight, p, w);
-    points.pairs.partner(p) = t;
-    return true;
+    join(p, t, w);
   }
 };
 
-/// Of how many pairs each point is a corner with a weight.
+/// Of how many pairs each point is one of the others.
 template <class B>
 struct CountParts {
   PairedPoints<B> pairs;
   Indices<B> count;
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+  KOKKOS_INLINE_FUNCTION void operator()(int pair) const {
+    if (pair >= pairs.rows() * pairs.points) return;
     for (int c = 0; c < 3; ++c)
-      if (const int q = pairs.corner_of(p, c); q >= 0) Kokkos::atomic_inc(&count(q));
+      if (const int q = pairs.weighted_other(pair, c); q >= 0) Kokkos::atomic_inc(&count(q));
   }
 };
 
@@ -300,10 +300,11 @@ template <class B>
 struct ListParts {
   PairedPoints<B> pairs;
   Indices<B> count;
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+  KOKKOS_INLINE_FUNCTION void operator()(int pair) const {
+    if (pair >= pairs.rows() * pairs.points) return;
     for (int c = 0; c < 3; ++c)
-      if (const int q = pairs.corner_of(p, c); q >= 0)
-        pairs.part(pairs.from(q) + Kokkos::atomic_fetch_sub(&count(q), 1) - 1) = 3 * p + c;
+      if (const int q = pairs.weighted_other(pair, c); q >= 0)
+        pairs.part(pairs.from(q) + Kokkos::atomic_fetch_sub(&count(q), 1) - 1) = 3 * pair + c;
   }
 };
 
@@ -322,19 +323,19 @@ struct SortParts {
   }
 };
 
-/// Potential energy of the pairs' penalties and of attachments' springs, as a field of the points [J].
+/// Potential energy of the pairs' penalties and of attachments' springs, as a field of the pairs [J].
 template <class B>
 struct PairEnergy {
   TouchingPoints<B> points;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int p) const {
-    const int row = points.obstacles, r = points.record(row, p);
-    if (points.attached.holds(p)) {
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int pair) const {
+    const int row = points.obstacles + pair / points.points, p = pair % points.points, r = points.record(row, p);
+    if (points.is_held(row, p)) {
       const auto s = vector_at<B>(points.normal, r);
       return {{0.5 * static_cast<double>(points.spring_of(row, p).stiffness * dot(s, s))}};
     }
     const auto depth = points.depth(r);
     if (!(depth > 0)) return {};
-    return {{0.5 * static_cast<double>(points.law(row, p).stiffness * depth * depth)}};
+    return {{0.5 * static_cast<double>(points.law_of(row, p).stiffness * depth * depth)}};
   }
 };
 

@@ -21,7 +21,8 @@
 //   2. forces from e and the last r     --W^T-->  f  --A-->  a  --W-->  r      once for every sweep
 //
 // A pair is a point and the triangle it touches: W takes the point's value less the triangle's where it is nearest, and the triangle's
-// corners get the opposite of the point's force by the same weights. Then rho sums up absolute values, which bounds the row's sum.
+// corners get the opposite of the point's force by the same weights. Or it is two edges, likewise. Then rho sums up absolute values,
+// which bounds the row's sum.
 //
 // A point that an obstacle or another body holds has, in place of these two, the force in all directions that takes it back by its
 // stretch s:
@@ -120,11 +121,9 @@ struct TouchLaw {
   bool by_work;    ///< see ContactByWork; `ahead` is h/2
   bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
 
-  KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int row, int p, Real reaction = -1) const {
-    return points.difference(surface, x, row, p, reaction);
+  KOKKOS_INLINE_FUNCTION Vec3<Real> at(const Vectors<B>& x, int row, int p, bool bounding = false) const {
+    return points.difference(surface, x, row, p, bounding);
   }
-  /// What triangles get of unit forces, see SumPointForces.
-  KOKKOS_INLINE_FUNCTION Real bounding() const { return isotropic ? Real(1) : Real(-1); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(points.normal, r); }
   KOKKOS_INLINE_FUNCTION Real looks_ahead(int r) const {
     return points.depth(r) > 0 ? ahead : Kokkos::max(ahead, entry);
@@ -211,7 +210,7 @@ struct SweepTouching {
       const int r = points.record(row, p);
       const Vec3<Real> force = vector_at<B>(points.force, r);
       if (!(first ? dot(force, force) > 0 : points.mobility(r) > 0)) continue;
-      const Vec3<Real> answer = law.at(law.answer, row, p, first ? law.bounding() : Real(-1));
+      const Vec3<Real> answer = law.at(law.answer, row, p, first && law.isotropic);
       Vec3<Real> e = vector_at<B>(points.smooth, r);
       if (first) {
         constexpr Real smallest = Kokkos::Experimental::norm_min_v<Real>;

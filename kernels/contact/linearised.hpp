@@ -101,9 +101,12 @@ struct AddContactBlocks {
     for (int s = surface.first(i); s < surface.first(i + 1); ++s) {
       const int q = surface.point(s);
       const Real w = surface.weight(s);
-      for (int row = beside ? points.obstacles : 0; row < points.rows(); ++row) add(sum, a, row, q, w);
+      for (int row = beside ? points.obstacles : 0; row < points.rows_of(q); ++row)
+        add(sum, a, row, q, row < points.obstacles ? w : w * points.pairs.own_weight(points.pair(row, q)));
       if (points.pairs.triangles > 0)
-        points.pairs.each_pair_at(q, [&](int p, Real weight) { add(sum, a, points.obstacles, p, -w * weight); });
+        points.pairs.each_pair_at(q, [&](int pair, Real weight) {
+          add(sum, a, points.obstacles + pair / points.points, pair % points.points, w * weight);
+        });
       if (points.faces.triangles > 0) add_faces(sum, a, q, w);
     }
     set_block<B>(diagonal, a, sum);

@@ -38,12 +38,18 @@ struct PairGrid {
   static constexpr int longest = 32;  ///< list of triangles
   Indices<B> close;   ///< [points] how many triangles may come within reach before the grid is made anew
   Indices<B> listed;  ///< [points * longest] these
+  Indices<B> about;   ///< [points] how many triangles it may touch when the grid is made, in the cells around it
+  static constexpr int most_crossings = 16;
+  Indices<B> crossings;  ///< [points] how many edges may come to cross one that begins in the point, likewise
+  Indices<B> crossing;   ///< [points * most_crossings * 2] these: the own edge, the other
 
   /// How far two points can move against each other in a step of h [s]; bounded where a state is no longer sound.
   KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
     constexpr Real reaches = 32;  // 16 edges
     return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), reaches * limits.reach);
   }
+  /// How far apart edges are looked for: what is not fast moves less in a step [m].
+  KOKKOS_INLINE_FUNCTION Real edge_reach() const { return reach(0) > limits.reach ? reach(0) : Real(0.5) * reach(0); }
   KOKKOS_INLINE_FUNCTION int cell(Real coordinate) const {
     constexpr Real most = Real(1 << 30);
     return static_cast<int>(Kokkos::floor(Kokkos::max(-most, Kokkos::min(most, coordinate / width(0)))));
@@ -125,12 +131,14 @@ struct MeasureTriangles {
   }
 };
 
+/// Around a point it has all triangles within reach, and around the ends of an edge all whose edges are within theirs of it.
 template <class B>
 struct SetWidth {
   using Real = typename B::Real;
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
-    grid.width(0) = static_cast<Real>(Kokkos::sqrt(grid.radius(0))) + grid.reach(0) + grid.limits.margin;
+    const Real radius = static_cast<Real>(Kokkos::sqrt(grid.radius(0)));  // no less than half of any edge
+    grid.width(0) = radius + Kokkos::max(grid.reach(0), radius + grid.edge_reach()) + grid.limits.margin;
   }
 };
 

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/kernels/contact/find_pairs.hpp>
+#include <plica/kernels/contact/gap_of_edges.hpp>
+
+// Edges against edges: two ridges cross, and no point of one is near the other's surface.
+//
+//   edges that begin in each point --(1)--> list of each point --(2)--> where two meet --(3)--> the point's pair of edges
+//                                    kept as those                depth less what      that which will be deepest
+//                                    of triangles                 their ends have
+namespace plica {
+
+/// Geometry of edges in a grid's `x`.
+template <class B>
+struct FindEdges {
+  using Real = typename B::Real;
+  FindPairs<B> find;
+
+  KOKKOS_INLINE_FUNCTION int end(int e, int i) const { return find.points.pairs.edge(4 * e + i); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> x(int e, int i) const { return find.x(end(e, i)); }
+  KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const { return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)}; }
+  /// It may cross another.
+  KOKKOS_INLINE_FUNCTION bool may_cross(int e) const {
+    const AttachedPoints<B>& attached = find.points.attached;
+    return end(e, 2) >= 0 && end(e, 3) >= 0 && !attached.ties(end(e, 0)) && !attached.ties(end(e, 1)) &&
+           may_be_steep(at(e));
+  }
+  /// look(own edge, other edge) for all that begin in p and all with a higher number that may cross them, in any order; some come twice.
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
+    const PairedPoints<B>& pairs = find.points.pairs;
+    for (int e = pairs.first_edge(p); e < pairs.first_edge(p + 1); ++e) {
+      if (find.grid.about(end(e, 0)) + find.grid.about(end(e, 1)) == 0 || !may_cross(e)) continue;
+      for (int i = 0; i < 2; ++i) search_around(e, end(e, i), look);
+    }
+  }
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void search_around(int e, int q, const Look& look) const {
+    find.grid.around(vector_at<B>(find.grid.built, q), [&](int t) {
+      if (!find.allowed(q, t)) return;
+      for (int c = 0; c < 3; ++c)
+        if (const int f = find.points.pairs.side(3 * t + c); f > e && are_near(e, f, t)) look(e, f);
+    });
+  }
+  /// `t` is a triangle of f.
+  KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
+    const Real far = find.grid.edge_reach() + find.grid.limits.margin;
+    return squared_distance_of_segments(x(e, 0), x(e, 1), x(f, 0), x(f, 1)) < far * far && may_cross(f) &&
+           find.may_touch(end(e, 0), t) && find.may_touch(end(e, 1), t);
+  }
+  /// The same of what was listed.
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void each_near(int p, const Look& look) const {
+    const PairGrid<B>& grid = find.grid;
+    const int count = grid.crossings(p), first = 2 * p * grid.most_crossings;
+    if (count > grid.most_crossings) return search(p, look);
+    for (int i = first; i < first + 2 * count; i += 2) look(grid.crossing(i), grid.crossing(i + 1));
+  }
+};
+
+/// Lists the edges that may come near those of each point while the grid stays.
+template <class B>
+struct ListCrossings {
+  FindEdges<B> edges;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const PairGrid<B>& grid = edges.find.grid;
+    const int first = 2 * p * grid.most_crossings;
+    int count = 0;
+    edges.search(p, [&](int e, int f) {
+      for (int i = 0; i < Kokkos::min(count, grid.most_crossings); ++i)
+        if (grid.crossing(first + 2 * i) == e && grid.crossing(first + 2 * i + 1) == f) return;
+      if (count < grid.most_crossings) grid.crossing(first + 2 * count) = e, grid.crossing(first + 2 * count + 1) = f;
+      ++count;
+    });
+    grid.crossings(p) = count;
+  }
+};
+
+/// Each point's record of two edges, that which will be the deepest after the step. Its depth is what it is beyond the depths of the
+/// ends, so that nothing is pushed twice. Counts what PairedPoints::found has. After NearestTriangles.
+template <class B>
+struct DeepestCrossings {
+  using Real = typename B::Real;
+  FindEdges<B> edges;
+
+  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int p) const {
+    const TouchingPoints<B>& points = edges.find.points;
+    const PairGrid<B>& grid = edges.find.grid;
+    const int pair = points.points + p, r = points.record(points.obstacles + 1, p);
+    points.depth(r) = -points.nowhere(), points.mobility(r) = 0;
+    points.pairs.other(3 * pair) = -1;
+    const Sums<2> paired{{points.pairs.partner(p) >= 0 ? 1.0 : 0.0, 0}};
+    if (grid.crossings(p) == 0) return paired;
+    Real most = -points.nowhere();
+    int own = -1, other = -1;
+    edges.each_near(p, [&](int e, int f) {
+      const EdgeGap<Real> gap = gap_of(e, f);
+      if (!gap.meet || gap.depth > grid.limits.reach) return;
+      const Real later = depth(e, f, gap) - points.span * dot(gap.normal, speed(e, f, gap));
+      if (gap.depth < -Real(0.5) * grid.limits.reach && later < 0) return;
+      if (!(later > most || (later == most && (e < own || (e == own && f < other))))) return;
+      most = later, own = e, other = f;
+    });
+    if (own < 0) return paired;
+    const EdgeGap<Real> gap = gap_of(own, other);
+    points.depth(r) = depth(own, other, gap), points.mobility(r) = 1;
+    set_vector<B>(points.normal, r, gap.normal);
+    set_vector<B>(points.velocity, r, speed(own, other, gap));
+    set_vector<B>(points.pairs.weight, pair, {gap.own, gap.other - 1, -gap.other});
+    points.pairs.other(3 * pair) = edges.end(own, 1);
+    for (int i = 0; i < 2; ++i) points.pairs.other(3 * pair + 1 + i) = edges.end(other, i);
+    return {{1, 1}};
+  }
+
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> between(const Vec3<Real>& a, const Vec3<Real>& b, Real part) {
+    return (1 - part) * a + part * b;
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> v(int e, Real part) const {
+    return between(edges.find.v(edges.end(e, 0)), edges.find.v(edges.end(e, 1)), part);
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> speed(int e, int f, const EdgeGap<Real>& gap) const {
+    return v(e, gap.own) - v(f, gap.other);
+  }
+  KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of(int e, int f) const {
+    const Real half = Real(0.5);
+    return gap_of_edges(edges.at(e), edges.at(f), edges.find.points.span * (v(e, half) - v(f, half)));
+  }
+  /// Less what the ends of either edge are inside by themselves there.
+  KOKKOS_INLINE_FUNCTION Real depth(int e, int f, const EdgeGap<Real>& gap) const {
+    const TouchingPoints<B>& points = edges.find.points;
+    const auto felt = [&](int edge, Real part) {
+      Real sum = 0;
+      for (int i = 0; i < 2; ++i) {
+        const Real own = points.depth(points.record(points.obstacles, edges.end(edge, i)));
+        sum += (i == 0 ? 1 - part : part) * Kokkos::max(Real(0), own);
+      }
+      return sum;
+    };
+    if (!(gap.depth > 0)) return gap.depth;
+    return gap.share * (gap.depth - Kokkos::max(felt(e, gap.own), felt(f, gap.other)));
+  }
+};
+
+}  // namespace plica
