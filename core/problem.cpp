@@ -4,6 +4,41 @@
 
 namespace plica {
 
+InitialOptions::InitialOptions() = default;
+InitialOptions::InitialOptions(const InitialOptions&) = default;
+InitialOptions::InitialOptions(InitialOptions&&) noexcept = default;
+InitialOptions& InitialOptions::operator=(const InitialOptions&) = default;
+InitialOptions& InitialOptions::operator=(InitialOptions&&) noexcept = default;
+InitialOptions::~InitialOptions() = default;
+
+Body::Body() = default;
+Body::Body(const Body&) = default;
+Body::Body(Body&&) noexcept = default;
+Body& Body::operator=(const Body&) = default;
+Body& Body::operator=(Body&&) noexcept = default;
+Body::~Body() = default;
+
+IntegrationOptions::IntegrationOptions() = default;
+IntegrationOptions::IntegrationOptions(const IntegrationOptions&) = default;
+IntegrationOptions::IntegrationOptions(IntegrationOptions&&) noexcept = default;
+IntegrationOptions& IntegrationOptions::operator=(const IntegrationOptions&) = default;
+IntegrationOptions& IntegrationOptions::operator=(IntegrationOptions&&) noexcept = default;
+IntegrationOptions::~IntegrationOptions() = default;
+
+ContactOptions::ContactOptions() = default;
+ContactOptions::ContactOptions(const ContactOptions&) = default;
+ContactOptions::ContactOptions(ContactOptions&&) noexcept = default;
+ContactOptions& ContactOptions::operator=(const ContactOptions&) = default;
+ContactOptions& ContactOptions::operator=(ContactOptions&&) noexcept = default;
+ContactOptions::~ContactOptions() = default;
+
+Problem::Problem() = default;
+Problem::Problem(const Problem&) = default;
+Problem::Problem(Problem&&) noexcept = default;
+Problem& Problem::operator=(const Problem&) = default;
+Problem& Problem::operator=(Problem&&) noexcept = default;
+Problem::~Problem() = default;
+
 bool damps_by_mass(const Body& body) {
   return body.damping.mass > 0 || std::any_of(body.regions.begin(), body.regions.end(), [](const auto& region) {
            return region.second.damping.mass.value_or(0) > 0;

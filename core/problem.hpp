@@ -10,7 +10,7 @@
 
 /// What is to be simulated, in SI and without files: the library's whole input. Every struct is plain; a default is the
 /// value a scene gets that leaves the key out. Ranges and names are in describe.hpp; they
-/// are checked where the simulation is set up.
+/// are checked where the simulation is set up. Large structs have their copies in problem.cpp: each takes the compiler seconds.
 namespace plica {
 
 /// Directions round a line: of circles about it, turned by an angle towards it. Their sheets are the cylinders about it.
@@ -109,6 +109,13 @@ struct TwistOptions {
 /// The state at t = 0: placed and moving, at rest in shape where nothing deforms it. Velocities add up. Vertices that are fixed
 /// or whose motion is given are where they would be anyway.
 struct InitialOptions {
+  InitialOptions();
+  InitialOptions(const InitialOptions&);
+  InitialOptions(InitialOptions&&) noexcept;
+  InitialOptions& operator=(const InitialOptions&);
+  InitialOptions& operator=(InitialOptions&&) noexcept;
+  ~InitialOptions();
+
   std::optional<Point> position;   ///< where the centre of level 0's bounding box starts; none: where the mesh is [m]
   Point velocity = Point::Zero();  ///< of every free vertex [m/s]
   Point angular_velocity = Point::Zero();  ///< about that centre [rad/s]
@@ -130,6 +137,13 @@ struct BodyPart {
 
 /// A deformable body.
 struct Body {
+  Body();
+  Body(const Body&);
+  Body(Body&&) noexcept;
+  Body& operator=(const Body&);
+  Body& operator=(Body&&) noexcept;
+  ~Body();
+
   std::vector<TetMesh> levels;  ///< finest first, at least one
   /// Coarse spaces of the one mesh there is, for what needs levels but no elements of theirs: their numbers of points, finest
   /// first; empty: as many as it takes. None: likewise, where something needs them.
@@ -186,6 +200,13 @@ struct RetryOptions {
 
 /// How a body is stepped in time.
 struct IntegrationOptions {
+  IntegrationOptions();
+  IntegrationOptions(const IntegrationOptions&);
+  IntegrationOptions(IntegrationOptions&&) noexcept;
+  IntegrationOptions& operator=(const IntegrationOptions&);
+  IntegrationOptions& operator=(IntegrationOptions&&) noexcept;
+  ~IntegrationOptions();
+
   std::string cycle = "single";           ///< of cycle_choices()
   std::string error_class = "balanced";   ///< of cycle auto, of error_classes()
   std::optional<double> macro_step;       ///< [s]; none: 0.9 of the predicted limit
@@ -217,6 +238,13 @@ struct AttachmentOptions {
 /// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (E A / h where a level is implicit)
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
+  ContactOptions();
+  ContactOptions(const ContactOptions&);
+  ContactOptions(ContactOptions&&) noexcept;
+  ContactOptions& operator=(const ContactOptions&);
+  ContactOptions& operator=(ContactOptions&&) noexcept;
+  ~ContactOptions();
+
   std::vector<ObstacleOptions> obstacles;           ///< what the surface can touch
   bool bodies = true;                               ///< where there are several, they touch each other
   bool self = false;                                ///< a body's surface touches itself
@@ -233,6 +261,13 @@ std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle);
 
 /// A body, what acts on it, and how it is integrated.
 struct Problem {
+  Problem();
+  Problem(const Problem&);
+  Problem(Problem&&) noexcept;
+  Problem& operator=(const Problem&);
+  Problem& operator=(Problem&&) noexcept;
+  ~Problem();
+
   std::string preset = {};         ///< of presets(), whose options these were; see apply_preset()
   Body body;                       ///< what moves
   Point gravity = Point::Zero();   ///< [m/s^2]

@@ -9,7 +9,7 @@
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/implicit_response.hpp>
 
 namespace plica {
 

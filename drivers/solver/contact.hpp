@@ -4,9 +4,8 @@
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/set_up/attachments.hpp>
-#include <plica/kernels/contact/implicit_response.hpp>
-#include <plica/kernels/contact/pair_grid.hpp>
-#include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/contact/obstacle_place.hpp>
+#include <plica/kernels/contact/touching_points.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <vector>
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/drivers/solver/contact_response.hpp>
+#include <plica/drivers/solver/pair_search.hpp>
 #include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/find_pairs.hpp>
+#include <plica/kernels/contact/implicit_response.hpp>
 #include <plica/kernels/contact/linearised.hpp>
+#include <plica/kernels/contact/wrenches.hpp>
 
 namespace plica {
 
@@ -43,7 +46,8 @@ void ContactResponse<B>::sum_up(const Exec& exec, bool bounding) const {
 
 template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                               const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
+                               const ContactStep& step, const TouchLaw<B>& of, const Respond& respond) const {
+  TouchLaw<B> law = of;
   const int n = contact_->sites();
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
   law.entry = static_cast<Real>(step.entry);
@@ -57,6 +61,13 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
     sum_up(exec);
     if (!(step.span > 0)) break;
   }
+}
+
+template <class B>
+void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                                 const ContactStep& step, const Vectors<B>& smooth, const Vectors<B>& answer,
+                                 const Respond& respond) const {
+  solve(exec, level, state, time, step, {level.surface, all_points(), smooth, answer, 0, 0, 0, true, false}, respond);
 }
 
 template <class B>

@@ -6,9 +6,13 @@
 #include <plica/core/block_matrix.hpp>
 #include <plica/core/implicit_weights.hpp>
 #include <plica/drivers/solver/contact.hpp>
-#include <plica/drivers/solver/pair_search.hpp>
 
 namespace plica {
+
+template <class B>
+class PairSearch;
+template <class B>
+struct TouchLaw;
 
 /// Contact of one level in steps that take it implicitly: the forces on its surface points, and what obstacles do to it. Kernels
 /// alone, which the device leaves out where nothing touches.
@@ -29,9 +33,7 @@ class ContactResponse {
   /// The forces on the points, for any other A: `smooth` are the accelerations without contact, respond() makes those by the points'
   /// last forces, in `answer`.
   void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-               const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) {
-    solve(exec, level, state, time, step, {level.surface, all_points(), smooth, answer, 0, 0, 0, true, false}, respond);
-  }
+               const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) const;
 
   /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.
   void forget_impulse(const Exec& exec) const;
@@ -66,7 +68,7 @@ class ContactResponse {
   Doubles<B> sums_, impulse_;
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-             TouchLaw<B> law, const Respond& respond) const;
+             const TouchLaw<B>& of, const Respond& respond) const;
   void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double ahead,
             const TouchingPoints<B>& points) const;
   /// They look at obstacles along the nearest normal, however far that is.

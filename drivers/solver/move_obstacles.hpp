@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
 #include <plica/drivers/solver/hierarchy.hpp>
+#include <plica/kernels/contact/wrenches.hpp>
 
 // What obstacles did in a macro step, and where those with mass then are.
 namespace plica {

@@ -9,16 +9,6 @@
 // out the work.
 namespace plica {
 
-/// What the search goes by.
-template <class Real>
-struct PairLimits {
-  Real reach = 0;        ///< a triangle further than that outside is not looked for, but by what is fast [m]
-  Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
-  Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
-  bool between = false;  ///< bodies
-  bool self = false;     ///< on one body
-};
-
 template <class B>
 struct PairGrid {
   using Real = typename B::Real;

@@ -5,6 +5,16 @@
 
 namespace plica {
 
+/// What the search for pairs goes by.
+template <class Real>
+struct PairLimits {
+  Real reach = 0;        ///< a triangle further than that outside is not looked for, but by what is fast [m]
+  Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
+  Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
+  bool between = false;  ///< bodies
+  bool self = false;     ///< on one body
+};
+
 /// What of a surface is near what else of it: of another body, or far away on its own. Pair p is the point p and a triangle. Pair
 /// points + p is an edge that begins in p, and another edge. W of a pair takes a field's value in p, times the pair's own weight, and
 /// of up to three other points:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/contact/implicit_response.hpp>
+#include <plica/kernels/contact/touching_points.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a = f/m (0 where the motion

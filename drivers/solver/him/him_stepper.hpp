@@ -4,6 +4,7 @@
 #include <plica/core/level.hpp>
 #include <plica/drivers/solver/him/inertia.hpp>
 #include <plica/drivers/solver/stepper.hpp>
+#include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/him/leapfrog.hpp>
 #include <plica/kernels/him/momentum_of.hpp>
 #include <plica/kernels/vectors.hpp>
