@@ -109,12 +109,15 @@ struct TwistOptions {
 /// The state at t = 0: placed and moving, at rest in shape where nothing deforms it. Velocities add up. Vertices that are fixed
 /// or whose motion is given are where they would be anyway.
 struct InitialOptions {
+  /// Compiled in problem.cpp alone.
+  /// @{
   InitialOptions();
   InitialOptions(const InitialOptions&);
   InitialOptions(InitialOptions&&) noexcept;
   InitialOptions& operator=(const InitialOptions&);
   InitialOptions& operator=(InitialOptions&&) noexcept;
   ~InitialOptions();
+  /// @}
 
   std::optional<Point> position;   ///< where the centre of level 0's bounding box starts; none: where the mesh is [m]
   Point velocity = Point::Zero();  ///< of every free vertex [m/s]
@@ -137,12 +140,15 @@ struct BodyPart {
 
 /// A deformable body.
 struct Body {
+  /// Compiled in problem.cpp alone.
+  /// @{
   Body();
   Body(const Body&);
   Body(Body&&) noexcept;
   Body& operator=(const Body&);
   Body& operator=(Body&&) noexcept;
   ~Body();
+  /// @}
 
   std::vector<TetMesh> levels;  ///< finest first, at least one
   /// Coarse spaces of the one mesh there is, for what needs levels but no elements of theirs: their numbers of points, finest
@@ -200,12 +206,15 @@ struct RetryOptions {
 
 /// How a body is stepped in time.
 struct IntegrationOptions {
+  /// Compiled in problem.cpp alone.
+  /// @{
   IntegrationOptions();
   IntegrationOptions(const IntegrationOptions&);
   IntegrationOptions(IntegrationOptions&&) noexcept;
   IntegrationOptions& operator=(const IntegrationOptions&);
   IntegrationOptions& operator=(IntegrationOptions&&) noexcept;
   ~IntegrationOptions();
+  /// @}
 
   std::string cycle = "single";           ///< of cycle_choices()
   std::string error_class = "balanced";   ///< of cycle auto, of error_classes()
@@ -238,12 +247,15 @@ struct AttachmentOptions {
 /// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (E A / h where a level is implicit)
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
+  /// Compiled in problem.cpp alone.
+  /// @{
   ContactOptions();
   ContactOptions(const ContactOptions&);
   ContactOptions(ContactOptions&&) noexcept;
   ContactOptions& operator=(const ContactOptions&);
   ContactOptions& operator=(ContactOptions&&) noexcept;
   ~ContactOptions();
+  /// @}
 
   std::vector<ObstacleOptions> obstacles;           ///< what the surface can touch
   bool bodies = true;                               ///< where there are several, they touch each other
@@ -261,12 +273,15 @@ std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle);
 
 /// A body, what acts on it, and how it is integrated.
 struct Problem {
+  /// Compiled in problem.cpp alone.
+  /// @{
   Problem();
   Problem(const Problem&);
   Problem(Problem&&) noexcept;
   Problem& operator=(const Problem&);
   Problem& operator=(Problem&&) noexcept;
   ~Problem();
+  /// @}
 
   std::string preset = {};         ///< of presets(), whose options these were; see apply_preset()
   Body body;                       ///< what moves

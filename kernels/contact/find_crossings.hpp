@@ -6,8 +6,8 @@
 // Edges against edges: two ridges cross, and no point of one is near the other's surface.
 //
 //   edges that begin in each point --(1)--> list of each point --(2)--> where two meet --(3)--> the point's pair of edges
-//                                    kept as those                depth less what      that which will be deepest
-//                                    of triangles                 their ends have
+//                                   kept as long as              depth, less that      the one which will
+//                                   the grid is                  of their ends         be the deepest
 namespace plica {
 
 /// Geometry of edges in a grid's `x`.
@@ -63,13 +63,14 @@ template <class B>
 struct ListCrossings {
   FindEdges<B> edges;
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    constexpr int most = PairGrid<B>::most_crossings;
     const PairGrid<B>& grid = edges.find.grid;
-    const int first = 2 * p * grid.most_crossings;
+    const int first = 2 * p * most;
     int count = 0;
     edges.search(p, [&](int e, int f) {
-      for (int i = 0; i < Kokkos::min(count, grid.most_crossings); ++i)
+      for (int i = 0; i < count && i < most; ++i)
         if (grid.crossing(first + 2 * i) == e && grid.crossing(first + 2 * i + 1) == f) return;
-      if (count < grid.most_crossings) grid.crossing(first + 2 * count) = e, grid.crossing(first + 2 * count + 1) = f;
+      if (count < most) grid.crossing(first + 2 * count) = e, grid.crossing(first + 2 * count + 1) = f;
       ++count;
     });
     grid.crossings(p) = count;

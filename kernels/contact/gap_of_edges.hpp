@@ -42,15 +42,13 @@ KOKKOS_INLINE_FUNCTION bool may_be_steep(const SurfaceEdge<Real>& e) {
   return dot(a, right) < 0 && dot(a, b) < most * Kokkos::sqrt(dot(a, a) * dot(b, b));
 }
 
-/// Two edges meet between their ends, ridge to ridge and neither flat, along the normal of both: then that is the way that the surfaces there are
-/// separated by, as the axes of edges are in the separating axis test (D. Gregorius, The Separating Axis Test, GDC 2013).
+/// Two edges meet between their ends, ridge to ridge and neither flat, along the normal of both. The surfaces there are separated
+/// along it, as along the axes of edges in the separating axis test (D. Gregorius, The Separating Axis Test, GDC 2013).
 ///
-///           e                 section across f, which leads into the page
-///     ------|------                  ^ normal = +-(e x f)
-///           |                   -----|----- e
-///     ======|====== f                f        depth < 0: how far e is above f
-///           |                      /   .
-///                                /       .
+///     from above:    e           across f:      ^ normal = +-(e x f)
+///                    |                    ------|------ e
+///              ------+------ f                  f      depth < 0: how far e is above f
+///                    |                        /   \    the surface on both sides of f
 ///
 /// `path`: of e against f in the step; edges that come through each other in it are taken where they do.
 template <class Real>
