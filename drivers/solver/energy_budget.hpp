@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <limits>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
@@ -16,6 +17,14 @@ namespace plica {
 class EnergyBudget {
  public:
   static constexpr double notable = 0.1;  ///< of all that was put in: discrete energies waver
+
+  /// `rounding`: what energies waver by where nothing was put in [J]
+  explicit EnergyBudget(double rounding = 0) : put_in_(rounding) {}
+  template <class B>
+  EnergyBudget(const Simulation<B>& simulation, const Problem& problem)
+      : EnergyBudget(10 * static_cast<double>(std::numeric_limits<typename B::Real>::epsilon()) *
+                     stiffness_at_rest(problem.body.material) * simulation.levels()[0].mass /
+                     problem.body.material.density) {}
 
   /// Nothing but gravity and obstacles does work, and the elastic energy is all there.
   static bool knows(const Problem& problem) {
@@ -34,7 +43,8 @@ class EnergyBudget {
   std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, growth_, at_}; }
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 5) return;
-    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = saved[2], growth_ = saved[3], at_ = saved[4];
+    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]), growth_ = saved[3],
+    at_ = saved[4];
   }
 
   double growth() const { return growth_; }  ///< the most that was ever too much, of all that was put in until then
@@ -50,7 +60,7 @@ class EnergyBudget {
 
  private:
   bool looked_ = false;
-  double start_ = 0, put_in_ = 0, growth_ = 0, at_ = 0;
+  double start_ = 0, put_in_, growth_ = 0, at_ = 0;
 };
 
 /// The work that moving obstacles have done on a body [J], added up over its macro steps.

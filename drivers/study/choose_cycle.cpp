@@ -52,7 +52,7 @@ TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int s
   try {
     Simulation<B> simulation(problem, exec);
     if (start.time > 0) simulation.set_state(start.u, start.v), simulation.set_time(start.time);
-    EnergyBudget energy;
+    EnergyBudget energy(simulation, problem);
     ObstacleWork<B> work(simulation, problem);
     const auto look = [&] {
       if (EnergyBudget::knows(problem) && work.known())

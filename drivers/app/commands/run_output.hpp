@@ -67,6 +67,7 @@ class RunOutput {
         files_(scene, folder, resumed ? std::optional(checkpoint_.files) : std::nullopt),
         frames_(checkpoint_.frame_every, simulation.macro_step()),
         probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()),
+        energy_(simulation, scene.problem),
         watches_energy_(EnergyBudget::knows(scene.problem)),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;

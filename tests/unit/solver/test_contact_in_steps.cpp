@@ -265,6 +265,17 @@ TEST(ContactInSteps, EnergyThatNobodyPutInIsNoticed) {
   EXPECT_NEAR(budget.growth(), 0.25, 1e-12);
 }
 
+TEST(ContactInSteps, RoundingIsNoEnergyOfNothing) {
+  const Problem p = small_cube();  // at rest
+  const Simulation<Host> simulation(p);
+  EnergyBudget budget(simulation, p);
+  budget.look(0, {.kinetic = 1e-31});
+  budget.look(1, {.elastic = 1e-17});
+  EXPECT_EQ(budget.warning(), "");
+  budget.look(2, {.kinetic = 1e-3});
+  EXPECT_NE(budget.warning(), "");
+}
+
 // What the law of a point says of its work, at any depths before and after, stiffness, damping and step.
 TEST(ContactInSteps, ByWorkTakesAndGivesBackTheSameEnergy) {
   std::mt19937 random(7);
