@@ -185,27 +185,27 @@ void Contact<B>::connect(const TriangleSurface& surface, bool pairs) {
 /// Edges in the order of their ends, the end with the lower number first.
 template <class B>
 void Contact<B>::connect_edges(const TriangleSurface& surface) {
-  std::map<std::array<int, 2>, std::array<int, 2>>
-      opposite;  // left and right of the way from the first end to the second
+  struct Edge {
+    std::array<int, 2> opposite{-1, -1};  // left and right of the way from its first end to the second
+    int number = 0;
+  };
+  std::map<std::array<int, 2>, Edge> edges;  // by their ends
   const auto each_side = [&](const auto& use) {
     for (const auto& t : surface.triangles)
       for (std::size_t c = 0; c < 3; ++c) {
         const int a = t[c], b = t[(c + 1) % 3];
-        use(std::array{std::min(a, b), std::max(a, b)}, a < b ? 0u : 1u, t[(c + 2) % 3]);
+        use(edges[{std::min(a, b), std::max(a, b)}], a < b ? 0u : 1u, t[(c + 2) % 3]);
       }
   };
-  each_side([&](const auto& ends, std::size_t right, int third) {
-    opposite.try_emplace(ends, std::array{-1, -1}).first->second[right] = third;
-  });
-  std::map<std::array<int, 2>, int> number;
+  each_side([](Edge& e, std::size_t right, int third) { e.opposite[right] = third; });
   std::vector<int> edge, side, first(surface.vertices.size() + 1, 0);
-  for (const auto& [ends, third] : opposite) {
-    number.emplace(ends, static_cast<int>(number.size()));
-    edge.insert(edge.end(), {ends[0], ends[1], third[0], third[1]});
+  for (auto& [ends, e] : edges) {
+    e.number = static_cast<int>(edge.size() / 4);
+    edge.insert(edge.end(), {ends[0], ends[1], e.opposite[0], e.opposite[1]});
     ++first[static_cast<std::size_t>(ends[0]) + 1];
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
-  each_side([&](const auto& ends, std::size_t, int) { side.push_back(number.at(ends)); });
+  each_side([&](const Edge& e, std::size_t, int) { side.push_back(e.number); });
   pairs_.edge = to_device<Indices<B>>("contact.edge", edge);
   pairs_.first_edge = to_device<Indices<B>>("contact.first_edge", first);
   pairs_.side = to_device<Indices<B>>("contact.side", side);

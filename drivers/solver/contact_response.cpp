@@ -36,7 +36,7 @@ void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const Sta
   if (search_) search_->find(exec, level.surface, state, points, blocks_);
 }
 
-/// Where points get forces from triangles, see SumPointForces.
+/// Where points get forces of pairs or faces, see SumPointForces.
 template <class B>
 void ContactResponse<B>::sum_up(const Exec& exec, bool bounding) const {
   if (points_.pairs.sum.extent(0) > 0)
@@ -46,8 +46,7 @@ void ContactResponse<B>::sum_up(const Exec& exec, bool bounding) const {
 
 template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                               const ContactStep& step, const TouchLaw<B>& of, const Respond& respond) const {
-  TouchLaw<B> law = of;
+                               const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
   const int n = contact_->sites();
   law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
   law.entry = static_cast<Real>(step.entry);

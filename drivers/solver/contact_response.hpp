@@ -68,7 +68,7 @@ class ContactResponse {
   Doubles<B> sums_, impulse_;
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-             const TouchLaw<B>& of, const Respond& respond) const;
+             TouchLaw<B> law, const Respond& respond) const;
   void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double ahead,
             const TouchingPoints<B>& points) const;
   /// They look at obstacles along the nearest normal, however far that is.

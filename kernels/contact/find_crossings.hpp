@@ -82,6 +82,17 @@ struct ListCrossings {
 template <class B>
 struct DeepestCrossings {
   using Real = typename B::Real;
+  struct Crossing {
+    int own = -1, other = -1;
+    Real depth, later;  ///< now, and after the step
+    Vec3<Real> velocity;
+    EdgeGap<Real> gap;
+    /// The deeper one, of equals that with the lower numbers: whatever order they come in.
+    KOKKOS_INLINE_FUNCTION bool is_before(const Crossing& c) const {
+      if (c.own < 0 || later != c.later) return c.own < 0 || later > c.later;
+      return own < c.own || (own == c.own && other < c.other);
+    }
+  };
   FindEdges<B> edges;
 
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int p) const {
@@ -92,24 +103,24 @@ struct DeepestCrossings {
     points.pairs.other(3 * pair) = -1;
     const Sums<2> paired{{points.pairs.partner(p) >= 0 ? 1.0 : 0.0, 0}};
     if (grid.crossings(p) == 0) return paired;
-    Real most = -points.nowhere();
-    int own = -1, other = -1;
+    Crossing deepest;
     edges.each_near(p, [&](int e, int f) {
       const EdgeGap<Real> gap = gap_of(e, f);
       if (!gap.meet || gap.depth > grid.limits.reach) return;
-      const Real later = depth(e, f, gap) - points.span * dot(gap.normal, speed(e, f, gap));
+      const Vec3<Real> velocity = speed(e, f, gap);
+      const Real now = depth(e, f, gap), later = now - points.span * dot(gap.normal, velocity);
       if (gap.depth < -Real(0.5) * grid.limits.reach && later < 0) return;
-      if (!(later > most || (later == most && (e < own || (e == own && f < other))))) return;
-      most = later, own = e, other = f;
+      const Crossing found{e, f, now, later, velocity, gap};
+      if (found.is_before(deepest)) deepest = found;
     });
-    if (own < 0) return paired;
-    const EdgeGap<Real> gap = gap_of(own, other);
-    points.depth(r) = depth(own, other, gap), points.mobility(r) = 1;
-    set_vector<B>(points.normal, r, gap.normal);
-    set_vector<B>(points.velocity, r, speed(own, other, gap));
-    set_vector<B>(points.pairs.weight, pair, {gap.own, gap.other - 1, -gap.other});
-    points.pairs.other(3 * pair) = edges.end(own, 1);
-    for (int i = 0; i < 2; ++i) points.pairs.other(3 * pair + 1 + i) = edges.end(other, i);
+    if (deepest.own < 0) return paired;
+    points.depth(r) = deepest.depth, points.mobility(r) = 1;
+    set_vector<B>(points.normal, r, deepest.gap.normal);
+    set_vector<B>(points.velocity, r, deepest.velocity);
+    const Real own = deepest.gap.own, other = deepest.gap.other;
+    set_vector<B>(points.pairs.weight, pair, {own, other - 1, -other});
+    points.pairs.other(3 * pair) = edges.end(deepest.own, 1);
+    for (int i = 0; i < 2; ++i) points.pairs.other(3 * pair + 1 + i) = edges.end(deepest.other, i);
     return {{1, 1}};
   }
 

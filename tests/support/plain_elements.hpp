@@ -104,9 +104,15 @@ struct Disordered {
   Vectors<B> u_here = device<B>(u), p_here = device<B>(p);
 };
 
-template <class Real>
-void expect_close(const Field& got, const Field& want) {
-  EXPECT_LE(largest_difference(got, want), round_off<Real>(100, largest(want)));
+/// What integrand(patches) adds up to, against plain_force() of this material.
+template <class B, class Material, class Integrand>
+void expect_the_sum(const Disordered<B>& on, const Field* p, const Integrand& integrand) {
+  SCOPED_TRACE(Material::name);
+  const Patches<B> patches = build_patches<B>(on.mesh, {as_list(sample_constants<Material>())});
+  ASSERT_GT(patches.count, 1);
+  const Field want = plain_force(stress_of<Material>, on.mesh, on.u, p);
+  EXPECT_LE(largest_difference(through_patches(on.mesh, patches, integrand(patches)), want),
+            round_off<typename B::Real>(100, largest(want)));
 }
 
 }  // namespace plica::test

@@ -18,19 +18,17 @@ class PatchTangentOn : public testing::Test {};
 TYPED_TEST_SUITE(PatchTangentOn, EachBackend);
 
 template <class B, class M>
-void expect_the_sum(const Disordered<B>& on) {
-  SCOPED_TRACE(M::name);
-  const Patches<B> patches = build_patches<B>(on.mesh, {as_list(sample_constants<M>())});
-  const ElasticTangent<B, M> tangent{{on.u_here, on.p_here}, patches.constants, {}};
-  expect_close<typename B::Real>(through_patches(on.mesh, patches, tangent),
-                                 plain_force(stress_of<M>, on.mesh, on.u, &on.p));
+void expect_its_change(const Disordered<B>& on) {
+  expect_the_sum<B, M>(on, &on.p, [&](const Patches<B>& patches) {
+    return ElasticTangent<B, M>{{on.u_here, on.p_here}, patches.constants, {}};
+  });
 }
 
 TYPED_TEST(PatchTangentOn, IsTheSumOverTheElements) {
   const Disordered<TypeParam> on;
-  Materials::for_each([&](auto material) { expect_the_sum<TypeParam, decltype(material)>(on); });
+  Materials::for_each([&](auto material) { expect_its_change<TypeParam, decltype(material)>(on); });
 }
 
-TYPED_TEST(PatchTangentOn, TakesAMaterialOfThreeConstants) { expect_the_sum<TypeParam, ThreeConstants>({}); }
+TYPED_TEST(PatchTangentOn, TakesAMaterialOfThreeConstants) { expect_its_change<TypeParam, ThreeConstants>({}); }
 
 }  // namespace
