@@ -6,23 +6,26 @@
 /// The arrays of the hierarchical inverse mass, see cmake/docs/him.md.
 namespace plica {
 
-/// A coarser level, as the inverse mass sees it: a space of motions of the finest mesh, without elements or state.
+/// A coarser level, as the inverse mass sees it: a space of motions of the finest mesh, without elements or state. Except on the coarsest
+/// level its vertices count in units that make the inverse of its lumped mass 1: forces times s, accelerations over s, s^2 that inverse.
+/// Matrices are in float: P and its transpose are rounded alike, which keeps the inverse mass symmetric.
 template <class B>
 struct MassLevel {
   int vertices = 0;
-  SparseRows<B> up;     ///< P: values at this level's vertices -> at the next finer one's
-  SparseRows<B> down;   ///< its transpose
-  SparseRows<B> mass;   ///< M D^-1, M = P^T (the finer level's M) P; empty on the coarsest level
-  SparseRows<B> share;  ///< Pi^T E^T: momentum here per momentum on u_C, see CoarseAxes; empty on the coarsest level
-  Scalars<B> inverse_diagonal;  ///< D^-1, D = the sum of |M| along a row [1/kg]; 0: no motion here
-  Vectors<B> force;             ///< restricted [N]
-  Vectors<B> acceleration;      ///< of this level and those below it [m/s^2]
+  SparseRows<B, float> up;    ///< P: values at this level's vertices -> at the next finer one's
+  SparseRows<B, float> down;  ///< its transpose
+  SparseRows<B, float> mass;  ///< M = P^T (the finer level's M) P, its main entries; empty on the coarsest level
+  SparseRows<B, float>
+      share;         ///< Pi^T E^T: momentum here per momentum on u_C, see CoarseAxes; empty on the coarsest level
+  Vectors<B> force;  ///< restricted
+  Vectors<B> acceleration;  ///< of this level and those below it
 };
 
 /// What the coarsest level answers forces with: the modes of its own linear problem, in axes that turn with the body.
 template <class B>
 struct CoarseFilter {
-  static constexpr int block = 16;  ///< rows that lie together
+  static constexpr int group = 16;         ///< vertices whose rows lie together
+  static constexpr int block = 3 * group;  ///< such rows
   int vertices = 0;
   Kokkos::View<float*, typename B::Memory>
       matrix;           ///< S, symmetric, [blocks of rows][3 vertices columns][block] [1/kg]
@@ -30,29 +33,23 @@ struct CoarseFilter {
   Vectors<B> rotation;  ///< R, [3 vertices][3], three rows each
 };
 
-/// A linear map from vectors at some places to matrices at others: by rows, as the sum of vector times (row's) vector.
-template <class B>
-struct GradientRows {
-  Indices<B> first;       ///< [rows + 1] into the others
-  Indices<B> column;      ///< of an entry
-  Vectors<B> derivative;  ///< [entries][3]
-};
-
-/// How the coarsest level's axes follow the body: u_C = E u; D = its gradient around a vertex, weighed; R = the rotation nearest
-/// to W D. And the force by which they act back, g on u_C.
+/// How the coarsest level's axes follow the body: u_C = E u; G = its gradient around a vertex; R = the rotation nearest to G. And the force by
+/// which they act back, g on u_C. Dense matrices lie as [groups of vertices][columns][group], see dense_rows().
 template <class B>
 struct CoarseAxes {
-  SparseRows<B> restriction, spread;      ///< E, from the finest mesh, and its transpose
-  GradientRows<B> gradient_of;            ///< D of u_C
-  GradientRows<B> gradient_to;            ///< its transpose
-  Scalars<B> at_rest;                     ///< D at rest is this times 1
-  SparseRows<B> smoothing, smoothing_of;  ///< W, and its transpose; W D = 1 at rest
-  SparseRows<B> response;                 ///< Pi^T E^T: coarse momentum per momentum on u_C
-  Vectors<B> displacement;                ///< u_C [m]
-  Vectors<B> gradient;                    ///< D, later what turns it, [3 vertices][3]
-  Vectors<B> stiffness;                   ///< (tr U 1 - U)^-1, U = R^T W D, [3 vertices][3]; 0: R is not the nearest
-  Vectors<B> torque;                      ///< what W D is turned by, [3 vertices][3]
-  Vectors<B> force;                       ///< g [N]
+  template <class Number>
+  using Dense = Kokkos::View<Number*, typename B::Memory>;
+
+  SparseRows<B> restriction, spread;       ///< E, from the finest mesh, and its transpose
+  Dense<typename B::Real> gradient_of[3];  ///< column j of G - G at rest, of u_C: n columns each
+  Dense<typename B::Real> force_of;        ///< its transpose: 3 n columns
+  Dense<float> response;                   ///< what torques add to the coarse momentum per second: Pi^T E^T times that
+  Scalars<B> at_rest;                      ///< G at rest is this times 1: 1, or 0 where the axes do not turn
+  Vectors<B> displacement;                 ///< u_C [m]
+  Vectors<B> gradient;                     ///< G, [3 vertices][3]
+  Vectors<B> stiffness;                    ///< (tr U 1 - U)^-1, U = R^T G, [3 vertices][3]; 0: R is not the nearest
+  Vectors<B> torque;                       ///< what G is turned by, [3 vertices][3], its columns one after the other
+  Vectors<B> force;                        ///< g [N]
 };
 
 }  // namespace plica

@@ -86,13 +86,15 @@ void reduce(const typename B::Exec& exec, const char* label, int n, const Term& 
             const Doubles<B>& result) {
   static_assert(N <= BlockSums<B>::widest);
   using Exec = typename B::Exec;
-  const SumOfBlock<B, N, Term, Tally> sum{n, term, blocks.view()};
   const int count = (n + BlockSums<B>::block - 1) / BlockSums<B>::block;
+  const bool alone = count == 1;  // then the block's sum is the result
+  using View = typename BlockSums<B>::View;
+  const SumOfBlock<B, N, Term, Tally> sum{n, term, alone ? View(result.data(), 1) : blocks.view()};
   if constexpr (B::on_host)
     Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
   else
     Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
-  sum_blocks<B>(exec, label, count, N, Tally::maxima, blocks.view(), result);
+  if (!alone) sum_blocks<B>(exec, label, count, N, Tally::maxima, blocks.view(), result);
 }
 
 }  // namespace plica

@@ -9,28 +9,21 @@
 // The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body that has turned it must be
 // R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in three steps, each a kernel:
 //
-//   u  --E-->  u_C  --gradient-->  D of each vertex  --W, polar-->  R of each vertex
-//   finest     coarse              deformation gradient,           means, then the nearest rotation
-//              vertices            weighed
+//   u  --E-->  u_C  --gradient-->  G of each vertex      --polar-->  R of each vertex
+//   finest     coarse              deformation gradient,             the nearest rotation
+//              vertices            mean over its surroundings
 //
 // Because A = A(x) depends on where the body is, the kinetic energy p.A(x)p/2 does, too, and its gradient is a force:
 // p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That force goes the same way back, by the transposes:
 //
-//   p  <--E^T--  g  <--gradient^T--  forces on gradients  <--W^T--  torque on each vertex's axes
+//   p  <--E^T--  g  <--gradient^T--  torque on each vertex's axes
 //
 // With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a): that is the torque.
-// R = polar(G), G = W D, turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
+// R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
 //
-// The force changes the momentum q that it depends on: TurningAxes::push repeats until it no longer does.
+// The force changes the momentum q that it depends on: TurningAxes::find_force repeats until it no longer does. From the torques to
+// what they add to q all is linear and stays the same, so that one matrix does it; the force itself is needed only once.
 namespace plica {
-
-template <class Real, class View>
-KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
-  Mat3<Real> A;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) A[i][j] = x(3 * a + i, j);
-  return A;
-}
 
 template <class Real, class View>
 KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A) {
@@ -38,16 +31,11 @@ KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A
     for (int j = 0; j < 3; ++j) x(3 * a + i, j) = A[i][j];
 }
 
-/// A row of A times matrices.
-template <class B>
-KOKKOS_INLINE_FUNCTION Mat3<typename B::Real> row_of_matrices(const SparseRows<B>& A, int row, const Vectors<B>& x) {
-  using Real = typename B::Real;
-  Real sum[9] = {};
-  for (int s = A.first(row); s < A.first(row + 1); ++s) {
-    const Real w = A.value(s), *m = x.data() + 9 * A.column(s);
-    for (int k = 0; k < 9; ++k) sum[k] += w * m[k];
-  }
-  return {Vec3<Real>{sum[0], sum[1], sum[2]}, Vec3<Real>{sum[3], sum[4], sum[5]}, Vec3<Real>{sum[6], sum[7], sum[8]}};
+/// `values` numbers for each vertex of a work item, from a matrix of CoarseAxes.
+template <class B, int values, class Matrix>
+KOKKOS_INLINE_FUNCTION void group_rows(const Matrix& matrix, int item, int columns, const Vectors<B>& x,
+                                       typename B::Real (&y)[values][group_size<B>]) {
+  dense_rows<B, group_size<B>, values, CoarseFilter<B>::group>(matrix.data(), item, columns, x.data(), y);
 }
 
 /// The rotation nearest to A (its polar factor), by Newton's iteration (Higham 1986) scaled to determinant 1, to round-off;
@@ -66,18 +54,20 @@ KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Rea
   return true;
 }
 
-/// D, [vertices][3][3].
+/// G of u_C.
 template <class B>
 struct CoarseGradients {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const GradientRows<B>& rows = axes.gradient_of;
-    Mat3<Real> D = Mat3<Real>::diagonal(axes.at_rest(a));
-    for (int s = rows.first(a); s < rows.first(a + 1); ++s)
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) D[i][j] += axes.displacement(rows.column(s), i) * rows.derivative(s, j);
-    set_matrix(axes.gradient, a, D);
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const int n = static_cast<int>(axes.at_rest.extent(0)), first = item * group_size<B>;
+    for (int j = 0; j < 3; ++j) {
+      Real column[3][group_size<B>];
+      group_rows<B, 3>(axes.gradient_of[j], item, n, axes.displacement, column);
+      for (int i = 0; i < group_size<B> && first + i < n; ++i)
+        for (int k = 0; k < 3; ++k)
+          axes.gradient(3 * (first + i) + k, j) = column[k][i] + (k == j ? axes.at_rest(first + i) : Real(0));
+    }
   }
 };
 
@@ -88,7 +78,7 @@ struct TurnAxes {
   CoarseAxes<B> axes;
   Vectors<B> rotation;
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int a) const {
-    const Mat3<Real> G = row_of_matrices<B>(axes.smoothing, a, axes.gradient), before = matrix_at<Real>(rotation, a);
+    const Mat3<Real> G = matrix_at<Real>(axes.gradient, a), before = matrix_at<Real>(rotation, a);
     Mat3<Real> R, inverse;
     if (nearest_rotation(G, before, R)) {
       Mat3<Real> U = transpose(R) * G;
@@ -102,81 +92,102 @@ struct TurnAxes {
   }
 };
 
-/// torque = R [h]x, h = (tr U 1 - U)^-1 R^T (q x y), y = weight R x
+/// Momentum of the coarsest level and what the axes' force adds to it.
+template <class B>
+struct CoarseMomentum {
+  Vectors<B> given;  ///< without that force
+  Vectors<B> share;  ///< what it adds
+};
+
+/// R^T q, q = given + share.
+template <class B>
+struct StartMomentum {
+  using Real = typename B::Real;
+  CoarseFilter<B> filter;
+  CoarseMomentum<B> momentum;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    const Vec3<Real> q = vector_at<B>(momentum.given, a) + vector_at<B>(momentum.share, a);
+    set_vector<B>(filter.turned, a, transpose(matrix_at<Real>(filter.rotation, a)) * q);
+  }
+};
+
+/// A round of the search for the axes' force: the squares of its share's change, of the share and of all the momentum, summed up by every work
+/// item for itself. Rounds after one that changed little do nothing, and leave sums of 0.
+template <class B>
+struct RoundOfAxes {
+  static constexpr double tolerance = 1e-3, least = 1e-6;
+  Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory> sums;  ///< [groups]; empty before the first round
+  /// The change over the share, 0 where that is within `tolerance`, or the change within `least` of all.
+  KOKKOS_INLINE_FUNCTION double change() const {
+    const int groups = static_cast<int>(sums.extent(0));
+    if (groups == 0) return 1;
+    double change = 0, share = 0, all = 0;
+    for (int i = 0; i < groups; ++i) change += sums(i, 0), share += sums(i, 1), all += sums(i, 2);
+    const double part = change > least * least * all ? Kokkos::sqrt(change / share) : 0.0;
+    return part > tolerance ? part : 0.0;
+  }
+  KOKKOS_INLINE_FUNCTION bool goes_on() const { return change() > 0; }
+};
+
+/// torque = R [h]x, h = (tr U 1 - U)^-1 R^T (q x y), y = weight R S R^T q
 template <class B>
 struct TorqueOnAxes {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
-  Vectors<B> rotation, q;
-  Scalars<B> x;  ///< S R^T q
+  CoarseFilter<B> filter;
+  RoundOfAxes<B> last;
   Real weight;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Mat3<Real> R = matrix_at<Real>(rotation, a);
-    const Vec3<Real> turned = transpose(R) * Vec3<Real>{q(a, 0), q(a, 1), q(a, 2)};
-    const Vec3<Real> h =
-        matrix_at<Real>(axes.stiffness, a) * (weight * cross(turned, {x(3 * a), x(3 * a + 1), x(3 * a + 2)}));
-    set_matrix(axes.torque, a, R * cross_matrix(h));
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    if (!last.goes_on()) return;
+    Real x[1][3 * group_size<B>];
+    filtered(filter, item, x);
+    for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a) {
+      const Vec3<Real> answer{x[0][3 * i], x[0][3 * i + 1], x[0][3 * i + 2]};
+      const Vec3<Real> h =
+          matrix_at<Real>(axes.stiffness, a) * (weight * cross(vector_at<B>(filter.turned, a), answer));
+      set_matrix(axes.torque, a, transpose(matrix_at<Real>(filter.rotation, a) * cross_matrix(h)));
+    }
   }
 };
 
-/// The same of D: through the transpose of W.
-template <class B>
-struct TorqueOnGradients {
-  CoarseAxes<B> axes;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    set_matrix(axes.gradient, a, row_of_matrices<B>(axes.smoothing_of, a, axes.torque));
-  }
-};
-
-/// g: through the transpose of D(u_C).
-template <class B>
-struct ForcesOfGradients {
-  using Real = typename B::Real;
-  CoarseAxes<B> axes;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const GradientRows<B>& rows = axes.gradient_to;
-    Vec3<Real> g;
-    for (int s = rows.first(a); s < rows.first(a + 1); ++s)
-      g = g + matrix_at<Real>(axes.gradient, rows.column(s)) *
-                  Vec3<Real>{rows.derivative(s, 0), rows.derivative(s, 1), rows.derivative(s, 2)};
-    set_vector<B>(axes.force, a, g);
-  }
-};
-
-/// The coarse momentum with that force in it, towards what it itself depends on. Returns the squares of its change, of the
-/// force's whole share and of all of it.
+/// The share that follows from the torques, towards what these depend on, and R^T q.
 template <class B>
 struct NextMomentum {
   using Real = typename B::Real;
-  SparseRows<B> response;
-  Vectors<B> force, given, share;  ///< g; without it; what it adds
-  Vectors<B> q;                    ///< their sum
-  Doubles<B> open;
+  CoarseAxes<B> axes;
+  CoarseFilter<B> filter;
+  CoarseMomentum<B> momentum;
+  RoundOfAxes<B> last, now;
   Real t;
-  KOKKOS_INLINE_FUNCTION Sums<3> operator()(int a) const {
-    Sums<3> sums;
-    if (!(open(0) > 0)) return sums;
-    const Vec3<Real> answer = row_product<B>(response, a, force);
-    for (int k = 0; k < 3; ++k) {
-      const Real next = t * answer[k], change = next - share(a, k);
-      sums[0] += static_cast<double>(change) * static_cast<double>(change);
-      sums[1] += static_cast<double>(next) * static_cast<double>(next);
-      share(a, k) = next, q(a, k) = given(a, k) + next;
-      sums[2] += static_cast<double>(q(a, k)) * static_cast<double>(q(a, k));
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    double sums[3] = {};
+    if (last.goes_on()) {
+      Real added[3][group_size<B>];
+      group_rows<B, 3>(axes.response, item, 3 * filter.vertices, axes.torque, added);
+      for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a) {
+        const Vec3<Real> next = t * Vec3<Real>{added[0][i], added[1][i], added[2][i]},
+                         change = next - vector_at<B>(momentum.share, a), q = vector_at<B>(momentum.given, a) + next;
+        set_vector<B>(momentum.share, a, next);
+        set_vector<B>(filter.turned, a, transpose(matrix_at<Real>(filter.rotation, a)) * q);
+        sums[0] += static_cast<double>(dot(change, change)), sums[1] += static_cast<double>(dot(next, next));
+        sums[2] += static_cast<double>(dot(q, q));
+      }
     }
-    return sums;
+    for (int k = 0; k < 3; ++k) now.sums(item, k) = sums[k];
   }
 };
 
-/// Whether to go on: the change over the share while that is more than `tolerance`, and the change more than `least` of all.
+/// g of the torques.
 template <class B>
-struct DecideToGoOn {
-  Doubles<B> sums, open;
-  double tolerance, least;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
-    const bool matters = sums(0) > least * least * sums(2);
-    const double change = matters ? Kokkos::sqrt(sums(0) / sums(1)) : 0.0;
-    if (open(0) > 0) open(0) = change > tolerance ? change : 0.0;
+struct ForceOfTorques {
+  using Real = typename B::Real;
+  CoarseAxes<B> axes;
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const int n = static_cast<int>(axes.force.extent(0)), first = item * group_size<B>;
+    Real g[3][group_size<B>];
+    group_rows<B, 3>(axes.force_of, item, 3 * n, axes.torque, g);
+    for (int i = 0; i < group_size<B> && first + i < n; ++i)
+      set_vector<B>(axes.force, first + i, {g[0][i], g[1][i], g[2][i]});
   }
 };
 
@@ -207,7 +218,7 @@ struct AnswerOfPushed {
 template <class B>
 struct AddShareOfAxes {
   using Real = typename B::Real;
-  SparseRows<B> response;
+  SparseRows<B, float> response;
   Vectors<B> force, momentum;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {

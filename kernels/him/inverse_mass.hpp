@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/inverse_mass.hpp>
+#include <plica/core/pack.hpp>
 #include <plica/core/small.hpp>
 #include <plica/kernels/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// The coarsest level of the hierarchical inverse mass: acceleration = weight R S R^T force.
+// The hierarchical inverse mass, level by level.
 namespace plica {
 
-/// A middle level: acceleration = weight Q force + P (the coarser level's), Q = D^-1 + D^-1 (1 - M D^-1): the lumped mass,
-/// corrected once by the consistent one (Richardson). Without a P there is no coarser one; Q without weight is not worked out.
+/// A middle level: acceleration = weight Q force + P (the coarser level's), Q = 1 + (1 - M): the lumped mass, which is 1, corrected
+/// once by the consistent one (Richardson). Without a P there is no coarser one; Q without weight is not worked out.
 template <class B>
 struct AnswerOfLevel {
   using Real = typename B::Real;
-  SparseRows<B> mass, up;
-  Scalars<B> inverse_diagonal;
+  SparseRows<B, float> mass, up;
   Vectors<B> force, coarser, acceleration;
   Real weight;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     Vec3<Real> below;
     if (up.rows > 0) below = row_product<B>(up, a, coarser);
     if (weight == 0) return set_vector<B>(acceleration, a, below);
-    const Vec3<Real> lumped = row_product<B>(mass, a, force);
-    const Real w = weight * inverse_diagonal(a);
-    for (int k = 0; k < 3; ++k) acceleration(a, k) = w * (2 * force(a, k) - lumped[k]) + below[k];
+    const Vec3<Real> consistent = row_product<B>(mass, a, force);
+    set_vector<B>(acceleration, a, weight * (Real(2) * vector_at<B>(force, a) - consistent) + below);
   }
 };
 
@@ -31,7 +30,7 @@ struct AnswerOfLevel {
 template <class B>
 struct AnswerOfFinest {
   using Real = typename B::Real;
-  SparseRows<B> up;
+  SparseRows<B, float> up;
   Scalars<B> inverse_mass;
   Vectors<B> force, coarser, acceleration;
   Real weight;
@@ -43,56 +42,93 @@ struct AnswerOfFinest {
   }
 };
 
+/// The axes of coarse vertex a, from row 3 a on.
+template <class Real, class View>
+KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
+  Mat3<Real> A;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) A[i][j] = x(3 * a + i, j);
+  return A;
+}
+
 /// turned = R^T force
 template <class B>
 struct TurnForces {
   CoarseFilter<B> filter;
   Vectors<B> force;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k)
-      filter.turned(a, k) = filter.rotation(3 * a, k) * force(a, 0) + filter.rotation(3 * a + 1, k) * force(a, 1) +
-                            filter.rotation(3 * a + 2, k) * force(a, 2);
+    set_vector<B>(filter.turned, a,
+                  transpose(matrix_at<typename B::Real>(filter.rotation, a)) * vector_at<B>(force, a));
   }
 };
 
-/// x = S turned, dense: a work item takes a whole block of rows on a CPU, where its lanes fill registers, one row on a GPU.
-/// 36 n^2 bytes and 18 n^2 flops for n vertices.
-template <class B>
-struct FilterForces {
-  using Real = typename B::Real;
-  static constexpr int block = CoarseFilter<B>::block, rows = B::on_host ? block : 1;
-  CoarseFilter<B> filter;
-  Scalars<B> x;  ///< [3 vertices], rounded up to whole blocks
+// A dense matrix times vectors: a work item takes a whole group of vertices on a CPU, where its rows fill registers, one
+// vertex on a GPU.
 
-  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    const int n = 3 * filter.vertices, first = item * rows, inside = first % block;
-    const float* matrix = filter.matrix.data() + static_cast<std::size_t>(first / block) * n * block + inside;
-    const Real* force = filter.turned.data();
-    Real even[rows] = {}, odd[rows] = {};  // so that an addition need not wait for the last one
-    int j = 0;
-    for (; j + 1 < n; j += 2, matrix += 2 * block)
-      for (int i = 0; i < rows; ++i) {
-        even[i] += static_cast<Real>(matrix[i]) * force[j];
-        odd[i] += static_cast<Real>(matrix[block + i]) * force[j + 1];
-      }
-    for (int i = 0; i < rows; ++i)
-      x(first + i) = even[i] + odd[i] + (j < n ? static_cast<Real>(matrix[i]) * force[j] : Real(0));
+/// Vertices of a work item.
+template <class B>
+constexpr int group_size = B::on_host ? CoarseFilter<B>::group : 1;
+template <class B>
+constexpr int groups_of(int vertices) {
+  return (vertices + group_size<B> - 1) / group_size<B>;
+}
+
+/// `lanes` numbers that lie together.
+template <class T, class Number>
+KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
+  constexpr int lanes = LaneOf<T>::count;
+  T to;
+#if (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)
+  if constexpr (lanes > 1) {
+    typedef Number Numbers __attribute__((vector_size(lanes * sizeof(Number)), may_alias, aligned(alignof(Number))));
+    to.v = __builtin_convertvector(*reinterpret_cast<const Numbers*>(from), typename T::Lanes);
+    return to;
   }
-};
+#endif
+  for (int l = 0; l < lanes; ++l) set_lane(to, l, static_cast<typename LaneOf<T>::type>(from[l]));
+  return to;
+}
 
-/// acceleration = weight R x
+/// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie together, [columns][block], an item has `rows`.
+template <class B, int rows, int values, int block, class Number>
+KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int columns, const typename B::Real* x,
+                                       typename B::Real (&y)[values][rows]) {
+  constexpr int lanes = B::lanes, packs = rows / lanes;
+  using T = typename PackOf<typename B::Real, lanes>::type;
+  T sum[values][packs] = {};
+  const int first = item * rows;
+  const Number* column = matrix + static_cast<std::size_t>(first / block) * columns * block + first % block;
+  for (int j = 0; j < columns; ++j, column += block, x += values)
+    for (int i = 0; i < packs; ++i) {
+      const T number = load_lanes<T>(column + i * lanes);
+      for (int v = 0; v < values; ++v) sum[v][i] += number * T(x[v]);
+    }
+  for (int v = 0; v < values; ++v)
+    for (int i = 0; i < rows; ++i) y[v][i] = lane(sum[v][i / lanes], i % lanes);
+}
+
+/// S R^T force of a work item's vertices, in their axes: 36 bytes and 18 flops per pair of vertices.
 template <class B>
-struct TurnBack {
+KOKKOS_INLINE_FUNCTION void filtered(const CoarseFilter<B>& filter, int item,
+                                     typename B::Real (&y)[1][3 * group_size<B>]) {
+  dense_rows<B, 3 * group_size<B>, 1, CoarseFilter<B>::block>(filter.matrix.data(), item, 3 * filter.vertices,
+                                                              filter.turned.data(), y);
+}
+
+/// The coarsest level: acceleration = weight R S R^T force, of forces that are turned.
+template <class B>
+struct AnswerOfCoarsest {
   using Real = typename B::Real;
   CoarseFilter<B> filter;
-  Scalars<B> x;
   Vectors<B> acceleration;
   Real weight;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k)
-      acceleration(a, k) =
-          weight * (filter.rotation(3 * a + k, 0) * x(3 * a) + filter.rotation(3 * a + k, 1) * x(3 * a + 1) +
-                    filter.rotation(3 * a + k, 2) * x(3 * a + 2));
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    Real x[1][3 * group_size<B>];
+    filtered(filter, item, x);
+    for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a)
+      set_vector<B>(
+          acceleration, a,
+          weight * (matrix_at<Real>(filter.rotation, a) * Vec3<Real>{x[0][3 * i], x[0][3 * i + 1], x[0][3 * i + 2]}));
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/vectors.hpp>
+#include <plica/kernels/him/coarse_axes.hpp>
 
 // One step of the hierarchical inverse mass on the finest level: drift by half a step, kick the momenta, v = A p, drift by half
 // a step; see KickMomentum.
@@ -8,12 +8,12 @@ namespace plica {
 
 /// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turn, at most 1e-4.
 template <class B>
-struct ChooseLoss {
-  Doubles<B> moved, loss;
+struct Loss {
+  Doubles<B> moved;
   double given;  ///< < 0: chosen
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION double operator()() const {
     const double angle = moved(1) > 0 ? Kokkos::sqrt(moved(0) / moved(1)) : 0.0;
-    loss(0) = given >= 0 ? given : Kokkos::min(1e-4, 0.3 * angle);
+    return given >= 0 ? given : Kokkos::min(1e-4, 0.3 * angle);
   }
 };
 
@@ -23,14 +23,15 @@ struct KickMomentum {
   using Real = typename B::Real;
   Model<B> model;
   Vectors<B> f, v, g, p;
-  Doubles<B> loss;
+  Loss<B> loss;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
-    const Real c = static_cast<Real>(loss(0)), m = model.mass(a), half_damping = t * model.damping(a) / 2;
+    const Real c = static_cast<Real>(loss()), m = model.mass(a), half_damping = t * model.damping(a) / 2,
+               kept = 1 / (1 + half_damping);
     for (int k = 0; k < 3; ++k) {
       const Real slowed = g.extent(0) > 0 ? g(a, k) : p(a, k) - m * v(a, k);
-      p(a, k) = ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed) / (1 + half_damping);
+      p(a, k) = kept * ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed);
     }
   }
 };
@@ -77,17 +78,18 @@ struct KickAndDrift {
 
 /// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over what the last step did: as stability is lost at
 /// 4 the fastest motions take over, and with them the mean. `state`: how often running it was above 3.4, 1 where that was twice,
-/// 2 where the axes' force was not found (to 1 %, see DecideToGoOn), the largest.
+/// 2 where the axes' force was not found (to 1 %, see RoundOfAxes), the largest.
 template <class B>
 struct WatchSpectrum {
-  Doubles<B> sums, open, state;
+  Doubles<B> sums, state;
+  RoundOfAxes<B> last;
   bool first;
   KOKKOS_INLINE_FUNCTION void operator()(int) const {
     const double answer = sums(0), work = sums(1);
     const bool counts = !first && work > 0;
     if (counts) state(2) = Kokkos::max(state(2), answer / work);
     state(0) = counts && answer > 3.4 * work ? state(0) + 1 : 0.0;
-    const bool lost = open.extent(0) > 0 && open(0) > 0.01;
+    const bool lost = last.sums.extent(0) > 0 && last.change() > 0.01;
     if (state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
     if (lost) state(1) = 2;
   }

@@ -198,7 +198,7 @@ class HimStepper final : public Stepper<B> {
   int n_ = 0;
   Vectors<B> p_, g_, a_, f_before_, a_before_;
   BlockSums<B> blocks_;
-  Kokkos::View<double*, typename B::Memory> moved_, loss_, sums_, watch_;
+  Kokkos::View<double*, typename B::Memory> moved_, sums_, watch_;
   bool first_ = true;
   bool lost_ = false;  // before the last begin(): the axes' force was not found
   int substeps_ = 1;
@@ -246,15 +246,13 @@ class HimStepper final : public Stepper<B> {
 
   void kick(const typename B::Exec& exec, const Level<B>& level, double t) {
     parts_.inverse_mass->turn(exec, level.state.u, moved_);
-    update_vertices<B>(exec, "plica::him_loss", 1,
-                       ChooseLoss<B>{moved_, loss_, parts_.options.dissipation.value_or(-1)});
     if (parts_.free) {
       weigh<B>(exec, "plica::him_slowed", level.model, -1, level.state.v, 1, p_, g_);
       parts_.free->take_rigid(exec, level.model, level.state.u, g_);
     }
     update_vertices<B>(exec, "plica::him_momenta", n_,
-                       KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_, loss_,
-                                       static_cast<Real>(t)});
+                       KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_,
+                                       Loss<B>{moved_, parts_.options.dissipation.value_or(-1)}, static_cast<Real>(t)});
     parts_.inverse_mass->find_push(exec, without_translation(exec, level.model, p_), t);
   }
 
@@ -301,7 +299,7 @@ class HimStepper final : public Stepper<B> {
                                  .t = static_cast<Real>(t)};
     reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_);
     update_vertices<B>(exec, "plica::him_watch", 1,
-                       WatchSpectrum<B>{sums_, parts_.inverse_mass->axes().open(), watch_, first_});
+                       WatchSpectrum<B>{sums_, watch_, parts_.inverse_mass->axes().last_round(), first_});
     prescribe(exec, level, level.state, time + t);
     first_ = false;
   }

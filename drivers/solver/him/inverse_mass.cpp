@@ -7,25 +7,30 @@ namespace plica {
 
 namespace {
 
+/// s of the vertices of a space: forces times s, accelerations over s. Q = E D^-1 (2 - M D^-1) E is 2 - M then, M = N M N, N = D^-1/2, and
+/// s = E N. Vertices that nothing hangs on have 0. The coarsest level stays as it is.
+Eigen::VectorXd units_of(const MassSpace& space) {
+  if (space.scale.empty()) return Eigen::VectorXd::Ones(space.up.cols());
+  const auto n = static_cast<Eigen::Index>(space.scale.size());
+  const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), n), E(space.scale.data(), n);
+  return (E * inverse.sqrt()).matrix();
+}
+
+Eigen::VectorXd inverse_of(const Eigen::VectorXd& x) {
+  return x.unaryExpr([](double value) { return value > 0 ? 1 / value : 0.0; });
+}
+
 template <class B>
-MassLevel<B> mass_level(const MassSpace& space, bool coarsest) {
-  using Real = typename B::Real;
+MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer, const Eigen::VectorXd& units) {
   MassLevel<B> level;
   level.vertices = static_cast<int>(space.up.cols());
-  level.up = sparse_rows<B>("him.up", space.up);
-  level.down = sparse_rows<B>("him.down", RowMatrix(space.up.transpose()));
-  if (!coarsest) {
-    // E D^-1 (2 - M D^-1) E = E^2 D^-1 (2 - E^-1 M D^-1 E)
-    const auto n = static_cast<Eigen::Index>(space.scale.size());
-    const Eigen::Map<const Eigen::VectorXd> inverse(space.inverse_diagonal.data(), n), E(space.scale.data(), n);
-    RowMatrix mass = space.mass;
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (RowMatrix::InnerIterator entry(mass, a); entry; ++entry)
-        entry.valueRef() = 1 / E[a] * entry.value() * (inverse[entry.col()] * E[entry.col()]);
-    level.mass = sparse_rows<B>("him.mass", mass);
-    std::vector<Real> own;
-    for (Eigen::Index a = 0; a < n; ++a) own.push_back(static_cast<Real>(E[a] * E[a] * inverse[a]));
-    level.inverse_diagonal = to_device<Scalars<B>>("him.inverse_diagonal", own);
+  const RowMatrix up = inverse_of(finer).asDiagonal() * space.up * units.asDiagonal();
+  level.up = sparse_rows<B, float>("him.up", up);
+  level.down = sparse_rows<B, float>("him.down", RowMatrix(up.transpose()));
+  if (!space.scale.empty()) {
+    const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), units.size());
+    const Eigen::VectorXd N = inverse.sqrt().matrix();
+    level.mass = sparse_rows<B, float>("him.mass", N.asDiagonal() * space.mass * N.asDiagonal());
   }
   level.force = zeros<Vectors<B>>("plica::him.force", level.vertices);
   level.acceleration = zeros<Vectors<B>>("plica::him.acceleration", level.vertices);
@@ -38,21 +43,22 @@ template <class B>
 InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const RowMatrix& to_finest,
                             const AxesShape& axes)
     : vertices_(finest.model.vertices), inverse_mass_(finest.model.inverse_mass), weights_{1} {
-  for (std::size_t i = 0; i < spaces.size(); ++i) coarser_.push_back(mass_level<B>(spaces[i], i + 1 == spaces.size()));
   if (spaces.empty()) return;
   weights_.resize(spaces.size() + 1, 0);
   axes_ = TurningAxes<B>(axes, to_finest);
+  Eigen::VectorXd finer = Eigen::VectorXd::Ones(vertices_);
   RowMatrix share = axes.restriction.transpose();
-  for (std::size_t i = 0; i + 1 < spaces.size(); ++i) {
-    share = product(RowMatrix(spaces[i].up.transpose()), share);
-    coarser_[i].share = sparse_rows<B>("him.share", share);
+  for (const MassSpace& space : spaces) {
+    const Eigen::VectorXd units = units_of(space);
+    MassLevel<B>& level = coarser_.emplace_back(mass_level<B>(space, finer, units));
+    if (&space == &spaces.back()) break;
+    share = product(RowMatrix(space.up.transpose()), share);
+    level.share = sparse_rows<B, float>("him.share", RowMatrix(units.asDiagonal() * share));
+    finer = units;
   }
-  constexpr std::size_t block = CoarseFilter<B>::block;
-  const auto n = static_cast<std::size_t>(coarser_.back().vertices);
   filter_.vertices = coarser_.back().vertices;
-  filter_.turned = zeros<Vectors<B>>("plica::him.turned", n);
+  filter_.turned = zeros<Vectors<B>>("plica::him.turned", static_cast<std::size_t>(filter_.vertices));
   filter_.rotation = axes_.rotation();
-  filtered_ = zeros<Scalars<B>>("plica::him.filtered", (3 * n + block - 1) / block * block);
 }
 
 template <class B>
@@ -77,11 +83,7 @@ template <class B>
 void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) const {
   if (coarser_.empty()) return;
   go_down(exec, q, coarser_.size(), {});
-  const auto filter = [&](const Vectors<B>& momentum, const Doubles<B>& open) -> const Scalars<B>& {
-    filter_forces(exec, momentum, open);
-    return filtered_;
-  };
-  axes_.find_force(exec, coarser_.back().force, filter, weights_.back(), t);
+  axes_.find_force(exec, coarser_.back().force, filter_, weights_.back(), t);
 }
 
 template <class B>
@@ -112,32 +114,23 @@ void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::size_t 
   Vectors<B> finer = f;
   for (std::size_t i = 0; i < levels; ++i) {
     const MassLevel<B>& level = coarser_[i];
-    where_touching<B>(exec, count, "plica::him_down", level.vertices, MultiplyRows<B>{level.down, finer, level.force});
+    where_touching<B>(exec, count, "plica::him_down", level.vertices,
+                      MultiplyRows<B, float>{level.down, finer, level.force});
     finer = level.force;
   }
 }
 
 template <class B>
-void InverseMass<B>::filter_forces(const Exec& exec, const Vectors<B>& force, const Doubles<B>& count) const {
-  where_touching<B>(exec, count, "plica::him_turn_forces", filter_.vertices, TurnForces<B>{filter_, force});
-  where_touching<B>(exec, count, "plica::him_filter", static_cast<int>(filtered_.extent(0)) / FilterForces<B>::rows,
-                    FilterForces<B>{filter_, filtered_});
-}
-
-template <class B>
 void InverseMass<B>::go_up(const Exec& exec, const Doubles<B>& count) const {
   const std::size_t last = weighed();
-  if (last == coarser_.size() && last > 0) {
-    const MassLevel<B>& coarsest = coarser_.back();
-    filter_forces(exec, coarsest.force, count);
-    where_touching<B>(exec, count, "plica::him_turn_back", coarsest.vertices,
-                      TurnBack<B>{filter_, filtered_, coarsest.acceleration, static_cast<Real>(weights_.back())});
-  }
+  if (last == coarser_.size() && last > 0)
+    where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices),
+                      AnswerOfCoarsest<B>{filter_, coarser_.back().acceleration, static_cast<Real>(weights_.back())});
   for (std::size_t i = std::min(last + 1, coarser_.size()); i-- > 1;) {
     const MassLevel<B>&level = coarser_[i - 1], below = i < last ? coarser_[i] : MassLevel<B>{};
     where_touching<B>(exec, count, "plica::him_up", level.vertices,
-                      AnswerOfLevel<B>{level.mass, below.up, level.inverse_diagonal, level.force, below.acceleration,
-                                       level.acceleration, static_cast<Real>(weights_[i])});
+                      AnswerOfLevel<B>{level.mass, below.up, level.force, below.acceleration, level.acceleration,
+                                       static_cast<Real>(weights_[i])});
   }
 }
 
@@ -150,16 +143,19 @@ AnswerOfFinest<B> InverseMass<B>::answer_of_finest(const Vectors<B>& f, const Ve
 template <class B>
 void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
   go_down(exec, f, weighed(), count);
+  if (weighed() == coarser_.size() && !coarser_.empty())
+    where_touching<B>(exec, count, "plica::him_turn_forces", filter_.vertices,
+                      TurnForces<B>{filter_, coarser_.back().force});
   go_up(exec, count);
   update_vertices<B>(exec, "plica::him_up", vertices_, answer_of_finest(f, a));
 }
 
 template <class B>
 std::size_t InverseMass<B>::bytes() const {
-  std::size_t total = bytes_of_views(filter_.matrix, filter_.turned, filtered_) + axes_.bytes();
+  std::size_t total = bytes_of_views(filter_.matrix, filter_.turned) + axes_.bytes();
   for (const MassLevel<B>& level : coarser_)
     total += bytes_of_rows(level.up) + bytes_of_rows(level.down) + bytes_of_rows(level.mass) +
-             bytes_of_rows(level.share) + bytes_of_views(level.inverse_diagonal, level.force, level.acceleration);
+             bytes_of_rows(level.share) + bytes_of_views(level.force, level.acceleration);
   return total;
 }
 

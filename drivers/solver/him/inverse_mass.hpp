@@ -48,13 +48,12 @@ class InverseMass {
   std::vector<MassLevel<B>> coarser_;
   CoarseFilter<B> filter_;
   TurningAxes<B> axes_;
-  Scalars<B> filtered_;
   std::vector<double> weights_;
 
   /// The levels down to the last one that has a weight.
   std::size_t weighed() const;
   void go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels, const Doubles<B>& count) const;
-  void filter_forces(const Exec& exec, const Vectors<B>& force, const Doubles<B>& count) const;
+  /// Where the coarsest level's forces are turned already.
   void go_up(const Exec& exec, const Doubles<B>& count) const;
   AnswerOfFinest<B> answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const;
 };

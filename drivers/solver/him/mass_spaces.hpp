@@ -35,7 +35,7 @@ class CoarseModes {
 /// A coarser level as a space of motions of the finest mesh.
 struct MassSpace {
   RowMatrix up;                          ///< P, [finer level's vertices x vertices]
-  RowMatrix mass;                        ///< M = P^T (the finer level's M) P [kg]
+  RowMatrix mass;                        ///< M = P^T (the finer level's M) P, except on the last its main entries [kg]
   std::vector<double> inverse_diagonal;  ///< of D = sum of |M| along a row [1/kg]; 0: no motion here
   std::vector<double>
       scale;  ///< E, by which Q = D^-1 (2 - M D^-1) becomes E Q E: a translation stays one; not of the last

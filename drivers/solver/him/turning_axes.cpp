@@ -198,26 +198,56 @@ AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const
 
 namespace {
 
-constexpr int most_rounds = 6;
-constexpr double round_tolerance = 1e-3, least_share = 1e-6;  // of the momenta that the force adds, of all of them
-
-template <class B>
-GradientRows<B> gradient_rows(const AxesShape::Gradients& rows) {
-  std::vector<int> first{0}, column;
-  std::vector<Point> derivative;
-  for (const auto& row : rows) {
-    for (const auto& [b, d] : row) column.push_back(b), derivative.push_back(d);
-    first.push_back(static_cast<int>(column.size()));
+/// A matrix of columns [n][3 n or n], see CoarseAxes.
+template <class B, class Number>
+class DenseMatrix {
+ public:
+  DenseMatrix(Eigen::Index rows, Eigen::Index columns)
+      : columns_(columns), values_(static_cast<std::size_t>((rows + group - 1) / group * group * columns)) {}
+  void set(Eigen::Index row, Eigen::Index column, double value) {
+    values_[static_cast<std::size_t>((row / group * columns_ + column) * group + row % group)] =
+        static_cast<Number>(value);
   }
-  return {to_device<Indices<B>>("axes.first", first), to_device<Indices<B>>("axes.column", column),
-          to_device<Vectors<B>>("axes.derivative", plica::rows<typename B::Real>(derivative))};
+  typename CoarseAxes<B>::template Dense<Number> on_device(const std::string& name) const {
+    return to_device<typename CoarseAxes<B>::template Dense<Number>>(name, values_);
+  }
+
+ private:
+  static constexpr Eigen::Index group = CoarseFilter<B>::group;
+  Eigen::Index columns_;
+  std::vector<Number> values_;
+};
+
+template <class Add>
+void for_entries(const RowMatrix& A, const Add& add) {
+  for (Eigen::Index a = 0; a < A.rows(); ++a)
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) add(a, entry.col(), entry.value());
 }
 
-AxesShape::Gradients transposed(const AxesShape::Gradients& rows) {
-  AxesShape::Gradients result(rows.size());
-  for (std::size_t a = 0; a < rows.size(); ++a)
-    for (const auto& [b, d] : rows[a]) result[static_cast<std::size_t>(b)].emplace_back(static_cast<int>(a), d);
-  return result;
+/// The matrices of CoarseAxes that the gradient makes: G is W times D.
+/// @param moved  Pi^T E^T: coarse momentum per momentum on u_C
+template <class B>
+void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>& axes) {
+  using Real = typename B::Real;
+  const Eigen::Index n = moved.rows();
+  DenseMatrix<B, Real> force_of(n, 3 * n);
+  DenseMatrix<B, float> response(n, 3 * n);
+  for (int j = 0; j < 3; ++j) {
+    std::vector<std::vector<std::pair<int, double>>> derivative;
+    for (const auto& row : shape.gradient)
+      for (auto& to = derivative.emplace_back(); const auto& [b, d] : row) to.emplace_back(b, d[j]);
+    const RowMatrix G = product(shape.smoothing, matrix_of_rows(derivative, n));
+    DenseMatrix<B, Real> gradient_of(n, n);
+    for_entries(G, [&](Eigen::Index a, Eigen::Index b, double value) {
+      gradient_of.set(a, b, value), force_of.set(b, 3 * a + j, value);
+    });
+    for_entries(product(moved, RowMatrix(G.transpose())),
+                [&](Eigen::Index a, Eigen::Index b, double value) { response.set(a, 3 * b + j, value); });
+    axes.gradient_of[j] = gradient_of.on_device("axes.gradient_of");
+  }
+  axes.force_of = force_of.on_device("axes.force_of"), axes.response = response.on_device("axes.response");
+  const Eigen::VectorXd rest = shape.smoothing * Eigen::Map<const Eigen::VectorXd>(shape.at_rest.data(), n);
+  axes.at_rest = to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(rest.begin(), rest.end()));
 }
 
 }  // namespace
@@ -226,19 +256,13 @@ template <class B>
 TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& to_finest)
     : vertices_(static_cast<int>(shape.at_rest.size())),
       blocks_(vertices_),
-      open_(zeros<Doubles<B>>("plica::axes.open", 1)),
-      sums_(zeros<Doubles<B>>("plica::axes.sums", 3)) {
+      sums_(zeros<Sums>("plica::axes.sums", static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
   const RowMatrix spread = shape.restriction.transpose();
   axes_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
   axes_.spread = sparse_rows<B>("axes.spread", spread);
-  axes_.smoothing = sparse_rows<B>("axes.smoothing", shape.smoothing);
-  axes_.smoothing_of = sparse_rows<B>("axes.smoothing_of", RowMatrix(shape.smoothing.transpose()));
-  axes_.response = sparse_rows<B>("axes.response", product(RowMatrix(to_finest.transpose()), spread));
-  axes_.gradient_of = gradient_rows<B>(shape.gradient);
-  axes_.gradient_to = gradient_rows<B>(transposed(shape.gradient));
-  axes_.at_rest = to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(shape.at_rest.begin(), shape.at_rest.end()));
+  set_gradient<B>(shape, product(RowMatrix(to_finest.transpose()), spread), axes_);
   const auto n = static_cast<std::size_t>(vertices_);
-  for (Vectors<B>* one : {&share_, &momentum_, &axes_.displacement, &axes_.force})
+  for (Vectors<B>* one : {&share_, &axes_.displacement, &axes_.force})
     *one = zeros<Vectors<B>>("plica::axes.vectors", n);
   for (Vectors<B>* one : {&axes_.gradient, &axes_.stiffness, &axes_.torque})
     *one = zeros<Vectors<B>>("plica::axes.matrices", 3 * n);
@@ -251,39 +275,34 @@ template <class B>
 void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const {
   update_vertices<B>(exec, "plica::axes_restrict", vertices_,
                      MultiplyRows<B>{axes_.restriction, u, axes_.displacement});
-  update_vertices<B>(exec, "plica::axes_gradients", vertices_, CoarseGradients<B>{axes_});
+  update_vertices<B>(exec, "plica::axes_gradients", groups_of<B>(vertices_), CoarseGradients<B>{axes_});
   reduce<B, 2>(exec, "plica::axes_turn", vertices_, TurnAxes<B>{axes_, rotation_}, blocks_, moved);
 }
 
 template <class B>
-void TurningAxes<B>::find_force(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight,
+void TurningAxes<B>::find_force(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter, double weight,
                                 double t) const {
-  const auto h = static_cast<Real>(t);
-  fill(exec, open_, 1);
-  combine<B>(exec, "plica::axes_momentum", 1, q, 1, share_, momentum_);  // where to start from
-  for (int round = 0; round < most_rounds; ++round) {
-    const Scalars<B>& x = filter(momentum_, open_);
-    where_touching<B>(exec, open_, "plica::axes_torque", vertices_,
-                      TorqueOnAxes<B>{axes_, rotation_, momentum_, x, static_cast<Real>(weight)});
-    where_touching<B>(exec, open_, "plica::axes_torque", vertices_, TorqueOnGradients<B>{axes_});
-    where_touching<B>(exec, open_, "plica::axes_force", vertices_, ForcesOfGradients<B>{axes_});
-    reduce<B, 3>(exec, "plica::axes_momentum", vertices_,
-                 NextMomentum<B>{axes_.response, axes_.force, q, share_, momentum_, open_, h}, blocks_, sums_);
-    update_vertices<B>(exec, "plica::axes_decide", 1, DecideToGoOn<B>{sums_, open_, round_tolerance, least_share});
+  const CoarseMomentum<B> momentum{given, share_};
+  const int groups = groups_of<B>(vertices_);
+  update_vertices<B>(exec, "plica::axes_start", vertices_, StartMomentum<B>{filter, momentum});
+  RoundOfAxes<B> last;
+  for (int i = 0; i < most_rounds; ++i) {
+    update_vertices<B>(exec, "plica::axes_torque", groups,
+                       TorqueOnAxes<B>{axes_, filter, last, static_cast<Real>(weight)});
+    const RoundOfAxes<B> now = round(i);
+    update_vertices<B>(exec, "plica::axes_momentum", groups,
+                       NextMomentum<B>{axes_, filter, momentum, last, now, static_cast<Real>(t)});
+    last = now;
   }
-  copy(exec, q, momentum_);
+  update_vertices<B>(exec, "plica::axes_force", groups, ForceOfTorques<B>{axes_});
 }
 
 template <class B>
 std::size_t TurningAxes<B>::bytes() const {
-  std::size_t total = bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient, axes_.stiffness, axes_.torque,
-                                     axes_.force, rotation_, share_, momentum_);
-  for (const GradientRows<B>* one : {&axes_.gradient_of, &axes_.gradient_to})
-    total += bytes_of_views(one->first, one->column, one->derivative);
-  for (const SparseRows<B>* one :
-       {&axes_.restriction, &axes_.spread, &axes_.smoothing, &axes_.smoothing_of, &axes_.response})
-    total += bytes_of_rows(*one);
-  return total;
+  return bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient_of[0], axes_.gradient_of[1],
+                        axes_.gradient_of[2], axes_.force_of, axes_.response, axes_.gradient, axes_.stiffness,
+                        axes_.torque, axes_.force, rotation_, share_, sums_) +
+         bytes_of_rows(axes_.restriction) + bytes_of_rows(axes_.spread);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class TurningAxes<Backend<Real, Exec>>;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <functional>
 #include <plica/core/inverse_mass.hpp>
 #include <plica/core/model.hpp>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
@@ -34,9 +33,6 @@ class TurningAxes {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
-  /// Into its own view: S R^T (what q is), where `open` is above 0.
-  using Filter = std::function<const Scalars<B>&(const Vectors<B>& q, const Doubles<B>& open)>;
-
   TurningAxes() = default;
   TurningAxes(const AxesShape& shape, const RowMatrix& to_finest);
 
@@ -44,10 +40,12 @@ class TurningAxes {
   void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
 
   /// Finds the force by which the axes act on momenta for a time t, at the momenta that this gives: repeated until it changes by less
-  /// than a thousandth of itself or a millionth of q, six times at most, warm from the last step.
-  /// @param q       coarse momenta without it; with it afterwards
+  /// than a thousandth of itself or a millionth of the momenta, six times at most, warm from the last step.
+  /// @param given   coarse momenta without it
+  /// @param filter  of the coarsest level; takes the momenta with it, turned
   /// @param weight  of the coarsest level in the inverse mass
-  void find_force(const Exec& exec, const Vectors<B>& q, const Filter& filter, double weight, double t) const;
+  void find_force(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter, double weight,
+                  double t) const;
   /// p += t times that force
   PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p) const {
     return {axes_.spread, inverse_mass, axes_.force, p, static_cast<Real>(t)};
@@ -58,16 +56,24 @@ class TurningAxes {
   const Vectors<B>& rotation() const { return rotation_; }
   /// What the force added to the coarse momenta in the last step.
   const Vectors<B>& share() const { return share_; }
-  /// [1]: by how much of itself that force still changed where it was not found, else 0.
-  const Doubles<B>& open() const { return open_; }
+  /// By how much of itself that force still changed; without axes empty.
+  RoundOfAxes<B> last_round() const { return round(most_rounds - 1); }
   std::size_t bytes() const;
 
  private:
+  static constexpr int most_rounds = 6;
+  using Sums = decltype(RoundOfAxes<B>::sums);
+
   int vertices_ = 0;
   CoarseAxes<B> axes_;
-  Vectors<B> rotation_, share_, momentum_;
+  Vectors<B> rotation_, share_;
   BlockSums<B> blocks_;
-  Doubles<B> open_, sums_;
+  Sums sums_;  ///< [rounds][groups]
+
+  RoundOfAxes<B> round(int i) const {
+    const int groups = groups_of<B>(vertices_);
+    return {Sums(sums_.data() + 3 * i * groups, static_cast<std::size_t>(groups))};
+  }
 };
 
 }  // namespace plica

@@ -25,19 +25,20 @@ RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>&
 RowMatrix ring_smoothing(const TetMesh& mesh);
 
 /// A sparse matrix on the device.
-template <class B>
-SparseRows<B> sparse_rows(const std::string& name, const RowMatrix& A) {
+template <class B, class Value = typename B::Real>
+SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
   std::vector<int> first{0}, column;
-  std::vector<typename B::Real> value;
+  std::vector<Value> value;
   for (Eigen::Index a = 0; a < A.rows(); ++a) {
     for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) {
       column.push_back(static_cast<int>(entry.col()));
-      value.push_back(static_cast<typename B::Real>(entry.value()));
+      value.push_back(static_cast<Value>(entry.value()));
     }
     first.push_back(static_cast<int>(column.size()));
   }
   return {static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", first),
-          to_device<Indices<B>>(name + ".column", column), to_device<Scalars<B>>(name + ".value", value)};
+          to_device<Indices<B>>(name + ".column", column),
+          to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", value)};
 }
 
 template <class... Views>
@@ -45,8 +46,8 @@ std::size_t bytes_of_views(const Views&... views) {
   return (0 + ... + (views.span() * sizeof(typename Views::value_type)));
 }
 
-template <class B>
-std::size_t bytes_of_rows(const SparseRows<B>& A) {
+template <class B, class Value>
+std::size_t bytes_of_rows(const SparseRows<B, Value>& A) {
   return bytes_of_views(A.first, A.column, A.value);
 }
 

@@ -160,9 +160,12 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
       A.push({}, long_time, pushed);
       A.apply({}, pushed, v);
       const auto answer = to_host<Host>({}, v), want = to_host<Host>({}, pushed);
+      A.apply({}, device_field<Host>(momentum), v);
+      const double by_push = largest_difference(answer, to_host<Host>({}, v));  // the share of which is kept in float
       EXPECT_TRUE(same_bits(to_host<Host>({}, at_once), want));
       EXPECT_GT(largest_difference(want, momentum), 1e-5 * largest(momentum));  // a push that shows
-      EXPECT_LE(largest_difference(to_host<Host>({}, v_at_once), answer), round_off<double>(1000, largest(answer)));
+      EXPECT_LE(largest_difference(to_host<Host>({}, v_at_once), answer),
+                round_off<double>(1000, largest(answer)) + round_off<float>(10, by_push));
     }
 }
 
@@ -186,7 +189,8 @@ TEST(Him, GoesOnFromAStateThatIsPutBack) {
   advance(left_alone, 20), advance(put_back, 20);
   const double size = largest_difference(left_alone.positions(), p.body.levels[0].vertices);
   EXPECT_GT(size, 0.05);
-  EXPECT_LE(largest_difference(left_alone.positions(), put_back.positions()), 1e-5 * size);
+  EXPECT_LE(largest_difference(left_alone.positions(), put_back.positions()),
+            2e-5 * size);  // the axes' force is found to 1e-3
 }
 
 }  // namespace
