@@ -215,6 +215,7 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
     int next = fitting + 1;  // the last below the guess; where that is known to fit the one after it
     while (next + 1 < failing && scale_at(next + 1, scale) <= guess) ++next;
     if (guesses >= most_guesses) next = (fitting + failing) / 2;
+    if (guesses == 1 && fitting < 0) next = 0;  // of a body that has stiffened none may fit
     const double gamma = scale_at(next, scale);
     if (fits(gamma))
       fitting = next, below = {gamma, product};
