@@ -78,7 +78,7 @@ template <class T, class Number>
 KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
   constexpr int lanes = LaneOf<T>::count;
   T to;
-#if (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)
+#if defined(__GNUC__) && !defined(__CUDACC__)
   if constexpr (lanes > 1) {
     typedef Number Numbers __attribute__((vector_size(lanes * sizeof(Number)), may_alias, aligned(alignof(Number))));
     to.v = __builtin_convertvector(*reinterpret_cast<const Numbers*>(from), typename T::Lanes);
@@ -87,6 +87,18 @@ KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
 #endif
   for (int l = 0; l < lanes; ++l) set_lane(to, l, static_cast<typename LaneOf<T>::type>(from[l]));
   return to;
+}
+
+/// sum += x a. A pack made of x would be set lane by lane.
+template <class T, class Real>
+KOKKOS_INLINE_FUNCTION void add_product(T& sum, Real x, const T& a) {
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  if constexpr (LaneOf<T>::count > 1) {
+    sum.v += x * a.v;
+    return;
+  }
+#endif
+  sum += T(x) * a;
 }
 
 /// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie together, [columns][block], an item has `rows`.
@@ -101,7 +113,7 @@ KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int colum
   for (int j = 0; j < columns; ++j, column += block, x += values)
     for (int i = 0; i < packs; ++i) {
       const T number = load_lanes<T>(column + i * lanes);
-      for (int v = 0; v < values; ++v) sum[v][i] += number * T(x[v]);
+      for (int v = 0; v < values; ++v) add_product(sum[v][i], x[v], number);
     }
   for (int v = 0; v < values; ++v)
     for (int i = 0; i < rows; ++i) y[v][i] = lane(sum[v][i / lanes], i % lanes);
