@@ -21,9 +21,13 @@ struct Pack {
   Lanes v;
 #endif
   KOKKOS_INLINE_FUNCTION Pack() : v{} {}
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  Pack(T s) : v(s - Lanes{}) {}  // one instruction; set lane by lane, long packs take one for each
+#else
   KOKKOS_INLINE_FUNCTION Pack(T s) {
     for (int i = 0; i < N; ++i) v[i] = s;
   }
+#endif
   KOKKOS_INLINE_FUNCTION T operator[](int i) const { return v[i]; }
   KOKKOS_INLINE_FUNCTION void set(int i, T s) { v[i] = s; }
 

@@ -89,18 +89,6 @@ KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
   return to;
 }
 
-/// sum += x a. A pack made of x would be set lane by lane.
-template <class T, class Real>
-KOKKOS_INLINE_FUNCTION void add_product(T& sum, Real x, const T& a) {
-#if defined(__GNUC__) && !defined(__CUDACC__)
-  if constexpr (LaneOf<T>::count > 1) {
-    sum.v += x * a.v;
-    return;
-  }
-#endif
-  sum += T(x) * a;
-}
-
 /// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie together, [columns][block], an item has `rows`.
 template <class B, int rows, int values, int block, class Number>
 KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int columns, const typename B::Real* x,
@@ -113,7 +101,7 @@ KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int colum
   for (int j = 0; j < columns; ++j, column += block, x += values)
     for (int i = 0; i < packs; ++i) {
       const T number = load_lanes<T>(column + i * lanes);
-      for (int v = 0; v < values; ++v) add_product(sum[v][i], x[v], number);
+      for (int v = 0; v < values; ++v) sum[v][i] += T(x[v]) * number;
     }
   for (int v = 0; v < values; ++v)
     for (int i = 0; i < rows; ++i) y[v][i] = lane(sum[v][i / lanes], i % lanes);
