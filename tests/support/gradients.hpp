@@ -18,4 +18,10 @@ void for_each_material(const Test& test) {
   });
 }
 
+/// test(name of a material) for each, so that the test is compiled once.
+template <class Test>
+void for_each_material_name(const Test& test) {
+  for_each_material([&](auto material) { test(std::string(material.name)); });
+}
+
 }  // namespace plica::test

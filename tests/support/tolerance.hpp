@@ -36,6 +36,12 @@ inline bool same_bits(const std::vector<Point>& a, const std::vector<Point>& b) 
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
 
+inline std::vector<Point> along(const std::vector<Point>& u, double t, const std::vector<Point>& p) {
+  std::vector<Point> moved = u;
+  for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];
+  return moved;
+}
+
 inline std::vector<Point> minus(std::vector<Point> a, const std::vector<Point>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
   return a;

@@ -17,29 +17,17 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-std::vector<Point> along(const std::vector<Point>& u, double t, const std::vector<Point>& p) {
-  std::vector<Point> moved = u;
-  for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];
-  return moved;
-}
-
 std::vector<Point> affine(const TetMesh& mesh, const Eigen::Matrix3d& F, const Point& shift) {
   std::vector<Point> u;
   for (const Point& X : mesh.vertices) u.push_back(F * X + shift - X);
   return u;
 }
 
-/// With names alone, so that the test is compiled once.
-template <class Test>
-void each_material(const Test& test) {
-  for_each_material([&](auto material) { test(material.name); });
-}
-
 // a soft material's force on a face of one cell at a strain of one
 double force_size(const Problem& p) { return p.body.material.young_modulus * 0.03 * 0.03; }
 
 TEST(ElasticMesh, ForceIsMinusTheGradientOfTheEnergy) {
-  each_material([](const char* material) {
+  for_each_material_name([](const std::string& material) {
     const Problem problem = small_cube(material);
     LevelProbe<Host> probe(problem);
     const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
@@ -52,7 +40,7 @@ TEST(ElasticMesh, ForceIsMinusTheGradientOfTheEnergy) {
 }
 
 TEST(ElasticMesh, TangentIsMinusTheDerivativeOfTheForce) {
-  each_material([](const char* material) {
+  for_each_material_name([](const std::string& material) {
     LevelProbe<Host> probe(small_cube(material));
     const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
     const auto slope = [&](double h) {
@@ -69,7 +57,7 @@ TEST(ElasticMesh, TangentIsMinusTheDerivativeOfTheForce) {
 }
 
 TEST(ElasticMesh, StiffnessIsSymmetricAndItsBlocksAreTheDiagonals) {
-  each_material([](const char* material) {
+  for_each_material_name([](const std::string& material) {
     const Problem problem = small_cube(material, 2);
     LevelProbe<Host> probe(problem);
     const auto u = random_field(probe.vertices(), 0.002, 1);
@@ -170,7 +158,7 @@ TEST(ElasticMesh, SmallStrainFeelsARotation) {
 
 TYPED_TEST(ElasticMeshOn, AgreesWithDouble) {
   using Real = typename TypeParam::Real;
-  each_material([](const char* material) {
+  for_each_material_name([](const std::string& material) {
     const Problem problem = small_cube(material, 5);  // several patches
     LevelProbe<TypeParam> probe(problem);
     LevelProbe<Host> reference(problem);

@@ -32,20 +32,6 @@ Problem layered_cube(const std::string& material, int cells = 3) {
   return p;
 }
 
-template <class Test>
-void for_each_material(const Test& test) {
-  for (const MaterialInfo& material : material_list()) {
-    SCOPED_TRACE(material.name);
-    test(std::string(material.name));
-  }
-}
-
-std::vector<Point> along(const std::vector<Point>& u, double t, const std::vector<Point>& p) {
-  std::vector<Point> moved = u;
-  for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];
-  return moved;
-}
-
 /// Psi = mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2
 struct QuadraticNeoHookean : TwoConstants {
   static constexpr const char* name = "quadratic_neo_hookean";
@@ -131,7 +117,7 @@ double energy_by_tets(const Problem& p, const std::vector<Point>& u) {
 }
 
 TEST(NodalElements, EnergyIsThatOfItsDefinition) {
-  for_each_material([](const std::string& material) {
+  for_each_material_name([](const std::string& material) {
     for (const Problem& problem : {nodal(small_cube(material)), layered_cube(material)}) {
       LevelProbe<Host> probe(problem);
       const auto u = random_field(probe.vertices(), 0.003, 1);
@@ -142,7 +128,7 @@ TEST(NodalElements, EnergyIsThatOfItsDefinition) {
 }
 
 TEST(NodalElements, ForceIsMinusTheGradientOfTheEnergy) {
-  for_each_material([](const std::string& material) {
+  for_each_material_name([](const std::string& material) {
     for (const char* pressure : {"plain", "smoothed"}) {
       if (material == "linear" && std::string(pressure) == "smoothed") continue;  // refused
       SCOPED_TRACE(pressure);
@@ -161,7 +147,7 @@ TEST(NodalElements, ForceIsMinusTheGradientOfTheEnergy) {
 }
 
 TEST(NodalElements, TangentIsMinusTheDerivativeOfTheForceAndSymmetric) {
-  for_each_material([](const std::string& material) {
+  for_each_material_name([](const std::string& material) {
     for (const char* pressure : {"plain", "smoothed"}) {
       if (material == "linear" && std::string(pressure) == "smoothed") continue;
       SCOPED_TRACE(pressure);
@@ -185,7 +171,7 @@ TEST(NodalElements, TangentIsMinusTheDerivativeOfTheForceAndSymmetric) {
 }
 
 TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
-  for_each_material([](const std::string& material) {
+  for_each_material_name([](const std::string& material) {
     const Problem problem = nodal(layered_cube(material, 2), "plain");
     LevelProbe<Host> probe(problem);
     SolverLevel<Host>& level = probe.at(0);
@@ -243,7 +229,7 @@ TYPED_TEST(NodalElementsOn, PatchTest) {
 TYPED_TEST(NodalElementsOn, RigidMotionHasNoForce) {
   using Real = typename TypeParam::Real;
   std::mt19937 random(11);
-  for_each_material([&](const std::string& material) {
+  for_each_material_name([&](const std::string& material) {
     const Problem problem = layered_cube(material);
     LevelProbe<TypeParam> probe(problem);
     const bool turns = find_material(material)->rotation_invariant;
@@ -272,7 +258,7 @@ TYPED_TEST(NodalElementsOn, ForcesAndMomentsBalance) {
 
 TYPED_TEST(NodalElementsOn, AgreesWithDouble) {
   using Real = typename TypeParam::Real;
-  for_each_material([](const std::string& material) {
+  for_each_material_name([](const std::string& material) {
     const Problem problem = nodal(small_cube(material, 5));
     LevelProbe<TypeParam> probe(problem);
     LevelProbe<Host> reference(problem);
