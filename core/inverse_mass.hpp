@@ -46,7 +46,7 @@ struct CoarseAxes {
   Dense<float> response;                   ///< what torques add to the coarse momentum per second: Pi^T E^T times that
   Scalars<B> at_rest;                      ///< G at rest is this times 1: 1, or 0 where the axes do not turn
   Vectors<B> displacement;                 ///< u_C [m]
-  Vectors<B> gradient;                     ///< G, [3 vertices][3]
+  Doubles<B> angles;                       ///< per work item the sum of the squares of the angles of a turn [rad^2]
   Vectors<B> stiffness;                    ///< (tr U 1 - U)^-1, U = R^T G, [3 vertices][3]; 0: R is not the nearest
   Vectors<B> torque;                       ///< what G is turned by, [3 vertices][3], its columns one after the other
   Vectors<B> force;                        ///< g [N]

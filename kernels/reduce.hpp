@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/fields.hpp>
+#include <type_traits>
 
 namespace plica {
 
@@ -42,59 +43,90 @@ class BlockSums {
   View sums_;
 };
 
+/// What follows a sum in the same launch: nothing.
+struct Nothing {
+  KOKKOS_INLINE_FUNCTION void operator()() const {}
+};
+
 /// blocks(b, k) = the sum of term(i)[k] over the items i of block b; a CPU's thread takes a block at a time, a GPU's team.
-template <class B, int N, class Term, class Tally>
+template <class B, int N, class Term, class Tally, class Then>
 struct SumOfBlock {
   using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
-  int n;
+  int n, block;
   Term term;
   typename BlockSums<B>::View blocks;
+  bool last;  ///< there is one block, and `then` follows
+  Then then;
 
-  KOKKOS_INLINE_FUNCTION int first(int b) const { return b * BlockSums<B>::block; }
-  KOKKOS_INLINE_FUNCTION int last(int b) const { return Kokkos::min(first(b) + BlockSums<B>::block, n); }
+  KOKKOS_INLINE_FUNCTION int begin(int b) const { return b * block; }
+  KOKKOS_INLINE_FUNCTION int end(int b) const { return Kokkos::min(begin(b) + block, n); }
+  KOKKOS_INLINE_FUNCTION void keep(int b, const Tally& total) const {
+    for (int k = 0; k < N; ++k) blocks(b, k) = total[k];
+    if (last) then();
+  }
   KOKKOS_INLINE_FUNCTION void operator()(int b) const {
     Tally total;
-    for (int i = first(b); i < last(b); ++i) total += term(i);
-    for (int k = 0; k < N; ++k) blocks(b, k) = total[k];
+    for (int i = begin(b); i < end(b); ++i) total += term(i);
+    keep(b, total);
   }
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int b = team.league_rank();
     Tally total;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, first(b), last(b)), [&](int i, Tally& sum) { sum += term(i); },
+        Kokkos::TeamThreadRange(team, begin(b), end(b)), [&](int i, Tally& sum) { sum += term(i); },
         Kokkos::Sum<Tally, typename B::Memory>(total));
-    Kokkos::single(Kokkos::PerTeam(team), [&]() {
-      for (int k = 0; k < N; ++k) blocks(b, k) = total[k];
-    });
+    Kokkos::single(Kokkos::PerTeam(team), [&]() { keep(b, total); });
   }
 };
+
+/// The sums of block b, to be added up.
+template <class B, int N, class Tally>
+struct BlockTotal {
+  typename BlockSums<B>::View blocks;
+  KOKKOS_INLINE_FUNCTION Tally operator()(int b) const {
+    Tally total;
+    for (int k = 0; k < N; ++k) total[k] = blocks(b, k);
+    return total;
+  }
+};
+
+template <class B, class Sum>
+void launch_blocks(const typename B::Exec& exec, const char* label, int count, const Sum& sum) {
+  using Exec = typename B::Exec;
+  if constexpr (B::on_host)
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
+  else
+    Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
+}
 
 /// result(k) = sum over b < count of blocks(b, k) for k < n; the last `maxima` of them the largest instead.
 template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
 
-/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally operator()(int) const.
+/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally operator()(int) const. What is worked
+/// out from the result alone may follow without a launch of its own. then: void operator()() const.
 ///
 ///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     one after the other in each block
 ///                  |                      |                  |
 ///   blocks    sum of block 0        sum of block 1         ...         one after the other
 ///                  \_______________________|__________________/
-///   result                       their sum
-template <class B, int N, class Term, class Tally = Sums<N>>
+///   result                       their sum, then `then`
+template <class B, int N, class Term, class Tally = Sums<N>, class Then = Nothing>
 void reduce(const typename B::Exec& exec, const char* label, int n, const Term& term, const BlockSums<B>& blocks,
-            const Doubles<B>& result) {
+            const Doubles<B>& result, const Then& then = {}) {
   static_assert(N <= BlockSums<B>::widest);
-  using Exec = typename B::Exec;
-  const int count = (n + BlockSums<B>::block - 1) / BlockSums<B>::block;
+  constexpr int block = BlockSums<B>::block;
+  const int count = (n + block - 1) / block;
   const bool alone = count == 1;  // then the block's sum is the result
-  using View = typename BlockSums<B>::View;
-  const SumOfBlock<B, N, Term, Tally> sum{n, term, alone ? View(result.data(), 1) : blocks.view()};
-  if constexpr (B::on_host)
-    Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
+  const typename BlockSums<B>::View whole(result.data(), 1), &parts = alone ? whole : blocks.view();
+  launch_blocks<B>(exec, label, count, SumOfBlock<B, N, Term, Tally, Then>{n, block, term, parts, alone, then});
+  if (alone) return;
+  if constexpr (std::is_same_v<Then, Nothing>)
+    sum_blocks<B>(exec, label, count, N, Tally::maxima, parts, result);
   else
-    Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
-  if (!alone) sum_blocks<B>(exec, label, count, N, Tally::maxima, blocks.view(), result);
+    launch_blocks<B>(exec, label, 1,
+                     SumOfBlock<B, N, BlockTotal<B, N, Tally>, Tally, Then>{count, count, {parts}, whole, true, then});
 }
 
 }  // namespace plica

@@ -86,16 +86,6 @@ struct Weigh {
 };
 
 template <class B>
-struct Dot {
-  Vectors<B> x, y;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) sum += static_cast<double>(x(a, k)) * static_cast<double>(y(a, k));
-    return {{sum}};
-  }
-};
-
-template <class B>
 struct First {
   Vectors<B> x;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const { return {{static_cast<double>(x(i, 0))}}; }
@@ -135,12 +125,7 @@ int rows(const Vectors<B>& x) {
 template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result) {
-  using Exec = typename B::Exec;
-  const SumBlocks<B> sum{count, n, maxima, blocks, result};
-  if constexpr (B::on_host)
-    Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, n), sum);
-  else
-    Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, n, team_size<B>(256)), sum);
+  launch_blocks<B>(exec, label, n, SumBlocks<B>{count, n, maxima, blocks, result});
 }
 
 namespace vectors {

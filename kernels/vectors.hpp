@@ -147,6 +147,16 @@ template <class B>
 void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model, typename B::Real a,
            const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out);
 
+/// x . y at a vertex, in double.
+template <class B>
+struct Dot {
+  Vectors<B> x, y;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += static_cast<double>(x(a, k)) * static_cast<double>(y(a, k));
+    return {{sum}};
+  }
+};
 /// result(0) = x . y, in double.
 template <class B>
 void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const Vectors<B>& y,

@@ -94,14 +94,12 @@ void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, co
                                      double weight) const {
   for (int o = 0; o < contact_->obstacles(); ++o) {
     reduce<B, 6>(exec, "plica::contact_wrench", contact_->sites(),
-                 ObstacleWrench<B>{level.surface, state.u, points_, o, contact_->place(o, time)}, blocks_, sums_);
-    update_vertices<B>(exec, "plica::contact_impulse", 6, AddImpulse<B>{sums_, impulse_, 6 * o, weight});
+                 ObstacleWrench<B>{level.surface, state.u, points_, o, contact_->place(o, time)}, blocks_, sums_,
+                 AddImpulse<B>{sums_, impulse_, 6 * o, weight});
   }
   for (int b = 0; b < contact_->touching_bodies(); ++b) {
     reduce<B, 6>(exec, "plica::contact_wrench", level.surface.points, BodyWrench<B>{level.surface, state.u, points_, b},
-                 blocks_, sums_);
-    update_vertices<B>(exec, "plica::contact_impulse", 6,
-                       AddImpulse<B>{sums_, impulse_, 6 * (contact_->obstacles() + b), weight});
+                 blocks_, sums_, AddImpulse<B>{sums_, impulse_, 6 * (contact_->obstacles() + b), weight});
   }
 }
 

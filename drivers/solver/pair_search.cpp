@@ -39,8 +39,8 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
                          const TouchingPoints<B>& points, const BlockSums<B>& blocks) const {
   const FindPairs<B> find{surface, state, grid_, points};
   reduce<B, 2, PlacePoints<B>, Sums<2, 2>>(exec, "plica::pairs_moved", points.points,
-                                           PlacePoints<B>{surface, state, grid_}, blocks, grid_.moved);
-  update_vertices<B>(exec, "plica::pairs_judge", 1, JudgeGrid<B>{grid_, points.span});
+                                           PlacePoints<B>{surface, state, grid_}, blocks, grid_.moved,
+                                           JudgeGrid<B>{grid_, points.span});
   make_grid(exec, points);
   where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, ListClose<B>{find});
   where_touching<B>(exec, grid_.stale, "plica::pairs_crossings", points.points, ListCrossings<B>{{find}});
@@ -56,8 +56,7 @@ void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points)
   const int triangles = points.pairs.triangles, buckets = grid_.buckets;
   const Doubles<B>& stale = grid_.stale;
   reduce<B, 1, MeasureTriangles<B>, Sums<1, 1>>(exec, "plica::pairs_measure", triangles, MeasureTriangles<B>{of},
-                                                blocks_, grid_.radius);
-  where_touching<B>(exec, stale, "plica::pairs_width", 1, SetWidth<B>{grid_});
+                                                blocks_, grid_.radius, SetWidth<B>{grid_});
   where_touching<B>(exec, stale, "plica::pairs_keep", points.points, KeepPlaces<B>{grid_});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
   where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{of});

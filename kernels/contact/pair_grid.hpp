@@ -87,7 +87,7 @@ struct JudgeGrid {
   using Real = typename B::Real;
   PairGrid<B> grid;
   Real h;  ///< step [s]
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     const double half = 0.5 * static_cast<double>(grid.limits.margin);
     const Real least = grid.limits.reach, needed = Kokkos::max(least, grid.closing(h));
     const bool fits = needed <= grid.reach(0) && grid.reach(0) <= Kokkos::max(least, 4 * needed);
@@ -126,7 +126,8 @@ template <class B>
 struct SetWidth {
   using Real = typename B::Real;
   PairGrid<B> grid;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
+    if (!(grid.stale(0) > 0)) return;
     const Real radius = static_cast<Real>(Kokkos::sqrt(grid.radius(0)));  // no less than half of any edge
     grid.width(0) = radius + Kokkos::max(grid.reach(0), radius + grid.edge_reach()) + grid.limits.margin;
   }

@@ -56,7 +56,9 @@ struct AddImpulse {
   Doubles<B> sums, impulse;
   int first;  ///< the obstacle's first number
   double weight;
-  KOKKOS_INLINE_FUNCTION void operator()(int k) const { impulse(first + k) += weight * sums(k); }
+  KOKKOS_INLINE_FUNCTION void operator()() const {
+    for (int k = 0; k < 6; ++k) impulse(first + k) += weight * sums(k);
+  }
 };
 
 /// wrench = what levels' impulses sum up to over the time that they took, `per_time` its inverse.

@@ -21,7 +21,7 @@
 // With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a): that is the torque.
 // R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
 //
-// The force changes the momentum q that it depends on: TurningAxes::find_force repeats until it no longer does. From the torques to
+// The force changes the momentum q that it depends on: TurningAxes::find_torques repeats until it no longer does. From the torques to
 // what they add to q all is linear and stays the same, so that one matrix does it; the force itself is needed only once.
 namespace plica {
 
@@ -54,31 +54,27 @@ KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Rea
   return true;
 }
 
-/// G of u_C.
-template <class B>
-struct CoarseGradients {
-  using Real = typename B::Real;
-  CoarseAxes<B> axes;
-  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    const int n = static_cast<int>(axes.at_rest.extent(0)), first = item * group_size<B>;
-    for (int j = 0; j < 3; ++j) {
-      Real column[3][group_size<B>];
-      group_rows<B, 3>(axes.gradient_of[j], item, n, axes.displacement, column);
-      for (int i = 0; i < group_size<B> && first + i < n; ++i)
-        for (int k = 0; k < 3; ++k)
-          axes.gradient(3 * (first + i) + k, j) = column[k][i] + (k == j ? axes.at_rest(first + i) : Real(0));
-    }
-  }
-};
-
-/// R and (tr U 1 - U)^-1. Returns the square of the angle since the last time [rad^2], and 1.
+/// R and (tr U 1 - U)^-1 of u_C, and per work item the sum of the squares of the angles since the last time.
 template <class B>
 struct TurnAxes {
   using Real = typename B::Real;
   CoarseAxes<B> axes;
   Vectors<B> rotation;
-  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int a) const {
-    const Mat3<Real> G = matrix_at<Real>(axes.gradient, a), before = matrix_at<Real>(rotation, a);
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const int n = static_cast<int>(axes.at_rest.extent(0)), first = item * group_size<B>;
+    Real derivative[3][3][group_size<B>];
+    for (int j = 0; j < 3; ++j) group_rows<B, 3>(axes.gradient_of[j], item, n, axes.displacement, derivative[j]);
+    double sum = 0;
+    for (int i = 0; i < group_size<B> && first + i < n; ++i) {
+      Mat3<Real> G;
+      for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j) G[k][j] = derivative[j][k][i] + (k == j ? axes.at_rest(first + i) : Real(0));
+      sum += static_cast<double>(turn(first + i, G));
+    }
+    axes.angles(item) = sum;
+  }
+  KOKKOS_INLINE_FUNCTION Real turn(int a, const Mat3<Real>& G) const {
+    const Mat3<Real> before = matrix_at<Real>(rotation, a);
     Mat3<Real> R, inverse;
     if (nearest_rotation(G, before, R)) {
       Mat3<Real> U = transpose(R) * G;
@@ -88,7 +84,7 @@ struct TurnAxes {
     }
     set_matrix(rotation, a, R);
     set_matrix(axes.stiffness, a, inverse);
-    return {{static_cast<double>(Kokkos::max(Real(0), Real(3) - inner(R, before))), 1.0}};
+    return Kokkos::max(Real(0), Real(3) - inner(R, before));
   }
 };
 
@@ -191,6 +187,14 @@ struct ForceOfTorques {
   }
 };
 
+/// That, and the coarsest level's answer to the momenta: neither needs the other.
+template <class B>
+struct ForceAndAnswer {
+  ForceOfTorques<B> force;
+  AnswerOfCoarsest<B> answer;
+  KOKKOS_INLINE_FUNCTION void operator()(int item) const { force(item), answer(item); }
+};
+
 /// p += t E^T g, of vertices that forces move.
 template <class B>
 struct PushByAxes {
@@ -206,12 +210,13 @@ struct PushByAxes {
   }
 };
 
-/// The same, and the finest level's answer to p.
+/// The same, and the finest level's mean acceleration that follows from p.
 template <class B>
-struct AnswerOfPushed {
+struct AccelerationOfPushed {
   PushByAxes<B> push;
   AnswerOfFinest<B> answer;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { push(a), answer(a); }
+  MeanAcceleration<B> mean;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { push(a), answer(a), mean(a); }
 };
 
 /// A middle level's share of that: += t Pi^T E^T g.

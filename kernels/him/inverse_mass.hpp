@@ -42,6 +42,17 @@ struct AnswerOfFinest {
   }
 };
 
+/// answer = (answer - v) / t: from A p to the acceleration.
+template <class B>
+struct MeanAcceleration {
+  using Real = typename B::Real;
+  Vectors<B> v, answer;
+  Real per_step;  ///< 1/t
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    for (int k = 0; k < 3; ++k) answer(a, k) = (answer(a, k) - v(a, k)) * per_step;
+  }
+};
+
 /// The axes of coarse vertex a, from row 3 a on.
 template <class Real, class View>
 KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
@@ -60,6 +71,14 @@ struct TurnForces {
     set_vector<B>(filter.turned, a,
                   transpose(matrix_at<typename B::Real>(filter.rotation, a)) * vector_at<B>(force, a));
   }
+};
+
+/// The way down to the coarsest level, and there `turn`, of what has come down.
+template <class B, class Turn>
+struct DownToAxes {
+  MultiplyRows<B, float> down;
+  Turn turn;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { down(a), turn(a); }
 };
 
 // A dense matrix times vectors: a work item takes a whole group of vertices on a CPU, where its rows fill registers, one

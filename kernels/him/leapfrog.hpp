@@ -6,14 +6,13 @@
 // a step; see KickMomentum.
 namespace plica {
 
-/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turn, at most 1e-4.
+/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turned in the last, at most 1e-4.
 template <class B>
 struct Loss {
-  Doubles<B> moved;
-  double given;  ///< < 0: chosen
+  Doubles<B> turned;  ///< its square [rad^2]
+  double given;       ///< < 0: chosen
   KOKKOS_INLINE_FUNCTION double operator()() const {
-    const double angle = moved(1) > 0 ? Kokkos::sqrt(moved(0) / moved(1)) : 0.0;
-    return given >= 0 ? given : Kokkos::min(1e-4, 0.3 * angle);
+    return given >= 0 ? given : Kokkos::min(1e-4, 0.3 * Kokkos::sqrt(turned(0)));
   }
 };
 
@@ -33,17 +32,6 @@ struct KickMomentum {
       const Real slowed = g.extent(0) > 0 ? g(a, k) : p(a, k) - m * v(a, k);
       p(a, k) = kept * ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed);
     }
-  }
-};
-
-/// answer = (answer - v) / t: from A p to the acceleration.
-template <class B>
-struct MeanAcceleration {
-  using Real = typename B::Real;
-  Vectors<B> v, answer;
-  Real per_step;  ///< 1/t
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) answer(a, k) = (answer(a, k) - v(a, k)) * per_step;
   }
 };
 
@@ -84,7 +72,7 @@ struct WatchSpectrum {
   Doubles<B> sums, state;
   RoundOfAxes<B> last;
   bool first;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     const double answer = sums(0), work = sums(1);
     const bool counts = !first && work > 0;
     if (counts) state(2) = Kokkos::max(state(2), answer / work);
@@ -92,6 +80,20 @@ struct WatchSpectrum {
     const bool lost = last.sums.extent(0) > 0 && last.change() > 0.01;
     if (state(0) >= 2 || !(answer - answer == 0)) state(1) = 1;
     if (lost) state(1) = 2;
+  }
+};
+
+/// What follows a step's sums.
+template <class B>
+struct EndOfStep {
+  WatchSpectrum<B> watch;
+  Doubles<B> angles, turned;  ///< see CoarseAxes and Loss
+  int axes;
+  KOKKOS_INLINE_FUNCTION void operator()() const {
+    watch();
+    double sum = 0;
+    for (std::size_t i = 0; i < angles.extent(0); ++i) sum += angles(i);
+    turned(0) = axes > 0 ? sum / axes : 0;
   }
 };
 
@@ -132,7 +134,7 @@ template <class B>
 struct SetRigidFrame {
   Doubles<B> sums;
   RigidFrameOf<B> frame;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     RigidFrame& r = frame();
     const double m = sums(0);
     Vec3<double> c{sums(1) / m, sums(2) / m, sums(3) / m}, P{sums(10), sums(11), sums(12)};

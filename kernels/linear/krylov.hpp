@@ -4,12 +4,13 @@
 #include <plica/kernels/vectors.hpp>
 
 // Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1) with its scalars on the device, where they
-// also decide when to stop: iterations after that change nothing, so that the host may look only now and then.
+// also decide when to stop: iterations after that change nothing, so that the host may look only now and then. What has no operator()(int)
+// follows a sum, see reduce().
 namespace plica {
 
 /// Where a scalar stands among those of a solve.
 namespace cg {
-enum : int { curvature, product, last_product, square, right_side, start, alpha, beta, stopped, iterations, count };
+enum : int { curvature, product, last_product, square, right_side, start, alpha, stopped, iterations, count };
 constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3;  // values of `stopped`
 }  // namespace cg
 
@@ -41,7 +42,7 @@ struct CgZero {
 template <class B>
 struct CgBegin {
   Doubles<B> s;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     s(cg::right_side) = s(cg::start) = s(cg::square);
     s(cg::iterations) = s(cg::last_product) = 0;
     s(cg::stopped) = s(cg::square) > 0 ? cg::running : s(cg::square) == 0 ? cg::converged : cg::not_finite;
@@ -54,7 +55,7 @@ template <class B>
 struct CgGuess {
   Doubles<B> s;
   double tolerance;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     s(cg::start) = s(cg::square);
     if (s(cg::stopped) != cg::running) return;
     if (s(cg::square) == 0 || (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side)))
@@ -62,24 +63,15 @@ struct CgGuess {
   }
 };
 
-/// beta = r.z / the last r.z
-template <class B>
-struct CgTurn {
-  Doubles<B> s;
-  int product;  ///< where r.z stands
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
-    s(cg::beta) = s(cg::last_product) > 0 ? s(product) / s(cg::last_product) : 0.0;
-    s(cg::last_product) = s(product);
-  }
-};
-
-/// p = z + beta p
+/// p = z + beta p, beta = r.z / the last r.z
 template <class B>
 struct CgDirection {
   Doubles<B> s;
+  int product;  ///< where r.z stands
   Vectors<B> z, p;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const auto beta = static_cast<typename B::Real>(s(cg::beta));
+    const double before = s(cg::last_product);
+    const auto beta = static_cast<typename B::Real>(before > 0 ? s(product) / before : 0.0);
     const auto last = beta != 0 ? beta * vector_at<B>(p, a) : Vec3<typename B::Real>{};
     set_vector<B>(p, a, vector_at<B>(z, a) + last);
   }
@@ -89,9 +81,11 @@ struct CgDirection {
 template <class B>
 struct CgStep {
   Doubles<B> s;
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  int product;  ///< where r.z stands
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     if (s(cg::stopped) == cg::running && !(s(cg::curvature) > 0)) s(cg::stopped) = cg::indefinite;
-    s(cg::alpha) = s(cg::stopped) == cg::running ? s(cg::last_product) / s(cg::curvature) : 0.0;
+    s(cg::alpha) = s(cg::stopped) == cg::running ? s(product) / s(cg::curvature) : 0.0;
+    s(cg::last_product) = s(product);
   }
 };
 
@@ -115,7 +109,7 @@ template <class B>
 struct CgJudge {
   Doubles<B> s;
   double tolerance;  ///< of |r| / |b|; below 0: it goes on
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     if (s(cg::stopped) != cg::running) return;
     s(cg::iterations) += 1;
     if (!Kokkos::isfinite(s(cg::square)))
@@ -182,7 +176,7 @@ template <class B>
 struct SpaceWeights {
   Doubles<B> products;
   double least;  ///< what must be left of a solution, of its square
-  KOKKOS_INLINE_FUNCTION void operator()(int) const {
+  KOKKOS_INLINE_FUNCTION void operator()() const {
     constexpr int m = SolutionSpace<B>::size;
     double G[m][m], y[m];
     int at = 0;

@@ -37,8 +37,8 @@ class FreeMotion {
 
   /// Takes the rigid part of momenta at a state out of them.
   void take_rigid(const Exec& exec, const Model<B>& model, const Vectors<B>& u, const Vectors<B>& p) const {
-    reduce<B, 16>(exec, "plica::free_moments", model.vertices, BodyMoments<B>{model.mass, rest_, u, p}, blocks_, sums_);
-    update_vertices<B>(exec, "plica::free_frame", 1, SetRigidFrame<B>{sums_, frame_});
+    reduce<B, 16>(exec, "plica::free_moments", model.vertices, BodyMoments<B>{model.mass, rest_, u, p}, blocks_, sums_,
+                  SetRigidFrame<B>{sums_, frame_});
     update_vertices<B>(exec, "plica::free_take", model.vertices, TakeRigidMotion<B>{model.mass, rest_, u, p, frame_});
   }
 
@@ -122,7 +122,7 @@ class HimStepper final : public Stepper<B> {
   void start(Hierarchy<B>& h) override {
     const Level<B>& level = h[0];
     const auto& exec = h.exec();
-    parts_.inverse_mass->turn(exec, level.state.u, moved_);
+    parts_.inverse_mass->turn(exec, level.state.u);
     weigh<B>(exec, "plica::him_momenta", level.model, 1, level.state.v, 0, level.state.v, p_);
     answer(exec, level.model, p_, a_);
     combine_free<B>(exec, "plica::him_start", level.model.inverse_mass, 1, a_, 0, a_, level.state.v);
@@ -136,7 +136,7 @@ class HimStepper final : public Stepper<B> {
     copy(exec, a_, level.state.u);
     const auto half = static_cast<Real>(0.5 * parts_.fit.step);
     combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1, a_, a_);
-    parts_.inverse_mass->turn(exec, a_, moved_);
+    parts_.inverse_mass->turn(exec, a_);
     momentum_of<B>(
         exec, level.model, [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); },
         level.state.v, p_);
@@ -149,8 +149,8 @@ class HimStepper final : public Stepper<B> {
 
   bool lost_stability(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
 
-  /// An impact strains elements by more than a long step can follow.
-  bool repairs() const override { return parts_.contact_force.extent(0) > 0; }
+  /// An impact strains elements by more than a long step can follow; and where stability is lost fast, other checks find it first.
+  bool repairs() const override { return true; }
 
   bool repair(Hierarchy<B>& h, double t, int attempt) override {
     constexpr int most_substeps = 64;
@@ -191,6 +191,7 @@ class HimStepper final : public Stepper<B> {
     archive.field("the last force", f_before_);
     archive.field("the last answer", a_before_);
     archive.field("the coarsest axes", parts_.inverse_mass->filter().rotation);
+    archive.field("how far they turned", turned_);
   }
 
  private:
@@ -198,7 +199,7 @@ class HimStepper final : public Stepper<B> {
   int n_ = 0;
   Vectors<B> p_, g_, a_, f_before_, a_before_;
   BlockSums<B> blocks_;
-  Kokkos::View<double*, typename B::Memory> moved_, sums_, watch_;
+  Kokkos::View<double*, typename B::Memory> turned_, sums_, watch_;
   bool first_ = true;
   bool lost_ = false;  // before the last begin(): the axes' force was not found
   int substeps_ = 1;
@@ -218,7 +219,7 @@ class HimStepper final : public Stepper<B> {
   /// What the next step takes from the last, but for momenta.
   void forget(const typename B::Exec& exec) {
     first_ = true;
-    fill(exec, watch_, 0.0);
+    fill(exec, watch_, 0.0), fill(exec, turned_, 0.0);
     fill(exec, parts_.inverse_mass->axes().share(), Real(0));
   }
 
@@ -229,11 +230,13 @@ class HimStepper final : public Stepper<B> {
     if (parts_.free) parts_.free->put_translation(exec, model, v);
   }
 
-  /// The push that kick() found, and a = A p.
-  void push_and_answer(const typename B::Exec& exec, const Model<B>& model, double t) const {
-    if (!parts_.free) return parts_.inverse_mass->push_and_apply(exec, t, p_, a_);
+  /// The push that kick() found, and the mean acceleration a = (A p - v) / t.
+  void push_and_accelerate(const typename B::Exec& exec, const Level<B>& level, double t) const {
+    const Vectors<B>& v = level.state.v;
+    if (!parts_.free) return parts_.inverse_mass->push_and_accelerate(exec, t, p_, v, a_);
     parts_.inverse_mass->push(exec, t, p_);
-    answer(exec, model, p_, a_);
+    answer(exec, level.model, p_, a_);
+    update_vertices<B>(exec, "plica::him_acceleration", n_, MeanAcceleration<B>{v, a_, static_cast<Real>(1 / t)});
   }
 
   /// Momenta as the levels get to see them, in g_ where that differs.
@@ -245,14 +248,15 @@ class HimStepper final : public Stepper<B> {
   }
 
   void kick(const typename B::Exec& exec, const Level<B>& level, double t) {
-    parts_.inverse_mass->turn(exec, level.state.u, moved_);
+    parts_.inverse_mass->turn(exec, level.state.u);
     if (parts_.free) {
       weigh<B>(exec, "plica::him_slowed", level.model, -1, level.state.v, 1, p_, g_);
       parts_.free->take_rigid(exec, level.model, level.state.u, g_);
     }
-    update_vertices<B>(exec, "plica::him_momenta", n_,
-                       KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_,
-                                       Loss<B>{moved_, parts_.options.dissipation.value_or(-1)}, static_cast<Real>(t)});
+    update_vertices<B>(
+        exec, "plica::him_momenta", n_,
+        KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_,
+                        Loss<B>{turned_, parts_.options.dissipation.value_or(-1)}, static_cast<Real>(t)});
     parts_.inverse_mass->find_push(exec, without_translation(exec, level.model, p_), t);
   }
 
@@ -282,9 +286,7 @@ class HimStepper final : public Stepper<B> {
     level.remember(time + t / 2);
     h[0].evaluate_without_contact(level.state, time + t / 2, level.f);
     h.clock.time("turn", 0, [&] { kick(exec, level, t); });
-    h.clock.time("answer", 0, [&] { push_and_answer(exec, level.model, t); });
-    update_vertices<B>(exec, "plica::him_acceleration", n_,
-                       MeanAcceleration<B>{level.state.v, a_, static_cast<Real>(1 / t)});
+    h.clock.time("answer", 0, [&] { push_and_accelerate(exec, level, t); });
     if (level.contact()) h.clock.time("contact", 0, [&] { touch(h[0], time + t / 2, t); });
     const KickAndDrift<B> finish{.inverse_mass = inverse_mass,
                                  .state = level.state,
@@ -297,9 +299,9 @@ class HimStepper final : public Stepper<B> {
                                  .contact_force = parts_.contact_force,
                                  .touching = level.response().points().count,
                                  .t = static_cast<Real>(t)};
-    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_);
-    update_vertices<B>(exec, "plica::him_watch", 1,
-                       WatchSpectrum<B>{sums_, watch_, parts_.inverse_mass->axes().last_round(), first_});
+    const TurningAxes<B>& axes = parts_.inverse_mass->axes();
+    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_,
+                 EndOfStep<B>{{sums_, watch_, axes.last_round(), first_}, axes.angles(), turned_, axes.vertices()});
     prescribe(exec, level, level.state, time + t);
     first_ = false;
   }

@@ -75,31 +75,41 @@ void InverseMass<B>::set_answer(const Eigen::MatrixXd& S) {
 }
 
 template <class B>
-void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const {
-  if (!coarser_.empty()) axes_.turn(exec, u, moved);
+void InverseMass<B>::turn(const Exec& exec, const Vectors<B>& u) const {
+  if (!coarser_.empty()) axes_.turn(exec, u);
 }
 
 template <class B>
 void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) const {
   if (coarser_.empty()) return;
-  go_down(exec, q, coarser_.size(), {});
-  axes_.find_force(exec, coarser_.back().force, filter_, weights_.back(), t);
+  const Vectors<B>& given = coarser_.back().force;
+  go_down_to_axes(exec, q, {}, axes_.start(given, filter_));
+  axes_.find_torques(exec, given, filter_, weights_.back(), t);
 }
 
 template <class B>
 void InverseMass<B>::push(const Exec& exec, double t, const Vectors<B>& p) const {
-  if (!coarser_.empty()) update_vertices<B>(exec, "plica::axes_push", vertices_, axes_.push(t, inverse_mass_, p));
+  if (coarser_.empty()) return;
+  update_vertices<B>(exec, "plica::axes_force", groups_of<B>(filter_.vertices), axes_.force_of_torques());
+  update_vertices<B>(exec, "plica::axes_push", vertices_, axes_.push(t, inverse_mass_, p));
 }
 
 template <class B>
-void InverseMass<B>::push_and_apply(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& a) const {
-  if (coarser_.empty()) return apply(exec, p, a);
+void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
+                                         const Vectors<B>& a) const {
+  const MeanAcceleration<B> mean{v, a, static_cast<Real>(1 / t)};
+  if (coarser_.empty()) {
+    apply(exec, p, a);
+    return update_vertices<B>(exec, "plica::him_acceleration", vertices_, mean);
+  }
+  update_vertices<B>(exec, "plica::him_coarsest", groups_of<B>(filter_.vertices),
+                     ForceAndAnswer<B>{axes_.force_of_torques(), answer_of_coarsest()});
   for (std::size_t i = 0; i + 1 < coarser_.size(); ++i)
     update_vertices<B>(exec, "plica::axes_share", coarser_[i].vertices,
                        AddShareOfAxes<B>{coarser_[i].share, axes_.force(), coarser_[i].force, static_cast<Real>(t)});
   go_up(exec, {});
   update_vertices<B>(exec, "plica::him_up", vertices_,
-                     AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a)});
+                     AccelerationOfPushed<B>{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a), mean});
 }
 
 template <class B>
@@ -110,7 +120,8 @@ std::size_t InverseMass<B>::weighed() const {
 }
 
 template <class B>
-void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels, const Doubles<B>& count) const {
+Vectors<B> InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels,
+                                   const Doubles<B>& count) const {
   Vectors<B> finer = f;
   for (std::size_t i = 0; i < levels; ++i) {
     const MassLevel<B>& level = coarser_[i];
@@ -118,20 +129,33 @@ void InverseMass<B>::go_down(const Exec& exec, const Vectors<B>& f, std::size_t 
                       MultiplyRows<B, float>{level.down, finer, level.force});
     finer = level.force;
   }
+  return finer;
+}
+
+template <class B>
+template <class Turn>
+void InverseMass<B>::go_down_to_axes(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count,
+                                     const Turn& turn) const {
+  const MassLevel<B>& coarsest = coarser_.back();
+  const Vectors<B> finer = go_down(exec, f, coarser_.size() - 1, count);
+  where_touching<B>(exec, count, "plica::him_down", coarsest.vertices,
+                    DownToAxes<B, Turn>{{coarsest.down, finer, coarsest.force}, turn});
 }
 
 template <class B>
 void InverseMass<B>::go_up(const Exec& exec, const Doubles<B>& count) const {
   const std::size_t last = weighed();
-  if (last == coarser_.size() && last > 0)
-    where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices),
-                      AnswerOfCoarsest<B>{filter_, coarser_.back().acceleration, static_cast<Real>(weights_.back())});
   for (std::size_t i = std::min(last + 1, coarser_.size()); i-- > 1;) {
     const MassLevel<B>&level = coarser_[i - 1], below = i < last ? coarser_[i] : MassLevel<B>{};
     where_touching<B>(exec, count, "plica::him_up", level.vertices,
                       AnswerOfLevel<B>{level.mass, below.up, level.force, below.acceleration, level.acceleration,
                                        static_cast<Real>(weights_[i])});
   }
+}
+
+template <class B>
+AnswerOfCoarsest<B> InverseMass<B>::answer_of_coarsest() const {
+  return {filter_, coarser_.back().acceleration, static_cast<Real>(weights_.back())};
 }
 
 template <class B>
@@ -142,10 +166,12 @@ AnswerOfFinest<B> InverseMass<B>::answer_of_finest(const Vectors<B>& f, const Ve
 
 template <class B>
 void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
-  go_down(exec, f, weighed(), count);
-  if (weighed() == coarser_.size() && !coarser_.empty())
-    where_touching<B>(exec, count, "plica::him_turn_forces", filter_.vertices,
-                      TurnForces<B>{filter_, coarser_.back().force});
+  if (coarser_.empty() || weighed() < coarser_.size()) {
+    go_down(exec, f, weighed(), count);
+  } else {
+    go_down_to_axes(exec, f, count, TurnForces<B>{filter_, coarser_.back().force});
+    where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices), answer_of_coarsest());
+  }
   go_up(exec, count);
   update_vertices<B>(exec, "plica::him_up", vertices_, answer_of_finest(f, a));
 }

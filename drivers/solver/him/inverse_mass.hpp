@@ -28,13 +28,14 @@ class InverseMass {
   void set_answer(const Eigen::MatrixXd& S);
 
   /// Turns the coarsest level's axes with the finest mesh's state, see TurningAxes.
-  void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
+  void turn(const Exec& exec, const Vectors<B>& u) const;
   /// Finds the force by which the axes act for a time t on the momenta q, with that force in them.
   void find_push(const Exec& exec, const Vectors<B>& q, double t) const;
   /// p += t times that force
   void push(const Exec& exec, double t, const Vectors<B>& p) const;
-  /// The same where p are the momenta q themselves, and a = A p: the way down that the force was found by is not gone again.
-  void push_and_apply(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& a) const;
+  /// The same where p are the momenta q themselves, and a = (A p - v) / t: the way down that the force was found by is not gone again.
+  void push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
+                           const Vectors<B>& a) const;
   /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that is above 0.
   void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count = {}) const;
 
@@ -52,9 +53,14 @@ class InverseMass {
 
   /// The levels down to the last one that has a weight.
   std::size_t weighed() const;
-  void go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels, const Doubles<B>& count) const;
-  /// Where the coarsest level's forces are turned already.
+  /// What comes down to the last of so many levels.
+  Vectors<B> go_down(const Exec& exec, const Vectors<B>& f, std::size_t levels, const Doubles<B>& count) const;
+  /// All the way down, and there `turn`.
+  template <class Turn>
+  void go_down_to_axes(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count, const Turn& turn) const;
+  /// From the coarsest level's answer, or the lowest that has a weight, to the level below the finest.
   void go_up(const Exec& exec, const Doubles<B>& count) const;
+  AnswerOfCoarsest<B> answer_of_coarsest() const;
   AnswerOfFinest<B> answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const;
 };
 

@@ -255,7 +255,6 @@ void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>&
 template <class B>
 TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& to_finest)
     : vertices_(static_cast<int>(shape.at_rest.size())),
-      blocks_(vertices_),
       sums_(zeros<Sums>("plica::axes.sums", static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
   const RowMatrix spread = shape.restriction.transpose();
   axes_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
@@ -264,27 +263,25 @@ TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& to_finest)
   const auto n = static_cast<std::size_t>(vertices_);
   for (Vectors<B>* one : {&share_, &axes_.displacement, &axes_.force})
     *one = zeros<Vectors<B>>("plica::axes.vectors", n);
-  for (Vectors<B>* one : {&axes_.gradient, &axes_.stiffness, &axes_.torque})
-    *one = zeros<Vectors<B>>("plica::axes.matrices", 3 * n);
+  axes_.angles = zeros<Doubles<B>>("plica::axes.angles", static_cast<std::size_t>(groups_of<B>(vertices_)));
+  for (Vectors<B>* one : {&axes_.stiffness, &axes_.torque}) *one = zeros<Vectors<B>>("plica::axes.matrices", 3 * n);
   std::vector<std::array<Real, 3>> unit(3 * n);
   for (std::size_t k = 0; k < unit.size(); ++k) unit[k][k % 3] = 1;
   rotation_ = to_device<Vectors<B>>("axes.rotation", unit);
 }
 
 template <class B>
-void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const {
+void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u) const {
   update_vertices<B>(exec, "plica::axes_restrict", vertices_,
                      MultiplyRows<B>{axes_.restriction, u, axes_.displacement});
-  update_vertices<B>(exec, "plica::axes_gradients", groups_of<B>(vertices_), CoarseGradients<B>{axes_});
-  reduce<B, 2>(exec, "plica::axes_turn", vertices_, TurnAxes<B>{axes_, rotation_}, blocks_, moved);
+  update_vertices<B>(exec, "plica::axes_turn", groups_of<B>(vertices_), TurnAxes<B>{axes_, rotation_});
 }
 
 template <class B>
-void TurningAxes<B>::find_force(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter, double weight,
-                                double t) const {
+void TurningAxes<B>::find_torques(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter,
+                                  double weight, double t) const {
   const CoarseMomentum<B> momentum{given, share_};
   const int groups = groups_of<B>(vertices_);
-  update_vertices<B>(exec, "plica::axes_start", vertices_, StartMomentum<B>{filter, momentum});
   RoundOfAxes<B> last;
   for (int i = 0; i < most_rounds; ++i) {
     update_vertices<B>(exec, "plica::axes_torque", groups,
@@ -294,13 +291,12 @@ void TurningAxes<B>::find_force(const Exec& exec, const Vectors<B>& given, const
                        NextMomentum<B>{axes_, filter, momentum, last, now, static_cast<Real>(t)});
     last = now;
   }
-  update_vertices<B>(exec, "plica::axes_force", groups, ForceOfTorques<B>{axes_});
 }
 
 template <class B>
 std::size_t TurningAxes<B>::bytes() const {
   return bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient_of[0], axes_.gradient_of[1],
-                        axes_.gradient_of[2], axes_.force_of, axes_.response, axes_.gradient, axes_.stiffness,
+                        axes_.gradient_of[2], axes_.force_of, axes_.response, axes_.angles, axes_.stiffness,
                         axes_.torque, axes_.force, rotation_, share_, sums_) +
          bytes_of_rows(axes_.restriction) + bytes_of_rows(axes_.spread);
 }

@@ -36,16 +36,22 @@ class TurningAxes {
   TurningAxes() = default;
   TurningAxes(const AxesShape& shape, const RowMatrix& to_finest);
 
-  /// R at a state. Into moved: the sum of the squares of their angles since the last time [rad^2], and their number.
-  void turn(const Exec& exec, const Vectors<B>& u, const Doubles<B>& moved) const;
+  /// R at a state.
+  void turn(const Exec& exec, const Vectors<B>& u) const;
 
-  /// Finds the force by which the axes act on momenta for a time t, at the momenta that this gives: repeated until it changes by less
-  /// than a thousandth of itself or a millionth of the momenta, six times at most, warm from the last step.
+  /// What comes before find_torques(), vertex by vertex.
+  StartMomentum<B> start(const Vectors<B>& given, const CoarseFilter<B>& filter) const {
+    return {filter, {given, share_}};
+  }
+  /// Finds the torques by which the axes act on momenta for a time t, at the momenta that this gives: repeated until it changes by less
+  /// than a thousandth of itself or a millionth of the momenta, six times at most, warm from the last step. After start().
   /// @param given   coarse momenta without it
   /// @param filter  of the coarsest level; takes the momenta with it, turned
   /// @param weight  of the coarsest level in the inverse mass
-  void find_force(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter, double weight,
-                  double t) const;
+  void find_torques(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter, double weight,
+                    double t) const;
+  /// g of those torques, group by group.
+  ForceOfTorques<B> force_of_torques() const { return {axes_}; }
   /// p += t times that force
   PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p) const {
     return {axes_.spread, inverse_mass, axes_.force, p, static_cast<Real>(t)};
@@ -54,6 +60,9 @@ class TurningAxes {
   const Vectors<B>& force() const { return axes_.force; }
 
   const Vectors<B>& rotation() const { return rotation_; }
+  int vertices() const { return vertices_; }
+  /// The squares of the angles of the last turn; their sum is that of all vertices [rad^2].
+  const Doubles<B>& angles() const { return axes_.angles; }
   /// What the force added to the coarse momenta in the last step.
   const Vectors<B>& share() const { return share_; }
   /// By how much of itself that force still changed; without axes empty.
@@ -67,7 +76,6 @@ class TurningAxes {
   int vertices_ = 0;
   CoarseAxes<B> axes_;
   Vectors<B> rotation_, share_;
-  BlockSums<B> blocks_;
   Sums sums_;  ///< [rounds][groups]
 
   RoundOfAxes<B> round(int i) const {

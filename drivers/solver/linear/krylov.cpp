@@ -21,8 +21,8 @@ void LastSolutions<B>::start(const Exec& exec, const StageSystem<B>& system, con
   const int n = system.rows();
   constexpr double least = 1e4 * Kokkos::Experimental::epsilon_v<typename B::Real>;
   system.products(exec, space_);
-  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", n, SpaceSums<B>{space_, r}, sums, space_.products);
-  update_vertices<B>(exec, "plica::space_weights", 1, SpaceWeights<B>{space_.products, least});
+  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", n, SpaceSums<B>{space_, r}, sums, space_.products,
+                                    SpaceWeights<B>{space_.products, least});
   update_vertices<B>(exec, "plica::space_guess", n, SpaceGuess<B>{space_, r, x});
 }
 
@@ -56,28 +56,27 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Pr
                         double tolerance, const Vectors<B>& r, const Vectors<B>& x) const {
   const int n = system.rows();
   const Blocks<B>& D = system.inverse_diagonal();
+  const int product = preconditioner ? cg::product : cg::square;
   if (preconditioner) {
     preconditioner->apply(exec, r, z_);
-    dot<B>(exec, "plica::cg_product", r, z_, sums_, slot(cg::product));
+    dot<B>(exec, "plica::cg_product", r, z_, sums_, slot(product));
   }
-  update_vertices<B>(exec, "plica::cg_turn", 1, CgTurn<B>{scalars_, preconditioner ? cg::product : cg::square});
-  update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, z_, p_});
-  system.product(exec, p_, q_, sums_, slot(cg::curvature));
-  update_vertices<B>(exec, "plica::cg_step", 1, CgStep<B>{scalars_});
-  reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square));
-  update_vertices<B>(exec, "plica::cg_judge", 1, CgJudge<B>{scalars_, tolerance});
+  update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, product, z_, p_});
+  system.product(exec, p_, q_, sums_, slot(cg::curvature), CgStep<B>{scalars_, product});
+  reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square),
+               CgJudge<B>{scalars_, tolerance});
 }
 
 template <class B>
 void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
                       const Vectors<B>& r, const Vectors<B>& x) const {
   const CgSquare<B> square{system.inverse_diagonal(), r, z_};
-  reduce<B, 1>(exec, "plica::cg_zero", system.rows(), CgZero<B>{square, x}, sums_, slot(cg::square));
-  update_vertices<B>(exec, "plica::cg_begin", 1, CgBegin<B>{scalars_});
+  reduce<B, 1>(exec, "plica::cg_zero", system.rows(), CgZero<B>{square, x}, sums_, slot(cg::square),
+               CgBegin<B>{scalars_});
   if (!last || !last->any()) return;
   last->start(exec, system, sums_, r, x);
-  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square));
-  update_vertices<B>(exec, "plica::cg_guess", 1, CgGuess<B>{scalars_, tolerance});
+  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square),
+               CgGuess<B>{scalars_, tolerance});
 }
 
 template <class B>

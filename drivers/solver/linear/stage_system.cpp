@@ -74,12 +74,12 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
 
 template <class B>
 void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
-                             const Doubles<B>& curvature) const {
+                             const Doubles<B>& curvature, const CgStep<B>& then) const {
   if (by_matrix_alone())
     return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{pattern_.matrix, p, q}, sums,
-                        curvature);
+                        curvature, then);
   product(exec, p, q);
-  dot<B>(exec, "plica::curvature", p, q, sums, curvature);
+  reduce<B, 1>(exec, "plica::curvature", rows(), Dot<B>{p, q}, sums, curvature, then);
 }
 
 template <class B>

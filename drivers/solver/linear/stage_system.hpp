@@ -23,9 +23,9 @@ class StageSystem {
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// q = A p
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const;
-  /// The same, and p.q
+  /// The same, p.q, and the step that follows from it.
   void product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
-               const Doubles<B>& curvature) const;
+               const Doubles<B>& curvature, const CgStep<B>& then) const;
   /// q = A w of a whole space
   void products(const Exec& exec, const SolutionSpace<B>& space) const;
   /// The inverses of its vertex blocks; 0 where the motion is given.

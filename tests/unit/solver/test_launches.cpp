@@ -65,15 +65,15 @@ struct Method {
 
 std::vector<Method> methods() {
   return {{"single", "symplectic_euler", "linear", 1, Method::falling, 3},
-          {"single", "symplectic_euler", "linear", 1, Method::touching, 19},
-          {"single", "symplectic_euler", "linear", 1, Method::holding, 20},
+          {"single", "symplectic_euler", "linear", 1, Method::touching, 18},
+          {"single", "symplectic_euler", "linear", 1, Method::holding, 19},
           {"single", "symplectic_euler", "nodal", 1, Method::falling, 5},
           {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
-          {"rsv", "symplectic_euler", "linear", 4, Method::touching, 90},
+          {"rsv", "symplectic_euler", "linear", 4, Method::touching, 86},
           {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
-          {"him", "symplectic_euler", "linear", 3, Method::falling, 38},
-          {"him", "symplectic_euler", "linear", 3, Method::hanging, 29},
-          {"single", "implicit_euler", "linear", 1, Method::falling, 76, 1}};
+          {"him", "symplectic_euler", "linear", 3, Method::falling, 34},
+          {"him", "symplectic_euler", "linear", 3, Method::hanging, 25},
+          {"single", "implicit_euler", "linear", 1, Method::falling, 45, 1}};
 }
 
 Problem problem_of(const Method& m) {
