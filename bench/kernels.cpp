@@ -11,7 +11,6 @@
 #include "beam.hpp"
 #include "case.hpp"
 #include "counted.hpp"
-#include "fixture.hpp"
 #include "measure.hpp"
 #include "suites.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "case.hpp"
 #include "counted.hpp"
-#include "fixture.hpp"
 #include "layouts/element_forces.hpp"
 #include "layouts/patched.hpp"
 #include "layouts/per_vertex.hpp"

@@ -9,7 +9,7 @@
 #include <plica/meshes/generators.hpp>
 
 #include "beam.hpp"
-#include "fixture.hpp"
+#include "case.hpp"
 #include "measure.hpp"
 #include "suites.hpp"
 

@@ -4,7 +4,7 @@
 #include <Kokkos_Core.hpp>
 #include <plica/version.hpp>
 
-#include "fixture.hpp"
+#include "case.hpp"
 #include "suites.hpp"
 
 // plica_bench, plica_bench_layouts [--benchmark_filter=force/.*] [--benchmark_out=FILE ...]; OMP_NUM_THREADS sets the number of threads. The

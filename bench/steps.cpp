@@ -5,7 +5,6 @@
 
 #include "case.hpp"
 #include "counted.hpp"
-#include "fixture.hpp"
 #include "measure.hpp"
 #include "suites.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/sparse_rows.hpp>
+#include <plica/core/matrices.hpp>
 #include <vector>
 
 /// The arrays of the hierarchical inverse mass, see cmake/docs/him.md.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/backend.hpp>
+#include <plica/core/transfer.hpp>
 
 namespace plica {
 
@@ -23,6 +24,20 @@ struct Restriction {
   Indices<B> source;   ///< a finer vertex
   Scalars<B> weight;   ///< of its force; 0 where it is only averaged
   Scalars<B> average;  ///< of its state; each row sums to 1
+};
+
+/// The body's surface points in one level: x = rest + sum of weight * u, and the transpose for forces, in gather form
+/// so that every vertex adds its points in a fixed order.
+template <class B>
+struct EmbeddedSurface {
+  int points = 0;         ///< of the surface; 0: the level carries none
+  Vectors<B> rest;        ///< [points][3]
+  Transfer<B> embedding;  ///< a row per point, in order
+  int touched = 0;        ///< vertices with a point in one of their tetrahedra
+  Indices<B> vertex;      ///< [touched]
+  Indices<B> first;       ///< [touched + 1] into point and weight
+  Indices<B> point;       ///< a surface point
+  Scalars<B> weight;      ///< of the vertex in it
 };
 
 }  // namespace plica

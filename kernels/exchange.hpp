@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/surface.hpp>
+#include <plica/core/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // What a simulation gives to and takes from its caller's arrays, whatever their precision and layout. Per vertex 3 or 6 values

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
 #include <plica/core/small.hpp>
-#include <plica/core/sparse_rows.hpp>
 #include <plica/core/transfer.hpp>
 
 namespace plica {

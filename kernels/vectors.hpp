@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/block_matrix.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
 #include <plica/core/small.hpp>
 #include <plica/core/transfer.hpp>

@@ -5,6 +5,27 @@
 
 namespace plica {
 
+/// The longest edge of a tetrahedron over its smallest height, 1.22 at best; infinite without volume.
+double height_ratio(const TetMesh& mesh, const std::array<int, 4>& tet);
+
+/// What improve_shapes() did.
+struct Improvement {
+  int moved = 0;            ///< vertices
+  int collapsed = 0;        ///< edges
+  std::vector<int> vertex;  ///< per vertex the one that it became: itself unless its edge was collapsed
+};
+
+/// Shapes slivers better, as repair_mesh() says. Vertices keep their numbers; those that are gone have no tetrahedron left.
+/// @param numbers  a number per tetrahedron, which keeps to it
+Improvement improve_shapes(TetMesh& mesh, std::vector<int>& numbers);
+
+/// Drops slivers that lie on the boundary with two of their faces and have a height ratio (see TetShape) above 20, again and again:
+/// the surface turns the edge between these faces, and moves by the sliver's height at most, a twentieth of its longest edge. One whose
+/// other two faces would meet at an edge of the boundary stays.
+/// @param numbers  a number per tetrahedron, which keeps to it
+/// @return how many
+int peel_slivers(TetMesh& mesh, std::vector<int>& numbers);
+
 /// What repair_mesh() changed, and what came out.
 struct MeshRepair {
   TetMesh mesh;                      ///< sound

@@ -20,7 +20,6 @@
 #include <plica/drivers/app/scene/key_list.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
-#include <plica/drivers/python/between_kernels.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/version.hpp>

@@ -3,8 +3,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <plica/core/block_matrix.hpp>
 #include <plica/core/implicit_weights.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/drivers/solver/contact.hpp>
 
 namespace plica {

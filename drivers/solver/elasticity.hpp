@@ -3,7 +3,7 @@
 #include <memory>
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
-#include <plica/core/patch_pairs.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/drivers/solver/elements.hpp>
 #include <string_view>
 

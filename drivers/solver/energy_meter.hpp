@@ -1,11 +1,121 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
+#include <limits>
+#include <plica/core/text.hpp>
+#include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/hierarchy.hpp>
+#include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/reduce.hpp>
+#include <string>
+#include <vector>
 
+// Whether a body has got more energy than went into it.
 namespace plica {
+
+/// Compares the energies that a run looks at with the first ones. Gravity is in them; what obstacles do is told.
+class EnergyBudget {
+ public:
+  static constexpr double notable = 0.1;  ///< of all that was put in: discrete energies waver
+
+  /// `rounding`: what energies waver by where nothing was put in [J]
+  explicit EnergyBudget(double rounding = 0) : put_in_(rounding) {}
+  template <class B>
+  EnergyBudget(const Simulation<B>& simulation, const Problem& problem)
+      : EnergyBudget(10 * static_cast<double>(std::numeric_limits<typename B::Real>::epsilon()) *
+                     stiffness_at_rest(problem.body.material) * simulation.levels()[0].mass /
+                     problem.body.material.density) {}
+
+  /// Nothing but gravity and obstacles does work, and the elastic energy is all there.
+  static bool knows(const Problem& problem) {
+    return problem.body.loads.empty() && problem.body.prescribed.empty() && !is_viscous(problem.body);
+  }
+
+  /// Energies at this time [s], after obstacles have done this work on the body [J].
+  void look(double time, const Energies& e, double work = 0) {
+    if (!looked_) start_ = e.total(), looked_ = true;
+    put_in_ = std::max(put_in_, start_ + work - e.potential);
+    const double surplus = e.total() - start_ - work;
+    if (put_in_ > 0 && surplus > growth_ * put_in_) growth_ = surplus / put_in_, at_ = time;
+  }
+
+  /// What there is to go on from, and going on from it.
+  std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, growth_, at_}; }
+  void restore(const std::vector<double>& saved) {
+    if (saved.size() < 5) return;
+    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]), growth_ = saved[3],
+    at_ = saved[4];
+  }
+
+  double growth() const { return growth_; }  ///< the most that was ever too much, of all that was put in until then
+  double at() const { return at_; }          ///< when [s]
+
+  /// A sentence where that is notable, else nothing.
+  std::string warning() const {
+    if (!(growth_ > notable)) return {};
+    return text("energy: at ", number(at_, 4), " s the body had ", number(1 + growth_, 3),
+                " times the energy that was put in: its motion from there on is not to be trusted; expected a shorter "
+                "integration.macro_step, integration.retry, or cycle: single");
+  }
+
+ private:
+  bool looked_ = false;
+  double start_ = 0, put_in_, growth_ = 0, at_ = 0;
+};
+
+/// The work that moving obstacles have done on a body [J], added up over its macro steps.
+template <class B>
+class ObstacleWork {
+ public:
+  ObstacleWork(const Simulation<B>& simulation, const Problem& problem) {
+    const auto& obstacles = problem.contact.obstacles;
+    for (std::size_t o = 0; o < obstacles.size(); ++o)
+      if (moves(obstacles[o]))
+        moving_.push_back({o, obstacles[o].mass ? tools_++ : none, Point::Zero(), Point::Zero()});
+    for (Moving& one : moving_) move(simulation, simulation.tools(), one);
+  }
+
+  /// After every macro step.
+  void step(const Simulation<B>& simulation) {
+    if (moving_.empty()) return;
+    for (const char* again : {"halvings", "inertia_refits"})
+      if (const auto counters = simulation.counters(); counters.contains(again))
+        known_ = known_ && counters.at(again) == 0;
+    const std::vector<Wrench> wrenches = simulation.wrenches();
+    const std::vector<ToolState> tools = simulation.tools();
+    for (Moving& one : moving_) {
+      const Moving before = one;
+      move(simulation, tools, one);
+      const Point turned = rotation_vector(rotation_by(one.rotation) * rotation_by(-before.rotation));
+      const Wrench& w = wrenches[one.obstacle];
+      done_ += w.force.dot(one.place - before.place) + w.torque.dot(turned);
+    }
+  }
+
+  void restore(double done, bool known) { done_ = done, known_ = known; }
+  double done() const { return done_; }
+  bool known() const { return known_; }  ///< no step was taken again: wrenches are of its last part only
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Moving {
+    std::size_t obstacle, tool;  // tool: its number among those with mass
+    Point place, rotation;
+  };
+  std::vector<Moving> moving_;
+  std::size_t tools_ = 0;
+  double done_ = 0;
+  bool known_ = true;
+
+  static void move(const Simulation<B>& simulation, const std::vector<ToolState>& tools, Moving& one) {
+    const int number = static_cast<int>(one.obstacle);
+    one.place = one.tool == none ? simulation.obstacle_origin(number) : tools[one.tool].displacement;
+    one.rotation = simulation.obstacle_rotation(number);
+  }
+};
 
 /// How level 0 moves as a whole, and how fast its fastest vertex moves against that.
 struct MotionReport {

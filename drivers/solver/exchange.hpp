@@ -2,7 +2,7 @@
 #pragma once
 #include <plica/core/device_array.hpp>
 #include <plica/core/model.hpp>
-#include <plica/core/surface.hpp>
+#include <plica/core/transfer.hpp>
 
 // Between a simulation's fields and a caller's arrays, enqueued. All throw InputError where the sizes differ.
 namespace plica {

@@ -33,4 +33,7 @@ bool allows_inversion(const MaterialOptions& material);
 /// Whether inverted elements of that material are pushed back; false for a name it does not know.
 bool recovers(std::string_view material);
 
+/// Gives a problem the options of one of presets(). InputError for another name.
+void apply_preset(std::string_view name, Problem& problem);
+
 }  // namespace plica

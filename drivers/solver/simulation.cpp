@@ -216,7 +216,7 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   Inside& s = *inside_;
   std::optional<Diagnosis> still = bad;
   const Stepper<B>& stepper = *s.built.stepper;
-  if ((stepper.lost_stability(s.hierarchy()) || stepper.repairs()) && repair()) still.reset();
+  if ((stepper.lost_stability(s.hierarchy()) || stepper.repairs(bad)) && repair()) still.reset();
   if (still && s.retries()) still = s.retry(*still);
   if (!still) s.keep_at_times();
   return still;

@@ -51,8 +51,8 @@ class Stepper {
 
   /// Whether steps so far have lost stability. Waits.
   virtual bool lost_stability(const Hierarchy<B>&) const { return false; }
-  /// Whether repair() may help where stability is not lost and a check has found something else.
-  virtual bool repairs() const { return false; }
+  /// Whether repair() may help where stability is not lost and a check has found this.
+  virtual bool repairs(const Diagnosis&) const { return false; }
   /// Makes steps of `t` [s] stable again, starting from the present state; false where it cannot. `attempt`: how many repairs
   /// before this one failed; from `shorter_steps` on it takes shorter steps, too.
   virtual bool repair(Hierarchy<B>&, double, int) { return false; }

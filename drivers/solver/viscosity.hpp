@@ -4,7 +4,7 @@
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
-#include <plica/kernels/elastic/relaxation_steps.hpp>
+#include <plica/kernels/elastic/stress_memory.hpp>
 
 namespace plica {
 

@@ -5,7 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/energy_budget.hpp>
+#include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/him/advice.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/materials.hpp>
-#include <plica/drivers/solver/tissues.hpp>
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/contact/contact_kernels.hpp>
-#include <plica/kernels/contact/deepest_on_triangle.hpp>
+#include <plica/kernels/contact/on_triangle.hpp>
 
 // Contact of a tool that fits between a surface's points.
 namespace plica {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/contact/nearest_on_triangle.hpp>
+#include <plica/kernels/contact/gap.hpp>
+#include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/pair_grid.hpp>
-#include <plica/kernels/contact/path_to.hpp>
 
 // The narrow phase of pairs: each point's nearest triangle, and on which side of it the point is.
 namespace plica {

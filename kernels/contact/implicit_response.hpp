@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/model.hpp>
-#include <plica/core/surface.hpp>
-#include <plica/kernels/contact/contact_by_work.hpp>
+#include <plica/core/transfer.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
-#include <plica/kernels/contact/path_to.hpp>
+#include <plica/kernels/contact/gap.hpp>
+#include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/exchange.hpp>
 #include <plica/kernels/reduce.hpp>
 

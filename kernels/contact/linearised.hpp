@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/block_matrix.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 
 // Contact in the linear system of an implicit level. The penalty law of every record that touches, linearised about a state, has a

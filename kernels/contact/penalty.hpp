@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 namespace plica {
@@ -46,5 +47,44 @@ KOKKOS_INLINE_FUNCTION PointContact<Real> penalty_contact(const PenaltyLaw<Real>
   c.force -= c.drag * vt;
   return c;
 }
+
+/// The contact of one point in a step, by the work that it does. With the depths b half a step before the state that forces act in
+/// and y half a step after it, and the energy V(d) = k/2 d^2 of a depth above 0, the force is
+///   n = (V(y) - V(b)) / (y - b) + c (y - b) / h, never pulling.
+/// The kinetic energy changes by -n (y - b): what the body loses is what the penalty and the damping take, and what it gets back the
+/// penalty had, whatever the step and the stiffness. y = D - g n, D the depth without n and g what n changes of it.
+template <class Real>
+struct ContactByWork {
+  Real k, c;  ///< [N/m], [N s/m] over h
+  Real b;
+
+  /// n for a given depth y.
+  KOKKOS_INLINE_FUNCTION Real force(Real y) const {
+    const Real way = y - b, viscous = c * way;
+    if (b >= 0 && y >= 0) return positive(Real(0.5) * k * (y + b) + viscous);
+    if (y > 0) return Real(0.5) * k * y * y / way + viscous;
+    return b > 0 ? positive(viscous - Real(0.5) * k * b * b / way) : Real(0);
+  }
+
+  /// n for y = D - g n
+  KOKKOS_INLINE_FUNCTION Real solve(Real D, Real g) const {
+    const Real half = Real(0.5) * g * k, gc = g * c;
+    if (b >= 0) {
+      const Real n = positive((half * (D + b) + gc * (D - b)) / (1 + half + gc));  // times g
+      return D >= n ? n / g : force(b - root(1 + gc, D - b, half * b * b));        // inside, or it leaves
+    }
+    if (!(D > 0)) return 0;
+    const Real last = (D + gc * b) * -b;
+    return last > 0 ? force(root(1 + half + gc, -(1 + 2 * gc) * b - D, last)) : D / g;  // it enters, or c stops it at 0
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION static Real positive(Real n) { return Kokkos::max(Real(0), n); }
+  /// x >= 0 of q x^2 + p x = r, for q > 0 and r >= 0.
+  KOKKOS_INLINE_FUNCTION static Real root(Real q, Real p, Real r) {
+    const Real w = Kokkos::sqrt(p * p + 4 * q * r);
+    return p > 0 ? 2 * r / (p + w) : (w - p) / (2 * q);
+  }
+};
 
 }  // namespace plica

@@ -1,14 +1,157 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/surface.hpp>
-#include <plica/kernels/contact/attached_points.hpp>
-#include <plica/kernels/contact/face_sites.hpp>
-#include <plica/kernels/contact/held_points.hpp>
-#include <plica/kernels/contact/paired_points.hpp>
-#include <plica/kernels/contact/point_laws.hpp>
+#include <plica/core/fields.hpp>
+#include <plica/core/transfer.hpp>
+#include <plica/kernels/contact/penalty.hpp>
+#include <plica/kernels/vectors.hpp>
+
+namespace plica {
+
+/// The laws of all rows of records, of one body after the other.
+template <class B>
+struct PointLaws {
+  using Law = PenaltyLaw<typename B::Real>;
+  Kokkos::View<Law*, typename B::Memory> law;  ///< [rows * bodies]
+  Indices<B> body;                             ///< of each point; empty: there is one
+  int bodies = 1;
+  KOKKOS_INLINE_FUNCTION const Law& operator()(int row, int p) const {
+    return law(row * bodies + (bodies > 1 ? body(p) : 0));
+  }
+};
+
+/// Surface points that are attached to another body: each by a spring and a damper to one place on one of its triangles.
+template <class B>
+struct AttachedPoints {
+  using Real = typename B::Real;
+  static constexpr int none = -1, beside = -2;
+  /// [points] which one holds it; beside: another point is held at a triangle of it, so that it touches nothing either; none; empty: no
+  /// attachments at all
+  Indices<B> attachment;
+  Indices<B> triangle;                                      ///< [points]
+  Vectors<B> weight;                                        ///< [points][3] of its corners
+  Kokkos::View<PenaltyLaw<Real>*, typename B::Memory> law;  ///< [attachments] stiffness and damping, in all directions
+
+  KOKKOS_INLINE_FUNCTION bool ties(int p) const { return attachment.extent(0) > 0 && attachment(p) != none; }
+  KOKKOS_INLINE_FUNCTION bool holds(int p) const { return attachment.extent(0) > 0 && attachment(p) >= 0; }
+};
+
+/// Surface points that obstacles hold: each by a spring and a damper to where it was, relative to the obstacle, when that closed. A
+/// record for every obstacle and point, numbered as those of contact.
+template <class B>
+struct HeldPoints {
+  using Real = typename B::Real;
+  static constexpr int numbers = 4;  ///< of a record: that place [m], and 1 where the point is held
+
+  int records = 0;    ///< 0: no obstacle can hold anything, no arrays
+  Doubles<B> memory;  ///< of the obstacles; these numbers begin with its number `first`
+  int first = 0;
+  Indices<B> left_out;  ///< [records] 1: of a point that its obstacle never holds; empty: none
+  PointLaws<B> law;     ///< stiffness and damping, in all directions
+
+  KOKKOS_INLINE_FUNCTION int at(int r) const { return first + numbers * r; }
+  KOKKOS_INLINE_FUNCTION bool holds(int r) const { return r < records && memory(at(r) + 3) > 0; }
+  KOKKOS_INLINE_FUNCTION bool may_hold(int r) const { return left_out.extent(0) == 0 || left_out(r) == 0; }
+  KOKKOS_INLINE_FUNCTION void hold(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
+    for (int k = 0; k < 3; ++k) memory(at(r) + k) = static_cast<double>(x[k]) - moved[k];
+    memory(at(r) + 3) = 1;
+  }
+  KOKKOS_INLINE_FUNCTION void release(int r) const { memory(at(r) + 3) = 0; }
+  /// How far a point at x is from where an obstacle that has moved so holds it [m].
+  KOKKOS_INLINE_FUNCTION Vec3<Real> stretch(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
+    Vec3<Real> s;
+    for (int k = 0; k < 3; ++k) s[k] = static_cast<Real>(static_cast<double>(x[k]) - moved[k] - memory(at(r) + k));
+    return s;
+  }
+};
+
+/// Where obstacles touch a surface between its points: on every triangle one site for each obstacle, where the triangle is deepest.
+template <class B>
+struct FaceSites {
+  using Real = typename B::Real;
+  int triangles = 0;           ///< 0: obstacles touch points alone, no arrays
+  Real reach = 0;              ///< a triangle further than that outside an obstacle is not looked at [m]
+  Indices<B> corner;           ///< [triangles * 3] points, counter-clockwise seen from outside
+  Indices<B> first, triangle;  ///< [points + 1] into the triangles around each point
+  Vectors<B> weight;           ///< [obstacles * triangles][3] of the corners, at the site
+
+  KOKKOS_INLINE_FUNCTION int site(int obstacle, int t) const { return obstacle * triangles + t; }
+  /// What a field has at a site.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int obstacle,
+                                          int t) const {
+    Vec3<Real> sum;
+    for (int c = 0; c < 3; ++c)
+      sum += weight(site(obstacle, t), c) * value_at<B>(surface.embedding, x, corner(3 * t + c));
+    return sum;
+  }
+  /// The part that point q, a corner of t, has of a site.
+  KOKKOS_INLINE_FUNCTION Real weight_of(int obstacle, int t, int q) const {
+    for (int c = 0; c < 3; ++c)
+      if (corner(3 * t + c) == q) return weight(site(obstacle, t), c);
+    return 0;
+  }
+};
+
+/// What the search for pairs goes by.
+template <class Real>
+struct PairLimits {
+  Real reach = 0;        ///< a triangle further than that outside is not looked for, but by what is fast [m]
+  Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
+  Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
+  bool between = false;  ///< bodies
+  bool self = false;     ///< on one body
+};
+
+/// What of a surface is near what else of it: of another body, or far away on its own. Pair p is the point p and a triangle. Pair
+/// points + p is an edge that begins in p, and another edge. W of a pair takes a field's value in p, times the pair's own weight, and
+/// of up to three other points:
+///
+///              p                    b                pair             own      others, and their weights
+///              |                    |                p, triangle      1        its corners, < 0
+///         o----+----o         c-----+-----d          edges pb, cd     1 - s    b: s; c, d < 0
+///          \   |   /                |
+///             \o/                   p                The own weight and the others sum up to 0: forces cancel.
+template <class B>
+struct PairedPoints {
+  using Real = typename B::Real;
+  int points = 0, triangles = 0;  ///< no triangles: no pairs, no arrays
+  Indices<B> corner;              ///< [triangles * 3] points, counter-clockwise seen from outside
+  Indices<B> first, triangle;     ///< [points + 1] into the triangles around each point
+  Indices<B> first_edge;          ///< [points + 1] into the edges whose end with the lower number is that point
+  Indices<B> edge;                ///< [edges * 4] its ends, and the third corners of the triangles left and right of it
+  Indices<B> side;                ///< [triangles * 3] the edge from each corner to the next
+  Indices<B> partner;             ///< [points] the triangle it is near; -1: none
+  Indices<B> other;               ///< [2 * points * 3] the other points of each pair; the first -1: no pair
+  Vectors<B> weight;              ///< [2 * points][3] of these, where they are nearest
+  Doubles<B> found;               ///< [2] points with a pair of either kind, pairs of edges
+  Indices<B> from, part;  ///< [points + 1] into the parts of pairs that each point has as one of others, ascending
+  Vectors<B> sum;         ///< [points][3] all forces on each point, also of faces without pairs [N]
+
+  /// Of pairs: the second has something where edges were found.
+  KOKKOS_INLINE_FUNCTION int rows() const { return triangles == 0 ? 0 : found(1) > 0 ? 2 : 1; }
+  KOKKOS_INLINE_FUNCTION Real own_weight(int pair) const { return pair < points ? Real(1) : 1 - weight(pair, 0); }
+  /// W of a field, or with `bounding` the sum of its parts' absolute values.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> difference(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int pair,
+                                               bool bounding) const {
+    Vec3<Real> value;
+    for (int c = 0; c < 3; ++c)
+      value += part_of(pair, c, bounding) * value_at<B>(surface.embedding, x, other(3 * pair + c));
+    return own_weight(pair) * value_at<B>(surface.embedding, x, pair < points ? pair : pair - points) + value;
+  }
+  KOKKOS_INLINE_FUNCTION Real part_of(int pair, int c, bool bounding) const {
+    return bounding ? Kokkos::abs(weight(pair, c)) : weight(pair, c);
+  }
+  /// The c-th of its others, where that has a weight; else -1.
+  KOKKOS_INLINE_FUNCTION int weighted_other(int pair, int c) const {
+    return other(3 * pair) >= 0 && weight(pair, c) != 0 ? other(3 * pair + c) : -1;
+  }
+  /// use(pair, weight) for all pairs that have point q as one of their others, always in the same order.
+  template <class Use>
+  KOKKOS_INLINE_FUNCTION void each_pair_at(int q, const Use& use, bool bounding = false) const {
+    for (int i = from(q); i < from(q + 1); ++i) use(part(i) / 3, part_of(part(i) / 3, part(i) % 3, bounding));
+  }
+};
 
 // What contact keeps of a level, without its kernels: what has contact includes this and does not wait for those to compile.
-namespace plica {
 
 /// How a step takes its contact: what of its own acceleration contact sees. A default one: nothing, the bare penalty law.
 struct ContactStep {

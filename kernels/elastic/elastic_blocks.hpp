@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/implicit_weights.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
-#include <plica/core/patch_pairs.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 
 // Assembles A = (1 + b c) M + a K(u) + b D(u), D the stiffness that damps, as blocks, see ImplicitWeights.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/element_flags.hpp>
+#include <plica/core/level.hpp>
 #include <plica/core/model.hpp>
 #include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/patch_kernel.hpp>

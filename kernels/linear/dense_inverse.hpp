@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/block_matrix.hpp>
+#include <plica/core/matrices.hpp>
 
 // The inverse of a small symmetric matrix, made and applied on the device: the sweep operator (Goodnight 1979, The American Statistician
 // 33(3)), which is Gauss-Jordan elimination in place. Without pivoting it is stable for positive definite matrices; a pivot that is not

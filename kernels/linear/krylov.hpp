@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/block_matrix.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1) with its scalars on the device, where they

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/block_matrix.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // A symmetric matrix of 3x3 blocks in 16 bits a number, for what preconditions: reading it is most of the work there, and 2^-16 of the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/galerkin_map.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // Matrices of 3x3 blocks: the vertices' own blocks, products with vectors, and the matrix of the next coarser level.

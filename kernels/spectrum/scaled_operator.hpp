@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/surface.hpp>
+#include <plica/core/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // Vertex kernels of the Lanczos iteration on M^-1/2 K M^-1/2, whose largest eigenvalue is w_max^2 [1/s^2]. A zero

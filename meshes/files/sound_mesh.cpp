@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <plica/core/error.hpp>
-#include <plica/core/valid_utf8.hpp>
+#include <plica/core/text.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/raw_mesh.hpp>

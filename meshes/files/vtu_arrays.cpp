@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <plica/meshes/files/decompress.hpp>
+#include <plica/meshes/files/memory_file.hpp>
 #include <plica/meshes/files/vtu_arrays.hpp>
 #include <pugixml.hpp>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <plica/core/mesh.hpp>
 #include <plica/meshes/files/memory_file.hpp>
-#include <plica/meshes/files/mesh_groups.hpp>
+#include <plica/meshes/files/raw_mesh.hpp>
 #include <string>
 #include <vector>
 

@@ -10,7 +10,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/input_diagnosis.hpp>
-#include <plica/drivers/app/scene/shared_integration.hpp>
+#include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/solver/him/advice.hpp>

@@ -7,7 +7,7 @@
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
-#include <plica/drivers/solver/energy_budget.hpp>
+#include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/material_points.hpp>
 #include <set>
 

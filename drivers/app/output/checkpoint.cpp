@@ -4,7 +4,7 @@
 #include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <plica/core/valid_utf8.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>

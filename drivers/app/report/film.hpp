@@ -2,7 +2,7 @@
 #pragma once
 #include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <plica/drivers/app/report/frame_files.hpp>
+#include <plica/drivers/app/report/read_files.hpp>
 #include <string>
 #include <vector>
 

@@ -7,8 +7,8 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/app/report/film.hpp>
 #include <plica/drivers/app/report/page.hpp>
+#include <plica/drivers/app/report/read_files.hpp>
 #include <plica/drivers/app/report/report.hpp>
-#include <plica/drivers/app/report/tables.hpp>
 
 namespace plica::app {
 

@@ -3,11 +3,10 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cmath>
-#include <plica/core/valid_utf8.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/app/scene/load_bodies.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/reader.hpp>
-#include <plica/drivers/app/scene/shared_integration.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <plica/core/valid_utf8.hpp>
+#include <plica/core/text.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <sstream>
 

@@ -149,8 +149,10 @@ class HimStepper final : public Stepper<B> {
 
   bool lost_stability(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
 
-  /// An impact strains elements by more than a long step can follow; and where stability is lost fast, other checks find it first.
-  bool repairs() const override { return true; }
+  /// An impact strains elements by more than a long step can follow. Where stability is lost fast, energy that nobody put in shows it first.
+  bool repairs(const Diagnosis& bad) const override {
+    return parts_.contact_force.extent(0) > 0 || bad.kind == "energy";
+  }
 
   bool repair(Hierarchy<B>& h, double t, int attempt) override {
     constexpr int most_substeps = 64;

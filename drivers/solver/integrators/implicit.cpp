@@ -2,7 +2,7 @@
 // The implicit integrators. Each sets the base (u~, v~) of a stage, which the stage solver then solves (stage_solver.hpp); what
 // becomes of a step that is not solved, ImplicitStep says.
 #include <plica/drivers/solver/integrators/implicit_step.hpp>
-#include <plica/kernels/implicit/bases.hpp>
+#include <plica/kernels/implicit/stage_kernels.hpp>
 
 namespace plica {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/index_of.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/kernels/elastic/elastic_blocks.hpp>
 #include <tuple>
 #include <utility>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
-#include <plica/core/patch_pairs.hpp>
 #include <vector>
 
 namespace plica {

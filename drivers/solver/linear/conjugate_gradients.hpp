@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <plica/drivers/solver/linear/krylov.hpp>
-#include <plica/drivers/solver/linear/linear_solver_parts.hpp>
+#include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/drivers/solver/linear/preconditioners.hpp>
 
 namespace plica {

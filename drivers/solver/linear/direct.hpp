@@ -3,7 +3,6 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
-#include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 #include <plica/drivers/solver/linear/stage_system.hpp>
 #include <plica/kernels/vectors.hpp>
 

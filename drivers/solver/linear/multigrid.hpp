@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/galerkin_map.hpp>
-#include <plica/core/sparse_rows.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>

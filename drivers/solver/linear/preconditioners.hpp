@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 #include <plica/core/type_list.hpp>
-#include <plica/drivers/solver/linear/linear_solver_parts.hpp>
+#include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
 #include <plica/drivers/solver/linear/stage_system.hpp>
 

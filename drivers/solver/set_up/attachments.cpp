@@ -9,7 +9,7 @@
 #include <plica/drivers/solver/set_up/attachments.hpp>
 #include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
-#include <plica/kernels/contact/nearest_on_triangle.hpp>
+#include <plica/kernels/contact/on_triangle.hpp>
 
 namespace plica {
 

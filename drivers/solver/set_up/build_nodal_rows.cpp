@@ -4,7 +4,7 @@
 #include <array>
 #include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/index_of.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 
 namespace plica {
 

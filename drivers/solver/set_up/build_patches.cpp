@@ -6,7 +6,7 @@
 #include <numeric>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/index_of.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <utility>
 
 namespace plica {

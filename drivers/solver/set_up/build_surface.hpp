@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/mesh.hpp>
-#include <plica/core/surface.hpp>
+#include <plica/core/transfer.hpp>
 #include <plica/meshes/embedding.hpp>
 
 namespace plica {

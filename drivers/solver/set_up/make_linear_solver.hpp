@@ -2,7 +2,6 @@
 #pragma once
 #include <memory>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
-#include <plica/drivers/solver/linear/linear_solver_parts.hpp>
 
 namespace plica {
 

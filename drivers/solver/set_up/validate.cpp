@@ -5,7 +5,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
-#include <plica/drivers/solver/linear/linear_solver_parts.hpp>
+#include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/fibres.hpp>

@@ -3,7 +3,6 @@
 #include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <plica/drivers/solver/spaces/block_rows.hpp>
-#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <utility>
 

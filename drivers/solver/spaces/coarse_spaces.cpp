@@ -4,11 +4,156 @@
 #include <cmath>
 #include <numeric>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
-#include <plica/drivers/solver/spaces/index_of.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
-#include <plica/drivers/solver/spaces/sliver_space.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 
 namespace plica {
+
+namespace {
+
+constexpr double too_stiff = 3.5;  // times the median
+constexpr int elimination_rounds = 12;
+constexpr double most_removed = 0.35, most_followed_weight = 2, least_followed = 1e-9;
+constexpr std::size_t fewest_neighbours = 3;
+
+using Row = std::vector<std::pair<int, double>>;
+
+/// Vertices are taken out one after the other; what is left is a smaller body with its own K and masses.
+class Elimination {
+ public:
+  Elimination(const TetMesh& mesh, const std::vector<char>& constrained, std::vector<double>&& mass, BlockRows&& K)
+      : mesh_(mesh),
+        constrained_(constrained),
+        mass_(std::move(mass)),
+        K_(std::move(K)),
+        gone_(mass_.size(), 0),
+        lambda_(mass_.size(), 0.0),
+        locked_(mass_.size(), -1) {}
+
+  std::optional<SliverSpace> run() {
+    SliverSpace result;
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a) measure(a);
+    std::vector<std::pair<double, int>> stiff = stiffnesses();
+    if (stiff.empty()) return {};
+    const auto middle = stiff.begin() + static_cast<std::ptrdiff_t>(stiff.size() / 2);
+    std::nth_element(stiff.begin(), middle, stiff.end());
+    const double median = middle->first, limit = too_stiff * median;
+    result.before = std::max_element(stiff.begin(), stiff.end())->first / median;
+    if (!(result.before > too_stiff)) return {};
+    const auto most = static_cast<std::size_t>(most_removed * static_cast<double>(mass_.size()));
+    for (int round = 0; round < elimination_rounds && order_.size() < most; ++round) {
+      std::erase_if(stiff, [&](const auto& one) { return !(one.first > limit); });
+      std::sort(stiff.begin(), stiff.end(), std::greater<>());
+      const std::size_t before = order_.size();
+      for (const auto& [lambda, a] : stiff) eliminate(a, round);
+      for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
+        if (locked_[index_of(a)] == round) measure(a);
+      stiff = stiffnesses();
+      if (order_.size() == before) break;
+    }
+    result.after = stiff.empty() ? 0 : std::max_element(stiff.begin(), stiff.end())->first / median;
+    write(result);
+    return result;
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const std::vector<char>& constrained_;
+  std::vector<double> mass_;
+  BlockRows K_;
+  std::vector<char> gone_;
+  std::vector<double> lambda_;  // lambda_a
+  std::vector<int> locked_;     // the last round in which a neighbour was taken out
+  std::vector<int> order_;      // the vertices taken out
+  std::vector<Row> follows_;    // of each, the neighbours that it follows
+  LinearFit fit_;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver_;
+  std::vector<double> weight_;
+
+  void measure(int a) {
+    if (gone_[index_of(a)] || constrained_[index_of(a)]) return;
+    solver_.computeDirect(block(a, a), Eigen::EigenvaluesOnly);
+    lambda_[index_of(a)] = solver_.eigenvalues()[2] / std::max(mass_[index_of(a)], 1e-300);
+  }
+
+  std::vector<std::pair<double, int>> stiffnesses() const {
+    std::vector<std::pair<double, int>> all;
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
+      if (!gone_[index_of(a)] && !constrained_[index_of(a)]) all.emplace_back(lambda_[index_of(a)], a);
+    return all;
+  }
+
+  Eigen::Matrix3d& block(int a, int b) {
+    auto& row = K_[index_of(a)];
+    auto place =
+        std::lower_bound(row.begin(), row.end(), b, [](const auto& e, int column) { return e.first < column; });
+    if (place == row.end() || place->first != b) place = row.insert(place, {b, Eigen::Matrix3d::Zero()});
+    return place->second;
+  }
+
+  void eliminate(int a, int round) {
+    const auto row = K_[index_of(a)];  // with the own block
+    if (locked_[index_of(a)] == round || row.size() - 1 < fewest_neighbours) return;
+    double radius = 0;
+    const auto offset = [&](int b) { return Point(mesh_.vertices[index_of(b)] - mesh_.vertices[index_of(a)]); };
+    for (const auto& [b, K] : row) radius = std::max(radius, 1.1 * offset(b).norm());
+    fit_.clear();
+    for (const auto& [b, K] : row)
+      if (b != a) fit_.add(offset(b) / radius, fit_weight(offset(b).norm() / radius) + 1e-3);
+    fit_.prepare();
+    for (int dropped = 0; dropped <= 3; ++dropped)
+      if (fit_.weights(dropped, weight_) < most_followed_weight) break;
+    Row& followed = follows_.emplace_back();
+    for (const auto& [b, K] : row)
+      if (b != a) followed.emplace_back(b, weight_[followed.size()]);
+    order_.push_back(a), gone_[index_of(a)] = 1;
+    take_out(a, row, followed, round);
+  }
+
+  /// K and m of the others, with u_a the sum of w_b u_b: K_bc += w_b K_ac + K_ba w_c + w_b K_aa w_c, m_b += w_b m_a.
+  void take_out(int a, const BlockRows::value_type& row, const Row& followed, int round) {
+    Eigen::Matrix3d own = block(a, a);
+    BlockRows::value_type beside;
+    for (const auto& entry : row)
+      if (entry.first != a) beside.push_back(entry);
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      const auto [b, wb] = followed[i];
+      for (std::size_t j = 0; j < followed.size(); ++j) {
+        const auto [c, wc] = followed[j];
+        block(b, c) += wb * beside[j].second + wc * beside[i].second.transpose() + (wb * wc) * own;
+      }
+      std::erase_if(K_[index_of(b)], [&](const auto& entry) { return entry.first == a; });
+      mass_[index_of(b)] += wb * mass_[index_of(a)];
+      locked_[index_of(b)] = round;
+    }
+    K_[index_of(a)].clear();
+  }
+
+  /// Who follows vertices that went later follows what those follow.
+  void write(SliverSpace& result) const {
+    std::vector<int> number(mass_.size(), -1);
+    for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
+      if (!gone_[index_of(a)]) number[index_of(a)] = static_cast<int>(result.kept.size()), result.kept.push_back(a);
+    std::vector<std::vector<std::pair<int, double>>> rows(mass_.size());
+    for (const int a : result.kept) rows[index_of(a)] = {{number[index_of(a)], 1.0}};
+    for (std::size_t i = order_.size(); i-- > 0;) {
+      std::map<int, double> sum;
+      for (const auto& [b, w] : follows_[i])
+        for (const auto& [column, value] : rows[index_of(b)]) sum[column] += w * value;
+      for (const auto& [column, value] : sum)
+        if (std::abs(value) > least_followed) rows[index_of(order_[i])].emplace_back(column, value);
+    }
+    result.up = matrix_of_rows(rows, static_cast<Eigen::Index>(result.kept.size()));
+  }
+};
+
+}  // namespace
+
+std::optional<SliverSpace> sliver_space(const TetMesh& mesh, const std::vector<char>& constrained,
+                                        std::vector<double> mass, BlockRows K) {
+  return Elimination(mesh, constrained, std::move(mass), std::move(K)).run();
+}
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 #include <plica/drivers/solver/spaces/edge_graph.hpp>
-#include <plica/drivers/solver/spaces/index_of.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <queue>
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <plica/drivers/solver/spaces/index_of.hpp>
-#include <plica/drivers/solver/spaces/linear_fit.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>

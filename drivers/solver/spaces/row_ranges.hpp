@@ -6,6 +6,9 @@
 
 namespace plica {
 
+/// A number of a vertex, an element or an entry, as an index.
+constexpr std::size_t index_of(int number) { return static_cast<std::size_t>(number); }
+
 /// How many parts for_row_parts() cuts so many rows into.
 inline std::size_t row_parts(std::size_t count) {
   return std::min(count, 8 * static_cast<std::size_t>(Kokkos::DefaultHostExecutionSpace().concurrency()));

@@ -2,8 +2,8 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <plica/core/fields.hpp>
+#include <plica/core/matrices.hpp>
 #include <plica/core/mesh.hpp>
-#include <plica/core/sparse_rows.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <utility>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <limits>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
-#include <plica/core/valid_utf8.hpp>
 
 namespace {
 

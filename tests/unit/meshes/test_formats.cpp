@@ -7,7 +7,6 @@
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
-#include "msh_text.hpp"
 
 // Meshes as other programs write them: what is read of them, and what is left out with a word
 namespace {

@@ -6,7 +6,6 @@
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "mesh_input.hpp"
-#include "msh_text.hpp"
 
 namespace {
 

@@ -4,7 +4,6 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/generators.hpp>
-#include <plica/meshes/improve_shapes.hpp>
 #include <plica/meshes/lattice.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/repair_mesh.hpp>

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/cell_contents.hpp>
 #include <plica/meshes/compare_levels.hpp>
 #include <plica/meshes/generators.hpp>
-#include <plica/meshes/inside_lines.hpp>
 #include <plica/meshes/lattice.hpp>
 #include <plica/meshes/refinement.hpp>
 #include <plica/meshes/reordering.hpp>

@@ -7,7 +7,6 @@
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/drivers/solver/spaces/edge_graph.hpp>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
-#include <plica/drivers/solver/spaces/sliver_space.hpp>
 #include <plica/meshes/organs.hpp>
 #include <set>
 

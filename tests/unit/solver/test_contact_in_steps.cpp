@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <plica/drivers/solver/energy_budget.hpp>
+#include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/kernels/contact/contact_by_work.hpp>
+#include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

@@ -6,8 +6,8 @@
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/join_bodies.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/kernels/contact/nearest_on_triangle.hpp>
-#include <plica/kernels/contact/path_to.hpp>
+#include <plica/kernels/contact/gap.hpp>
+#include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

@@ -6,7 +6,7 @@
 #include <map>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
-#include <plica/kernels/contact/deepest_on_triangle.hpp>
+#include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <plica/drivers/solver/presets.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 
 #include "support/backends.hpp"

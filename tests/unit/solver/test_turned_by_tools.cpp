@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <numbers>
-#include <plica/drivers/solver/energy_budget.hpp>
+#include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/contact/shapes.hpp>
