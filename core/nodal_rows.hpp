@@ -59,6 +59,7 @@ struct NodalWork {
   Scalars<B> records;   ///< [slots * 12] of each column j of the stress Q_0j Q_1j Q_2j, and component j of the field
   Scalars<B> ratio;     ///< [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
   Scalars<B> pressure;  ///< likewise, what follows from them
+  Scalars<B> gradient;  ///< [slots * 9] G of the state that tangents are about, see packed(); empty: not kept
 };
 
 }  // namespace plica

@@ -105,4 +105,10 @@ KOKKOS_INLINE_FUNCTION void set_lane(Pack<T, N>& a, int i, T value) {
   a.set(i, value);
 }
 
+/// Number k of `count` at a slot: the same numbers of a pack's elements stand side by side.
+template <class B>
+KOKKOS_INLINE_FUNCTION int packed(int slot, int k, int count) {
+  return (slot / B::lanes * count + k) * B::lanes + slot % B::lanes;
+}
+
 }  // namespace plica

@@ -13,6 +13,22 @@ namespace plica {
 
 namespace {
 
+// Keeps the tetrahedra that `keep` says, with their regions and numbers
+template <class Keep>
+void filter(TetMesh& mesh, std::vector<int>& numbers, const Keep& keep) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (!keep(t)) continue;
+    mesh.tets[kept] = mesh.tets[t], numbers[kept] = numbers[t];
+    if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
+    for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
+    ++kept;
+  }
+  mesh.tets.resize(kept), numbers.resize(kept);
+  if (!mesh.region.empty()) mesh.region.resize(kept);
+  for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
+}
+
 constexpr double sliver = 8;  // height ratio
 constexpr int rounds = 8;
 constexpr double gain = 0.95;  // a step must make the worst element around it better by that
@@ -156,17 +172,7 @@ double height_ratio(const TetMesh& mesh, const std::array<int, 4>& tet) {
 Improvement improve_shapes(TetMesh& mesh, std::vector<int>& numbers) {
   Improver improver(mesh);
   for (int i = 0; i < rounds && improver.round(); ++i) continue;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (!improver.alive[t]) continue;
-    mesh.tets[kept] = mesh.tets[t], numbers[kept] = numbers[t];
-    if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
-    for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
-    ++kept;
-  }
-  mesh.tets.resize(kept), numbers.resize(kept);
-  if (!mesh.region.empty()) mesh.region.resize(kept);
-  for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
+  filter(mesh, numbers, [&](std::size_t t) { return improver.alive[t]; });
   for (int& v : improver.done.vertex)
     while (improver.done.vertex[static_cast<std::size_t>(v)] != v)
       v = improver.done.vertex[static_cast<std::size_t>(v)];
@@ -182,9 +188,10 @@ using Edge = std::array<int, 2>;
 
 Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-std::array<int, 3> sorted(std::array<int, 3> face) {
-  std::sort(face.begin(), face.end());
-  return face;
+template <std::size_t n>
+std::array<int, n> sorted(std::array<int, n> corners) {
+  std::sort(corners.begin(), corners.end());
+  return corners;
 }
 
 class Peeler {
@@ -202,7 +209,7 @@ class Peeler {
     if (!(height_ratio(mesh_, tet) > thin)) return false;
     std::vector<int> ends;  // corners across from faces of the boundary
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::array<int, 3> face = sorted({tet[(k + 1) % 4], tet[(k + 2) % 4], tet[(k + 3) % 4]});
+      const std::array<int, 3> face = sorted<3>({tet[(k + 1) % 4], tet[(k + 2) % 4], tet[(k + 3) % 4]});
       if (std::binary_search(faces_.begin(), faces_.end(), face)) ends.push_back(tet[k]);
     }
     if (ends.size() != 2 || std::binary_search(edges_.begin(), edges_.end(), edge(ends[0], ends[1]))) return false;
@@ -225,19 +232,9 @@ int peel_slivers(TetMesh& mesh, std::vector<int>& numbers) {
   const std::size_t before = mesh.tets.size();
   for (int round = 0; round < most_rounds; ++round) {
     Peeler peeler(mesh);
-    std::size_t kept = 0;
     const std::size_t count = mesh.tets.size();
-    for (std::size_t t = 0; t < count; ++t) {
-      if (peeler.peels(mesh.tets[t])) continue;
-      mesh.tets[kept] = mesh.tets[t], numbers[kept] = numbers[t];
-      if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
-      for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
-      ++kept;
-    }
-    mesh.tets.resize(kept), numbers.resize(kept);
-    if (!mesh.region.empty()) mesh.region.resize(kept);
-    for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
-    if (kept == count) break;
+    filter(mesh, numbers, [&](std::size_t t) { return !peeler.peels(mesh.tets[t]); });
+    if (mesh.tets.size() == count) break;
   }
   return static_cast<int>(before - mesh.tets.size());
 }
@@ -251,27 +248,6 @@ constexpr double flat_ratio = 1e8;   // height ratio that counts as no volume
 double tet_volume_of(const TetMesh& mesh, const std::array<int, 4>& tet) {
   const auto at = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(tet[k])]; };
   return tet_volume(at(0), at(1), at(2), at(3));
-}
-
-std::array<int, 4> sorted(std::array<int, 4> tet) {
-  std::sort(tet.begin(), tet.end());
-  return tet;
-}
-
-// Keeps the tetrahedra that `keep` says, with their regions and numbers
-template <class Keep>
-void filter(TetMesh& mesh, std::vector<int>& original, const Keep& keep) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (!keep(t)) continue;
-    mesh.tets[kept] = mesh.tets[t], original[kept] = original[t];
-    if (!mesh.region.empty()) mesh.region[kept] = mesh.region[t];
-    for (auto& [name, vectors] : mesh.tet_vectors) vectors[kept] = vectors[t];
-    ++kept;
-  }
-  mesh.tets.resize(kept), original.resize(kept);
-  if (!mesh.region.empty()) mesh.region.resize(kept);
-  for (auto& [name, vectors] : mesh.tet_vectors) vectors.resize(kept);
 }
 
 // Tetrahedra name the first of the vertices at a place; those that lose a corner by that, or repeat another, are dropped

@@ -18,11 +18,11 @@ class Elasticity {
   virtual ~Elasticity() = default;
   /// Of a displacement, and of a velocity where stiffness damps.
   virtual void force(const Exec&, const Level<B>&, const State<B>&, int evaluation) const = 0;
-  /// -K(u) p. `over`: with the stiffness that damps times this [1/s]; `positive`: of elements whose tangent is projected to positive
+  /// -K(u) p; an empty u: of the state whose gradients level.nodal keeps. `over`: with the stiffness that damps times this [1/s]; `positive`: of elements whose tangent is projected to positive
   /// semi-definite, which only nodal ones have without a matrix.
   virtual void tangent(const Exec&, const Level<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
                        bool positive = false) const = 0;
-  /// Of the vertices' own blocks of K(u) column `direction`: its numbers on the diagonal and in the next row (cyclic) at least. Without what
+  /// Of the vertices' own blocks of K(u), u likewise, column `direction`: its numbers on the diagonal and in the next row (cyclic) at least. Without what
   /// nodal elements smooth.
   virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction, double over,
                         bool positive = false) const = 0;

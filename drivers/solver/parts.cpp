@@ -36,7 +36,7 @@ std::size_t bytes_of(const NodalRows<B>& r) {
 }
 template <class B>
 std::size_t bytes_of(const NodalWork<B>& w) {
-  return bytes(w.near, w.records, w.ratio, w.pressure);
+  return bytes(w.near, w.records, w.ratio, w.pressure, w.gradient);
 }
 template <class B>
 std::size_t bytes_of(const EmbeddedSurface<B>& s) {

@@ -5,6 +5,7 @@
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
 #include <plica/kernels/elastic/lost_stress.hpp>
+#include <plica/kernels/elastic/nodal_rows.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -29,6 +30,9 @@ void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity,
   elasticity_ = std::move(elasticity), contact_ = std::move(contact), implicit_ = implicit;
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
   if (contact_) response_ = ContactResponse<B>(contact_, this->model.vertices, implicit);
+  const NodalRows<B>& rows = this->model.rows;
+  if (implicit && rows.slices > 0 && rows.excess.extent(0) == 0)  // smoothed pressures need both fields once more
+    this->nodal.gradient = zeros<Scalars<B>>("plica::nodal.gradient", static_cast<std::size_t>(9 * rows.slots()));
 }
 
 template <class B>
@@ -179,6 +183,7 @@ template <class B>
 void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWeights& weights, double ahead,
                                const Vectors<B>& force) {
   elastic_and_gravity(at, time + ahead, force);
+  if (this->nodal.gradient.extent(0) > 0) keep_gradients<B>(exec(), *this, at.u), linearised_ = at.u;
   add_loads(time + ahead, force);
   add_followers(at, time + ahead, force);
   if (contact_) book("contact", [&] { response_.linearise(exec(), *this, at, time, weights, ahead, force); });
@@ -212,7 +217,7 @@ void SolverLevel<B>::incremental_energy(const State<B>& at) const {
 
 template <class B>
 void SolverLevel<B>::tangent(const State<B>& at, const Vectors<B>& p, double over, bool positive) const {
-  elasticity_->tangent(exec(), *this, at.u, p, over, positive);
+  elasticity_->tangent(exec(), *this, unless_kept(at), p, over, positive);
 }
 
 template <class B>
@@ -238,7 +243,7 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
   const Exec& exec = clock_->exec();
   const Real a = static_cast<Real>(weights.a), b = static_cast<Real>(weights.b);
   for (int direction = 0; direction < 3; ++direction) {
-    elasticity_->diagonal(exec, *this, at.u, direction, weights.b / weights.a, positive);
+    elasticity_->diagonal(exec, *this, unless_kept(at), direction, weights.b / weights.a, positive);
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }

@@ -134,8 +134,13 @@ class SolverLevel : public Level<B> {
   BlockSums<B> volumes_;      ///< of cavities
   Doubles<B> rate_;           ///< [1] likewise
   double follower_time_ = 0;  ///< when pressures were last asked for [s]
+  Vectors<B> linearised_;     ///< what gradients are kept of
 
   void elastic_and_gravity(const State<B>& state, double time, const Vectors<B>& f);
+  /// A state as tangents take it: none where gradients of it are kept.
+  Vectors<B> unless_kept(const State<B>& at) const {
+    return linearised_.extent(0) > 0 && linearised_.data() == at.u.data() ? Vectors<B>() : at.u;
+  }
   void ask_caller(const State<B>& state, double time, double step, double ahead, const Vectors<B>& f);
   void add_loads(double time, const Vectors<B>& f) const;
   /// Pressures that follow the state.

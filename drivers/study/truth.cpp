@@ -7,7 +7,7 @@
 #include <plica/core/text.hpp>
 #include <plica/drivers/study/elements.hpp>
 #include <plica/drivers/study/truth.hpp>
-#include <plica/meshes/generators.hpp>
+#include <plica/meshes/jitter.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/refinement.hpp>
 #include <plica/meshes/reordering.hpp>

@@ -5,6 +5,7 @@
 #include <plica/kernels/contact/penalty.hpp>
 #include <plica/kernels/vectors.hpp>
 
+// What contact keeps of a level, without its kernels: what has contact includes this and does not wait for those to compile.
 namespace plica {
 
 /// The laws of all rows of records, of one body after the other.
@@ -150,8 +151,6 @@ struct PairedPoints {
     for (int i = from(q); i < from(q + 1); ++i) use(part(i) / 3, part_of(part(i) / 3, part(i) % 3, bounding));
   }
 };
-
-// What contact keeps of a level, without its kernels: what has contact includes this and does not wait for those to compile.
 
 /// How a step takes its contact: what of its own acceleration contact sees. A default one: nothing, the bare penalty law.
 struct ContactStep {

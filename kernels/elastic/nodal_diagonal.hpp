@@ -15,6 +15,7 @@ namespace plica {
 template <class B, class Material, template <class> class Tangent>
 struct NodalDiagonal {
   static constexpr int fields = 1;
+  static constexpr bool is_tangent = true;
   using T = RowPack<B>;
   RowScales<B> scales;
   Scalars<B> inverse_volume;
@@ -104,16 +105,18 @@ struct RowDiagonal {
   }
 };
 
+/// An empty u: as of nodal_tangent().
 template <class B, class Material, template <class> class Tangent>
 void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, double over,
                     int direction) {
   const NodalRows<B>& rows = level.model.rows;
   const RowScales<B> scales(rows);
   const auto rate = static_cast<typename B::Real>(over);
-  lay_out<B>(exec, rows, level.nodal, {u});
+  const bool kept = u.extent(0) == 0;
+  if (!kept) lay_out<B>(exec, rows, level.nodal, {u});
   for_rows<B>(exec, "plica::nodal_diagonal", rows,
               RowStresses<B, NodalDiagonal<B, Material, Tangent>>{
-                  rows, level.nodal, {scales, rows.inverse_volume, rate, direction}});
+                  rows, level.nodal, {scales, rows.inverse_volume, rate, direction}, kept});
   for_rows<B>(exec, "plica::nodal_own_blocks", rows,
               RowDiagonal<B>{rows, scales, level.nodal.records, level.partial, rate, direction});
 }

@@ -92,6 +92,7 @@ struct NodalForce {
 template <class B, class Material, template <class> class Tangent, bool Smoothed>
 struct NodalTangent {
   static constexpr int fields = 2;  // u, p
+  static constexpr bool is_tangent = true;
   using T = RowPack<B>;
   RowScales<B> scales;
   typename B::Real over;  ///< [1/s]
@@ -207,16 +208,22 @@ void nodal_force(const typename B::Exec& exec, const Level<B>& level, const Stat
   });
 }
 
+/// An empty u: about the state whose gradients are kept.
 template <class B, class Material, template <class> class Tangent>
 void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p,
                    double over) {
   const NodalRows<B>& rows = level.model.rows;
-  lay_out<B>(exec, rows, level.nodal, {u, p});
+  const bool kept = u.extent(0) == 0;
+  if (kept)
+    lay_out<B>(exec, rows, level.nodal, {p});
+  else
+    lay_out<B>(exec, rows, level.nodal, {u, p});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed) smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
     launch_rows<B>(exec, "plica::nodal_tangent", level,
                    NodalTangent<B, Material, Tangent, smoothed>{
-                       RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}});
+                       RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}},
+                   kept);
   });
 }
 

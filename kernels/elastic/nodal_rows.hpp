@@ -85,7 +85,7 @@ void lay_out(const typename B::Exec& exec, const NodalRows<B>& rows, const Nodal
 /// The gradients of the fields in `near`.
 template <class B, int fields>
 KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalars<B>& near, const RowsAt<B>& at,
-                                          Vec3<RowPack<B>> (&own)[fields], Mat3<RowPack<B>> (&G)[fields]) {
+                                          Vec3<RowPack<B>>* own, Mat3<RowPack<B>>* G) {
   using Real = typename B::Real;
   constexpr int stride = 4 * fields;
   const Real* const base = near.data();
@@ -102,6 +102,36 @@ KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalar
   }
   const RowPack<B> inverse = load_rows<B>(&rows.inverse_volume(at.slot));
   for (int f = 0; f < fields; ++f) G[f] = inverse * G[f];
+}
+
+/// The gradients of the field in `near`, for tangents about it.
+template <class B>
+struct KeepGradients {
+  NodalRows<B> rows;
+  NodalWork<B> work;
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    Vec3<RowPack<B>> own[1];
+    Mat3<RowPack<B>> G[1];
+    row_gradients<B, 1>(rows, work.near, at, own, G);
+    for (int k = 0; k < 9; ++k)
+      for (int l = 0; l < B::lanes; ++l) work.gradient(packed<B>(at.slot, k, 9) + l) = lane(G[0][k / 3][k % 3], l);
+  }
+};
+
+template <class B>
+void keep_gradients(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
+  const NodalRows<B>& rows = level.model.rows;
+  lay_out<B>(exec, rows, level.nodal, {u});
+  for_rows<B>(exec, "plica::nodal_gradients", rows, KeepGradients<B>{rows, level.nodal});
+}
+
+/// One of them.
+template <class B>
+KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> kept_gradient(const Scalars<B>& kept, const RowsAt<B>& at) {
+  Mat3<RowPack<B>> G;
+  for (int k = 0; k < 9; ++k) G[k / 3][k % 3] = load_rows<B>(&kept(packed<B>(at.slot, k, 9)));
+  return G;
 }
 
 /// (S x)_a = (x_a V_a / 4 + sum_b s_ab x_b) / V_a of a number per slot, x(slot, k) = values[slot * stride + k]; V S is symmetric.
@@ -134,7 +164,8 @@ KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt
 }
 
 /// 2. The records of an integrand, which has
-///   static constexpr int fields;   what it reads, in `near`
+///   static constexpr int fields;        what it reads, in `near`
+///   static constexpr bool is_tangent;   where the first field's gradient may be kept
 ///   void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&v)[fields], const RowsAt<B>&, int region, Mat3<T>& Q, Vec3<T>& v)
 /// with the gradients G of the fields, and leaves the stress that acts on the neighbours and the field that the stabiliser does.
 template <class B, class Integrand>
@@ -144,14 +175,24 @@ struct RowStresses {
   NodalRows<B> rows;
   NodalWork<B> work;
   Integrand integrand;
+  bool kept = false;  ///< of a tangent: `near` has all fields but the first
 
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const RowsAt<B> at(item);
     Vec3<T> own[fields], v;
     Mat3<T> G[fields], Q;
-    row_gradients<B, fields>(rows, work.near, at, own, G);
+    gradients(at, own, G);
     integrand(G, own, at, rows.region(at.slice), Q, v);
     store_record<B>(work.records, at, Q, v);
+  }
+  KOKKOS_INLINE_FUNCTION void gradients(const RowsAt<B>& at, Vec3<T>* own, Mat3<T>* G) const {
+    if constexpr (requires { Integrand::is_tangent; })
+      if (kept) {
+        G[0] = kept_gradient<B>(work.gradient, at);
+        if constexpr (fields > 1) row_gradients<B, fields - 1>(rows, work.near, at, own + 1, G + 1);
+        return;
+      }
+    row_gradients<B, fields>(rows, work.near, at, own, G);
   }
 };
 
@@ -205,9 +246,10 @@ struct RowForces {
 };
 
 template <class B, class Integrand>
-void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>& level, const Integrand& integrand) {
+void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>& level, const Integrand& integrand,
+                 bool kept = false) {
   const NodalRows<B>& rows = level.model.rows;
-  for_rows<B>(exec, label, rows, RowStresses<B, Integrand>{rows, level.nodal, integrand});
+  for_rows<B>(exec, label, rows, RowStresses<B, Integrand>{rows, level.nodal, integrand, kept});
   for_rows<B>(exec, "plica::nodal_forces", rows, RowForces<B>{rows, level.nodal.records, level.partial});
 }
 
@@ -217,6 +259,8 @@ void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>
                                                const NodalWork<__VA_ARGS__>&, const Vectors<__VA_ARGS__>(&)[1]);   \
   EXTERN template void lay_out<__VA_ARGS__, 2>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,            \
                                                const NodalWork<__VA_ARGS__>&, const Vectors<__VA_ARGS__>(&)[2]);   \
+  EXTERN template void keep_gradients<__VA_ARGS__>(const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&,            \
+                                                   const Vectors<__VA_ARGS__>&);                                   \
   EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&, \
                                              const RowForces<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ROWS(Real, Exec) PLICA_NODAL_ROWS(extern, Backend<Real, Exec>)

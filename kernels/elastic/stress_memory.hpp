@@ -18,12 +18,6 @@
 // state. Elastic kernels do the former with other constants, those here the latter.
 namespace plica {
 
-/// Number k of `count` at a slot: the same numbers of a pack's elements stand side by side.
-template <class B>
-KOKKOS_INLINE_FUNCTION int packed(int slot, int k, int count) {
-  return (slot / B::lanes * count + k) * B::lanes + slot % B::lanes;
-}
-
 /// Numbers first to first + 5 of `count` as a symmetric matrix, of the slots in T's lanes.
 template <class B, class T>
 KOKKOS_INLINE_FUNCTION SymMat3<T> load_symmetric(const Scalars<B>& all, int slot, int first = 0, int count = 6) {

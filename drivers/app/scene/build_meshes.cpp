@@ -10,6 +10,7 @@
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/sound_mesh.hpp>
 #include <plica/meshes/generators.hpp>
+#include <plica/meshes/jitter.hpp>
 #include <plica/meshes/lattice.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 

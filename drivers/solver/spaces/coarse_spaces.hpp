@@ -7,6 +7,16 @@
 #include <plica/meshes/embedding.hpp>
 #include <vector>
 
+// Coarse levels that are made of the finest mesh alone: spaces of motions of its vertices, without elements. Steppers and
+// preconditioners that need no coarse elements run on them where a body has no coarser meshes.
+//
+//   vertices of the mesh          all of them, slivers included
+//        | sliver_space()         the few that are much too stiff follow their neighbours
+//   kept vertices
+//        | moving_least_squares() each from the 10 or so points around it
+//   points, a quarter of them     spread evenly along the edges: farthest_points()
+//        | moving_least_squares()
+//   points, 300 of them           the first of these
 namespace plica {
 
 /// A mesh without the freedom that slivers give it: their stiffest vertices follow their neighbours.
@@ -28,18 +38,7 @@ struct SliverSpace {
 std::optional<SliverSpace> sliver_space(const TetMesh& mesh, const std::vector<char>& constrained,
                                         std::vector<double> mass, BlockRows K);
 
-// Coarse levels that are made of the finest mesh alone: spaces of motions of its vertices, without elements. Steppers and
-// preconditioners that need no coarse elements run on them where a body has no coarser meshes.
-//
-//   vertices of the mesh          all of them, slivers included
-//        | sliver_space()         the few that are much too stiff follow their neighbours
-//   kept vertices
-//        | moving_least_squares() each from the 10 or so points around it
-//   points, a quarter of them     spread evenly along the edges: farthest_points()
-//        | moving_least_squares()
-//   points, 300 of them           the first of these
-
-/// One of them, as the next finer one sees it.
+/// A coarse space, as the next finer one sees it.
 struct CoarseSpace {
   RowMatrix up;             ///< P: values at its points -> at those of the finer one, [finer points x points]
   std::vector<int> points;  ///< vertices of the mesh; where these are fixed a space has none

@@ -199,6 +199,45 @@ TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
   });
 }
 
+TEST(NodalElements, TangentsTakeTheGradientsThatAreKeptOfTheirStateAlone) {
+  for_each_material_name([](const std::string& material) {
+    Problem problem = nodal(layered_cube(material, 2), "plain");
+    problem.integration.integrator = {"implicit_euler"}, problem.integration.macro_step = 1e-3;
+    LevelProbe<Host> probe(problem);
+    SolverLevel<Host>& level = probe.at(0);
+    ASSERT_GT(level.nodal.gradient.extent(0), 0);
+    const auto state = [&](unsigned seed) {
+      return State<Host>(device_field<Host>(random_field(probe.vertices(), 0.006, seed)),
+                         device_field<Host>(probe.zero()));
+    };
+    const State<Host> here = state(1), same = state(1), elsewhere = state(2);
+    const Vectors<Host> p = device_field<Host>(random_field(probe.vertices(), 0.003, 3));
+    const auto tangent = [&](const State<Host>& at) {
+      level.tangent(at, p);
+      return to_host<Host>({}, level.partial);
+    };
+    const auto own_blocks = [&](const State<Host>& at) {
+      const Blocks<Host> blocks("test.blocks", probe.vertices());
+      level.diagonal(at, {1e-4, 1e-2}, false, blocks);
+      return host_values(Host::Exec(), blocks);
+    };
+    const auto want = tangent(here);  // nothing is kept yet
+    const std::vector<double> blocks = own_blocks(here);
+    const auto agree = [&](const State<Host>& at) {
+      EXPECT_LE(largest_difference(tangent(at), want), round_off<double>(100, largest(want)));
+      const std::vector<double> now = own_blocks(at);
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+        EXPECT_NEAR(now[k], blocks[k], round_off<double>(100, std::abs(blocks[0]))) << k;
+    };
+    level.linearise(here, 0, {1e-4, 1e-2}, 0, level.f);
+    agree(here), agree(same);
+    level.linearise(elsewhere, 0, {1e-4, 1e-2}, 0, level.f);
+    agree(here);
+    const double away = largest_difference(tangent(elsewhere), want);
+    EXPECT_TRUE(material == "linear" || away > 1e-3 * largest(want)) << away;
+  });
+}
+
 /// Forces and moments on a body that is turned and strained.
 template <class B>
 class NodalElementsOn : public testing::Test {};

@@ -6,6 +6,7 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/generators.hpp>
+#include <plica/meshes/jitter.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <plica/meshes/organs.hpp>
 #include <plica/meshes/refinement.hpp>

@@ -7,7 +7,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/study/study.hpp>
 #include <plica/drivers/study/truth.hpp>
-#include <plica/meshes/generators.hpp>
+#include <plica/meshes/jitter.hpp>
 
 #include "support/bodies.hpp"
 
