@@ -7,7 +7,7 @@
 // The axes of the coarsest level, and the force that follows from their rotation.
 //
 // The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body that has turned it must be
-// R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in three steps, each a kernel:
+// R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in three steps, the last two in one kernel:
 //
 //   u  --E-->  u_C  --gradient-->  G of each vertex      --polar-->  R of each vertex
 //   finest     coarse              deformation gradient,             the nearest rotation
@@ -98,12 +98,10 @@ struct CoarseMomentum {
 /// R^T q, q = given + share.
 template <class B>
 struct StartMomentum {
-  using Real = typename B::Real;
   CoarseFilter<B> filter;
   CoarseMomentum<B> momentum;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Vec3<Real> q = vector_at<B>(momentum.given, a) + vector_at<B>(momentum.share, a);
-    set_vector<B>(filter.turned, a, transpose(matrix_at<Real>(filter.rotation, a)) * q);
+    turn_force(filter, a, vector_at<B>(momentum.given, a) + vector_at<B>(momentum.share, a));
   }
 };
 
@@ -164,7 +162,7 @@ struct NextMomentum {
         const Vec3<Real> next = t * Vec3<Real>{added[0][i], added[1][i], added[2][i]},
                          change = next - vector_at<B>(momentum.share, a), q = vector_at<B>(momentum.given, a) + next;
         set_vector<B>(momentum.share, a, next);
-        set_vector<B>(filter.turned, a, transpose(matrix_at<Real>(filter.rotation, a)) * q);
+        turn_force(filter, a, q);
         sums[0] += static_cast<double>(dot(change, change)), sums[1] += static_cast<double>(dot(next, next));
         sums[2] += static_cast<double>(dot(q, q));
       }

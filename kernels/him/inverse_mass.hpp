@@ -62,15 +62,17 @@ KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
   return A;
 }
 
-/// turned = R^T force
+/// turned = R^T force at a vertex
+template <class B>
+KOKKOS_INLINE_FUNCTION void turn_force(const CoarseFilter<B>& filter, int a, const Vec3<typename B::Real>& force) {
+  set_vector<B>(filter.turned, a, transpose(matrix_at<typename B::Real>(filter.rotation, a)) * force);
+}
+
 template <class B>
 struct TurnForces {
   CoarseFilter<B> filter;
   Vectors<B> force;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    set_vector<B>(filter.turned, a,
-                  transpose(matrix_at<typename B::Real>(filter.rotation, a)) * vector_at<B>(force, a));
-  }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { turn_force(filter, a, vector_at<B>(force, a)); }
 };
 
 /// The way down to the coarsest level, and there `turn`, of what has come down.
