@@ -222,8 +222,7 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that can do better; false where it cannot. What is bad though the
-/// stepper is stable asks for shorter steps at once.
+/// From the last kept state once more to where it is, by a stepper that can do better; false where it cannot.
 template <class B>
 bool Simulation<B>::repair() {
   Inside& s = *inside_;
@@ -232,10 +231,9 @@ bool Simulation<B>::repair() {
     while (s.time < there) step();
     return !s.examine();
   };
-  const int first = s.built.stepper->lost_stability(s.hierarchy()) ? 0 : Stepper<B>::shorter_steps;
-  for (int attempt = first; attempt < most_repairs; ++attempt) {
+  for (int attempt = 0; attempt < most_repairs; ++attempt) {
     s.go_back();
-    if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step, attempt)) return go_on();
+    if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
     if (go_on()) return true;
   }
   return false;

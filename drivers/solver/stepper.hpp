@@ -53,10 +53,8 @@ class Stepper {
   virtual bool lost_stability(const Hierarchy<B>&) const { return false; }
   /// Whether repair() may help where stability is not lost and a check has found this.
   virtual bool repairs(const Diagnosis&) const { return false; }
-  /// Makes steps of `t` [s] stable again, starting from the present state; false where it cannot. `attempt`: how many repairs
-  /// before this one failed; from `shorter_steps` on it takes shorter steps, too.
-  virtual bool repair(Hierarchy<B>&, double, int) { return false; }
-  static constexpr int shorter_steps = 2;
+  /// Makes steps of `t` [s] stable again, by shorter ones within them, starting from the present state; false where it cannot.
+  virtual bool repair(Hierarchy<B>&, double) { return false; }
 
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.

@@ -28,7 +28,9 @@ LevelsBelow coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
   for (std::size_t i = 0; i < setup.meshes.size(); ++i)
     levels.push_back({setup.meshes[i], setup.constants[i].constrained, i > 0 ? &setup.up[i] : nullptr});
   SpaceOptions options{.sizes = {}, .slivers = true};
-  if (levels.size() == 1) options.sizes = space_sizes(setup.problem.body, setup.constants[0].constrained);
+  if (levels.size() == 1)
+    options.sizes = space_sizes(setup.problem.body, setup.constants[0].constrained,
+                                setup.contact ? him_sizes_with_contact : him_sizes);
   return levels_below(levels, setup.constants[0].mass, K, options, setup.problem.integration.him.smoothing);
 }
 

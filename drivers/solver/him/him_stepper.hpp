@@ -49,15 +49,14 @@ class FreeMotion {
   RigidFrameOf<B> frame_;
 };
 
-/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-12 of v (1e-6 in float): at most sqrt(inertia added)
-/// iterations or so. Waits.
+/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-6 of v: at most sqrt(inertia added) iterations or so. Waits.
 template <class B>
 void momentum_of(const typename B::Exec& exec, const Model<B>& model,
                  const std::function<void(const Vectors<B>& p, const Vectors<B>& v)>& A, const Vectors<B>& v,
                  const Vectors<B>& p) {
   using Real = typename B::Real;
   constexpr int most_iterations = 300;
-  constexpr double tolerance = sizeof(Real) == 8 ? 1e-12 : 1e-6;
+  constexpr double tolerance = 1e-6;
   const int n = model.vertices;
   const auto size = static_cast<std::size_t>(n);
   const auto r = zeros<Vectors<B>>("plica::momentum.r", size), s = zeros<Vectors<B>>("plica::momentum.s", size),
@@ -131,19 +130,17 @@ class HimStepper final : public Stepper<B> {
 
   void begin(Hierarchy<B>& h) override {
     const Level<B>& level = h[0];
-    lost_ = watched(h.exec()) > 1;
     const auto& exec = h.exec();
     copy(exec, a_, level.state.u);
     const auto half = static_cast<Real>(0.5 * parts_.fit.step);
     combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1, a_, a_);
     parts_.inverse_mass->turn(exec, a_);
-    momentum_of<B>(
-        exec, level.model, [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); },
-        level.state.v, p_);
+    has_momenta_ = false;
     forget(exec);
   }
 
   void step(Hierarchy<B>& h, double time, double t) override {
+    if (!has_momenta_) find_momenta(h.exec(), h[0]);
     for (int s = 0; s < substeps_; ++s) one(h, time + s * t / substeps_, t / substeps_);
   }
 
@@ -154,14 +151,11 @@ class HimStepper final : public Stepper<B> {
     return parts_.contact_force.extent(0) > 0 || bad.kind == "energy";
   }
 
-  bool repair(Hierarchy<B>& h, double t, int attempt) override {
+  bool repair(Hierarchy<B>& h, double t) override {
     constexpr int most_substeps = 64;
-    if (attempt >= Stepper<B>::shorter_steps) substeps_ *= 2;
-    const Vectors<B>& u = h[0].state.u;
-    double scale = 0.5 * parts_.fit.scale;
-    if (lost_) scale = 1, substeps_ *= 2;  // only a shorter step helps there
-    for (++repairs_; substeps_ <= most_substeps; substeps_ *= 2, scale = 1)
-      if (const auto fit = parts_.fitter->fit(t / substeps_, parts_.options.sigma, u, scale)) {
+    ++repairs_;
+    while ((substeps_ *= 2) <= most_substeps)
+      if (const auto fit = parts_.fitter->fit(t / substeps_, parts_.options.sigma, h[0].state.u)) {
         parts_.fit = *fit;
         begin(h);
         return true;
@@ -187,7 +181,7 @@ class HimStepper final : public Stepper<B> {
     archive.number(scale), archive.number(substeps_), archive.number(repairs_);
     if (scale != parts_.fit.scale || macro_step != parts_.fit.step * substeps_)
       parts_.fit = parts_.fitter->use(macro_step / substeps_, parts_.options.sigma, scale);
-    archive.number(first_);
+    archive.number(first_), archive.number(has_momenta_);
     archive.field("the momenta", p_);
     archive.field("the axes' share of them", parts_.inverse_mass->axes().share());
     archive.field("the last force", f_before_);
@@ -203,11 +197,18 @@ class HimStepper final : public Stepper<B> {
   BlockSums<B> blocks_;
   Kokkos::View<double*, typename B::Memory> turned_, sums_, watch_;
   bool first_ = true;
-  bool lost_ = false;  // before the last begin(): the axes' force was not found
+  bool has_momenta_ = true;  // else the next step finds them
   int substeps_ = 1;
   long repairs_ = 0;
 
   using Count = typename InverseMass<B>::Count;
+
+  /// Those of the velocities, about the axes as they are.
+  void find_momenta(const typename B::Exec& exec, const Level<B>& level) {
+    const auto A = [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); };
+    momentum_of<B>(exec, level.model, A, level.state.v, p_);
+    has_momenta_ = true;
+  }
 
   /// The parts, and work arrays that go with them.
   void take(const Hierarchy<B>& h, HimParts<B>&& parts);

@@ -206,8 +206,9 @@ RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
 
 std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
   if (free_vertices < fewest_free) return {};
-  const double first = rule.first * free_vertices, last = rule.last;
-  if (first < 1.5 * last) return {std::min(rule.last, free_vertices / 4)};
+  const double first = rule.first * free_vertices,
+               last = std::clamp(std::round(rule.last * free_vertices), 1.0 * rule.fewest, 1.0 * rule.most);
+  if (first < 1.5 * last) return {std::min(static_cast<int>(last), free_vertices / 4)};
   const int steps = std::max(1, static_cast<int>(std::ceil(std::log(first / last) / std::log(most_ratio))));
   std::vector<int> sizes;
   for (int i = 0; i <= steps; ++i)

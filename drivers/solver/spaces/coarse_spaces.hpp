@@ -48,12 +48,14 @@ struct CoarseSpace {
 
 /// How many points spaces have by themselves.
 struct SizeRule {
-  double first;  ///< of the free vertices, in the first
-  int last;      ///< in the last; in between are even steps of at most 5
+  double first;           ///< of the free vertices, in the first
+  int fewest, most;       ///< in the last; in between are even steps of at most 5
+  double last = 1. / 25;  ///< of the free vertices, within these two
 };
-inline constexpr SizeRule him_sizes{0.25, 300};
+inline constexpr SizeRule him_sizes{0.25, 100, 300};
+inline constexpr SizeRule him_sizes_with_contact{0.25, 300, 300};  ///< what touches is detail
 inline constexpr SizeRule multigrid_sizes{
-    0.1, 200};  ///< fewer: its coarse matrices cost more than what they leave to iterate
+    0.1, 200, 200};  ///< fewer: its coarse matrices cost more than what they leave to iterate
 
 /// Finest first. None for a mesh of fewer than 120 free vertices.
 std::vector<int> space_sizes(int free_vertices, SizeRule rule = him_sizes);
