@@ -55,6 +55,10 @@ struct Backend {
 #define PLICA_FOR_EACH_MEMORY(DO) DO(Kokkos::HostSpace)
 #endif
 
+/// Rows of a slice of a matrix that is stored slice by slice: a register's worth on a CPU; on a GPU a warp reads whole lines.
+template <class B>
+inline constexpr int slice_height = B::on_host ? B::lanes : 32;
+
 /// Threads of a team: one on a CPU, where teams run side by side, `on_device` on a GPU.
 template <class B>
 constexpr int team_size(int on_device) {

@@ -24,7 +24,7 @@ struct NodalRows {
   using Real = typename B::Real;
   using Memory = typename B::Memory;
   static constexpr int lanes = B::lanes;
-  static constexpr int height = B::on_host ? lanes : 32;  ///< a warp of a GPU reads whole lines
+  static constexpr int height = slice_height<B>;
   template <class T>
   using Array = Kokkos::View<T, Kokkos::LayoutRight, Memory>;
 

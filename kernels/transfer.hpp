@@ -135,11 +135,12 @@ struct DefectCorrection {
 // A sparse matrix of numbers times vectors. Per entry 4 bytes, those of a number, and 3 s of the vector it points at, which a cache
 // holds; 6 flops.
 
-/// Row `row` of A x. A CPU takes vectors as four numbers at a time, of which the fourth, the next vector's first, is not used. So the row's last
-/// entry, which may point at the last vector, is taken by itself.
-template <class B, class Value>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Value>& A, int row, const Vectors<B>& x) {
+/// Row `row` of A x, x of three numbers each or four. A CPU takes vectors as four numbers at a time, of which the fourth, the next vector's
+/// first, is not used. So the row's last entry, which may point at the last vector, is taken by itself.
+template <class B, class Value, class Field>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Value>& A, int row, const Field& x) {
   using Real = typename B::Real;
+  constexpr std::ptrdiff_t stride = Field::static_extent(1);
   int s = A.first(row);
   const int last = A.first(row + 1);
   Vec3<Real> y;
@@ -149,7 +150,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
     constexpr int sums = 4;  // taken in turns, so that an addition need not wait for the last one
     Four sum[sums] = {};
     const auto add = [&](int entry, Four& to) {
-      const Real* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(A.column(entry));
+      const Real* const at = x.data() + stride * A.column(entry);
       to += *reinterpret_cast<const Four*>(at) * static_cast<Real>(A.value(entry));
     };
     for (; s + sums < last; s += sums)

@@ -2,8 +2,7 @@
 #pragma once
 #include <plica/core/inlining.hpp>
 #include <plica/core/level.hpp>
-#include <plica/core/small.hpp>
-#include <plica/core/transposed.hpp>
+#include <plica/kernels/sliced_rows.hpp>
 
 // How nodal elements are computed: by rows of vertices, without tetrahedra. Each domain a (core/nodal_rows.hpp) has one deformation
 // gradient F_a = I + sum_b (u_b - u_a) (x) C_ab / V_a and one stress; a force is a sum over neighbours of their stresses. Both sums
@@ -24,26 +23,6 @@
 // Nothing is written but rows of one's own, and every sum is in a stored order: the same bits for any number of threads. Bytes per domain, n
 // neighbours (about 14), s = sizeof(Real): 2. n (4 + 3 s) + 13 s + 12 s, 3. n (4 + 4 s) + 12 s + 3 s, 1. 7 s; gathers hit a cache.
 namespace plica {
-
-/// What one thread computes: `lanes` rows of a slice.
-template <class B>
-struct RowsAt {
-  int slice, offset, slot;  ///< offset: of the first of them in the slice; slot: of the first
-  explicit KOKKOS_INLINE_FUNCTION RowsAt(int item)
-      : slice(item * B::lanes / NodalRows<B>::height),
-        offset(item * B::lanes % NodalRows<B>::height),
-        slot(item * B::lanes) {}
-};
-
-template <class B>
-using RowPack = typename PackOf<typename B::Real, B::lanes>::type;
-
-template <class B>
-KOKKOS_INLINE_FUNCTION RowPack<B> load_rows(const typename B::Real* from) {
-  RowPack<B> r;
-  for (int l = 0; l < B::lanes; ++l) set_lane(r, l, from[l]);
-  return r;
-}
 
 /// C or S of one entry.
 template <class B, class Array>

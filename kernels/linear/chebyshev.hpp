@@ -1,53 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/inlining.hpp>
 #include <plica/kernels/linear/packed_rows.hpp>
 #include <plica/kernels/transfer.hpp>
 
 // Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal polynomial smoothers for multigrid V-cycles,
 // 2022, arXiv:2202.08830, alg. 1): they need the largest eigenvalue only, which a few power iterations bound.
 //   d_1 = 4/(3 lambda) D^-1 r;   x += d_k, r -= A d_k, d_(k+1) = (2k-1)/(2k+3) d_k + (8k+4)/((2k+3) lambda) D^-1 r
-// As polynomials in D^-1 A they are self-adjoint, so that a symmetric cycle of them preconditions conjugate gradients. Directions d are stored
-// times the scales of packed_rows.hpp.
+// As polynomials in D^-1 A they are self-adjoint, so that a symmetric cycle of them preconditions conjugate gradients. All vectors are by
+// the slots of packed_rows.hpp; directions d, which rows gather, are stored times its scales.
 namespace plica {
 
+/// What a polynomial works on.
 template <class B>
-struct ChebyshevStart {
-  using Real = typename B::Real;
-  Scalars<B> scale;
-  Blocks<B> inverse_diagonal;
+struct Chebyshev {
+  PackedRows<B> A;
+  SlotBlocks<B> inverse_diagonal;
   Doubles<B> largest;
-  Vectors<B> r, d, x;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = static_cast<Real>(4 / (3 * largest(0)));
-    const Vec3<Real> z = block_at<B>(inverse_diagonal, a) * vector_at<B>(r, a);
-    for (int k = 0; k < 3; ++k) d(a, k) = scale(a) * w * z[k], x(a, k) = 0;
+  SlotVectors<B> r, x;
+
+  KOKKOS_INLINE_FUNCTION RowPack<B> over_largest(typename B::Real a) const {
+    return RowPack<B>(a / static_cast<typename B::Real>(largest(0)));
   }
 };
 
-/// x += d, r -= A d, next = keep d + gain/lambda D^-1 r; `last`: x += next too.
+/// d_1, x = 0
+template <class B>
+struct ChebyshevStart {
+  using T = RowPack<B>;
+  Chebyshev<B> on;
+  Fours<B> d;
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    const T w = load_rows<B>(&on.A.scale(at.slot)) * on.over_largest(4.0F / 3);
+    set_fours<B>(d, at, w * (blocks_at<B>(on.inverse_diagonal, at) * vectors_at<B>(on.r, at)));
+    set_vectors<B>(on.x, at, {});
+  }
+};
+
+/// What a step leaves for others to gather: the next direction, or, where it is the last, the residual or x. The last that leaves x adds the
+/// next direction to it.
+enum class Leaves { direction, residual, answer };
+
+/// x += d, r -= A d; the next direction is keep d + gain/lambda D^-1 r.
 template <class B>
 struct ChebyshevStep {
-  using Real = typename B::Real;
-  PackedRows<B> A;
-  Blocks<B> inverse_diagonal;
-  Doubles<B> largest;
-  Vectors<B> d, r, x, next;
-  Real keep, gain;
-  bool last;
+  using T = RowPack<B>;
+  Chebyshev<B> on;
+  Fours<B> d, next;
+  typename B::Real keep, gain;
+  Leaves leaves;
 
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real t = A.scale(a);
-    const Vec3<Real> direction = (1 / t) * vector_at<B>(d, a);
-    const Vec3<Real> residual = vector_at<B>(r, a) - t * packed_row_product<B>(A, a, d);
-    const Vec3<Real> z = block_at<B>(inverse_diagonal, a) * residual;
-    const Real w = gain / static_cast<Real>(largest(0));
-    for (int k = 0; k < 3; ++k) {
-      const Real ahead = keep * direction[k] + w * z[k];
-      r(a, k) = residual[k];
-      x(a, k) += last ? direction[k] + ahead : direction[k];
-      next(a, k) = t * ahead;
-    }
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
+    const RowsAt<B> at(item);
+    const T t = load_rows<B>(&on.A.scale(at.slot));
+    const Vec3<T> direction = (T(1) / t) * fours_at<B>(d, at);
+    const Vec3<T> residual = vectors_at<B>(on.r, at) - t * packed_product<B>(on.A, at, d);
+    const Vec3<T> x = vectors_at<B>(on.x, at) + direction;
+    const Vec3<T> ahead =
+        T(keep) * direction + on.over_largest(gain) * (blocks_at<B>(on.inverse_diagonal, at) * residual);
+    if (leaves == Leaves::answer) return set_fours<B>(next, at, x + ahead);
+    set_vectors<B>(on.x, at, x), set_vectors<B>(on.r, at, residual);
+    set_fours<B>(next, at, leaves == Leaves::residual ? residual : t * ahead);
   }
+};
+
+/// r of a coarser level = P^T of what a finer one has left.
+template <class B, class To>
+struct RestrictFours {
+  SparseRows<B> down;
+  Fours<B> residual;
+  To r;
+  KOKKOS_INLINE_FUNCTION void operator()(int row) const { set_vector<B>(r, row, row_product<B>(down, row, residual)); }
 };
 
 /// A first direction d = P y, from a coarser level.
@@ -55,8 +79,48 @@ template <class B>
 struct ChebyshevCorrection {
   Scalars<B> scale;
   SparseRows<B> up;
-  Vectors<B> y, d;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(d, a, scale(a) * row_product<B>(up, a, y)); }
+  Fours<B> y, d;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const Vec3<typename B::Real> sum = scale(slot) * row_product<B>(up, slot, y);
+    for (int k = 0; k < 3; ++k) d(slot, k) = sum[k];
+  }
+};
+
+/// A field of the vertices, by slots; 0 where there is none.
+template <class B, class Field>
+struct TakeSlots {
+  Indices<B> vertex;
+  Field from;
+  SlotVectors<B> to;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const int a = vertex(slot);
+    Vec3<typename B::Real> value;
+    if (a >= 0)
+      for (int k = 0; k < 3; ++k) value[k] = static_cast<typename B::Real>(from(a, k));
+    set_vector<B>(to, slot, value);
+  }
+};
+template <class B, class Field>
+struct PutSlots {
+  Indices<B> vertex;
+  Fours<B> from;
+  Field to;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const int a = vertex(slot);
+    if (a < 0) return;
+    for (int k = 0; k < 3; ++k) to(a, k) = static_cast<typename Field::value_type>(from(slot, k));
+  }
+};
+template <class B>
+struct TakeSlotBlocks {
+  Indices<B> vertex;
+  Blocks<B> from;
+  SlotBlocks<B> to;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const int a = vertex(slot);
+    for (int k = 0; k < 6; ++k)
+      to(slot / slice_height<B>, k, slot % slice_height<B>) = a >= 0 ? from(a, k) : typename B::Real(0);
+  }
 };
 
 }  // namespace plica

@@ -84,7 +84,8 @@ struct ApplyDense {
   using Real = typename B::Real;
   static constexpr int block = DenseInverse<B>::block, rows = B::on_host ? block : 1;
   DenseInverse<B> dense;
-  Vectors<B> r, x;
+  Vectors<B> r;
+  Kokkos::View<Real* [4], Kokkos::LayoutRight, typename B::Memory> x;  ///< x y z 0
   static int items(int size) { return (size + block - 1) / block * block / rows; }
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const int n = dense.size, first = item * rows;

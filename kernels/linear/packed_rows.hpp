@@ -1,40 +1,97 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstring>
 #include <plica/core/matrices.hpp>
+#include <plica/kernels/sliced_rows.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// A symmetric matrix of 3x3 blocks in 16 bits a number, for what preconditions: reading it is most of the work there, and 2^-16 of the
-// vertices' own stiffness is less than a smoother notices. With scales t of the vertices,
+// A symmetric matrix of 3x3 blocks in 16 bits a number, for what preconditions: 2^-16 of the vertices' own stiffness is less than a smoother
+// notices. With scales t of the vertices,
 //
 //   A_ab = t_a t_b 2^16 q_ab,   |q_ab| < 2^15,   t_a^2 2^16 (2^15 - 1) = the largest number on the diagonal of A_aa
 //
 // because no number of a positive definite matrix is above the root of its two diagonal ones. Products take the scaled vector t x, so that
 // scales cost nothing in the sum. Blocks of a row come in pairs: number k of both in one word, the first in its upper half. Either half,
-// with zeros below it, is 2^16 q as an integer. The ninth numbers stand alone, so that the others fill a register.
+// with zeros below it, is 2^16 q as an integer.
+//
+// Rows are stored in slices, a row per lane (kernels/sliced_rows.hpp), and so are the vectors that a smoother works on: only what other rows
+// gather lies vertex by vertex, four numbers each, of which the last is 0.
+//
+//   entry e of a slice     column of 16 rows, twice    word 0 of 16 rows  ...  word 8 of 16 rows      float on AVX-512: 16 lanes
+//   a vector by slots      x of 16 rows    y of 16 rows    z of 16 rows
+//   what is gathered       x y z 0   x y z 0   x y z 0   ...
 namespace plica {
-
-struct PackedPair {
-  int column[2];
-  float ninth[2];  ///< 2^16 q
-  int word[8];
-};
 
 template <class B>
 struct PackedRows {
-  Indices<B> first;                                                         ///< [rows + 1] pairs
-  Kokkos::View<PackedPair*, Kokkos::LayoutRight, typename B::Memory> pair;  ///< an odd row's last block is 0
-  Scalars<B> scale;                                                         ///< t
+  static constexpr int height = slice_height<B>;
+  template <class T>
+  using Array = Kokkos::View<T, Kokkos::LayoutRight, typename B::Memory>;
+
+  int slices = 0;
+  Indices<B> first;                ///< [slices + 1] pairs of blocks
+  Indices<B> vertex;               ///< [slots] -1: none
+  Array<int* [2][height]> column;  ///< slots; what fills up a row points to itself
+  Array<int* [9][height]> word;
+  Scalars<B> scale;  ///< [slots] t
+
+  int slots() const { return slices * height; }
+  int items() const { return slots() / B::lanes; }  ///< of RowsAt
 };
+
+/// [slices] vectors, or symmetric blocks, of a slice's rows: component by component.
+template <class B>
+using SlotVectors = Kokkos::View<typename B::Real* [3][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
+template <class B>
+using SlotBlocks = Kokkos::View<typename B::Real* [6][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
+/// [slots] x y z 0
+template <class B>
+using Fours = Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory>;
+
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> vectors_at(const SlotVectors<B>& x, const RowsAt<B>& at) {
+  const typename B::Real* const from = &x(at.slice, 0, at.offset);
+  return {load_rows<B>(from), load_rows<B>(from + slice_height<B>), load_rows<B>(from + 2 * slice_height<B>)};
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION void set_vectors(const SlotVectors<B>& x, const RowsAt<B>& at, const Vec3<RowPack<B>>& value) {
+  for (int k = 0; k < 3; ++k) store_rows<B>(value[k], &x(at.slice, k, at.offset));
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION SymMat3<RowPack<B>> blocks_at(const SlotBlocks<B>& d, const RowsAt<B>& at) {
+  SymMat3<RowPack<B>> block;
+  for (int k = 0; k < 6; ++k) block[k] = load_rows<B>(&d(at.slice, k, at.offset));
+  return block;
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> fours_at(const Fours<B>& x, const RowsAt<B>& at) {
+  const typename B::Real* const from = &x(at.slot, 0);
+  Vec3<RowPack<B>> value;
+  load_vectors([=](int l) { return from + 4 * l; }, value);
+  return value;
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION void set_fours(const Fours<B>& x, const RowsAt<B>& at, const Vec3<RowPack<B>>& value) {
+  typename B::Real* const to = &x(at.slot, 0);
+  const RowPack<B> four[4] = {value[0], value[1], value[2], RowPack<B>(0)};
+  store_fours(four, [=](int l) { return to + 4 * l; });
+}
+/// The vector of one slot.
+template <class B>
+KOKKOS_INLINE_FUNCTION void set_vector(const SlotVectors<B>& x, int slot, const Vec3<typename B::Real>& value) {
+  for (int k = 0; k < 3; ++k) x(slot / slice_height<B>, k, slot % slice_height<B>) = value[k];
+}
 
 /// t of a vertex; 1 where its own block is not positive.
 template <class B>
 struct ScaleOfVertex {
   BlockMatrix<B> A;
-  Scalars<B> scale;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const auto own = block_at<B>(A, A.diagonal(a));
+  PackedRows<B> rows;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const int a = rows.vertex(slot);
+    const auto own = a >= 0 ? block_at<B>(A, A.diagonal(a)) : SymMat3<float>{};
     const auto most = Kokkos::max(own[0], Kokkos::max(own[1], own[2]));
-    scale(a) = most > 0 ? Kokkos::sqrt(most / (0x1p16F * 32767)) : 1;
+    rows.scale(slot) = most > 0 ? Kokkos::sqrt(most / (0x1p16F * 32767)) : 1;
   }
 };
 
@@ -44,63 +101,62 @@ struct PackRow {
   BlockMatrix<B> A;
   PackedRows<B> rows;
 
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    int s = A.first(a);
-    for (int i = rows.first(a); i < rows.first(a + 1); ++i, s += 2) {
-      PackedPair& pair = rows.pair(i);
-      const bool two = s + 1 < A.first(a + 1);
-      pair.column[0] = A.column(s), pair.column[1] = two ? A.column(s + 1) : a;
-      for (int k = 0; k < 8; ++k)
-        pair.word[k] = static_cast<int>(static_cast<unsigned>(number(a, s, k)) << 16 |
-                                        (two ? static_cast<unsigned>(number(a, s + 1, k)) & 0xffffU : 0U));
-      pair.ninth[0] = static_cast<float>(number(a, s, 8)) * 0x1p16F;
-      pair.ninth[1] = two ? static_cast<float>(number(a, s + 1, 8)) * 0x1p16F : 0;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+    const int a = rows.vertex(slot), q = slot / rows.height, l = slot % rows.height;
+    if (a < 0) return;
+    const int last = A.first(a + 1);
+    for (int e = rows.first(q), s = A.first(a); s < last; ++e, s += 2) {
+      const float t = rows.scale(slot), upper = t * rows.scale(rows.column(e, 0, l)),
+                  lower = t * rows.scale(rows.column(e, 1, l));
+      for (int k = 0; k < 9; ++k)
+        rows.word(e, k, l) =
+            static_cast<int>(number(s, k, upper) << 16 | (s + 1 < last ? number(s + 1, k, lower) & 0xffffU : 0U));
     }
   }
-  KOKKOS_INLINE_FUNCTION int number(int a, int s, int k) const {
-    const float q = A.value(s, k) / (rows.scale(a) * rows.scale(A.column(s))) * 0x1p-16F;
-    return static_cast<int>(Kokkos::round(Kokkos::fmin(Kokkos::fmax(q, -32767.0F), 32767.0F)));
+  KOKKOS_INLINE_FUNCTION unsigned number(int s, int k, float scale) const {
+    const float q = A.value(s, k) / scale * 0x1p-16F;
+    return static_cast<unsigned>(static_cast<int>(Kokkos::round(Kokkos::fmin(Kokkos::fmax(q, -32767.0F), 32767.0F))));
   }
 };
 
-/// Row a of A x over t_a, from t x, which has a row more than A, that is not used. Per pair 48 bytes and 36 flops.
-template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<float> packed_row_product(const PackedRows<B>& A, int a, const Vectors<B>& scaled) {
-  const PackedPair *pair = A.pair.data() + A.first(a), *const end = A.pair.data() + A.first(a + 1);
-  const auto at = [&](int b) { return scaled.data() + 3 * static_cast<std::ptrdiff_t>(b); };
-  float ninth[2] = {};
+/// Both halves of a word, times 2^16.
+template <class T>
+KOKKOS_INLINE_FUNCTION void unpack(const int* word, T& upper, T& lower) {
 #if (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)
-  if constexpr (B::on_host) {
-    typedef int Word __attribute__((vector_size(32)));
-    typedef int Words __attribute__((vector_size(32), may_alias, aligned(alignof(int))));
-    typedef float Eight __attribute__((vector_size(32)));
-    typedef float Four __attribute__((vector_size(16), may_alias, aligned(alignof(float))));
-    Eight upper = {}, lower = {};
-    for (; pair < end; ++pair) {
-      const float *const x = at(pair->column[0]), *const y = at(pair->column[1]);
-      const Four u = *reinterpret_cast<const Four*>(x), v = *reinterpret_cast<const Four*>(y);
-      const Word word = *reinterpret_cast<const Words*>(pair->word);
-      upper += __builtin_convertvector(word & static_cast<int>(0xffff0000), Eight) *
-               __builtin_shufflevector(u, u, 0, 0, 0, 1, 1, 1, 2, 2);
-      lower += __builtin_convertvector(word << 16, Eight) * __builtin_shufflevector(v, v, 0, 0, 0, 1, 1, 1, 2, 2);
-      ninth[0] += pair->ninth[0] * x[2], ninth[1] += pair->ninth[1] * y[2];
-    }
-    const Eight y = upper + lower;
-    return {y[0] + y[3] + y[6], y[1] + y[4] + y[7], y[2] + y[5] + (ninth[0] + ninth[1])};
+  if constexpr (LaneOf<T>::count > 1) {
+    typename Pack<int, LaneOf<T>::count>::Lanes both;
+    std::memcpy(&both, word, sizeof both);
+    upper.v = __builtin_convertvector(both & static_cast<int>(0xffff0000), typename T::Lanes);
+    lower.v = __builtin_convertvector(both << 16, typename T::Lanes);
+    return;
   }
 #endif
-  Vec3<float> y;
-  for (; pair < end; ++pair)
-    for (int i = 0; i < 2; ++i) {
-      const float* const x = at(pair->column[i]);
-      for (int k = 0; k < 8; ++k) {
-        const unsigned word = static_cast<unsigned>(pair->word[k]);
-        y[k % 3] += static_cast<float>(static_cast<int>(i == 0 ? word & 0xffff0000U : word << 16)) * x[k / 3];
-      }
-      ninth[i] += pair->ninth[i] * x[2];
+  for (int l = 0; l < LaneOf<T>::count; ++l) {
+    const unsigned both = static_cast<unsigned>(word[l]);
+    set_lane(upper, l, static_cast<float>(static_cast<int>(both & 0xffff0000U)));
+    set_lane(lower, l, static_cast<float>(static_cast<int>(both << 16)));
+  }
+}
+
+/// Rows of A x over their t, from t x. Per pair of blocks 44 bytes and 36 flops.
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> packed_product(const PackedRows<B>& A, const RowsAt<B>& at,
+                                                       const Fours<B>& scaled) {
+  constexpr int height = PackedRows<B>::height;
+  const typename B::Real* const base = scaled.data();
+  Vec3<RowPack<B>> even, odd;
+  for (int e = A.first(at.slice); e < A.first(at.slice + 1); ++e) {
+    const int *const column = &A.column(e, 0, at.offset), *const word = &A.word(e, 0, at.offset);
+    Vec3<RowPack<B>> x, y;
+    load_vectors([=](int l) { return base + 4 * static_cast<std::ptrdiff_t>(column[l]); }, x);
+    load_vectors([=](int l) { return base + 4 * static_cast<std::ptrdiff_t>(column[height + l]); }, y);
+    for (int k = 0; k < 9; ++k) {
+      RowPack<B> upper, lower;
+      unpack(word + k * height, upper, lower);
+      even[k % 3] += upper * x[k / 3], odd[k % 3] += lower * y[k / 3];
     }
-  y[2] += ninth[0] + ninth[1];
-  return y;
+  }
+  return even + odd;
 }
 
 }  // namespace plica

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
-#include <plica/kernels/linear/chebyshev.hpp>
-#include <plica/kernels/linear/dense_inverse.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
-#include <plica/kernels/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -32,22 +29,15 @@ bool invert_on_host(int n, double* A) {
 }  // namespace
 
 template <class B>
-PackedRows<B> packed_rows(const HostPattern& A) {
-  std::vector<int> first{0};
-  for (std::size_t a = 0; a + 1 < A.first.size(); ++a)
-    first.push_back(first.back() + (A.first[a + 1] - A.first[a] + 1) / 2);
-  return {to_device<Indices<B>>("packed.first", first),
-          zeros<decltype(PackedRows<B>::pair)>("plica::packed.pair", static_cast<std::size_t>(first.back())),
-          zeros<Scalars<B>>("plica::packed.scale", A.first.size() - 1)};
-}
-
-template <class B>
 Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree)
     : grids_(transfers.size() + 1),
       degree_(degree),
+      power_r_(zeros<Vectors<F>>("plica::multigrid.power_r", A.rows)),
+      power_x_(zeros<Vectors<F>>("plica::multigrid.power_x", A.rows)),
       sums_(A.rows),
       square_(zeros<Doubles<B>>("plica::multigrid.square", 1)) {
   HostPattern pattern = host_pattern(A);
+  SlotOrder finer;
   for (std::size_t i = 0; i < grids_.size(); ++i) {
     Grid& grid = grids_[i];
     if (i == 0) {
@@ -57,18 +47,28 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
       grid.A = coarse.matrix, grid.map = coarse.map, pattern = std::move(coarse.pattern);
     }
     const int n = grid.A.rows;
-    grid.x = zeros<Vectors<F>>("plica::multigrid.x", n), grid.r = zeros<Vectors<F>>("plica::multigrid.r", n);
-    if (i > 0 && i + 1 == grids_.size()) {
+    const bool coarsest = i > 0 && i + 1 == grids_.size();
+    SlotOrder order = coarsest ? plain_order(n) : slot_order(pattern, PackedRows<F>::height);
+    if (i > 0) {
+      const RowMatrix P = by_slots(transfers[i - 1], finer, order);
+      grids_[i - 1].up = sparse_rows<F>("multigrid.up", P);
+      grids_[i - 1].down = sparse_rows<F>("multigrid.down", RowMatrix(P.transpose()));
+    }
+    if (coarsest) {
       coarsest_ = DenseInverse<F>(n);
+      coarsest_r_ = zeros<Vectors<F>>("plica::multigrid.coarsest_r", n);
+      coarsest_x_ = zeros<Fours<F>>("plica::multigrid.coarsest_x", n);
       continue;
     }
     grid.inverse_diagonal = zeros<Blocks<F>>("plica::multigrid.diagonal", n);
-    grid.packed = packed_rows<F>(pattern);
-    grid.d = zeros<Vectors<F>>("plica::multigrid.d", n + 1), grid.e = zeros<Vectors<F>>("plica::multigrid.e", n + 1);
-    grid.largest = zeros<Doubles<B>>("plica::multigrid.largest", 1);
-    if (i + 1 == grids_.size()) continue;
-    grid.up = sparse_rows<F>("multigrid.up", transfers[i]);
-    grid.down = sparse_rows<F>("multigrid.down", RowMatrix(transfers[i].transpose()));
+    const PackedRows<F> packed = packed_rows<F>(pattern, order);
+    grid.smoother = {packed, zeros<SlotBlocks<F>>("plica::multigrid.slot_diagonal", packed.slices),
+                     zeros<Doubles<F>>("plica::multigrid.largest", 1),
+                     zeros<SlotVectors<F>>("plica::multigrid.r", packed.slices),
+                     zeros<SlotVectors<F>>("plica::multigrid.x", packed.slices)};
+    grid.d = zeros<Fours<F>>("plica::multigrid.d", packed.slots());
+    grid.e = zeros<Fours<F>>("plica::multigrid.e", packed.slots());
+    finer = std::move(order);
   }
 }
 
@@ -98,15 +98,18 @@ void Multigrid<B>::refit(const Exec& exec) {
 template <class B>
 void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
   const int n = grid.A.rows;
-  update_vertices<F>(exec, "plica::pack_scales", n, ScaleOfVertex<F>{grid.A, grid.packed.scale});
-  update_vertices<F>(exec, "plica::pack_rows", n, PackRow<F>{grid.A, grid.packed});
-  update_vertices<F>(exec, "plica::power_start", n, PowerStart<F>{grid.r});
+  const PackedRows<F>& packed = grid.smoother.A;
+  update_vertices<F>(exec, "plica::pack_scales", packed.slots(), ScaleOfVertex<F>{grid.A, packed});
+  update_vertices<F>(exec, "plica::pack_rows", packed.slots(), PackRow<F>{grid.A, packed});
+  update_vertices<F>(exec, "plica::pack_diagonal", packed.slots(),
+                     TakeSlotBlocks<F>{packed.vertex, grid.inverse_diagonal, grid.smoother.inverse_diagonal});
+  update_vertices<F>(exec, "plica::power_start", n, PowerStart<F>{power_r_});
   for (int i = 0;; ++i) {
-    reduce<F, 1>(exec, "plica::power_size", n, PowerSize<F>{grid.inverse_diagonal, grid.r, grid.x}, sums_, square_);
+    reduce<F, 1>(exec, "plica::power_size", n, PowerSize<F>{grid.inverse_diagonal, power_r_, power_x_}, sums_, square_);
     if (i == power_iterations) break;
-    update_vertices<F>(exec, "plica::power_product", n, PowerProduct<F>{grid.A, square_, grid.x, grid.r});
+    update_vertices<F>(exec, "plica::power_product", n, PowerProduct<F>{grid.A, square_, power_x_, power_r_});
   }
-  update_vertices<F>(exec, "plica::power_bound", 1, PowerBound<F>{square_, grid.largest, power_margin});
+  update_vertices<F>(exec, "plica::power_bound", 1, PowerBound<F>{square_, grid.smoother.largest, power_margin});
 }
 
 /// On the device by the sweep operator; where the host shares its memory by Cholesky's method, which is many times faster there,
@@ -128,59 +131,51 @@ void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_, -1});
 }
 
-/// x near A^-1 r, from r alone; r is lost.
+/// What is near A^-1 r, from r alone; r is lost.
 template <class B>
-void Multigrid<B>::cycle(const Exec& exec, std::size_t level) const {
+Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec, std::size_t level) const {
   const Grid& grid = grids_[level];
-  if (level > 0 && !coarser_than(level))
-    return update_vertices<F>(exec, "plica::coarsest", ApplyDense<F>::items(coarsest_.size),
-                              ApplyDense<F>{coarsest_, grid.r, grid.x});
-  relax_from_zero(exec, grid, coarser_than(level));  // x, and the residual in r
-  if (!coarser_than(level)) return;
-  const Grid& coarse = grids_[level + 1];
-  update_vertices<F>(exec, "plica::restrict_residual", coarse.A.rows, MultiplyRows<F>{grid.down, grid.r, coarse.r});
-  cycle(exec, level + 1);
-  update_vertices<F>(exec, "plica::prolongate", grid.A.rows,
-                     ChebyshevCorrection<F>{grid.packed.scale, grid.up, coarse.x, grid.d});
-  relax_from_correction(exec, grid);
+  if (level > 0 && !coarser_than(level)) {
+    update_vertices<F>(exec, "plica::coarsest", ApplyDense<F>::items(coarsest_.size),
+                       ApplyDense<F>{coarsest_, coarsest_r_, coarsest_x_});
+    return coarsest_x_;
+  }
+  const PackedRows<F>& packed = grid.smoother.A;
+  update_vertices<F>(exec, "plica::chebyshev_start", packed.items(), ChebyshevStart<F>{grid.smoother, grid.d});
+  if (!coarser_than(level)) return relax(exec, grid, 1, degree_ - 1, Leaves::answer);
+  const Fours<F> left = relax(exec, grid, 1, degree_, Leaves::residual);
+  if (coarser_than(level + 1))
+    update_vertices<F>(exec, "plica::restrict_residual", grid.down.rows,
+                       RestrictFours<F, SlotVectors<F>>{grid.down, left, grids_[level + 1].smoother.r});
+  else
+    update_vertices<F>(exec, "plica::restrict_residual", grid.down.rows,
+                       RestrictFours<F, Vectors<F>>{grid.down, left, coarsest_r_});
+  update_vertices<F>(exec, "plica::prolongate", packed.slots(),
+                     ChebyshevCorrection<F>{packed.scale, grid.up, cycle(exec, level + 1), grid.d});
+  return relax(exec, grid, 0, degree_ - 1, Leaves::answer);
 }
 
-/// x = the polynomial's answer to r, starting from x = 0. Leaves the residual in r where asked to; else the last step, which
-/// would only update the residual, is left out.
+/// Steps `first` to `last` of the polynomial from the direction in grid.d; what the last one leaves.
 template <class B>
-void Multigrid<B>::relax_from_zero(const Exec& exec, const Grid& grid, bool leaves_residual) const {
-  update_vertices<F>(exec, "plica::chebyshev_start", grid.A.rows,
-                     ChebyshevStart<F>{grid.packed.scale, grid.inverse_diagonal, grid.largest, grid.r, grid.d, grid.x});
-  Vectors<F> d = grid.d, next = grid.e;
-  const int steps = leaves_residual ? degree_ : degree_ - 1;
-  for (int k = 1; k <= steps; ++k, std::swap(d, next))
-    chebyshev_step(exec, grid, d, next, k, keep_of(k), !leaves_residual && k == steps);
-}
-
-/// x += the correction in d, r -= A d, and the polynomial's answer to that residual.
-template <class B>
-void Multigrid<B>::relax_from_correction(const Exec& exec, const Grid& grid) const {
-  Vectors<F> d = grid.d, next = grid.e;
-  for (int k = 0; k < degree_; ++k, std::swap(d, next))
-    chebyshev_step(exec, grid, d, next, k, k == 0 ? 0.0F : keep_of(k), k + 1 == degree_);
-}
-
-/// Step k: x += d, r -= A d, and the next direction, which keeps a part of d. The last adds that to x as well.
-template <class B>
-void Multigrid<B>::chebyshev_step(const Exec& exec, const Grid& grid, const Vectors<F>& d, const Vectors<F>& next,
-                                  int k, float keep, bool last) const {
-  const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
-  update_vertices<F>(
-      exec, "plica::chebyshev", grid.A.rows,
-      ChebyshevStep<F>{grid.packed, grid.inverse_diagonal, grid.largest, d, grid.r, grid.x, next, keep, gain, last});
+Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, const Grid& grid, int first, int last,
+                                                            Leaves leaves) const {
+  Fours<F> d = grid.d, next = grid.e;
+  for (int k = first; k <= last; ++k, std::swap(d, next)) {
+    const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
+    update_vertices<F>(exec, "plica::chebyshev", grid.smoother.A.items(),
+                       ChebyshevStep<F>{grid.smoother, d, next, k == 0 ? 0.0F : keep_of(k), gain,
+                                        k == last ? leaves : Leaves::direction});
+  }
+  return d;
 }
 
 template <class B>
 void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const {
-  const Grid& finest = grids_.front();
-  convert(exec, "plica::multigrid_in", r, finest.r);
-  cycle(exec, 0);
-  convert(exec, "plica::multigrid_out", finest.x, z);
+  const Chebyshev<F>& finest = grids_.front().smoother;
+  update_vertices<F>(exec, "plica::multigrid_in", finest.A.slots(),
+                     TakeSlots<F, Vectors<B>>{finest.A.vertex, r, finest.r});
+  update_vertices<F>(exec, "plica::multigrid_out", finest.A.slots(),
+                     PutSlots<F, Vectors<B>>{finest.A.vertex, cycle(exec, 0), z});
 }
 
 template <class B>
@@ -191,20 +186,20 @@ void Multigrid<B>::persist(StateArchive<B>& archive) {
 
 template <class B>
 std::size_t Multigrid<B>::bytes() const {
-  std::size_t total = bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse);
-  for (const Grid& grid : grids_)
-    total += bytes_of_views(grid.A.value, grid.packed.first, grid.packed.pair, grid.packed.scale, grid.inverse_diagonal,
-                            grid.x, grid.r, grid.d, grid.e, grid.largest) +
+  std::size_t total =
+      bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_, power_r_, power_x_);
+  for (const Grid& grid : grids_) {
+    const Chebyshev<F>& on = grid.smoother;
+    total += bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word,
+                            on.A.scale, on.inverse_diagonal, on.largest, on.r, on.x, grid.d, grid.e) +
              bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
              bytes_of_views(grid.map.first, grid.map.fine, grid.map.weight, grid.map.upper, grid.map.lower) +
              (&grid == &grids_.front() ? 0 : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal));
+  }
   return total;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Multigrid<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
-#define PLICA_PACKED_ROWS(Exec) \
-  template PackedRows<Backend<float, Exec>> packed_rows<Backend<float, Exec>>(const HostPattern& A);
-PLICA_FOR_EACH_SPACE(PLICA_PACKED_ROWS)
 
 }  // namespace plica

@@ -3,8 +3,8 @@
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
+#include <plica/kernels/linear/chebyshev.hpp>
 #include <plica/kernels/linear/dense_inverse.hpp>
-#include <plica/kernels/linear/packed_rows.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <string>
 #include <vector>
@@ -44,9 +44,21 @@ HostPattern host_pattern(const BlockMatrix<B>& A);
 template <class B>
 BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern);
 
-/// Room for a matrix of that pattern, packed; for float.
+/// Which vertex stands in which slot of packed rows, and the other way round: in windows of slices the longest rows first, so that little
+/// is filled up.
+struct SlotOrder {
+  std::vector<int> vertex;  ///< [slots] -1: none
+  std::vector<int> slot;    ///< [vertices]
+};
+SlotOrder slot_order(const HostPattern& A, int height);
+/// Every vertex in the slot of its number.
+SlotOrder plain_order(int vertices);
+
+/// Room for a matrix of that pattern, packed, in the order slot_order(A, height); for float.
 template <class B>
-PackedRows<B> packed_rows(const HostPattern& A);
+PackedRows<B> packed_rows(const HostPattern& A, const SlotOrder& order);
+/// The rows and columns of a matrix, by slots.
+RowMatrix by_slots(const RowMatrix& P, const SlotOrder& rows, const SlotOrder& columns);
 
 /// The pattern of P^T A P, own blocks always in it, and how its blocks follow from A's.
 template <class B>
@@ -61,8 +73,8 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 ///                                             \\           /
 ///   level 2                                    restrict  solve
 ///
-/// The polynomial carries the residual along, so that it costs no product of its own. It reads copies of the matrices in 16 bits a number
-/// (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the device.
+/// The polynomial carries the residual along, so that it costs no product of its own. It reads copies of the matrices in 16 bits a number, and
+/// all vectors of a cycle are by the slots of these (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the device.
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
@@ -71,7 +83,7 @@ class Multigrid final : public Preconditioner<B> {
 
   /// @param A          its pattern counts
   /// @param transfers  [i]: level i + 1's vertices to level i's, finest first
-  /// @param degree     of the polynomials, >= 1
+  /// @param degree     of the polynomials, >= 2
   Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree);
 
   void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) override;
@@ -83,27 +95,25 @@ class Multigrid final : public Preconditioner<B> {
  private:
   struct Grid {
     BlockMatrix<F> A;
-    PackedRows<F> packed;  ///< none on the coarsest
     Blocks<F> inverse_diagonal;
-    Vectors<F> x, r, d, e;
-    Doubles<B> largest;
-    SparseRows<F> up, down;  ///< P from the next coarser level, and its transpose; none on the coarsest
+    Chebyshev<F> smoother;   ///< none on the coarsest, and none of these three
+    Fours<F> d, e;           ///< what rows gather, in turns
+    SparseRows<F> up, down;  ///< P from the next coarser level, and its transpose, by slots
     GalerkinMap<F> map;      ///< from the next finer level's matrix; none on the finest
   };
   std::vector<Grid> grids_;
   int degree_;
   DenseInverse<F> coarsest_;
+  Vectors<F> coarsest_r_, power_r_, power_x_;  ///< the latter two for power iterations, of the finest level's size
+  Fours<F> coarsest_x_;
   BlockSums<F> sums_;
   Doubles<B> square_;
 
   bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }
   void fit_smoother(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;
-  void cycle(const Exec& exec, std::size_t level) const;
-  void relax_from_zero(const Exec& exec, const Grid& grid, bool leaves_residual) const;
-  void relax_from_correction(const Exec& exec, const Grid& grid) const;
-  void chebyshev_step(const Exec& exec, const Grid& grid, const Vectors<F>& d, const Vectors<F>& next, int k,
-                      float keep, bool last) const;
+  Fours<F> cycle(const Exec& exec, std::size_t level) const;
+  Fours<F> relax(const Exec& exec, const Grid& grid, int first, int last, Leaves leaves) const;
 };
 
 }  // namespace plica
