@@ -84,18 +84,23 @@ struct StageGap {
   }
 };
 
-/// r = M (v~ - v) + b (f - c M v) + b (the copies of -K gap, where there is a gap): the system's right side for a change of v.
+/// r = M (v~ - v) + b (f - c M v - K gap): the system's right side for a change of v. K gap is minus the sum of the copies in `partial`, or
+/// what r holds of A gap = ((1 + b c) M + a K) gap.
 template <class B>
 struct StageRightSide {
   using Real = typename B::Real;
   StageAt<B> stage;
   Vectors<B> f, partial, r;
-  bool gap;
+  Vectors<B> gap;   ///< empty: there is none
+  bool by_product;  ///< r holds A gap
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const Real m = stage.model.mass(i), c = stage.model.damping(i);
     Vec3<Real> sum = vector_at<B>(f, i);
-    if (gap) sum = sum_of_shares<B>(stage.model.shares, partial, i, sum);
+    if (by_product)
+      sum += (1 / stage.a) * ((m + stage.b * c * m) * vector_at<B>(gap, i) - vector_at<B>(r, i));
+    else if (gap.extent(0) > 0)
+      sum = sum_of_shares<B>(stage.model.shares, partial, i, sum);
     for (int k = 0; k < 3; ++k) {
       const Real v = stage.state.v(i, k);
       r(i, k) = stage.is_free(i) ? m * (stage.base.v(i, k) - v) + stage.b * (sum[k] - c * m * v) : Real(0);

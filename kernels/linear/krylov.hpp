@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/matrices.hpp>
-#include <plica/kernels/vectors.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
 
 // Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1) with its scalars on the device, where they
 // also decide when to stop: iterations after that change nothing, so that the host may look only now and then. What has no operator()(int)
@@ -139,15 +138,11 @@ struct SpaceProducts {
   SolutionSpace<B> space;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     constexpr int m = SolutionSpace<B>::size;
-    Real y[m][3] = {};
+    BlockSum<Real> y[m];
     for (int s = A.first(a); s < A.first(a + 1); ++s) {
-      const Real* const block = &A.value(s, 0);
       const int b = A.column(s);
-      for (int i = 0; i < m; ++i)
-        for (int k = 0; k < 3; ++k) {
-          const Real x = space.w[i](b, k);
-          for (int c = 0; c < 3; ++c) y[i][c] += block[3 * k + c] * x;
-        }
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < m; ++i) y[i].add(&A.value(s, 3 * k), space.w[i](b, k));
     }
     for (int i = 0; i < m; ++i)
       for (int k = 0; k < 3; ++k) space.q[i](a, k) = y[i][k];

@@ -39,22 +39,36 @@ struct AddToDiagonal {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { add_block<B>(A, A.diagonal(a), scale, block_at<B>(block, a)); }
 };
 
-/// Row a of A x. Per block 9 s + 4 bytes, 18 flops; a block's columns are taken four numbers at a time, the last of which is not used. Of a
-/// large matrix, what rows further down need is asked for early: a processor foresees no further than the page in memory.
+/// A sum of columns of blocks, each times a number. A CPU takes a column as four numbers, the last of which is not used.
+template <class Real>
+struct BlockSum {
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  typedef Real Column __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
+  Column v = {};
+  void add(const Real* column, Real x) { v += *reinterpret_cast<const Column*>(column) * x; }
+  Real operator[](int i) const { return v[i]; }
+#else
+  Vec3<Real> v;
+  KOKKOS_INLINE_FUNCTION void add(const Real* column, Real x) { v += x * Vec3<Real>{column[0], column[1], column[2]}; }
+  KOKKOS_INLINE_FUNCTION Real operator[](int i) const { return v[i]; }
+#endif
+};
+
+/// Row a of A x. Per block 9 s + 4 bytes, 18 flops. Of a large matrix, what rows further down need is asked for early: a processor foresees
+/// no further than the page in memory.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatrix<B>& A, int a, const Vectors<B>& x) {
   using Real = typename B::Real;
   const int first = A.first(a), last = A.first(a + 1);
 #if defined(__GNUC__) && !defined(__CUDACC__)
   if constexpr (B::on_host) {
-    typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
-    Four even[3] = {}, odd[3] = {};  // two blocks at a time: sums need not wait for each other
+    BlockSum<Real> even[3], odd[3];  // two blocks at a time: sums need not wait for each other
     const Real* value = A.value.data() + 9 * static_cast<std::ptrdiff_t>(first);
     constexpr std::ptrdiff_t ahead = 8192 / sizeof(Real), line = 64 / sizeof(Real);
     const bool large = A.blocks() > (8 << 20) / static_cast<int>(9 * sizeof(Real));
-    const auto add = [&](Four(&sum)[3], int s, const Real* block) {
+    const auto add = [&](BlockSum<Real>(&sum)[3], int s, const Real* block) {
       const Real* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(A.column(s));
-      for (int k = 0; k < 3; ++k) sum[k] += *reinterpret_cast<const Four*>(block + 3 * k) * at[k];
+      for (int k = 0; k < 3; ++k) sum[k].add(block + 3 * k, at[k]);
     };
     int s = first;
     for (; s + 1 < last; s += 2, value += 18) {
@@ -62,7 +76,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatri
       add(even, s, value), add(odd, s + 1, value + 9);
     }
     if (s < last) add(even, s, value);
-    const Four y = (even[0] + even[1] + even[2]) + (odd[0] + odd[1] + odd[2]);
+    const auto y = (even[0].v + even[1].v + even[2].v) + (odd[0].v + odd[1].v + odd[2].v);
     return {y[0], y[1], y[2]};
   }
 #endif

@@ -127,6 +127,12 @@ class StageSolver {
     return {level.model, base_, level.state, static_cast<Real>(w.a), static_cast<Real>(w.b)};
   }
 
+  /// Whether nothing but inertia and the elements' stiffness is in a system.
+  static bool is_stiffness_alone(const SolverLevel<B>& level) {
+    return !level.contact() && level.followers.empty() && !level.viscosity &&
+           level.model.patches.damping.extent(0) == 0;
+  }
+
   bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     level.linearise(level.state, time, weights, ahead, level.f);
     if (iterates()) return newton(level, time + ahead, weights);
@@ -142,23 +148,29 @@ class StageSolver {
   SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start, bool positive) {
     const int n = level.model.vertices;
     const StageAt<B> stage = at(level, w);
-    Vectors<B> force = level.f;
+    Vectors<B> force = level.f, gap;
+    bool by_product = false;
     if (from_start) {
-      update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, change_});
-      if (!level.followers.empty()) {
-        copy(level.exec(), right_side_, force);
-        level.add_follower_product(level.state, change_, -1, positive, right_side_);
-        force = right_side_;
-      }
-      level.tangent(level.state, change_);
+      gap = change_;
+      update_vertices<B>(level.exec(), "plica::stage_gap", n, StageGap<B>{stage, gap});
     }
-    update_vertices<B>(level.exec(), "plica::stage_right_side", n,
-                       StageRightSide<B>{stage, force, level.partial, right_side_, from_start});
     SolveOutcome out;
     level.book("solve", [&] {
       solver_->prepare(level, level.state, w, positive);
-      out = solver_->solve(level.exec(), right_side_, change_);
+      if (from_start && !positive && is_stiffness_alone(level))
+        by_product = solver_->multiply(level.exec(), gap, right_side_);
     });
+    if (from_start && !by_product) {
+      if (!level.followers.empty()) {
+        copy(level.exec(), right_side_, force);
+        level.add_follower_product(level.state, gap, -1, positive, right_side_);
+        force = right_side_;
+      }
+      level.tangent(level.state, gap);
+    }
+    update_vertices<B>(level.exec(), "plica::stage_right_side", n,
+                       StageRightSide<B>{stage, force, level.partial, right_side_, gap, by_product});
+    level.book("solve", [&] { out = solver_->solve(level.exec(), right_side_, change_); });
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     residual_ = std::max(residual_, out.relative_residual);

@@ -40,6 +40,12 @@ struct ConjugateGradients {
       fitted_ = 1, a_ = weights.a, b_ = weights.b, per_decade_ = spent_ = 0, ++fits_;
     }
 
+    bool multiply(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q) const override {
+      if (!system_.by_matrix_alone()) return false;
+      system_.product(exec, p, q);
+      return true;
+    }
+
     SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
       const KrylovOutcome out =
           krylov_.solve(exec, system_, preconditioner_.get(), last_ ? &*last_ : nullptr, options_, r, x);

@@ -37,6 +37,8 @@ class LinearSolver {
   /// Takes over the system A of a level at `state`, where its forces have just been linearised; all of them stay as they are until
   /// the solve. `positive`: with the elements' tangents projected to positive semi-definite ones.
   virtual void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights&, bool positive) = 0;
+  /// q = A p, where there is a matrix with all of A in it; else false, and nothing is done.
+  virtual bool multiply(const Exec&, const Vectors<B>& /*p*/, const Vectors<B>& /*q*/) const { return false; }
   /// x = A^-1 r, zero where motion is given. Overwrites r.
   virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }

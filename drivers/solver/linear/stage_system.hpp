@@ -36,6 +36,8 @@ class StageSystem {
   void fit(const Exec& exec, Preconditioner<B>& preconditioner);
   /// Its pattern alone; with nodal elements that of linear ones.
   const BlockMatrix<B>& pattern();
+  /// Whether a product is by the matrix and nothing else.
+  bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
   int rows() const { return level_->model.vertices; }
   std::size_t bytes() const;
 
@@ -53,7 +55,6 @@ class StageSystem {
   void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
   void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
-  bool by_matrix_alone() const { return by_matrix() && forces_->is_all_in_matrix(); }
 };
 
 }  // namespace plica
