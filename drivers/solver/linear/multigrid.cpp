@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
-#include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/linear/lanczos.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
 namespace {
 
-constexpr int power_iterations = 12;
-constexpr double power_margin = 1.1;  // what so few fall short by, at most
+constexpr int lanczos_steps = 15;
 
 /// The part of a direction that Chebyshev's next one keeps.
 float keep_of(int k) { return static_cast<float>(2 * k - 1) / static_cast<float>(2 * k + 3); }
@@ -32,10 +32,9 @@ template <class B>
 Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree)
     : grids_(transfers.size() + 1),
       degree_(degree),
-      power_r_(zeros<Vectors<F>>("plica::multigrid.power_r", A.rows)),
-      power_x_(zeros<Vectors<F>>("plica::multigrid.power_x", A.rows)),
       sums_(A.rows),
-      square_(zeros<Doubles<B>>("plica::multigrid.square", 1)) {
+      scalars_(zeros<Doubles<B>>("plica::multigrid.scalars", 2 * lanczos_steps + 1)) {
+  for (auto& x : lanczos_) x = zeros<Vectors<F>>("plica::multigrid.lanczos", A.rows);
   HostPattern pattern = host_pattern(A);
   SlotOrder finer;
   for (std::size_t i = 0; i < grids_.size(); ++i) {
@@ -94,22 +93,44 @@ void Multigrid<B>::refit(const Exec& exec) {
   }
 }
 
-/// The packed matrix, and the largest eigenvalue of D^-1 A, by a few power iterations.
+/// The packed matrix, and the largest eigenvalue of D^-1 A.
 template <class B>
 void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
-  const int n = grid.A.rows;
   const PackedRows<F>& packed = grid.smoother.A;
   update_vertices<F>(exec, "plica::pack_scales", packed.slots(), ScaleOfVertex<F>{grid.A, packed});
   update_vertices<F>(exec, "plica::pack_rows", packed.slots(), PackRow<F>{grid.A, packed});
   update_vertices<F>(exec, "plica::pack_diagonal", packed.slots(),
                      TakeSlotBlocks<F>{packed.vertex, grid.inverse_diagonal, grid.smoother.inverse_diagonal});
-  update_vertices<F>(exec, "plica::power_start", n, PowerStart<F>{power_r_});
-  for (int i = 0;; ++i) {
-    reduce<F, 1>(exec, "plica::power_size", n, PowerSize<F>{grid.inverse_diagonal, power_r_, power_x_}, sums_, square_);
-    if (i == power_iterations) break;
-    update_vertices<F>(exec, "plica::power_product", n, PowerProduct<F>{grid.A, square_, power_x_, power_r_});
+  fill(exec, grid.smoother.largest, largest_eigenvalue(exec, grid));
+}
+
+/// By a few steps of Lanczos, with what these may fall short by; 1 where nothing is free to move.
+template <class B>
+double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) const {
+  const int n = grid.A.rows;
+  const auto& [r, z, w, last] = lanczos_;
+  const auto square = [&](int k) { return Doubles<B>(scalars_.data() + k, 1); };
+  const auto alpha = [&](int k) { return Doubles<B>(scalars_.data() + lanczos_steps + 1 + k, 1); };
+  const LanczosSize<F> size{grid.inverse_diagonal, r, z};
+  update_vertices<F>(exec, "plica::lanczos_start", n, LanczosStart<F>{r});
+  reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums_, square(0));
+  for (int k = 0; k < lanczos_steps; ++k) {
+    reduce<F, 1>(exec, "plica::lanczos_product", n, LanczosProduct<F>{grid.A, square(k), z, w}, sums_, alpha(k));
+    reduce<F, 1>(exec, "plica::lanczos_next", n, LanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
+                 square(k + 1));
   }
-  update_vertices<F>(exec, "plica::power_bound", 1, PowerBound<F>{square_, grid.smoother.largest, power_margin});
+  const std::vector<double> scalars = host_values(exec, scalars_);
+  std::vector<double> diagonal, beside;
+  double next = 0;
+  for (int k = 0; k < lanczos_steps && scalars[index_of(k)] > 0; ++k) {
+    if (k > 0) beside.push_back(next);
+    diagonal.push_back(scalars[index_of(lanczos_steps + 1 + k)]);
+    next = std::sqrt(scalars[index_of(k + 1)]);
+    if (!(next > 1e-5 * std::abs(diagonal.back()))) break;
+  }
+  if (diagonal.empty()) return 1;
+  const dense::RitzBound top = dense::largest_ritz_bound(diagonal, beside, next);
+  return top.value + top.residual;
 }
 
 /// On the device by the sweep operator; where the host shares its memory by Cholesky's method, which is many times faster there,
@@ -186,8 +207,8 @@ void Multigrid<B>::persist(StateArchive<B>& archive) {
 
 template <class B>
 std::size_t Multigrid<B>::bytes() const {
-  std::size_t total =
-      bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_, power_r_, power_x_);
+  std::size_t total = bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_) +
+                      4 * bytes_of_views(lanczos_[0]);
   for (const Grid& grid : grids_) {
     const Chebyshev<F>& on = grid.smoother;
     total += bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word,

@@ -74,7 +74,8 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 ///   level 2                                    restrict  solve
 ///
 /// The polynomial carries the residual along, so that it costs no product of its own. It reads copies of the matrices in 16 bits a number, and
-/// all vectors of a cycle are by the slots of these (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the device.
+/// all vectors of a cycle are by the slots of these (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the
+/// device; a fit waits once a level.
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:
@@ -104,13 +105,15 @@ class Multigrid final : public Preconditioner<B> {
   std::vector<Grid> grids_;
   int degree_;
   DenseInverse<F> coarsest_;
-  Vectors<F> coarsest_r_, power_r_, power_x_;  ///< the latter two for power iterations, of the finest level's size
+  Vectors<F> coarsest_r_;
   Fours<F> coarsest_x_;
+  Vectors<F> lanczos_[4];  ///< of the finest level's size
   BlockSums<F> sums_;
-  Doubles<B> square_;
+  Doubles<B> scalars_;
 
   bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }
   void fit_smoother(const Exec& exec, const Grid& grid) const;
+  double largest_eigenvalue(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;
   Fours<F> cycle(const Exec& exec, std::size_t level) const;
   Fours<F> relax(const Exec& exec, const Grid& grid, int first, int last, Leaves leaves) const;

@@ -316,7 +316,7 @@ class HierarchyBuilder {
         std::string solver = implicit.solver;
         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;
         if (solver == "auto" && contact_ && contact_->couples()) solver = "conjugate_gradients";
-        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver);
+        const auto parts = linear_solver_parts(problem_, i, B::on_host, solver, report.critical_step);
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);
       };

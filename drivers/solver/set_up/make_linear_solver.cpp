@@ -16,6 +16,7 @@ constexpr std::size_t most_direct = 200;       // vertices up to which a factori
 constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix has paid
 constexpr std::size_t fewest_coarsened = 600;  // vertices
 constexpr double multigrid_reach = 1.3;
+constexpr double long_step = 40;  // critical steps, from which multigrid over spaces pays: cmake/docs/levels.md
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
@@ -65,7 +66,8 @@ void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level
 
 }  // namespace
 
-LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver) {
+LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver,
+                                      double critical_step) {
   LinearSolverParts parts{problem.integration.implicit, {}};
   ImplicitOptions& o = parts.options;
   const Body& body = problem.body;
@@ -102,8 +104,10 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   }
   if (o.preconditioner == "auto" || asked) {
     o.preconditioner = BlockJacobi::name;  // also of a level that has no coarser one, where others have
-    const bool has_meshes = level + 1 < body.levels.size();  // over spaces it pays only for stiff systems
-    if (multigrid && (asked || (has_meshes && !fixed))) add_multigrid(parts, body, level, asked);
+    const bool pays = body.levels.size() == 1
+                          ? critical_step > 0 && problem.integration.macro_step.value_or(0) > long_step * critical_step
+                          : level + 1 < body.levels.size();
+    if (multigrid && (asked || (pays && !fixed))) add_multigrid(parts, body, level, asked);
   }
   if (o.matrix == "auto")
     o.matrix = cycle || nodal || (fixed && o.iterations < fewest_assembled) ? "free" : "assembled";

@@ -6,10 +6,12 @@
 namespace plica {
 
 /// What solves the systems of a level, chosen where the options say auto: a direct solver for small meshes where the host reads the
-/// matrix; else conjugate gradients, by multigrid where the body has coarser meshes, on an assembled matrix. A fixed number of iterations
-/// means plain ones, preconditioned by blocks.
-/// @param solver  a name of the list, or auto
-LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver);
+/// matrix; else conjugate gradients, by multigrid where the body has coarser meshes, or one mesh and long steps, on an assembled
+/// matrix. A fixed number of iterations means plain ones, preconditioned by blocks.
+/// @param solver         a name of the list, or auto
+/// @param critical_step  of the level [s]; 0: not known, and no step is long
+LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver,
+                                      double critical_step = 0);
 
 /// "conjugate_gradients, multigrid over 3 meshes, assembled"
 std::string describe(const LinearSolverParts& parts);
