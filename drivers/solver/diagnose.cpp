@@ -39,7 +39,8 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
   if (d.element >= 0 && !mesh.region.empty())
     d.region = mesh.region_names[static_cast<std::size_t>(mesh.region[static_cast<std::size_t>(d.element)])];
   if (report.critical_step > 0 && std::isfinite(report.critical_step))
-    d.substep_over_critical = report.share * built.macro_step / report.substeps / report.critical_step;
+    d.substep_over_critical =
+        report.share * built.macro_step / (report.substeps * built.stepper->parts()) / report.critical_step;
   if (report.explicit_integrator && d.substep_over_critical > 1)
     d.remedy = "a macro_step or sub-steps within the critical step of that level";
   else if (built.reports.size() > 1)

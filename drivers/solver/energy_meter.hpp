@@ -81,7 +81,7 @@ class ObstacleWork {
   /// After every macro step.
   void step(const Simulation<B>& simulation) {
     if (moving_.empty()) return;
-    for (const char* again : {"halvings", "inertia_refits"})
+    for (const char* again : {"halvings", "inertia_refits", "substep_halvings"})
       if (const auto counters = simulation.counters(); counters.contains(again))
         known_ = known_ && counters.at(again) == 0;
     const std::vector<Wrench> wrenches = simulation.wrenches();

@@ -63,7 +63,8 @@ std::vector<Choice> linear_solver_choices() {
 
 std::vector<Choice> preconditioner_choices() {
   std::vector<Choice> list = preconditioners();
-  list.push_back({"auto", "multigrid where the body has coarser levels, else block_jacobi"});
+  list.push_back(
+      {"auto", "multigrid where the body has coarser levels, or one mesh and long steps; else block_jacobi"});
   return list;
 }
 

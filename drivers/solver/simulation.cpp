@@ -45,6 +45,7 @@ namespace {
 
 constexpr double rounding = 1e-9;    // of times, relative
 constexpr int keep_every = 20;       // macro steps
+constexpr int long_ago = 200;        // macro steps, at least, between the two states that are kept
 constexpr int most_repairs = 8;      // of a stepper, until its steps stay stable to where the run was
 constexpr double least_edge = 1e-3;  // of an edge per macro step: motion that energy is not asked about
 
@@ -75,7 +76,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   check_couplings(p.contact, built.macro_step);
   problem.body.levels.clear();
   rest.resize(built.hierarchy->levels.size());
-  for (const auto& level : built.hierarchy->levels) kept.emplace_back("kept", level.model.vertices);
+  if (built.stepper->can_repair()) older.emplace();
   budget_known = p.body.prescribed.empty() && p.body.loads.empty() &&
                  std::none_of(p.contact.obstacles.begin(), p.contact.obstacles.end(),
                               [](const ObstacleOptions& o) { return moves(o); });
@@ -83,7 +84,7 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
     wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
   if (const Contact<B>* contact = hierarchy()[0].contact()) memory = contact->memory();
   linear = !find_material(p.body.material.model)->rotation_invariant;
-  keep();
+  keep_anew();
   open_budget();
 }
 
@@ -159,7 +160,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
   if (budget_opens) open_budget();
   const MotionReport now = meter.motion(drift);
   const LevelReport& finest = built.reports.front();
-  const double substep = finest.share * built.macro_step / std::max(1, finest.substeps);
+  const double substep = finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
   if (auto bad = find_failure(now, now.edges_per_second * substep * part)) return bad;
   drift = now.drift;
   return {};
@@ -204,7 +205,7 @@ void Simulation<B>::Inside::look_at_end() {
 
 template <class B>
 Diagnosis Simulation<B>::Inside::failure(const std::string& kind, double motion, int level, const std::string& reason) {
-  Diagnosis d = locate_failure<B>(kind, built, kept, level, reason);
+  Diagnosis d = locate_failure<B>(kind, built, kept.levels, level, reason);
   d.motion_over_edge = motion;
   return d;
 }
@@ -222,7 +223,8 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that can do better; false where it cannot.
+/// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before; then by
+/// one that does better still from there. False where the stepper cannot.
 template <class B>
 bool Simulation<B>::repair() {
   Inside& s = *inside_;
@@ -232,8 +234,8 @@ bool Simulation<B>::repair() {
     return !s.examine();
   };
   for (int attempt = 0; attempt < most_repairs; ++attempt) {
-    s.go_back();
-    if (!s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
+    s.go_back(attempt == 0 ? s.kept : *s.older);
+    if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
     if (go_on()) return true;
   }
   return false;
@@ -244,7 +246,7 @@ bool Simulation<B>::repair() {
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   const double there = time;
-  go_back();
+  go_back(kept);
   const bool known = there <= time + (1 + rounding) * next_span();  // to be bad as a whole: it was the only step since
   ++rejected;
   std::optional<Diagnosis> still = bad;
@@ -260,22 +262,14 @@ std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
 /// A span from `time`, whole, and in halves where that is bad.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, int left) {
-  std::vector<State<B>> before;
-  for (const auto& level : hierarchy().levels)
-    before.emplace_back("before", level.model.vertices).copy(hierarchy().exec(), level.state);
-  std::vector<KeptStress<B>> stress_before;
-  keep_stress(stress_before);
-  Doubles<B> memory_before;
-  copy_memory(hierarchy().exec(), memory, memory_before);
-  const double put_in_before = put_in;
-  const Point drift_before = drift;
+  Kept before;
+  keep(before);
   advance(from, span);
   const auto bad = examine(span / built.macro_step);
   if (!bad) return {};
   ++rejected;
   if (left == 0) return bad;
-  put_back(before, stress_before, memory_before);
-  put_in = put_in_before, drift = drift_before;
+  go_back(before);
   return halves(from, span, left);
 }
 
@@ -290,28 +284,37 @@ std::optional<Diagnosis> Simulation<B>::Inside::halves(double from, double span,
 
 template <class B>
 void Simulation<B>::return_to_last_good() {
-  inside_->go_back();
+  inside_->go_back(inside_->kept);
 }
 
 template <class B>
 void Simulation<B>::Inside::keep_at_times() {
-  if (retries() || steps - kept_steps >= keep_every) keep();
+  if (!retries() && steps - kept.steps < keep_every) return;
+  if (older && kept.steps - older->steps >= long_ago) std::swap(kept, *older);
+  keep(kept);
 }
 
+/// The state and the time as they are.
 template <class B>
-void Simulation<B>::Inside::keep() {
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i].copy(hierarchy().exec(), hierarchy().levels[i].state);
-  keep_stress(kept_stress);
-  copy_memory(hierarchy().exec(), memory, kept_memory);
-  kept_time = time, kept_steps = steps, kept_put_in = put_in, kept_drift = drift;
+void Simulation<B>::Inside::keep(Kept& to) {
+  const Exec& exec = hierarchy().exec();
+  const auto& levels = hierarchy().levels;
+  if (to.levels.empty())
+    for (const auto& level : levels) to.levels.emplace_back("kept", level.model.vertices);
+  for (std::size_t i = 0; i < levels.size(); ++i) to.levels[i].copy(exec, levels[i].state);
+  if (is_viscous(problem.body)) {
+    to.stress.resize(levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].viscosity->keep(exec, levels[i], to.stress[i]);
+  }
+  copy_memory(exec, memory, to.memory);
+  to.time = time, to.steps = steps, to.put_in = put_in, to.drift = drift;
 }
 
+/// Nothing before it counts any more.
 template <class B>
-void Simulation<B>::Inside::keep_stress(std::vector<KeptStress<B>>& to) {
-  if (!is_viscous(problem.body)) return;
-  to.resize(hierarchy().levels.size());
-  for (std::size_t i = 0; i < to.size(); ++i)
-    hierarchy().levels[i].viscosity->keep(hierarchy().exec(), hierarchy().levels[i], to[i]);
+void Simulation<B>::Inside::keep_anew() {
+  keep(kept);
+  if (older) keep(*older);
 }
 
 /// What is about to be changed from outside, or was.
@@ -320,20 +323,14 @@ void Simulation<B>::Inside::remember() {
   for (const auto& level : hierarchy().levels) level.remember(time);
 }
 
+/// To a state of all levels; coarser ones start from level 0's anew.
 template <class B>
-void Simulation<B>::Inside::go_back() {
-  put_back(kept, kept_stress, kept_memory);
-  time = kept_time, steps = kept_steps, put_in = kept_put_in, drift = kept_drift;
-}
-
-/// All levels' states; coarser ones start from level 0's anew.
-template <class B>
-void Simulation<B>::Inside::put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses,
-                                     const Doubles<B>& memory_then) {
-  copy_memory(hierarchy().exec(), memory_then, memory);
-  for (std::size_t i = 0; i < states.size(); ++i) hierarchy().levels[i].state.copy(hierarchy().exec(), states[i]);
-  for (std::size_t i = 0; i < stresses.size(); ++i)
-    hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i], stresses[i]);
+void Simulation<B>::Inside::go_back(const Kept& to) {
+  copy_memory(hierarchy().exec(), to.memory, memory);
+  for (std::size_t i = 0; i < to.levels.size(); ++i) hierarchy().levels[i].state.copy(hierarchy().exec(), to.levels[i]);
+  for (std::size_t i = 0; i < to.stress.size(); ++i)
+    hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i], to.stress[i]);
+  time = to.time, steps = to.steps, put_in = to.put_in, drift = to.drift;
   hierarchy().clear_flags();
   hierarchy().forget();
   if (const Contact<B>* contact = hierarchy()[0].contact()) contact->take_lost(hierarchy().exec());
@@ -347,15 +344,16 @@ void Simulation<B>::Inside::restart() {
   hierarchy().forget();
   built.stepper->begin(hierarchy());
   remember();
-  keep();
+  keep_anew();
   budget_opens = true;
 }
 
 template <class B>
 void Simulation<B>::Inside::open_budget() {
   const Energies e = meter.all(time);
-  start = put_in = kept_put_in = e.total();
-  drift = kept_drift = meter.motion(Point::Zero()).drift;
+  start = put_in = e.total();
+  drift = meter.motion(Point::Zero()).drift;
+  for (Kept* one : {&kept, older ? &*older : &kept}) one->put_in = put_in, one->drift = drift;
   budget_opens = false;
 }
 
@@ -384,7 +382,7 @@ void Simulation<B>::set_time(double time) {
     if (level.viscosity) level.viscosity->set_time(time);
   s.time = time, s.origin = time - static_cast<double>(s.steps) * s.built.macro_step;
   s.hierarchy().forget();
-  s.keep();
+  s.keep_anew();
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class Simulation<Backend<Real, Exec>>;

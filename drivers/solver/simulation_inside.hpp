@@ -44,13 +44,20 @@ struct Simulation<B>::Inside {
   double start = 0, put_in = 0;  // energy at the start, the most that was ever there to be had [J]
   Point drift = Point::Zero();   // mean velocity at the last check [m/s]
 
-  // The last state that was kept
-  std::vector<State<B>> kept;
-  std::vector<KeptStress<B>> kept_stress;  // likewise, of viscous materials only
-  Doubles<B> memory, kept_memory;          // likewise, of obstacles: see Contact::memory()
-  double kept_time = 0, kept_put_in = 0;
-  long kept_steps = 0;
-  Point kept_drift = Point::Zero();
+  /// A state to go back to, and what goes with it.
+  struct Kept {
+    std::vector<State<B>> levels;
+    std::vector<KeptStress<B>> stress;  ///< of viscous materials only
+    Doubles<B> memory;                  ///< of obstacles: see Contact::memory()
+    double time = 0, put_in = 0;
+    long steps = 0;
+    Point drift = Point::Zero();
+  };
+  Doubles<B> memory;  // of obstacles
+  // The last state that was kept, and one from long before: what looks sound may have been going wrong for a while. The latter only where
+  // the stepper can repair.
+  Kept kept;
+  std::optional<Kept> older;
 
   long halvings = 0, rejected = 0;  // macro steps and parts of them
 
@@ -77,11 +84,9 @@ struct Simulation<B>::Inside {
 
   // Kept states
   void keep_at_times();
-  void keep();
-  void go_back();
-  void put_back(const std::vector<State<B>>& states, const std::vector<KeptStress<B>>& stresses,
-                const Doubles<B>& memory_then);
-  void keep_stress(std::vector<KeptStress<B>>& to);
+  void keep(Kept& to);
+  void keep_anew();
+  void go_back(const Kept& to);
   void remember();
   void restart();
   void open_budget();

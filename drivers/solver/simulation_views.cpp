@@ -174,7 +174,7 @@ void Simulation<B>::Inside::hold_now(int obstacle, bool closed) {
     throw InputError(text("obstacle ", obstacle_name(problem.contact, static_cast<std::size_t>(obstacle)),
                           " cannot hold anything; expected contact.obstacles.", obstacle, ".grasp"));
   hold(hierarchy(), obstacle, time, closed);
-  keep();
+  keep_anew();
 }
 template <class B>
 void Simulation<B>::grasp(int obstacle) {
@@ -317,30 +317,34 @@ ElementFields Simulation<B>::element_fields(int level) const {
 
 namespace {
 
+template <class B, class Kept>
+void persist_kept(Kept& kept, StateArchive<B>& archive) {
+  for (double* value : {&kept.time, &kept.put_in, &kept.drift[0], &kept.drift[1], &kept.drift[2]})
+    archive.number(*value);
+  archive.number(kept.steps);
+  for (const auto& state : kept.levels) archive.state("a kept level", state);
+  for (auto& stress : kept.stress) archive.field("a kept memory of stress", stress.memory), archive.number(stress.time);
+  archive.field("the kept memory of obstacles", kept.memory);
+}
+
 /// Names all that is carried, in a fixed order.
 template <class B, class Inside>
 void persist(Inside& s, StateArchive<B>& archive) {
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
-  archive.same("the number of levels", s.kept.size());
+  archive.same("the number of levels", s.kept.levels.size());
   for (double* value :
-       {&s.time, &s.origin, &s.kept_time, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.kept_put_in,
-        &s.drift[0], &s.drift[1], &s.drift[2], &s.kept_drift[0], &s.kept_drift[1], &s.kept_drift[2]})
+       {&s.time, &s.origin, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.drift[0], &s.drift[1], &s.drift[2]})
     archive.number(*value);
-  for (long* value : {&s.steps, &s.kept_steps, &s.halvings, &s.rejected}) archive.number(*value);
+  for (long* value : {&s.steps, &s.halvings, &s.rejected}) archive.number(*value);
   archive.number(s.budget_opens);
-  for (std::size_t i = 0; i < s.kept.size(); ++i) {
-    const std::string name = "level " + std::to_string(i) + "'s ";
-    s.hierarchy().levels[i].persist(archive, name);
-    archive.state(name + "kept", s.kept[i]);
-    if (s.kept_stress.empty()) continue;
-    archive.field(name + "kept memory of stress", s.kept_stress[i].memory);
-    archive.number(s.kept_stress[i].time);
-  }
+  for (std::size_t i = 0; i < s.kept.levels.size(); ++i)
+    s.hierarchy().levels[i].persist(archive, "level " + std::to_string(i) + "'s ");
   s.built.stepper->persist(archive);
   archive.field("the obstacles' wrenches", s.wrench);
   archive.field("the obstacles' memory", s.memory);
-  archive.field("the kept memory of obstacles", s.kept_memory);
+  persist_kept<B>(s.kept, archive);
+  if (s.older) persist_kept<B>(*s.older, archive);
   archive.finish();
 }
 

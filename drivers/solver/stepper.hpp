@@ -51,10 +51,14 @@ class Stepper {
 
   /// Whether steps so far have lost stability. Waits.
   virtual bool lost_stability(const Hierarchy<B>&) const { return false; }
-  /// Whether repair() may help where stability is not lost and a check has found this.
+  /// Whether repair() can ever help.
+  virtual bool can_repair() const { return false; }
+  /// Whether it may where stability is not lost and a check has found this.
   virtual bool repairs(const Diagnosis&) const { return false; }
   /// Makes steps of `t` [s] stable again, by shorter ones within them, starting from the present state; false where it cannot.
   virtual bool repair(Hierarchy<B>&, double) { return false; }
+  /// Into how many parts repairs have cut the plan's sub-steps.
+  virtual int parts() const { return 1; }
 
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.

@@ -10,7 +10,7 @@ namespace plica {
 /// Where a scalar stands among those of a solve.
 namespace cg {
 enum : int { curvature, product, last_product, square, right_side, start, alpha, stopped, iterations, count };
-constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3;  // values of `stopped`
+constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3, unsound = 4;  // values of `stopped`
 }  // namespace cg
 
 /// z = D r and r.z, with D the inverse vertex blocks: the square of the norm that says when it has converged, whatever the
@@ -76,12 +76,14 @@ struct CgDirection {
   }
 };
 
-/// alpha = r.z / p.q; a direction without positive curvature ends it, and is not followed.
+/// alpha = r.z / p.q; a direction without positive curvature ends it, and is not followed. Where r.z is not positive, the preconditioner is
+/// not.
 template <class B>
 struct CgStep {
   Doubles<B> s;
   int product;  ///< where r.z stands
   KOKKOS_INLINE_FUNCTION void operator()() const {
+    if (s(cg::stopped) == cg::running && !(s(product) > 0)) s(cg::stopped) = cg::unsound;
     if (s(cg::stopped) == cg::running && !(s(cg::curvature) > 0)) s(cg::stopped) = cg::indefinite;
     s(cg::alpha) = s(cg::stopped) == cg::running ? s(product) / s(cg::curvature) : 0.0;
     s(cg::last_product) = s(product);

@@ -21,6 +21,8 @@ inline Problem him_beam(bool nested, const std::string& material = "linear") {
   return p;
 }
 
+inline TetMesh irregular_beam() { return with_slivers(jittered_box(beam_box, {20, 5, 5}, 0.2)); }
+
 /// The same beam as one irregular mesh, with slivers, whose coarser levels are made of it.
 inline Problem him_beam_alone(const std::string& material = "linear") {
   Problem p = him_beam(false, material);

@@ -245,6 +245,9 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"to look at", "plica report " + folder}};
   if (const std::string solves = solves_text(s.counters); !solves.empty())
     rows.insert(rows.begin() + 2, {"solving", solves});
+  if (const auto halvings = s.counters.find("substep_halvings"); halvings != s.counters.end() && halvings->second > 0)
+    rows.insert(rows.begin() + 2,
+                {"sub-steps", fmt::format("cut in {}, as the body stiffened", 1L << halvings->second)});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }
 

@@ -144,6 +144,7 @@ class HimStepper final : public Stepper<B> {
     for (int s = 0; s < substeps_; ++s) one(h, time + s * t / substeps_, t / substeps_);
   }
 
+  bool can_repair() const override { return true; }
   bool lost_stability(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
 
   /// An impact strains elements by more than a long step can follow. Where stability is lost fast, energy that nobody put in shows it first.
@@ -162,6 +163,8 @@ class HimStepper final : public Stepper<B> {
       }
     return false;
   }
+
+  int parts() const override { return substeps_; }
 
   /// p [kg m/s], 0 where the motion is given.
   const Vectors<B>& momenta() const { return p_; }

@@ -118,7 +118,7 @@ std::string describe(const LinearSolverParts& parts) {
   const ImplicitOptions& o = parts.options;
   if (o.solver == Direct::name) return o.solver;
   const std::string over =
-      parts.transfers.empty() ? "" : " over " + std::to_string(parts.transfers.size() + 1) + " meshes";
+      parts.transfers.empty() ? "" : " over " + std::to_string(parts.transfers.size() + 1) + " levels";
   return o.solver + ", " + o.preconditioner + over + (o.matrix == "free" ? ", without a matrix" : ", assembled");
 }
 

@@ -13,7 +13,7 @@ namespace plica {
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver,
                                       double critical_step = 0);
 
-/// "conjugate_gradients, multigrid over 3 meshes, assembled"
+/// "conjugate_gradients, multigrid over 3 levels, assembled"
 std::string describe(const LinearSolverParts& parts);
 
 /// Throws InputError for names that are not in the lists, and a direct solver where the host does not read device memory.

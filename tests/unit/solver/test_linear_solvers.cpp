@@ -282,10 +282,15 @@ TEST(LinearSolvers, AutoChoosesBySizeAndMeshes) {
   Problem p = pressed("linear", 4);
   EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto")), "direct");
   EXPECT_EQ(describe(linear_solver_parts(p, 0, false, "auto")),
-            "conjugate_gradients, multigrid over 3 meshes, assembled");
+            "conjugate_gradients, multigrid over 3 levels, assembled");
   EXPECT_EQ(describe(linear_solver_parts(p, 2, false, "auto")), "conjugate_gradients, block_jacobi, assembled");
   p.integration.implicit.iterations = 3;
   EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto")), "conjugate_gradients, block_jacobi, without a matrix");
+  p = pressed("linear");
+  p.body.levels = {box_mesh(decimetre, {8, 8, 8})}, p.integration.macro_step = 10e-3;
+  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 1e-3)), "conjugate_gradients, block_jacobi, assembled");
+  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 2e-4)),
+            "conjugate_gradients, multigrid over 2 levels, assembled");
 }
 
 template <class B>

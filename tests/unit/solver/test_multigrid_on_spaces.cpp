@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/organs.hpp>
+
+#include "support/him_pieces.hpp"
+#include "support/simulate.hpp"
+
+// Multigrid over coarse spaces of one mesh, on meshes with slivers.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+TEST(Multigrid, RunsOnSpacesOfOneMesh) {
+  Problem p = body_of({irregular_beam()}, "linear");
+  p.body.fixed = {left_face()};
+  p.gravity = {0, 0, -9.81};
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.macro_step = 5e-3;
+  p.integration.implicit.relative_residual = 1e-8;
+  const auto iterations = [&](const char* preconditioner) {
+    p.integration.implicit.preconditioner = preconditioner;
+    Simulation<Host> simulation(p);
+    advance(simulation, 4);
+    return simulation.counters().at("cg_iterations") / 4;
+  };
+  const long multigrid = iterations("multigrid");
+  EXPECT_LE(multigrid, 30);
+  EXPECT_LE(3 * multigrid, iterations("block_jacobi"));
+}
+
+// Its few slivers have the largest eigenvalues that the smoother has to know of.
+TEST(Multigrid, SmoothsTheSliversOfAnOrgan) {
+  Problem p = body_of({read_mesh(PLICA_SOURCE_DIR "/meshes/data/organs/ventricle.vtk")});
+  p.body.element = {"nodal"};
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
+  p.gravity = {0, 0, -9.81};
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.macro_step = 10e-3;
+  Simulation<Host> simulation(p);
+  EXPECT_NE(simulation.levels().front().linear_solver.find("multigrid"), std::string::npos) << "a long step";
+  advance(simulation, 2);
+  EXPECT_EQ(simulation.counters().at("cg_misses"), 0);
+  EXPECT_LE(simulation.counters().at("cg_iterations"), 2 * 45);
+}
+
+// Of nodal elements that stiffen exponentially, whose multigrid is that of linear ones.
+TEST(Multigrid, GivesWayWhereItDoesNotConverge) {
+  Problem p = body_of(
+      {tube_mesh({.radius = 8e-3, .wall = 2e-3, .length = 4e-2, .around = 16, .across = 2, .along = 12})}, "costa");
+  p.body.element = {"nodal"};
+  p.body.material.parameters["a"] = 10e3, p.body.material.parameters["bulk_modulus"] = 250e3;
+  for (const char* name : {"b_ff", "b_ss", "b_nn", "b_fs", "b_fn", "b_sn"}) p.body.material.parameters[name] = 1;
+  p.body.material.fibres = FibreOptions{.axis = Point(0, 0, 1)};
+  p.body.fixed = {GroupSelection{"inlet"}, GroupSelection{"outlet"}};
+  p.body.loads = {{GroupSelection{"lumen"}, FollowerPressure{6e3}, RampCourse{0.6}}};
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.macro_step = 15e-3;
+  p.integration.implicit.preconditioner = "multigrid";
+  Simulation<Host> simulation(p);
+  advance(simulation, 40);
+  EXPECT_EQ(simulation.counters().at("cg_misses"), 0);
+  EXPECT_EQ(simulation.counters().at("preconditioner_given_up"), 1);
+}
+
+}  // namespace
