@@ -92,6 +92,7 @@ MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const
       .displacement = body.displacement,
       .expected = expected};
   one.problem.integration.allow_unstable = run.step == above_limit.step;
+  if (run.method.rfind("single/", 0) == 0) one.problem.integration.substeps = {1};  // and not shorter ones
   return one;
 }
 

@@ -9,12 +9,12 @@
 
 namespace plica {
 
-/// Conjugate gradients, with or without a matrix, and any preconditioner. A preconditioner that is costly to fit is kept from step to step. It is fitted
-/// again when the stage's weights change, or when solves took `patience` iterations more than its first solve needed for the same
-/// number of digits, which is about what fitting costs. A solve that multigrid does not finish in `most_cycles` iterations, or in which it
-/// leads to a direction without positive curvature or is not positive definite itself, is finished by the vertex blocks alone; after two such solves in a row it is not used any more (nodal
-/// elements of a material that stiffens exponentially, whose multigrid is that of linear ones). Solves to a residual start from a guess by
-/// the last solutions.
+/// Conjugate gradients, with or without a matrix, and any preconditioner. A preconditioner that is costly to fit is kept from step to step.
+/// It is fitted again when the stage's weights change, or when solves took `patience` iterations more than its first solve needed for the
+/// same number of digits, which is about what fitting costs. A solve that multigrid does not finish in `most_cycles` iterations, or in which
+/// it turns out not to be positive definite, is finished by the vertex blocks alone; after two such solves in a row it is not used any more
+/// (nodal elements of a material that stiffens exponentially, whose multigrid is that of linear ones). Solves to a residual start from a
+/// guess by the last solutions.
 struct ConjugateGradients {
   static constexpr const char* name = "conjugate_gradients";
   static constexpr const char* summary = "preconditioned, with or without a matrix";
@@ -62,7 +62,8 @@ struct ConjugateGradients {
       const KrylovOutcome out = krylov_.solve(exec, system_, preconditioner_.get(), last, options, r, x);
       if (per_decade_ == 0 && out.decades > 1) per_decade_ = out.iterations / out.decades;
       if (per_decade_ > 0 && out.decades > 1) spent_ += std::max(0.0, out.iterations - per_decade_ * out.decades);
-      const bool gives_up = !out.converged && options.iterations == 0 && std::isfinite(out.relative_residual);
+      const bool gives_up =
+          !out.converged && !out.indefinite && options.iterations == 0 && std::isfinite(out.relative_residual);
       given_up_ = gives_up ? given_up_ + 1 : 0;
       if (!gives_up) return remember(exec, out, x);
       spent_ = patience;

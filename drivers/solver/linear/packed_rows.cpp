@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 
 namespace plica {
 
@@ -62,14 +64,14 @@ PackedRows<B> packed_rows(const HostPattern& A, const SlotOrder& order) {
 }
 
 RowMatrix by_slots(const RowMatrix& P, const SlotOrder& rows, const SlotOrder& columns) {
-  std::vector<std::vector<std::pair<int, double>>> made(rows.vertex.size());
-  for (std::size_t s = 0; s < made.size(); ++s) {
-    if (rows.vertex[s] < 0) continue;
-    for (RowMatrix::InnerIterator entry(P, rows.vertex[s]); entry; ++entry)
-      made[s].emplace_back(columns.slot[index_of(static_cast<int>(entry.col()))], entry.value());
-    std::sort(made[s].begin(), made[s].end());
-  }
-  return matrix_of_rows(made, static_cast<Eigen::Index>(columns.vertex.size()));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index a = 0; a < P.rows(); ++a)
+    for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
+      entries.emplace_back(rows.slot[index_of(static_cast<int>(a))],
+                           columns.slot[index_of(static_cast<int>(entry.col()))], entry.value());
+  RowMatrix made(static_cast<Eigen::Index>(rows.vertex.size()), static_cast<Eigen::Index>(columns.vertex.size()));
+  made.setFromTriplets(entries.begin(), entries.end());
+  return made;
 }
 
 #define PLICA_PACKED_ROWS(Exec) \

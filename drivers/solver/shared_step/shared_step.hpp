@@ -9,7 +9,7 @@ namespace plica {
 /// What the paper's cycles have in common: the macro step is shared out among the levels, and each integrates its share.
 ///
 /// The limit of an explicit level is that of its state at rest. A body that is pressed or struck stiffens, and has a shorter one. So where the
-/// length of steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, for good.
+/// number of sub-steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, for good.
 template <class B>
 class SharedStep : public Stepper<B> {
  public:
@@ -28,7 +28,7 @@ class SharedStep : public Stepper<B> {
       is_explicit_.push_back(setup.reports[k].explicit_integrator);
     }
     const IntegrationOptions& o = setup.problem.integration;
-    const bool is_automatic = !o.macro_step || std::ranges::all_of(o.substeps, [](int n) { return n == 0; });
+    const bool is_automatic = std::ranges::all_of(o.substeps, [](int n) { return n == 0; });
     shortens_ =
         is_automatic && !o.allow_unstable && o.retry.halvings == 0 && std::ranges::count(is_explicit_, true) > 0;
     allocate(setup.hierarchy);

@@ -147,43 +147,6 @@ TYPED_TEST(LinearSolversOn, TheAssembledMatrixIsTheProductWithoutOne) {
   });
 }
 
-TEST(LinearSolvers, PackedRowsAreTheMatrixTo16Bits) {
-  using B = Backend<float, Host::Exec>;
-  StageCase<B> stage(pressed("neo_hookean"));
-  StageSystem<B> system(stage.level(), true);
-  system.prepare(stage.level(), stage.state, stage.weights, false);
-  const BlockMatrix<B>& A = system.matrix(stage.exec());
-  const HostPattern pattern = host_pattern(A);
-  const SlotOrder order = slot_order(pattern, PackedRows<B>::height);
-  const PackedRows<B> packed = packed_rows<B>(pattern, order);
-  update_vertices<B>(stage.exec(), "test", packed.slots(), ScaleOfVertex<B>{A, packed});
-  update_vertices<B>(stage.exec(), "test", packed.slots(), PackRow<B>{A, packed});
-  const auto p = stage.random_right_side();
-  const auto scaled = zeros<Fours<B>>("test.scaled", order.vertex.size());
-  stage.exec().fence();
-  const auto slot_of = [&](int a) { return order.slot[static_cast<std::size_t>(a)]; };
-  const auto scale_of = [&](int a) { return static_cast<double>(packed.scale(slot_of(a))); };
-  for (std::size_t b = 0; b < p.size(); ++b)
-    for (int k = 0; k < 3; ++k) scaled(order.slot[b], k) = packed.scale(order.slot[b]) * static_cast<float>(p[b][k]);
-  for (int a = 0; a < A.rows; ++a) {
-    const Vec3<RowPack<B>> got = packed_product<B>(packed, RowsAt<B>(slot_of(a) / B::lanes), scaled);
-    Point want = Point::Zero();
-    double bound = 0;  // half a step of every number, and what float rounds
-    for (int s = A.first(a); s < A.first(a + 1); ++s)
-      for (int k = 0; k < 3; ++k) {
-        const double x = p[static_cast<std::size_t>(A.column(s))][k];
-        bound += 0.51 * 0x1p16 * scale_of(a) * scale_of(A.column(s)) * std::abs(x);
-        for (int i = 0; i < 3; ++i) {
-          const double value = static_cast<double>(A.value(s, 3 * k + i));
-          want[i] += value * x, bound += 1e-6 * std::abs(value * x);
-        }
-      }
-    for (int i = 0; i < 3; ++i)
-      EXPECT_NEAR(scale_of(a) * static_cast<double>(lane(got[i], slot_of(a) % B::lanes)), want[i], bound)
-          << "row " << a;
-  }
-}
-
 TEST(LinearSolvers, PreconditionersAreSymmetricAndPositive) {
   StageCase<Host> stage(pressed("corotational"));
   for (const char* name : {"chebyshev", "multigrid"}) {

@@ -8,7 +8,7 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Explicit steps of automatic length, of a body that stiffens beyond the limit it has at rest.
+// Explicit steps whose number is automatic, of a body that stiffens beyond the limit it has at rest.
 namespace {
 
 using namespace plica;
