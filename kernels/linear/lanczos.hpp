@@ -13,7 +13,7 @@ namespace plica {
 
 /// Forces without order, 0 where the motion is given.
 template <class B>
-struct LanczosStart {
+struct BlockLanczosStart {
   Vectors<B> r;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     unsigned seed = static_cast<unsigned>(a) * 2654435761U + 12345U;
@@ -26,7 +26,7 @@ struct LanczosStart {
 
 /// z = D^-1 r and r.z, which is beta^2
 template <class B>
-struct LanczosSize {
+struct BlockLanczosSize {
   Blocks<B> inverse_diagonal;
   Vectors<B> r, z;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
@@ -38,7 +38,7 @@ struct LanczosSize {
 
 /// w = A z / beta and alpha = w . z / beta
 template <class B>
-struct LanczosProduct {
+struct BlockLanczosProduct {
   BlockMatrix<B> A;
   Doubles<B> square;  ///< beta^2
   Vectors<B> z, w;
@@ -50,11 +50,11 @@ struct LanczosProduct {
   }
 };
 
-/// r becomes the next, q_last its q; and what LanczosSize says of it.
+/// r becomes the next, q_last its q; and what BlockLanczosSize says of it.
 template <class B>
-struct LanczosNext {
+struct BlockLanczosNext {
   using Real = typename B::Real;
-  LanczosSize<B> size;
+  BlockLanczosSize<B> size;
   Doubles<B> square, alpha;
   Vectors<B> w, last;
   bool first;  ///< there is no q_last

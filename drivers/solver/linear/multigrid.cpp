@@ -111,12 +111,12 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
   const auto& [r, z, w, last] = lanczos_;
   const auto square = [&](int k) { return Doubles<B>(scalars_.data() + k, 1); };
   const auto alpha = [&](int k) { return Doubles<B>(scalars_.data() + lanczos_steps + 1 + k, 1); };
-  const LanczosSize<F> size{grid.inverse_diagonal, r, z};
-  update_vertices<F>(exec, "plica::lanczos_start", n, LanczosStart<F>{r});
+  const BlockLanczosSize<F> size{grid.inverse_diagonal, r, z};
+  update_vertices<F>(exec, "plica::lanczos_start", n, BlockLanczosStart<F>{r});
   reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums_, square(0));
   for (int k = 0; k < lanczos_steps; ++k) {
-    reduce<F, 1>(exec, "plica::lanczos_product", n, LanczosProduct<F>{grid.A, square(k), z, w}, sums_, alpha(k));
-    reduce<F, 1>(exec, "plica::lanczos_next", n, LanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
+    reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, square(k), z, w}, sums_, alpha(k));
+    reduce<F, 1>(exec, "plica::lanczos_next", n, BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
                  square(k + 1));
   }
   const std::vector<double> scalars = host_values(exec, scalars_);
