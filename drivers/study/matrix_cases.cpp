@@ -276,8 +276,8 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
 Expected of_him(const MatrixBody& body, const std::string& material, bool linear) {
   using Start = MatrixBody::Start;
   if (body.impact > fast_impact) return either("how short its steps must be after an impact depends on the material");
-  const bool soft_when_flat = material == StVenantKirchhoff::name;
-  if (body.start == Start::random || ((body.start == Start::flat || body.start == Start::turned) && soft_when_flat))
+  if (body.start == Start::random ||
+      (material == StVenantKirchhoff::name && (body.start == Start::flat || body.start == Start::turned)))
     return either("its inertia is fitted at rest; how well it fits such a shape depends on the shape");
   if (body.start == Start::flat || body.start == Start::turned || body.start == Start::mirrored) return stops();
   if (linear || body.impact > 0) return completes();
@@ -354,7 +354,7 @@ MatrixCase case_of(const MatrixBody& body, const Method& method, const std::stri
   one.problem = problem_of(one.problem, study);
   one.step = body.step > 0 ? body.step : method.step;
   one.problem.integration.allow_unstable = body.unstable || method.kind == Method::Kind::shared;
-  if (shares || method.kind == Method::Kind::stepped) one.problem.integration.substeps = {1};  // and not shorter ones
+  if (shares || method.kind == Method::Kind::stepped) one.problem.integration.substeps = {1};
   return one;
 }
 
