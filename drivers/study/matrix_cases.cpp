@@ -276,10 +276,10 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
 Expected of_him(const MatrixBody& body, const std::string& material, bool linear) {
   using Start = MatrixBody::Start;
   if (body.impact > fast_impact) return either("how short its steps must be after an impact depends on the material");
-  if (body.start == Start::random ||
-      (material == StVenantKirchhoff::name && (body.start == Start::flat || body.start == Start::turned)))
+  const bool flat = body.start == Start::flat || body.start == Start::turned;
+  if (body.start == Start::random || (flat && material == StVenantKirchhoff::name))
     return either("its inertia is fitted at rest; how well it fits such a shape depends on the shape");
-  if (body.start == Start::flat || body.start == Start::turned || body.start == Start::mirrored) return stops();
+  if (flat || body.start == Start::mirrored) return stops();
   if (linear || body.impact > 0) return completes();
   if (nodal(body)) return stops();  // its values are the most extreme
   return either("its inertia is fitted again where the body stiffens; whether that is in time depends on the material");
@@ -383,8 +383,7 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
     line.set(body, value);
     body.refused = line.of == Of::explicit_alone && !body.unstable;
     body.load();
-    std::string name = line.format;
-    name.replace(name.find("%g"), 2, number(value));
+    const std::string name = std::string(line.format).replace(std::string(line.format).find("%g"), 2, number(value));
     for (const std::string& material : materials_of_two_constants())
       for (const Method& method : methods(size, line.of, body.problem.body.levels.size() > 1))
         if (takes_part(material, method.name)) cases.push_back(case_of(body, method, material, name));
