@@ -84,9 +84,9 @@ constexpr double least_scale = 1e-4, parts_tolerance = 1e-3, fit_tolerance = 1e-
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
 constexpr int scales = 1 << halvings, most_guesses = 5;
 
-/// Scale k of those from least_scale, k = 0, to `most`, which would be the next after the last: what halving the interval finds.
-double scale_at(int k, double most) {
-  double low = least_scale, high = most;
+/// Scale k of those from least_scale, k = 0, to 1, which would be the next after the last: what halving the interval finds.
+double scale_at(int k) {
+  double low = least_scale, high = 1;
   for (int half = scales / 2, at = 0; at != k; half /= 2) {
     const double middle = std::sqrt(low * high);
     if (k >= at + half)
@@ -188,7 +188,7 @@ InertiaFit InertiaFitter<B>::weigh(double t, double sigma, double scale) {
 }
 
 template <class B>
-std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u, double scale) {
+std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u) {
   const Kokkos::Profiling::ScopedRegion region("plica: fitting the inertia");
   set_answer(t, sigma);
   double product = 0;  // of the last scale that was tried
@@ -203,20 +203,20 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
     return fit;
   };
   const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
-  if (plain <= scale && fits(plain)) return found(plain);
-  if (fits(scale)) return found(scale);
+  if (plain <= 1 && fits(plain)) return found(plain);
+  if (fits(1)) return found(1);
   if (!modes_) return {};
   // the largest of the scales that fits: the product grows with them, from the coarsest level's own
   const double limit = 4 * sigma * sigma;
-  Tried below{0, modes_->largest(t, kappa_of(sigma))}, above{scale, product};
+  Tried below{0, modes_->largest(t, kappa_of(sigma))}, above{1, product};
   int fitting = -1, failing = scales;
   for (int guesses = 0; failing - fitting > 1; ++guesses) {
     const double guess = between(below, above, limit);
     int next = fitting + 1;  // the last below the guess; where that is known to fit the one after it
-    while (next + 1 < failing && scale_at(next + 1, scale) <= guess) ++next;
+    while (next + 1 < failing && scale_at(next + 1) <= guess) ++next;
     if (guesses >= most_guesses) next = (fitting + failing) / 2;
     if (guesses == 1 && fitting < 0) next = 0;  // of a body that has stiffened none may fit
-    const double gamma = scale_at(next, scale);
+    const double gamma = scale_at(next);
     if (fits(gamma))
       fitting = next, below = {gamma, product};
     else

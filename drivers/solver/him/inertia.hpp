@@ -37,9 +37,9 @@ class InertiaFitter {
   InertiaFitter(const typename B::Exec& exec, const Level<B>& level, std::shared_ptr<const Elasticity<B>> elasticity,
                 InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
 
-  /// Sets weights and answer so that t^2 lambda_max(A K) = 4 sigma^2 at the state u, axes turned as they are, with gamma at
-  /// most `scale`; nothing fits: none, and the weights are of no use.
-  std::optional<InertiaFit> fit(double t, double sigma, const Vectors<B>& u, double scale = 1);
+  /// Sets weights and answer so that t^2 lambda_max(A K) = 4 sigma^2 at the state u, axes turned as they are, with gamma at most 1;
+  /// nothing fits: none, and the weights are of no use.
+  std::optional<InertiaFit> fit(double t, double sigma, const Vectors<B>& u);
 
   /// The fit that had this gamma, at whatever state; its product is not known then.
   InertiaFit use(double t, double sigma, double scale);

@@ -100,7 +100,7 @@ struct ConjugateGradients {
 
     bool preconditions() const { return preconditioner_ && given_up_ < 2; }
 
-    const SolveOutcome& remember(const Exec& exec, const KrylovOutcome& out, const Vectors<B>& x) {
+    SolveOutcome remember(const Exec& exec, const KrylovOutcome& out, const Vectors<B>& x) {
       if (last_ && out.converged) last_->add(exec, x);
       return out;
     }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/kernels/linear/lanczos.hpp>
 #include <plica/kernels/vectors.hpp>
 
