@@ -5,6 +5,7 @@
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 
+#include "support/backends.hpp"
 #include "support/bodies.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
