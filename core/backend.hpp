@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Kokkos_Core.hpp>
+#include <plica/core/like_device.hpp>
 
 #ifndef PLICA_VECTOR_BYTES
 #define PLICA_VECTOR_BYTES 8
@@ -16,8 +17,10 @@ struct Backend {
   using Memory = typename Exec::memory_space;  ///< where its fields live
   /// Whether the host can read that memory.
   static constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
+  /// Whether its kernels are shaped for a CPU, where one thread fills vector registers, or for a GPU, where many work as a team.
+  static constexpr bool for_cpu = on_host && !like_device::on;
   /// Elements that one pass of a kernel takes at a time: a vector register's worth on a CPU, one on a GPU.
-  static constexpr int lanes = on_host && PLICA_VECTOR_BYTES > static_cast<int>(sizeof(Real))
+  static constexpr int lanes = for_cpu && PLICA_VECTOR_BYTES > static_cast<int>(sizeof(Real))
                                    ? PLICA_VECTOR_BYTES / static_cast<int>(sizeof(Real))
                                    : 1;
 };
@@ -57,12 +60,18 @@ struct Backend {
 
 /// Rows of a slice of a matrix that is stored slice by slice: a register's worth on a CPU; on a GPU a warp reads whole lines.
 template <class B>
-inline constexpr int slice_height = B::on_host ? B::lanes : 32;
+inline constexpr int slice_height = B::for_cpu ? B::lanes : 32;
 
 /// Threads of a team: one on a CPU, where teams run side by side, `on_device` on a GPU.
 template <class B>
 constexpr int team_size(int on_device) {
-  return B::on_host ? 1 : on_device;
+  return B::for_cpu ? 1 : like_device::team_size<typename B::Exec>(on_device);
+}
+
+/// Which of its league this team is.
+template <class Member>
+KOKKOS_INLINE_FUNCTION int league_rank(const Member& team) {
+  return like_device::place(team.league_rank(), team.league_size());
 }
 
 /// One value per vertex or point.

@@ -105,7 +105,7 @@ struct PatchKernel {
   Vectors<B> partial;  ///< [patch vertices][3]
 
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    const int p = team.league_rank();
+    const int p = league_rank(team);
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     Real* const forces = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes(), 64));

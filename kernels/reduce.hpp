@@ -70,7 +70,7 @@ struct SumOfBlock {
     keep(b, total);
   }
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    const int b = team.league_rank();
+    const int b = league_rank(team);
     Tally total;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, begin(b), end(b)), [&](int i, Tally& sum) { sum += term(i); },
@@ -93,7 +93,7 @@ struct BlockTotal {
 template <class B, class Sum>
 void launch_blocks(const typename B::Exec& exec, const char* label, int count, const Sum& sum) {
   using Exec = typename B::Exec;
-  if constexpr (B::on_host)
+  if constexpr (B::for_cpu)
     Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
   else
     Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);

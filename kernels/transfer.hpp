@@ -145,7 +145,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
   const int last = A.first(row + 1);
   Vec3<Real> y;
 #if defined(__GNUC__) && !defined(__CUDACC__)
-  if constexpr (B::on_host) {
+  if constexpr (B::for_cpu) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
     constexpr int sums = 4;  // taken in turns, so that an addition need not wait for the last one
     Four sum[sums] = {};

@@ -22,7 +22,7 @@ struct SumBlocks {
     total = k < n - maxima ? total + value : (total < value ? value : total);
   }
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    const int k = team.league_rank();
+    const int k = league_rank(team);
     double total = 0;
     if (k < n - maxima)
       Kokkos::parallel_reduce(

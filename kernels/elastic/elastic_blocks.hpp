@@ -86,7 +86,7 @@ struct ElasticBlocks {
   Real a;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    const int p = team.league_rank();
+    const int p = league_rank(team);
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     const int first = pairs.first_pair(p), first_shared = pairs.first_shared(p),

@@ -18,7 +18,7 @@ struct ElasticStress {
   Scalars<B> lost;               ///< to relaxation; see StressMemory
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
-    const int p = team.league_rank(), first = patches.first_pack(p) * lanes, last = patches.first_pack(p + 1) * lanes;
+    const int p = league_rank(team), first = patches.first_pack(p) * lanes, last = patches.first_pack(p + 1) * lanes;
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first, last), [&](int slot) {
       if (const int tet = patches.element(slot); tet >= 0) element(p, slot / lanes, slot % lanes, tet);
     });

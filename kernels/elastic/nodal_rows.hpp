@@ -35,7 +35,9 @@ KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int
 /// Runs work(item) for every item of RowsAt.
 template <class B, class Work>
 void for_rows(const typename B::Exec& exec, const char* label, const NodalRows<B>& rows, const Work& work) {
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, rows.slots() / B::lanes), work);
+  const int items = rows.slots() / B::lanes;
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, items),
+                       like_device::shuffled(items, work));
 }
 
 /// 1. near[slot]

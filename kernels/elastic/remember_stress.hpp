@@ -42,7 +42,7 @@ struct RememberElements {
     return Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
   }
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
-    const int p = team.league_rank();
+    const int p = league_rank(team);
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes(), 64));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {

@@ -88,7 +88,7 @@ struct DownToAxes {
 
 /// Vertices of a work item.
 template <class B>
-constexpr int group_size = B::on_host ? CoarseFilter<B>::group : 1;
+constexpr int group_size = B::for_cpu ? CoarseFilter<B>::group : 1;
 template <class B>
 constexpr int groups_of(int vertices) {
   return (vertices + group_size<B> - 1) / group_size<B>;

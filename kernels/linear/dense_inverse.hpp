@@ -82,7 +82,7 @@ struct PackInverse {
 template <class B>
 struct ApplyDense {
   using Real = typename B::Real;
-  static constexpr int block = DenseInverse<B>::block, rows = B::on_host ? block : 1;
+  static constexpr int block = DenseInverse<B>::block, rows = B::for_cpu ? block : 1;
   DenseInverse<B> dense;
   Vectors<B> r;
   Kokkos::View<Real* [4], Kokkos::LayoutRight, typename B::Memory> x;  ///< x y z 0

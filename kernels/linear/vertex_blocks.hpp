@@ -61,7 +61,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatri
   using Real = typename B::Real;
   const int first = A.first(a), last = A.first(a + 1);
 #if defined(__GNUC__) && !defined(__CUDACC__)
-  if constexpr (B::on_host) {
+  if constexpr (B::for_cpu) {
     BlockSum<Real> even[3], odd[3];  // two blocks at a time: sums need not wait for each other
     const Real* value = A.value.data() + 9 * static_cast<std::ptrdiff_t>(first);
     constexpr std::ptrdiff_t ahead = 8192 / sizeof(Real), line = 64 / sizeof(Real);
