@@ -86,7 +86,8 @@ void set(const Exec& exec, Number* x, std::size_t count, Number value) {
   template void download<Exec>(const Exec&, void*, const void*, std::size_t);   \
   template void set<Exec, float>(const Exec&, float*, std::size_t, float);      \
   template void set<Exec, double>(const Exec&, double*, std::size_t, double);   \
-  template void set<Exec, int>(const Exec&, int*, std::size_t, int);
+  template void set<Exec, int>(const Exec&, int*, std::size_t, int);            \
+  template void set<Exec, unsigned long long>(const Exec&, unsigned long long*, std::size_t, unsigned long long);
 PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE_SPACE)
 
 #define PLICA_INSTANTIATE_MEMORY(Memory)                         \

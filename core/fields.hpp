@@ -24,7 +24,7 @@ void upload(void* to, const void* from, std::size_t bytes);
 /// Bytes from an execution space's memory to the host, when `exec` has done all it was given. Waits for that.
 template <class Exec>
 void download(const Exec& exec, void* to, const void* from, std::size_t bytes);
-/// Sets numbers, in the order of `exec`. For float, double and int.
+/// Sets numbers, in the order of `exec`. For float, double, int and unsigned long long.
 template <class Exec, class Number>
 void set(const Exec& exec, Number* x, std::size_t count, Number value);
 

@@ -10,34 +10,40 @@
 
 namespace plica {
 
-/// The first inverted element of each patch since the last clear, where none is allowed. A patch is worked
-/// on by one team at a time and its own record only, so that what is kept does not depend on the number of threads.
+/// The first inverted element of each patch since the last clear, where none is allowed: of several in one evaluation, whose threads may all
+/// come at once on a GPU, the one with the smallest slot. So what is kept does not depend on the threads.
 template <class B>
 struct ElementFlags {
+  using Word = unsigned long long;
   Kokkos::View<int, typename B::Memory> raised;  ///< 0: none anywhere
   Indices<B> evaluation;                         ///< [patches] of the force, counted from 1; 0: none
-  Indices<B> element;                            ///< [patches] slot (pack * lanes + lane)
-  Scalars<B> J;                                  ///< [patches] its volume ratio
+  Kokkos::View<Word*, typename B::Memory> word;  ///< [patches] slot and volume ratio in one, to be replaced at once
 
   KOKKOS_INLINE_FUNCTION void raise(int patch, int now, int slot, typename B::Real ratio) const {
     Kokkos::atomic_store(&raised(), 1);
-    // on a GPU several threads of the team may come here in one evaluation: the smallest slot stays
-    if (evaluation(patch) == 0 || (evaluation(patch) == now && slot < element(patch)))
-      evaluation(patch) = now, element(patch) = slot, J(patch) = ratio;
+    const int before = Kokkos::atomic_compare_exchange(&evaluation(patch), 0, now);
+    const auto bits = Kokkos::bit_cast<std::uint32_t>(static_cast<float>(ratio));
+    if (before == 0 || before == now)
+      Kokkos::atomic_max(&word(patch), Word{~static_cast<std::uint32_t>(slot)} << 32 | bits);
   }
+  /// Of a word: pack * lanes + lane.
+  static int slot(Word word) { return static_cast<int>(~static_cast<std::uint32_t>(word >> 32)); }
+  /// Of a word: the volume ratio.
+  static float J(Word word) { return Kokkos::bit_cast<float>(static_cast<std::uint32_t>(word)); }
 
   void clear(const typename B::Exec& exec) const {
     if (evaluation.extent(0) == 0) return;
     fill(exec, raised, 0);
     fill(exec, evaluation, 0);
+    fill(exec, word, 0);
   }
 };
 
 template <class B>
 ElementFlags<B> make_element_flags(int patches) {
   return {Kokkos::View<int, typename B::Memory>("plica::flags.raised"),
-          zeros<Indices<B>>("plica::flags.evaluation", patches), zeros<Indices<B>>("plica::flags.element", patches),
-          zeros<Scalars<B>>("plica::flags.J", patches)};
+          zeros<Indices<B>>("plica::flags.evaluation", patches),
+          zeros<decltype(ElementFlags<B>::word)>("plica::flags.word", patches)};
 }
 
 /// Vertices whose motion is given; none: no arrays.

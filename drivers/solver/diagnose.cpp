@@ -114,9 +114,10 @@ std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
     const auto copy = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
     if (copy(level.flags.raised)() == 0) continue;
     const bool nodal = level.model.rows.slices > 0;
-    const auto evaluation = copy(level.flags.evaluation), element = copy(level.flags.element),
+    const auto evaluation = copy(level.flags.evaluation),
                map = copy(nodal ? level.model.rows.vertex : level.model.patches.element);
-    const auto J = copy(level.flags.J);
+    const auto word = copy(level.flags.word);
+    const auto J = [&](int p) { return ElementFlags<B>::J(word(p)); };
     int worst = -1;
     for (int p = 0; p < static_cast<int>(evaluation.extent(0)); ++p)
       if (evaluation(p) > 0 &&
@@ -125,7 +126,7 @@ std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built) {
     if (worst < 0) continue;
     Diagnosis d;
     d.kind = std::isfinite(J(worst)) ? "inverted" : "non_finite";
-    (nodal ? d.vertex : d.element) = map(element(worst));
+    (nodal ? d.vertex : d.element) = map(ElementFlags<B>::slot(word(worst)));
     d.level = i, d.J = std::isfinite(J(worst)) ? static_cast<double>(J(worst)) : 0.0;
     complete(d, built);
     return d;

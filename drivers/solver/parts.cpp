@@ -113,7 +113,7 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   if (turning > 0) touched += ", " + std::to_string(turning) + " of them turning";
   const std::size_t variations = sum([](const L& l) { return bytes_of(l.start) + bytes_of(l.previous); });
   const std::size_t limits = sum([](const L& l) { return bytes(l.drift_limit); });
-  const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.element, l.flags.J); });
+  const std::size_t flags = sum([](const L& l) { return bytes(l.flags.evaluation, l.flags.word); });
 
   std::string kinds;
   for (std::size_t i = 0; i < levels; ++i) kinds += std::string(i ? ", " : "") + name_of(element_of(body, i));

@@ -131,8 +131,9 @@ TYPED_TEST(Teams, KeepOneInvertedElement) {
   const State<B> turned{device<B>(disorder(body.n, 0.02, 1)), body.v};
   const auto kept = [&] {
     std::vector<double> all = numbers(body.level.flags.evaluation);
-    for (const auto& list : {numbers(body.level.flags.element), numbers(body.level.flags.J)})
-      all.insert(all.end(), list.begin(), list.end());
+    const auto& word = body.level.flags.word;
+    for (std::size_t p = 0; p < word.extent(0); ++p)
+      all.push_back(body.level.flags.slot(word(p))), all.push_back(static_cast<double>(body.level.flags.J(word(p))));
     return all;
   };
   body.level.flags = make_element_flags<B>(body.model.patches.count);
