@@ -21,6 +21,10 @@ using Blocks = Kokkos::View<typename B::Real* [6], Kokkos::LayoutRight, typename
 template <class B>
 using Blocks9 = Kokkos::View<typename B::Real* [9], Kokkos::LayoutRight, typename B::Memory>;
 
+/// A vector per row, x y z 0: rows that gather it read four numbers at once.
+template <class B>
+using Fours = Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory>;
+
 /// A square sparse matrix of 3x3 blocks, by rows in compressed form (block CSR). It is symmetric, but for columns of vertices whose motion
 /// is given: their own rows are empty.
 template <class B>

@@ -353,7 +353,8 @@ void Simulation<B>::Inside::open_budget() {
   const Energies e = meter.all(time);
   start = put_in = e.total();
   drift = meter.motion(Point::Zero()).drift;
-  for (Kept* one : {&kept, older ? &*older : &kept}) one->put_in = put_in, one->drift = drift;
+  kept.put_in = put_in, kept.drift = drift;
+  if (older) older->put_in = put_in, older->drift = drift;
   budget_opens = false;
 }
 

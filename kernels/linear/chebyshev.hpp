@@ -5,7 +5,7 @@
 #include <plica/kernels/transfer.hpp>
 
 // Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal polynomial smoothers for multigrid V-cycles,
-// 2022, arXiv:2202.08830, alg. 1): they need the largest eigenvalue only, which a few power iterations bound.
+// 2022, arXiv:2202.08830, alg. 1): they need the largest eigenvalue only (lanczos.hpp).
 //   d_1 = 4/(3 lambda) D^-1 r;   x += d_k, r -= A d_k, d_(k+1) = (2k-1)/(2k+3) d_k + (8k+4)/((2k+3) lambda) D^-1 r
 // As polynomials in D^-1 A they are self-adjoint, so that a symmetric cycle of them preconditions conjugate gradients. All vectors are by
 // the slots of packed_rows.hpp; directions d, which rows gather, are stored times its scales.

@@ -85,7 +85,7 @@ struct ApplyDense {
   static constexpr int block = DenseInverse<B>::block, rows = B::for_cpu ? block : 1;
   DenseInverse<B> dense;
   Vectors<B> r;
-  Kokkos::View<Real* [4], Kokkos::LayoutRight, typename B::Memory> x;  ///< x y z 0
+  Fours<B> x;
   static int items(int size) { return (size + block - 1) / block * block / rows; }
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const int n = dense.size, first = item * rows;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/linear/vertex_blocks.hpp>
+#include <plica/kernels/linear/krylov.hpp>
 
 // The Lanczos iteration for the largest eigenvalue of D^-1 A, D^-1 the inverse vertex blocks (Parlett, The Symmetric Eigenvalue Problem, 13):
 // of vectors r in the product r . D^-1 r, with q = r / beta of length 1,
@@ -11,7 +11,7 @@
 // power iterations, which have to grow out of all the rest, take a hundred there.
 namespace plica {
 
-/// Forces without order, 0 where the motion is given.
+/// Forces without order; nothing answers those where the motion is given.
 template <class B>
 struct BlockLanczosStart {
   Vectors<B> r;
@@ -21,18 +21,6 @@ struct BlockLanczosStart {
       seed = seed * 1664525U + 1013904223U;
       r(a, k) = static_cast<typename B::Real>(seed >> 8) / (1 << 23) - 1;
     }
-  }
-};
-
-/// z = D^-1 r and r.z, which is beta^2
-template <class B>
-struct BlockLanczosSize {
-  Blocks<B> inverse_diagonal;
-  Vectors<B> r, z;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    const auto answer = block_at<B>(inverse_diagonal, a) * vector_at<B>(r, a);
-    set_vector<B>(z, a, answer);
-    return {{static_cast<double>(dot(vector_at<B>(r, a), answer))}};
   }
 };
 
@@ -50,11 +38,11 @@ struct BlockLanczosProduct {
   }
 };
 
-/// r becomes the next, q_last its q; and what BlockLanczosSize says of it.
+/// r becomes the next, q_last its q; z = D^-1 r and r.z, which is beta^2.
 template <class B>
 struct BlockLanczosNext {
   using Real = typename B::Real;
-  BlockLanczosSize<B> size;
+  CgSquare<B> size;
   Doubles<B> square, alpha;
   Vectors<B> w, last;
   bool first;  ///< there is no q_last
@@ -64,7 +52,7 @@ struct BlockLanczosNext {
     auto next = vector_at<B>(w, a) - static_cast<Real>(alpha(0)) * q;
     if (!first) next -= static_cast<Real>(beta) * vector_at<B>(last, a);
     set_vector<B>(last, a, q), set_vector<B>(size.r, a, next);
-    return size(a);
+    return size.of(a, next);
   }
 };
 

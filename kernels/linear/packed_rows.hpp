@@ -44,9 +44,6 @@ template <class B>
 using SlotVectors = Kokkos::View<typename B::Real* [3][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
 template <class B>
 using SlotBlocks = Kokkos::View<typename B::Real* [6][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
-/// [slots] x y z 0
-template <class B>
-using Fours = Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory>;
 
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> vectors_at(const SlotVectors<B>& x, const RowsAt<B>& at) {

@@ -112,7 +112,7 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
   const auto& [r, z, w, last] = lanczos_;
   const auto square = [&](int k) { return Doubles<B>(scalars_.data() + k, 1); };
   const auto alpha = [&](int k) { return Doubles<B>(scalars_.data() + lanczos_steps + 1 + k, 1); };
-  const BlockLanczosSize<F> size{grid.inverse_diagonal, r, z};
+  const CgSquare<F> size{grid.inverse_diagonal, r, z};
   update_vertices<F>(exec, "plica::lanczos_start", n, BlockLanczosStart<F>{r});
   reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums_, square(0));
   for (int k = 0; k < lanczos_steps; ++k) {
