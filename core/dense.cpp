@@ -58,6 +58,10 @@ void recompose(int n, int count, const double* s, const double* phi, double* A) 
   matrix(n, A).noalias() = vectors * Eigen::Map<const Eigen::VectorXd>(s, count).asDiagonal() * vectors.transpose();
 }
 
+void add_gram(int rows, int n, const double* B, double* A) {
+  matrix(n, A).selfadjointView<Eigen::Lower>().rankUpdate(Eigen::Map<const Matrix>(B, rows, n).transpose());
+}
+
 RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside, double next) {
   const auto vector = [](const std::vector<double>& x) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));

@@ -19,6 +19,9 @@ int modes(int n, const double* K, const double* M, double* s, double* phi);
 /// sum over k < count of s_k phi_k phi_k^T, for vectors of n numbers that stand one after the other.
 void recompose(int n, int count, const double* s, const double* phi, double* A);
 
+/// The lower half of A += B^T B, for B of `rows` by n numbers, column by column.
+void add_gram(int rows, int n, const double* B, double* A);
+
 /// The largest eigenvalue of a Lanczos iteration's tridiagonal matrix, and how far it can be from one of the operator's.
 struct RitzBound {
   double value = 0;

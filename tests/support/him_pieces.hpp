@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/drivers/solver/him/him_stepper.hpp>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
+#include <plica/drivers/solver/spaces/coarse_stiffness.hpp>
 #include <plica/drivers/study/level_probe.hpp>
 #include <plica/kernels/materials/material.hpp>
 
@@ -52,22 +53,22 @@ struct Pieces {
       transfers.push_back(transfer_matrix(levels[i - 1], constrained[i - 1], levels[i], constrained[i], up[i], true));
     const MaterialOptions& m = problem.body.material;
     const Lame<double> lame = lame_constants(m.young_modulus, m.poisson_ratio);
-    BlockRows K = rest_stiffness(levels[0], {{lame.lambda, lame.mu}});
+    const std::vector<std::array<double, 2>> constants{{lame.lambda, lame.mu}};
     const bool made = levels.size() == 1;
     if (made)
-      for (CoarseSpace& space : coarse_spaces(levels[0], constrained[0], probe.mass(), K,
-                                              {.sizes = space_sizes(problem.body, constrained[0]), .slivers = true}))
+      for (CoarseSpace& space :
+           coarse_spaces(levels[0], constrained[0], probe.mass(), rest_stiffness(levels[0], constants),
+                         {.sizes = space_sizes(problem.body, constrained[0]), .slivers = true}))
         transfers.push_back(std::move(space.up));
     const auto spaces = mass_spaces(transfers, probe.mass());
-    for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
     const RowMatrix whole = to_finest(spaces);
     inverse_mass =
-        std::make_unique<InverseMass<Host>>(level, spaces, whole,
+        std::make_unique<InverseMass<Host>>(level, spaces,
                                             made ? axes_of_space(levels.front(), whole, probe.mass())
                                                  : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
-    fitter = std::make_unique<InertiaFitter<Host>>(typename Host::Exec{}, level,
-                                                   make_elasticity<Host>(problem.body.material.model), *inverse_mass,
-                                                   CoarseModes(dense_matrix(K), spaces.back().mass));
+    fitter = std::make_unique<InertiaFitter<Host>>(
+        typename Host::Exec{}, level, make_elasticity<Host>(problem.body.material.model), *inverse_mass,
+        CoarseModes(coarse_stiffness(levels[0], constants, whole), spaces.back().mass));
   }
 
   Eigen::MatrixXd matrix() {

@@ -6,6 +6,7 @@
 #include <plica/drivers/solver/him/him_stepper.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
+#include <plica/drivers/solver/spaces/coarse_stiffness.hpp>
 
 namespace plica {
 
@@ -56,8 +57,7 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   const LevelConstants& constants = setup.constants[0];
   std::vector<std::array<double, 2>> lame;
   for (const auto& one : constants.lame) lame.push_back({one.lambda, one.mu});
-  BlockRows K = rest_stiffness(meshes.front(), lame);
-  const LevelsBelow coarser = coarser_levels<B>(setup, K);
+  const LevelsBelow coarser = coarser_levels<B>(setup, rest_stiffness(meshes.front(), lame));
   report_spaces(coarser.made, setup.reports);
   const auto spaces = mass_spaces(coarser.transfers, constants.mass);
   HimParts<B> parts;
@@ -65,15 +65,13 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
   parts.detail = meshes.size() == 1 && !coarser.made.empty() && coarser.made.front().slivers;
   std::optional<CoarseModes> modes;
   AxesShape axes;
-  RowMatrix whole;
   if (!spaces.empty()) {
-    for (const MassSpace& space : spaces) K = galerkin_product(K, space.up);
-    modes.emplace(dense_matrix(K), spaces.back().mass);
-    whole = to_finest(spaces);
+    const RowMatrix whole = to_finest(spaces);
+    modes.emplace(coarse_stiffness(meshes.front(), lame, whole), spaces.back().mass);
     axes = meshes.size() > 1 ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
                              : axes_of_space(meshes.front(), whole, constants.mass);
   }
-  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, whole, axes);
+  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
   parts.fitter =
       std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, *parts.inverse_mass, std::move(modes));
   if (setup.contact) {

@@ -80,7 +80,7 @@ double largest_of_product(const typename B::Exec& exec, const Level<B>& level, c
 
 namespace {
 
-constexpr double least_scale = 1e-4, parts_tolerance = 1e-3, fit_tolerance = 1e-2;
+constexpr double least_scale = 1e-4, finest_tolerance = 1e-3, parts_tolerance = 1e-2, fit_tolerance = 1e-2;
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
 constexpr int scales = 1 << halvings, most_guesses = 5;
 
@@ -135,7 +135,7 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
     std::vector<double> alone(levels, 0.0);
     alone[i] = 1;
     inverse_mass_.set_weights(alone);
-    critical_.push_back(2 / std::sqrt(largest(rest, parts_tolerance)));
+    critical_.push_back(2 / std::sqrt(largest(rest, i == 0 ? finest_tolerance : parts_tolerance)));
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <plica/drivers/solver/him/inverse_mass.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -40,22 +41,22 @@ MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer, co
 }  // namespace
 
 template <class B>
-InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const RowMatrix& to_finest,
-                            const AxesShape& axes)
+InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes)
     : vertices_(finest.model.vertices), inverse_mass_(finest.model.inverse_mass), weights_{1} {
   if (spaces.empty()) return;
+  const Kokkos::Profiling::ScopedRegion region("plica: inverse mass");
   weights_.resize(spaces.size() + 1, 0);
-  axes_ = TurningAxes<B>(axes, to_finest);
   Eigen::VectorXd finer = Eigen::VectorXd::Ones(vertices_);
   RowMatrix share = axes.restriction.transpose();
   for (const MassSpace& space : spaces) {
     const Eigen::VectorXd units = units_of(space);
     MassLevel<B>& level = coarser_.emplace_back(mass_level<B>(space, finer, units));
-    if (&space == &spaces.back()) break;
     share = product(RowMatrix(space.up.transpose()), share);
+    if (&space == &spaces.back()) break;
     level.share = sparse_rows<B, float>("him.share", RowMatrix(units.asDiagonal() * share));
     finer = units;
   }
+  axes_ = TurningAxes<B>(axes, share);
   filter_.vertices = coarser_.back().vertices;
   filter_.turned = zeros<Vectors<B>>("plica::him.turned", static_cast<std::size_t>(filter_.vertices));
   filter_.rotation = axes_.rotation();

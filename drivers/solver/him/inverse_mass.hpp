@@ -16,10 +16,8 @@ class InverseMass {
   using Real = typename B::Real;
   using Count = Doubles<B>;
 
-  /// @param to_finest  of these spaces, see to_finest(); where there are any
-  /// @param axes       of the coarsest one, likewise
-  InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const RowMatrix& to_finest,
-              const AxesShape& axes);
+  /// @param axes  of the coarsest space, where there are any
+  InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// The levels' weights b, finest first; they sum to 1.

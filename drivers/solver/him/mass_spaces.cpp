@@ -22,6 +22,7 @@ double answer_of_mode(double square, double t, double kappa) {
 }  // namespace
 
 CoarseModes::CoarseModes(Eigen::MatrixXd K, const RowMatrix& M) : unknowns_(K.rows()) {
+  const Kokkos::Profiling::ScopedRegion region("plica: coarse modes");
   const Eigen::MatrixXd full = M;
   if (unknowns_ <= most_modes) {
     squares_.resize(unknowns_), modes_.resize(unknowns_, unknowns_);
@@ -120,7 +121,7 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::
   M.diagonal() = Eigen::Map<const Eigen::VectorXd>(mass.data(), M.rows());
   std::vector<MassSpace> spaces;
   for (RowMatrix& P : transfers) {
-    M = product(product(RowMatrix(P.transpose()), M), P);
+    M = galerkin_product(M, P);
     MassSpace& space = spaces.emplace_back(MassSpace{std::move(P), M, inverse_row_sums(M), {}});
     if (&P == &transfers.back()) break;  // the last one's modes are its answer
     space.mass = main_entries(M, space.inverse_diagonal);
@@ -129,9 +130,32 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::
   return spaces;
 }
 
+namespace {
+
+/// Entries below `least` go to the largest one of their row.
+void drop_small(RowMatrix& A, double least) {
+  for (Eigen::Index a = 0; a < A.rows(); ++a) {
+    double small = 0, *largest = nullptr;
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) {
+      double& value = entry.valueRef();
+      if (!largest || std::abs(value) > std::abs(*largest)) largest = &value;
+      if (std::abs(value) < least) small += std::exchange(value, 0.0);
+    }
+    if (largest && *largest != 0) *largest += small;
+  }
+  A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0; });
+}
+
+}  // namespace
+
 RowMatrix to_finest(const std::vector<MassSpace>& spaces) {
+  const Kokkos::Profiling::ScopedRegion region("plica: coarse motions of the mesh");
+  constexpr double least = 1e-4;     // as in the transfers of points
   RowMatrix all = spaces.back().up;  // from the coarsest one on: fewer rows to begin with
-  for (std::size_t i = spaces.size() - 1; i-- > 0;) all = product(spaces[i].up, all);
+  for (std::size_t i = spaces.size() - 1; i-- > 0;) {
+    all = product(spaces[i].up, all);
+    drop_small(all, least);
+  }
   return all;
 }
 

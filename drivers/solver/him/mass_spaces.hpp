@@ -47,7 +47,7 @@ struct MassSpace {
 /// @param mass       of the finest level's vertices [kg]
 std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::vector<double>& mass);
 
-/// The product of all transfers: the coarsest level's space in the finest mesh.
+/// The product of all transfers: the coarsest level's space in the finest mesh. Weights below 1e-4 go to the largest of their row.
 RowMatrix to_finest(const std::vector<MassSpace>& spaces);
 
 }  // namespace plica

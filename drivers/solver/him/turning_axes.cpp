@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/LU>
+#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <map>
 #include <plica/drivers/solver/him/turning_axes.hpp>
@@ -81,6 +82,7 @@ RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& vol
 }  // namespace
 
 AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
+  const Kokkos::Profiling::ScopedRegion region("plica: coarse axes");
   AxesShape result;
   result.restriction = restriction_by_mass(finest, coarsest, mass);
   const std::vector<Point> x = restricted(result.restriction, finest.vertices);
@@ -128,8 +130,9 @@ RowMatrix main_weights(const RowMatrix& P) {
     row.clear();
     for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
       row.emplace_back(std::abs(entry.value()), static_cast<int>(entry.col()));
-    std::sort(row.begin(), row.end(), std::greater<>());
-    row.resize(std::min(row.size(), most));
+    const std::size_t kept = std::min(row.size(), most);
+    std::partial_sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kept), row.end(), std::greater<>());
+    row.resize(kept);
     double sum = 0;
     for (const auto& [weight, column] : row) sum += weight;
     for (const auto& [weight, column] : row) entries.emplace_back(static_cast<int>(a), column, weight / sum);
@@ -153,6 +156,7 @@ using DirectedRows = std::array<RowMatrix, 3>;
 }  // namespace
 
 AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const std::vector<double>& mass) {
+  const Kokkos::Profiling::ScopedRegion region("plica: coarse axes");
   AxesShape result;
   const Eigen::Index n = to_finest.cols();
   const Eigen::Map<const Eigen::VectorXd> m(mass.data(), to_finest.rows());
@@ -225,7 +229,6 @@ void for_entries(const RowMatrix& A, const Add& add) {
 }
 
 /// The matrices of CoarseAxes that the gradient makes: G is W times D.
-/// @param moved  Pi^T E^T: coarse momentum per momentum on u_C
 template <class B>
 void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>& axes) {
   using Real = typename B::Real;
@@ -253,13 +256,12 @@ void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>&
 }  // namespace
 
 template <class B>
-TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& to_finest)
+TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& moved)
     : vertices_(static_cast<int>(shape.at_rest.size())),
       sums_(zeros<Sums>("plica::axes.sums", static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
-  const RowMatrix spread = shape.restriction.transpose();
   axes_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
-  axes_.spread = sparse_rows<B>("axes.spread", spread);
-  set_gradient<B>(shape, product(RowMatrix(to_finest.transpose()), spread), axes_);
+  axes_.spread = sparse_rows<B>("axes.spread", RowMatrix(shape.restriction.transpose()));
+  set_gradient<B>(shape, moved, axes_);
   const auto n = static_cast<std::size_t>(vertices_);
   for (Vectors<B>* one : {&share_, &axes_.displacement, &axes_.force})
     *one = zeros<Vectors<B>>("plica::axes.vectors", n);

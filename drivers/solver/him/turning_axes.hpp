@@ -34,7 +34,8 @@ class TurningAxes {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
   TurningAxes() = default;
-  TurningAxes(const AxesShape& shape, const RowMatrix& to_finest);
+  /// @param moved  Pi^T E^T: coarse momentum per momentum on u_C
+  TurningAxes(const AxesShape& shape, const RowMatrix& moved);
 
   /// R at a state.
   void turn(const Exec& exec, const Vectors<B>& u) const;

@@ -2,28 +2,43 @@
 #include <algorithm>
 #include <plica/drivers/solver/linear/multigrid.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <utility>
 
 namespace plica {
 
 namespace {
 
-/// One term of a coarse block of some row: weight times a block of A.
-struct Term {
-  int column, fine;
-  double weight;
-};
-
-std::vector<Term> terms_of_row(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt, int row) {
-  std::vector<Term> terms;
-  for (RowMatrix::InnerIterator i(Pt, row); i; ++i)
-    for (int s = A.first[index_of(static_cast<int>(i.col()))]; s < A.first[index_of(static_cast<int>(i.col()) + 1)];
-         ++s)
+/// Calls use(column, block, weight) for the terms, weight times a block of A, of a coarse row from its own column on, blocks ascending.
+template <class Use>
+void for_terms(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt, int row, const Use& use) {
+  for (RowMatrix::InnerIterator i(Pt, row); i; ++i) {
+    const auto a = static_cast<std::size_t>(i.col());
+    for (int s = A.first[a]; s < A.first[a + 1]; ++s)
       for (RowMatrix::InnerIterator j(P, A.column[index_of(s)]); j; ++j)
-        if (j.col() >= row) terms.push_back({static_cast<int>(j.col()), s, i.value() * j.value()});
-  std::sort(terms.begin(), terms.end(),
-            [](const Term& a, const Term& b) { return std::pair(a.column, a.fine) < std::pair(b.column, b.fine); });
-  return terms;
+        if (j.col() >= row) use(static_cast<std::size_t>(j.col()), s, i.value() * j.value());
+  }
 }
+
+/// The blocks of every coarse row from its own on, and of how many terms each is.
+struct UpperHalf {
+  std::vector<std::vector<int>> column, terms;
+
+  UpperHalf(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt)
+      : column(static_cast<std::size_t>(P.cols())), terms(column.size()) {
+    for_row_ranges(column.size(), [&](std::size_t begin, std::size_t end) {
+      std::vector<int> count(column.size(), 0);
+      for (std::size_t a = begin; a < end; ++a) {
+        const int own = static_cast<int>(a);
+        column[a].push_back(own);
+        for_terms(A, P, Pt, own, [&](std::size_t b, int, double) {
+          if (count[b]++ == 0 && b != a) column[a].push_back(static_cast<int>(b));
+        });
+        std::sort(column[a].begin(), column[a].end());
+        for (const int b : column[a]) terms[a].push_back(std::exchange(count[index_of(b)], 0));
+      }
+    });
+  }
+};
 
 HostPattern both_halves(const std::vector<std::vector<int>>& upper) {
   std::vector<std::vector<int>> rows(upper.size());
@@ -69,28 +84,31 @@ BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern)
 template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   const RowMatrix Pt = P.transpose();
-  std::vector<std::vector<int>> upper(static_cast<std::size_t>(P.cols()));
-  std::vector<int> first{0}, fine;
-  std::vector<typename B::Real> weight;
-  for (int a = 0; a < static_cast<int>(P.cols()); ++a) {
-    std::vector<int>& row = upper[index_of(a)];
-    row.push_back(a);
-    for (const Term& term : terms_of_row(A, P, Pt, a)) {
-      if (term.column != row.back()) {
-        row.push_back(term.column);
-        first.push_back(static_cast<int>(fine.size()));
-      }
-      fine.push_back(term.fine);
-      weight.push_back(static_cast<typename B::Real>(term.weight));
-    }
-    first.push_back(static_cast<int>(fine.size()));
+  const UpperHalf upper(A, P, Pt);
+  std::vector<int> first{0}, first_block{0};
+  for (const auto& row : upper.terms) {
+    for (const int terms : row) first.push_back(first.back() + terms);
+    first_block.push_back(static_cast<int>(first.size()) - 1);
   }
+  std::vector<int> fine(index_of(first.back()));
+  std::vector<typename B::Real> weight(fine.size());
+  for_row_ranges(upper.column.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<int> next(upper.column.size());
+    for (std::size_t a = begin; a < end; ++a) {
+      int block = first_block[a];
+      for (const int b : upper.column[a]) next[index_of(b)] = first[index_of(block++)];
+      for_terms(A, P, Pt, static_cast<int>(a), [&](std::size_t b, int s, double w) {
+        const auto to = index_of(next[b]++);
+        fine[to] = s, weight[to] = static_cast<typename B::Real>(w);
+      });
+    }
+  });
   CoarseMatrix<B> made;
-  made.pattern = both_halves(upper);
+  made.pattern = both_halves(upper.column);
   made.matrix = block_matrix<B>("multigrid", made.pattern);
   std::vector<int> to_upper, to_lower;
-  for (int a = 0; a < static_cast<int>(upper.size()); ++a)
-    for (const int b : upper[index_of(a)])
+  for (int a = 0; a < static_cast<int>(upper.column.size()); ++a)
+    for (const int b : upper.column[index_of(a)])
       to_upper.push_back(place_of(made.pattern, a, b)), to_lower.push_back(place_of(made.pattern, b, a));
   made.map = {to_device<Indices<B>>("galerkin.first", first), to_device<Indices<B>>("galerkin.fine", fine),
               to_device<Scalars<B>>("galerkin.weight", weight), to_device<Indices<B>>("galerkin.upper", to_upper),

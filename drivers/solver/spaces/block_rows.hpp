@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <plica/core/mesh.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <utility>
 #include <vector>
 
@@ -15,11 +14,5 @@ using BlockRows = std::vector<std::vector<std::pair<int, Eigen::Matrix3d>>>;
 /// The stiffness of a mesh of linear elements at rest [N/m].
 /// @param lame  lambda and mu per region of the mesh [Pa]
 BlockRows rest_stiffness(const TetMesh& mesh, const std::vector<std::array<double, 2>>& lame);
-
-/// P^T K P.
-BlockRows galerkin_product(const BlockRows& K, const RowMatrix& P);
-
-/// [3 rows x 3 rows], xyz interleaved.
-Eigen::MatrixXd dense_matrix(const BlockRows& K);
 
 }  // namespace plica

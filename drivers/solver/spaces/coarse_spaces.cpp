@@ -167,13 +167,15 @@ RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& const
     number.push_back(constrained[index_of(point)] ? -1 : static_cast<int>(free.size()));
     if (!constrained[index_of(point)]) free.push_back(point);
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index a = 0; a < P.rows(); ++a)
+  RowMatrix kept(P.rows(), static_cast<Eigen::Index>(free.size()));
+  kept.reserve(P.nonZeros());
+  for (Eigen::Index a = 0; a < P.rows(); ++a) {
+    kept.startVec(a);
     for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
       if (const int column = number[static_cast<std::size_t>(entry.col())]; column >= 0)
-        entries.emplace_back(static_cast<int>(a), column, entry.value());
-  RowMatrix kept(P.rows(), static_cast<Eigen::Index>(free.size()));
-  kept.setFromTriplets(entries.begin(), entries.end());
+        kept.insertBack(a, column) = entry.value();
+  }
+  kept.finalize();
   points = std::move(free);
   return kept;
 }
@@ -193,12 +195,13 @@ void drop_constrained_rows(RowMatrix& P, const std::vector<char>& constrained) {
 }
 
 RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (RowMatrix::InnerIterator entry(P, rows[i]); entry; ++entry)
-      entries.emplace_back(static_cast<int>(i), static_cast<int>(entry.col()), entry.value());
   RowMatrix some(static_cast<Eigen::Index>(rows.size()), P.cols());
-  some.setFromTriplets(entries.begin(), entries.end());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    some.startVec(static_cast<Eigen::Index>(i));
+    for (RowMatrix::InnerIterator entry(P, rows[i]); entry; ++entry)
+      some.insertBack(static_cast<Eigen::Index>(i), entry.col()) = entry.value();
+  }
+  some.finalize();
   return some;
 }
 

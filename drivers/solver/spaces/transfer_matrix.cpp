@@ -6,6 +6,7 @@
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace plica {
@@ -103,16 +104,13 @@ class ProductRow {
   explicit ProductRow(Eigen::Index columns)
       : sum_(static_cast<std::size_t>(columns), 0.0), known_(static_cast<std::size_t>(columns), 0) {}
 
-  /// += factor times a row of B
-  void add(double factor, const RowMatrix& B, Eigen::Index row) {
-    for (RowMatrix::InnerIterator entry(B, row); entry; ++entry) {
-      const auto column = static_cast<std::size_t>(entry.col());
-      if (known_[column]) {
-        sum_[column] += factor * entry.value();
-      } else {
-        known_[column] = 1, sum_[column] = factor * entry.value();
-        columns_.push_back(static_cast<int>(entry.col()));
-      }
+  /// += factor times a row of B, from a column on
+  void add(double factor, const RowMatrix& B, Eigen::Index row, int from = 0) {
+    const int *const column = B.innerIndexPtr(), *const last = column + B.outerIndexPtr()[row + 1];
+    for (const int* at = std::lower_bound(column + B.outerIndexPtr()[row], last, from); at < last; ++at) {
+      const auto j = static_cast<std::size_t>(*at);
+      if (!std::exchange(known_[j], 1)) sum_[j] = 0, columns_.push_back(*at);
+      sum_[j] += factor * B.valuePtr()[at - column];
     }
   }
 
@@ -155,18 +153,34 @@ RowMatrix joined_rows(const std::vector<ProductRows>& parts, Eigen::Index rows, 
 
 }  // namespace
 
-RowMatrix product(const RowMatrix& A, const RowMatrix& B) {
+namespace {
+
+/// A B, of row i from column from(i) on.
+template <class From>
+RowMatrix product_from(const RowMatrix& A, const RowMatrix& B, const From& from) {
   const auto rows = static_cast<std::size_t>(A.rows());
   std::vector<ProductRows> parts(row_parts(rows));
   for_row_parts(rows, [&](std::size_t p, std::size_t first, std::size_t last) {
     ProductRow sum(B.cols());
     for (std::size_t i = first; i < last; ++i) {
       for (RowMatrix::InnerIterator entry(A, static_cast<Eigen::Index>(i)); entry; ++entry)
-        sum.add(entry.value(), B, entry.col());
+        sum.add(entry.value(), B, entry.col(), from(i));
       sum.append_to(parts[p]);
     }
   });
   return joined_rows(parts, A.rows(), B.cols());
+}
+
+}  // namespace
+
+RowMatrix product(const RowMatrix& A, const RowMatrix& B) {
+  return product_from(A, B, [](std::size_t) { return 0; });
+}
+
+RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P) {
+  const RowMatrix upper =
+      product_from(RowMatrix(P.transpose()), product(A, P), [](std::size_t i) { return static_cast<int>(i); });
+  return upper.selfadjointView<Eigen::Upper>();
 }
 
 RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns) {

@@ -15,6 +15,9 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same bits for any number of threads.
 RowMatrix product(const RowMatrix& A, const RowMatrix& B);
 
+/// P^T A P of a symmetric A.
+RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P);
+
 /// The matrix of these rows of (column, value), columns ascending.
 RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns);
 
