@@ -26,7 +26,7 @@ struct Backend {
 };
 
 /// The backends that are built. Tests and the program walk this list; a new one is one more line.
-#if defined(KOKKOS_ENABLE_SERIAL)
+#if defined(KOKKOS_ENABLE_SERIAL) && !defined(PLICA_LIKE_DEVICE)
 #define PLICA_FOR_SERIAL(DO) DO(float, Kokkos::Serial) DO(double, Kokkos::Serial)
 #define PLICA_ON_SERIAL(DO) DO(Kokkos::Serial)
 #else
@@ -72,6 +72,14 @@ constexpr int team_size(int on_device) {
 template <class Member>
 KOKKOS_INLINE_FUNCTION int league_rank(const Member& team) {
   return like_device::place(team.league_rank(), team.league_size());
+}
+
+/// So many numbers of a team's scratch memory, at a level of it.
+template <class Real, class Member>
+KOKKOS_INLINE_FUNCTION Real* team_scratch(const Member& team, int level, std::size_t count) {
+  Real* const memory = static_cast<Real*>(team.team_scratch(level).get_shmem_aligned(count * sizeof(Real), 64));
+  like_device::spoil(team, memory, count);
+  return memory;
 }
 
 /// One value per vertex or point.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <Kokkos_Core.hpp>
+#include <cmath>
 
 // A build for tests alone (tests/like_device) gives a CPU the kernels of a GPU: one element a thread, teams of several threads. Its teams
 // and work items are done in an order that the tests choose, because a GPU promises none. In all other builds nothing is left of this.
@@ -45,6 +46,13 @@ Shuffled<Work> shuffled(int n, const Work& work) {
   return {n, work};
 }
 
+/// Fills a team's memory with NaN, which it must not read before it writes.
+template <class Member, class Real>
+void spoil(const Member& team, Real* memory, std::size_t count) {
+  Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](std::size_t i) { memory[i] = Real(NAN); });
+  team.team_barrier();
+}
+
 #else
 
 inline constexpr bool on = false;
@@ -58,6 +66,8 @@ template <class Work>
 const Work& shuffled(int, const Work& work) {
   return work;
 }
+template <class Member, class Real>
+KOKKOS_INLINE_FUNCTION void spoil(const Member&, Real*, std::size_t) {}
 
 #endif
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/level.hpp>
 #include <plica/core/path.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // What is given from outside: vertices that follow a path, and loads.
 namespace plica {
@@ -65,8 +66,8 @@ template <class B>
 void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<B>& state, double time,
                double ahead = 0) {
   if (level.prescribed.count > 0)
-    Kokkos::parallel_for("plica::prescribe", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.prescribed.count),
-                         PrescribeMotion<B>{level.prescribed, state, time, ahead});
+    update_vertices<B>(exec, "plica::prescribe", level.prescribed.count,
+                       PrescribeMotion<B>{level.prescribed, state, time, ahead});
 }
 
 /// f += factor * the load's forces, vertex by vertex.
@@ -84,8 +85,8 @@ struct AddLoad {
 
 template <class B>
 void add_load(const typename B::Exec& exec, const Load<B>& load, double factor, const Vectors<B>& f) {
-  Kokkos::parallel_for("plica::load", Kokkos::RangePolicy<typename B::Exec>(exec, 0, load.count),
-                       AddLoad<B>{load.vertex, load.force, f, static_cast<typename B::Real>(factor)});
+  update_vertices<B>(exec, "plica::load", load.count,
+                     AddLoad<B>{load.vertex, load.force, f, static_cast<typename B::Real>(factor)});
 }
 
 }  // namespace plica

@@ -108,7 +108,7 @@ struct PatchKernel {
     const int p = league_rank(team);
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
-    Real* const forces = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes(), 64));
+    Real* const forces = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     Real* const local = forces + force_slots;
 
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {

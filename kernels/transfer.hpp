@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/core/matrices.hpp>
-#include <plica/core/model.hpp>
-#include <plica/core/small.hpp>
-#include <plica/core/transfer.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -83,8 +80,7 @@ struct MapFields {
 template <class B, class Rule>
 void map_fields(const typename B::Exec& exec, const char* label, const Transfer<B>& transfer, const State<B>& from,
                 const State<B>& from_start, const State<B>& base, const State<B>& to, const Scalars<B>& limit) {
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, transfer.rows),
-                       MapFields<B, Rule>{transfer, from, from_start, base, to, limit});
+  update_vertices<B>(exec, label, transfer.rows, MapFields<B, Rule>{transfer, from, from_start, base, to, limit});
 }
 
 // The adjoint restriction of the corrected cycles. Per entry 4 + s bytes of the row and 6 s, or 3 s, of the finer vertex.

@@ -72,8 +72,7 @@ struct ScatterContact {
 template <class B>
 void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const Vectors<B>& force,
                          const Vectors<B>& f) {
-  Kokkos::parallel_for("plica::scatter_to_vertices", Kokkos::RangePolicy<typename B::Exec>(exec, 0, surface.touched),
-                       ScatterToVertices<B>{surface, force, f});
+  update_vertices<B>(exec, "plica::scatter_to_vertices", surface.touched, ScatterToVertices<B>{surface, force, f});
 }
 
 /// Potential energy of the penalties and springs of one obstacle, as a field of the points [J].

@@ -4,6 +4,7 @@
 #include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
 #include <plica/kernels/elastic/elastic_tangent.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // Assembles A = (1 + b c) M + a K(u) + b D(u), D the stiffness that damps, as blocks, see ImplicitWeights.
 //
@@ -91,8 +92,8 @@ struct ElasticBlocks {
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     const int first = pairs.first_pair(p), first_shared = pairs.first_shared(p),
               count = pairs.first_pair(p + 1) - first;
-    Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(near_bytes(), 64));
-    Real* const blocks = static_cast<Real*>(team.team_scratch(1).get_shmem_aligned(far_bytes(), 64));
+    Real* const local = team_scratch<Real>(team, 0, near_bytes() / sizeof(Real));
+    Real* const blocks = team_scratch<Real>(team, 1, far_bytes() / sizeof(Real));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
       for (int k = 0; k < 3; ++k) local[i * patch_stride<B> + k] = u(patches.vertex(first_vertex + i), k);
     });
@@ -181,11 +182,10 @@ struct OwnBlocks {
 template <class B>
 void finish_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
                    const ImplicitWeights& weights, const Blocks9<B>& shares, const BlockMatrix<B>& A) {
-  Kokkos::parallel_for("plica::add_shares",
-                       Kokkos::RangePolicy<typename B::Exec>(exec, 0, static_cast<int>(pairs.shared_upper.extent(0))),
-                       AddShares<B>{pairs, shares, {A}});
-  Kokkos::parallel_for("plica::own_blocks", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
-                       OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
+  update_vertices<B>(exec, "plica::add_shares", static_cast<int>(pairs.shared_upper.extent(0)),
+                     AddShares<B>{pairs, shares, {A}});
+  update_vertices<B>(exec, "plica::own_blocks", model.vertices,
+                     OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
 }
 
 /// A of vertices that are free; the others' rows keep their mass alone.

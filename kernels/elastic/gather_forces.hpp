@@ -34,8 +34,8 @@ struct WeighVertices {
 template <class B>
 void gather_forces(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& partial,
                    const Vec3<typename B::Real>& gravity, const Vectors<B>& f) {
-  Kokkos::parallel_for("plica::gather_forces", Kokkos::RangePolicy<typename B::Exec>(exec, 0, model.vertices),
-                       GatherForces<B>{model.shares, partial, model.mass, gravity, f});
+  update_vertices<B>(exec, "plica::gather_forces", model.vertices,
+                     GatherForces<B>{model.shares, partial, model.mass, gravity, f});
 }
 
 }  // namespace plica

@@ -3,6 +3,7 @@
 #include <plica/kernels/elastic/nodal_rows.hpp>
 #include <plica/kernels/elastic/stress_memory.hpp>
 #include <plica/kernels/materials/material.hpp>
+#include <plica/kernels/vectors.hpp>
 #include <type_traits>
 
 // Elements with one strain per vertex and region ("nodal"), stabilised:
@@ -173,8 +174,7 @@ void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, co
   for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, fields>{rows, work});
   for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records});
   if (carried.extent(0) > 0)
-    Kokkos::parallel_for("plica::nodal_carried", Kokkos::RangePolicy<typename B::Exec>(exec, 0, rows.slots()),
-                         TakeCarried<B, fields>{carried, work.records});
+    update_vertices<B>(exec, "plica::nodal_carried", rows.slots(), TakeCarried<B, fields>{carried, work.records});
   for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, false>{rows, work.records, work.pressure});
 }
 
@@ -333,8 +333,8 @@ template <class B>
 void mean_of_domains(const typename B::Exec& exec, const Level<B>& level, const Scalars<B>& von_mises,
                      const Scalars<B>& J) {
   const NodalRows<B>& rows = level.model.rows;
-  Kokkos::parallel_for("plica::nodal_means", Kokkos::RangePolicy<typename B::Exec>(exec, 0, level.model.vertices),
-                       MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
+  update_vertices<B>(exec, "plica::nodal_means", level.model.vertices,
+                     MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
 }
 
 template <class B, class Material>

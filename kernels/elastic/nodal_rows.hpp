@@ -3,6 +3,7 @@
 #include <plica/core/inlining.hpp>
 #include <plica/core/level.hpp>
 #include <plica/kernels/sliced_rows.hpp>
+#include <plica/kernels/vectors.hpp>
 
 // How nodal elements are computed: by rows of vertices, without tetrahedra. Each domain a (core/nodal_rows.hpp) has one deformation
 // gradient F_a = I + sum_b (u_b - u_a) (x) C_ab / V_a and one stress; a force is a sum over neighbours of their stresses. Both sums
@@ -35,9 +36,7 @@ KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int
 /// Runs work(item) for every item of RowsAt.
 template <class B, class Work>
 void for_rows(const typename B::Exec& exec, const char* label, const NodalRows<B>& rows, const Work& work) {
-  const int items = rows.slots() / B::lanes;
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, items),
-                       like_device::shuffled(items, work));
+  update_vertices<B>(exec, label, rows.slots() / B::lanes, work);
 }
 
 /// 1. near[slot]
@@ -60,7 +59,7 @@ void lay_out(const typename B::Exec& exec, const NodalRows<B>& rows, const Nodal
              const Vectors<B> (&field)[fields]) {
   LayOut<B, fields> copy{rows.vertex, {}, work.near};
   for (int f = 0; f < fields; ++f) copy.field[f] = field[f];
-  Kokkos::parallel_for("plica::nodal_layout", Kokkos::RangePolicy<typename B::Exec>(exec, 0, rows.slots()), copy);
+  update_vertices<B>(exec, "plica::nodal_layout", rows.slots(), copy);
 }
 
 /// The gradients of the fields in `near`.

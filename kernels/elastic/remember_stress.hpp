@@ -44,7 +44,7 @@ struct RememberElements {
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
     const int p = league_rank(team);
     const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
-    Real* const local = static_cast<Real*>(team.team_scratch(0).get_shmem_aligned(scratch_bytes(), 64));
+    Real* const local = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
       for (int k = 0; k < 3; ++k) local[i * patch_stride<B> + k] = u(patches.vertex(first_vertex + i), k);
     });

@@ -43,12 +43,12 @@ void expect_any_order(const Work& work, int team, const std::vector<double>& wan
 /// And the same ones for all sizes of teams.
 template <class Work>
 void expect_any_order(const Work& work) {
-  ASSERT_GE(Kokkos::DefaultHostExecutionSpace().concurrency(), 4);
+  ASSERT_GE(Kokkos::DefaultHostExecutionSpace().concurrency(), 8);
   const std::vector<double> want = [&] {
     const LikeDevice like(1, 0);
     return work();
   }();
-  for (const int team : {1, 2, 4}) expect_any_order(work, team, want);
+  for (const int team : {1, 2, 4, 8}) expect_any_order(work, team, want);
 }
 
 }  // namespace plica::test

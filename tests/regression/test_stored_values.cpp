@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/generators.hpp>
+
+#include "support/backends.hpp"
+#include "support/bodies.hpp"
+#include "support/simulate.hpp"
+
+// Results that must not change unnoticed: a ball drops into a bowl. No reference but what came out once; where a change of
+// method is meant to change them, the new ones are printed on failure.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+Problem ball_in_bowl(const std::string& cycle, std::vector<int> cells) {
+  Problem p;
+  for (int n : cells) p.body.levels.push_back(ball_mesh({0, 0, 0.1}, 0.05, n));
+  p.body.material = {"neo_hookean", 50e3, 0.4, 1000};
+  p.body.damping.mass = 5;
+  p.body.element = {"linear"};
+  p.body.surface = sphere_surface({0, 0, 0.1}, 0.05, 2);
+  p.body.initial.velocity = {0.2, 0, -0.7};
+  p.gravity = {0, 0, -9.81};
+  p.contact.obstacles.push_back({BowlOptions{{0.01, 0, 0.13}, 0.13, 0.08}, 0.3, {}});
+  p.integration.cycle = cycle;
+  return p;
+}
+
+/// Centre of the vertices and the energies [J] after 0.09 s, pressed against the bowl.
+void expect_values(const Problem& p, const std::array<double, 7>& want) {
+  Simulation<Host> simulation(p);
+  advance(simulation, static_cast<int>(0.09 / simulation.macro_step()));
+  Point centre = Point::Zero();
+  const auto x = simulation.positions();
+  for (const Point& a : x) centre += a / static_cast<double>(x.size());
+  const Energies e = simulation.energies();
+  const std::array<double, 7> got = {centre[0], centre[1], centre[2], e.kinetic, e.elastic, e.potential, e.contact};
+  std::string text;
+  for (double value : got) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.10g, ", value);
+    text += number;
+  }
+  for (std::size_t i = 0; i < got.size(); ++i)
+    EXPECT_NEAR(got[i], want[i], i < 3 ? 1e-6 : 1e-4 * std::abs(want[i]) + 1e-9) << i << " of " << text;
+}
+
+TEST(StoredValues, SingleLevel) {
+  expect_values(ball_in_bowl("single", {8}),
+                {0.01285742382, 0, 0.04548991447, 0.2032100946, 0.03515434617, -0.2753977635, 0.0003090149506});
+}
+
+TEST(StoredValues, StatesThroughThreeLevels) {
+  expect_values(ball_in_bowl("rs", {8, 6, 4}),
+                {0.01271025567, 0, 0.04807117555, 0.1597924914, 0.00456657466, -0.262597908, 0.0004185928447});
+}
+
+TEST(StoredValues, HybridOfTwoLevels) {
+  Problem p = ball_in_bowl("rs", {8, 6});
+  p.integration.integrator = {"symplectic_euler", "implicit_euler"};
+  p.integration.distribution = "inverse_elements", p.integration.shift_to_coarsest = 0.5;
+  p.integration.macro_step = 0.005;
+  expect_values(p, {0.01287699825, 0, 0.04231309904, 0.04704715745, 0.02956189651, -0.2915448849, 0.02242950842});
+}
+
+TEST(StoredValues, ImplicitSingleLevel) {
+  Problem p = ball_in_bowl("single", {8});
+  p.integration.integrator = {"implicit_euler"};
+  p.integration.macro_step = 0.005;
+  p.integration.implicit.relative_residual = 1e-9;
+  expect_values(p, {0.01279396071, 0, 0.04203768614, 0.0320450569, 0.0360157669, -0.2929319944, 0.02071064189});
+}
+
+}  // namespace
