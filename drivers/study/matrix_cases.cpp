@@ -1,141 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
-#include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/materials/list.hpp>
-#include <plica/meshes/boundary_triangles.hpp>
-#include <plica/meshes/generators.hpp>
-#include <random>
 
-// The bodies of the stability matrix, the table of its cases, and the rules by which each must end.
+// The table of the stability matrix's cases, and the rules by which each must end.
 namespace plica {
-
-namespace {
-
-const Box beam_box{{0, 0, 0}, {0.4, 0.1, 0.1}};
-constexpr double earth = 9.81;
-
-double length_of(const MatrixBody& body) {
-  const Box box = bounding_box(body.problem.body.levels.front().vertices);
-  return (box.max - box.min).maxCoeff();
-}
-
-/// Starts with level 0's vertices where to(rest) puts them.
-template <class To>
-void start_at(MatrixBody& body, MatrixBody::Start start, const To& to) {
-  body.displacement.clear();
-  for (const Point& p : body.problem.body.levels.front().vertices) body.displacement.push_back(to(p) - p);
-  body.load_ratio = 0, body.start = start;
-}
-
-void put_on_earth(MatrixBody& body, double factor) {
-  const MaterialOptions& m = body.problem.body.material;
-  body.load_ratio = m.density * factor * earth * length_of(body) / m.young_modulus;
-}
-
-}  // namespace
-
-void MatrixBody::load() {
-  const MaterialOptions& m = problem.body.material;
-  if (load_ratio > 0) problem.gravity = {0, 0, -load_ratio * m.young_modulus / (m.density * length_of(*this))};
-}
-
-MatrixBody clamped_beam() {
-  MatrixBody body;
-  Body& b = body.problem.body;
-  b.levels = {box_mesh(beam_box, {8, 2, 2}), box_mesh(beam_box, {4, 1, 1})};
-  b.element = {"linear"};
-  b.material = {"", 1e5, 0.4, 1000};
-  b.fixed = {HalfSpaceSelection{Point::Zero(), Point::UnitX()}};
-  return body;
-}
-
-void set_young_modulus(MatrixBody& body, double pascal) { body.problem.body.material.young_modulus = pascal; }
-void set_young_modulus_on_earth(MatrixBody& body, double pascal) {
-  set_young_modulus(body, pascal);
-  put_on_earth(body, 1);
-}
-void set_poisson_ratio(MatrixBody& body, double ratio) { body.problem.body.material.poisson_ratio = ratio; }
-void set_density(MatrixBody& body, double density) { body.problem.body.material.density = density; }
-void set_size(MatrixBody& body, double length) {
-  const double scale = length / length_of(body);
-  for (TetMesh& mesh : body.problem.body.levels)
-    for (Point& p : mesh.vertices) p *= scale;
-}
-void set_gravity(MatrixBody& body, double factor) { put_on_earth(body, factor); }
-void set_step(MatrixBody& body, double over_critical) { body.step = over_critical; }
-void set_unstable_step(MatrixBody& body, double over_critical) { body.step = over_critical, body.unstable = true; }
-
-void set_slivers(MatrixBody& body, double ratio) {
-  for (Point& p : body.problem.body.levels.front().vertices)
-    if (std::abs(p.x() - 0.2) < 1e-9) p.x() = 0.15 + 0.05 / ratio;
-}
-
-void set_stretch(MatrixBody& body, double factor) {
-  start_at(body, MatrixBody::Start::stretched, [=](const Point& p) { return Point(factor * p.x(), p.y(), p.z()); });
-}
-void set_thickness(MatrixBody& body, double factor) {
-  using Start = MatrixBody::Start;
-  const Start start = factor > 0     ? Start::thin
-                      : factor == 0  ? Start::flat
-                      : factor == -1 ? Start::mirrored
-                                     : Start::turned;
-  start_at(body, start, [=](const Point& p) { return Point(p.x(), p.y(), 0.05 + factor * (p.z() - 0.05)); });
-}
-void set_random(MatrixBody& body, double seed) {
-  std::mt19937 random(static_cast<unsigned>(seed));
-  std::uniform_real_distribution<double> within(0, 1);
-  start_at(body, MatrixBody::Start::random, [&](const Point&) {
-    const double x = within(random), y = within(random), z = within(random);
-    return Point(beam_box.max.cwiseProduct(Point(x, y, z)));
-  });
-}
-
-void set_impact(MatrixBody& body, double speed) {
-  Body& b = body.problem.body;
-  b.fixed.clear();
-  const TetMesh& mesh = b.levels.front();
-  b.surface = boundary_surface(mesh).surface;
-  b.initial.velocity = {0, 0, -speed};
-  b.initial.position = Point(0.2, 0.05, 0.051);
-  body.problem.contact.obstacles = {{PlaneOptions{}, 0.3, {}}};
-  body.load_ratio = 0;
-  body.impact = speed / std::sqrt(b.material.young_modulus / b.material.density);  // about the strain
-}
-
-void set_contrast(MatrixBody& body, double ratio) {
-  RegionOptions& stiff = body.problem.body.regions["stiff"];
-  stiff.where = HalfSpaceSelection{{0.2, 0, 0}, -Point::UnitX()};
-  stiff.young_modulus = ratio * body.problem.body.material.young_modulus;
-}
-
-void set_one_tetrahedron(MatrixBody& body, double edge) {
-  TetMesh mesh;
-  mesh.vertices = {{0, 0, 0}, {edge, 0, 0}, {0, edge, 0}, {0, 0, edge}};
-  mesh.tets = {{0, 1, 2, 3}};
-  body.problem.body.levels = {mesh};
-  body.problem.body.fixed.clear();
-}
-
-void set_levels(MatrixBody& body, double count) {
-  const std::array<int, 3> cells[] = {{12, 3, 3}, {10, 3, 3}, {8, 2, 2}, {6, 2, 2}, {4, 1, 1}, {2, 1, 1}};
-  body.problem.body.levels.clear();
-  for (int i = 0; i < static_cast<int>(count); ++i) body.problem.body.levels.push_back(box_mesh(beam_box, cells[i]));
-}
-
-void set_overlap(MatrixBody& body, double lengths) {
-  for (Point& p : body.problem.body.levels[1].vertices) p.x() += lengths * 0.4;
-  body.apart = true;
-  body.problem.body.fixed.clear();
-}
 
 namespace {
 
@@ -383,7 +258,8 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
     line.set(body, value);
     body.refused = line.of == Of::explicit_alone && !body.unstable;
     body.load();
-    const std::string name = std::string(line.format).replace(std::string(line.format).find("%g"), 2, number(value));
+    std::string name = line.format;
+    name.replace(name.find("%g"), 2, number(value));
     for (const std::string& material : materials_of_two_constants())
       for (const Method& method : methods(size, line.of, body.problem.body.levels.size() > 1))
         if (takes_part(material, method.name)) cases.push_back(case_of(body, method, material, name));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <plica/core/dense.hpp>
 #include <plica/drivers/solver/him/mass_spaces.hpp>
+#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <utility>
 
@@ -95,7 +96,12 @@ RowMatrix main_entries(RowMatrix M, const std::vector<double>& inverse_diagonal)
 Eigen::VectorXd answer_unscaled(const MassSpace& space, const Eigen::VectorXd& x) {
   const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), x.size());
   const Eigen::VectorXd lumped = (inverse * x.array()).matrix();
-  return (inverse * (2 * x - space.mass * lumped).array()).matrix();
+  Eigen::VectorXd answer(x.size());
+  for_row_ranges(static_cast<std::size_t>(x.size()), [&](std::size_t first, std::size_t last) {
+    const auto a = static_cast<Eigen::Index>(first), n = static_cast<Eigen::Index>(last - first);
+    answer.segment(a, n) = 2 * x.segment(a, n) - space.mass.middleRows(a, n) * lumped;
+  });
+  return (inverse * answer.array()).matrix();
 }
 
 std::vector<double> scale_of(const MassSpace& space) {
@@ -122,8 +128,11 @@ std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::
   std::vector<MassSpace> spaces;
   for (RowMatrix& P : transfers) {
     M = galerkin_product(M, P);
-    MassSpace& space = spaces.emplace_back(MassSpace{std::move(P), M, inverse_row_sums(M), {}});
-    if (&P == &transfers.back()) break;  // the last one's modes are its answer
+    MassSpace& space = spaces.emplace_back(MassSpace{std::move(P), {}, inverse_row_sums(M), {}});
+    if (&P == &transfers.back()) {  // the last one's modes are its answer
+      space.mass = std::move(M);
+      break;
+    }
     space.mass = main_entries(M, space.inverse_diagonal);
     space.scale = scale_of(space);
   }
