@@ -85,6 +85,7 @@ template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   const RowMatrix Pt = P.transpose();
   const UpperHalf upper(A, P, Pt);
+  const std::vector<std::vector<int>>& columns = upper.column;
   std::vector<int> first{0}, first_block{0};
   for (const auto& row : upper.terms) {
     for (const int terms : row) first.push_back(first.back() + terms);
@@ -92,11 +93,11 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   }
   std::vector<int> fine(index_of(first.back()));
   std::vector<typename B::Real> weight(fine.size());
-  for_row_ranges(upper.column.size(), [&](std::size_t begin, std::size_t end) {
-    std::vector<int> next(upper.column.size());
+  for_row_ranges(columns.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<int> next(columns.size());
     for (std::size_t a = begin; a < end; ++a) {
       int block = first_block[a];
-      for (const int b : upper.column[a]) next[index_of(b)] = first[index_of(block++)];
+      for (const int b : columns[a]) next[index_of(b)] = first[index_of(block++)];
       for_terms(A, P, Pt, static_cast<int>(a), [&](std::size_t b, int s, double w) {
         const auto to = index_of(next[b]++);
         fine[to] = s, weight[to] = static_cast<typename B::Real>(w);
@@ -104,11 +105,11 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
     }
   });
   CoarseMatrix<B> made;
-  made.pattern = both_halves(upper.column);
+  made.pattern = both_halves(columns);
   made.matrix = block_matrix<B>("multigrid", made.pattern);
   std::vector<int> to_upper, to_lower;
-  for (int a = 0; a < static_cast<int>(upper.column.size()); ++a)
-    for (const int b : upper.column[index_of(a)])
+  for (int a = 0; a < static_cast<int>(columns.size()); ++a)
+    for (const int b : columns[index_of(a)])
       to_upper.push_back(place_of(made.pattern, a, b)), to_lower.push_back(place_of(made.pattern, b, a));
   made.map = {to_device<Indices<B>>("galerkin.first", first), to_device<Indices<B>>("galerkin.fine", fine),
               to_device<Scalars<B>>("galerkin.weight", weight), to_device<Indices<B>>("galerkin.upper", to_upper),
