@@ -48,9 +48,9 @@ Shuffled<Work> shuffled(int n, const Work& work) {
 
 /// Fills a team's memory with NaN, which it must not read before it writes.
 template <class Member, class Real>
-void spoil(const Member& team, Real* memory, std::size_t count) {
-  Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](std::size_t i) { memory[i] = Real(NAN); });
-  team.team_barrier();
+void spoil(const Member& member, Real* memory, std::size_t count) {
+  Kokkos::parallel_for(Kokkos::TeamThreadRange(member, count), [&](std::size_t i) { memory[i] = Real(NAN); });
+  member.team_barrier();
 }
 
 #else
