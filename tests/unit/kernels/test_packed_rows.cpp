@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/meshes/generators.hpp>
 #include <set>
 
@@ -14,6 +15,14 @@ using B = Backend<float, Kokkos::DefaultHostExecutionSpace>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+Eigen::MatrixXd dense(const BlockMatrix<B>& A) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * A.rows, 3 * A.rows);
+  for (int a = 0; a < A.rows; ++a)
+    for (int s = A.first(a); s < A.first(a + 1); ++s)
+      for (int k = 0; k < 9; ++k) all(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.value(s, k));
+  return all;
+}
+
 /// A positive definite matrix of the neighbours in a box of cells; some vertices have a given motion, and no row.
 struct Sample {
   HostPattern pattern;
@@ -22,7 +31,6 @@ struct Sample {
   Sample() {
     const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {6, 5, 4});
     const int n = static_cast<int>(mesh.vertices.size());
-    const auto is_given = [](int a) { return a % 11 == 3; };
     std::vector<std::set<int>> row(at(n));
     for (int a = 0; a < n; ++a) row[at(a)].insert(a);
     for (const auto& tet : mesh.tets)
@@ -44,20 +52,13 @@ struct Sample {
         for (int k = 0; k < 9; ++k) A.value(s, k) = block(a, A.column(s), k % 3, k / 3);
   }
 
+  static bool is_given(int a) { return a % 11 == 3; }
   /// Of sizes that differ from vertex to vertex.
   static float block(int a, int b, int i, int j) {
     const auto size = [](int v) { return static_cast<float>(1 + v % 5); };
     if (a == b) return size(a) * size(a) * (i == j ? 30.0F + static_cast<float>(i) : 2.0F);
     if (a > b) std::swap(a, b), std::swap(i, j);
     return size(a) * size(b) * std::sin(static_cast<float>(7 * a + 3 * b + 5 * i + 2 * j));
-  }
-
-  Eigen::MatrixXd dense() const {
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * A.rows, 3 * A.rows);
-    for (int a = 0; a < A.rows; ++a)
-      for (int s = A.first(a); s < A.first(a + 1); ++s)
-        for (int k = 0; k < 9; ++k) all(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.value(s, k));
-    return all;
   }
 };
 
@@ -88,7 +89,7 @@ TEST(PackedRows, HaveEveryVertexInOneSlot) {
 
 TEST(PackedRows, AreTheMatrixTo16Bits) {
   const Packed m;
-  const Eigen::MatrixXd A = m.dense();
+  const Eigen::MatrixXd A = dense(m.A);
   const Eigen::VectorXd x =
       Eigen::VectorXd::NullaryExpr(A.rows(), [](Eigen::Index i) { return std::cos(3 * static_cast<double>(i)); });
   const auto scaled = zeros<Fours<B>>("test.scaled", m.order.vertex.size());
@@ -114,7 +115,7 @@ TEST(PackedRows, AreTheMatrixTo16Bits) {
 // Start and two steps, the last of which leaves what is asked for, against Lottes' recurrence in double.
 TEST(Chebyshev, IsThePolynomial) {
   const Packed m;
-  const Eigen::MatrixXd A = m.dense();
+  const Eigen::MatrixXd A = dense(m.A);
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(A.rows(), A.rows());
   Chebyshev<B> on{m.rows, zeros<SlotBlocks<B>>("test.D", at(m.rows.slices)), zeros<Doubles<B>>("test.largest", 1),
                   zeros<SlotVectors<B>>("test.r", at(m.rows.slices)),
@@ -163,6 +164,28 @@ TEST(Chebyshev, IsThePolynomial) {
   update_vertices<B>(m.exec, "test", m.rows.items(), ChebyshevStep<B>{on, d, e, 0.3F, 2.0F, Leaves::answer});
   step(0.3, 2.0);
   expect_same(e, x + direction);
+}
+
+// Its blocks are sums that are listed once; own blocks are there where nothing reaches them.
+TEST(CoarseMatrix, IsTheGalerkinProduct) {
+  const Sample m;
+  constexpr int coarse = 21;
+  RowMatrix P(m.A.rows, coarse);
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(3 * m.A.rows, 3 * coarse);
+  for (int a = 0; a < m.A.rows; ++a)
+    for (int j = 0; j < 3 && !Sample::is_given(a); ++j) {
+      const int column = (a / 12 + 4 * j) % (coarse - 1);
+      P.insert(a, column) = 0.25 * (j + 1);
+      for (int k = 0; k < 3; ++k) wide(3 * a + k, 3 * column + k) = 0.25 * (j + 1);
+    }
+  P.makeCompressed();
+  const CoarseMatrix<B> made = coarse_matrix<B>(m.pattern, P);
+  update_vertices<B>({}, "test", made.map.blocks(), GalerkinProduct<B>{made.map, m.A, made.matrix});
+  Kokkos::fence();
+  const Eigen::MatrixXd want = wide.transpose() * dense(m.A) * wide;
+  EXPECT_LE((dense(made.matrix) - want).norm(), 1e-5 * want.norm());
+  EXPECT_EQ(made.matrix.first(coarse) - made.matrix.first(coarse - 1), 1);
+  EXPECT_EQ(made.matrix.column(made.matrix.diagonal(coarse - 1)), coarse - 1);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ RowMatrix from_some_points(const TetMesh& mesh) {
 }
 
 /// P^T K P, by all numbers.
-Eigen::MatrixXd galerkin_product(const Eigen::MatrixXd& K, const RowMatrix& P) {
+Eigen::MatrixXd seen_from_points(const Eigen::MatrixXd& K, const RowMatrix& P) {
   Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(3 * P.rows(), 3 * P.cols());
   for (Eigen::Index a = 0; a < P.rows(); ++a)
     for (RowMatrix::InnerIterator e(P, a); e; ++e)
@@ -63,7 +63,7 @@ struct CoarseStiffnessOf {
       : mesh(jittered_box(decimetre, cells)), P(from_some_points(mesh)) {
     for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region.push_back(e % 100 < 30 ? 1 : 0);
     const std::vector<std::array<double, 2>> lame{{3e4, 1e4}, {0, 5e4}};
-    expected = galerkin_product(dense_matrix(rest_stiffness(mesh, lame)), P);
+    expected = seen_from_points(dense_matrix(rest_stiffness(mesh, lame)), P);
     found = coarse_stiffness(mesh, lame, P);
   }
 };
@@ -80,6 +80,16 @@ TEST(CoarseStiffness, HasWhatIsLinearInLargerCells) {
   EXPECT_GT(left_out.norm(), 1e-9 * large.expected.norm());
   EXPECT_LE(left_out.norm(), 0.1 * large.expected.norm());
   EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(left_out).eigenvalues()[0], -1e-12 * large.expected.norm());
+}
+
+TEST(GalerkinProduct, IsOfBothHalves) {
+  const TetMesh mesh = jittered_box(decimetre, {5, 5, 5});
+  const RowMatrix P = from_some_points(mesh),
+                  A = product(RowMatrix(ring_smoothing(mesh).transpose()), ring_smoothing(mesh));
+  const Eigen::MatrixXd expected = Eigen::MatrixXd(P).transpose() * Eigen::MatrixXd(A) * Eigen::MatrixXd(P),
+                        found = galerkin_product(A, P);
+  EXPECT_LE((found - expected).norm(), 1e-13 * expected.norm());
+  EXPECT_EQ(found, found.transpose().eval());
 }
 
 }  // namespace
