@@ -10,26 +10,15 @@
 #include <plica/drivers/solver/set_up/fibres.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
+#include <plica/drivers/solver/spaces/tet_gradients.hpp>
 #include <plica/meshes/embedding.hpp>
 
 namespace plica {
 
 namespace {
 
-using Gradients = Eigen::Matrix<double, 3, 4>;  // of the shape functions
-
 const Point& corner_of(const TetMesh& mesh, std::size_t tet, std::size_t corner) {
   return mesh.vertices[static_cast<std::size_t>(mesh.tets[tet][corner])];
-}
-
-Gradients shape_gradients(const TetMesh& mesh, std::size_t tet) {
-  Eigen::Matrix3d edges;
-  for (int k = 0; k < 3; ++k)
-    edges.row(k) = corner_of(mesh, tet, static_cast<std::size_t>(k) + 1) - corner_of(mesh, tet, 0);
-  Gradients g;
-  g.rightCols<3>() = edges.inverse();
-  g.col(0) = -g.rightCols<3>().rowwise().sum();
-  return g;
 }
 
 double volume_of(const TetMesh& mesh, std::size_t t) {
@@ -63,7 +52,7 @@ std::vector<double> temperatures(const TetMesh& mesh, std::vector<double> T) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd b = Eigen::VectorXd::Zero(count);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const Gradients g = shape_gradients(mesh, t);
+    const Eigen::Matrix<double, 3, 4> g = TetGradients(mesh, t).gradient.transpose();
     const Eigen::Matrix4d K = volume_of(mesh, t) * g.transpose() * g;
     for (int i = 0; i < 4; ++i) {
       const int row = unknown[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(i)])];
@@ -111,7 +100,7 @@ std::vector<Point> flow_directions(const TetMesh& mesh, const Selection& from, c
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     Eigen::Vector4d at;
     for (int k = 0; k < 4; ++k) at[k] = T[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(k)])];
-    const Point g = shape_gradients(mesh, t) * at;
+    const Point g = TetGradients(mesh, t).gradient.transpose() * at;
     direction.push_back(g.norm() > nothing ? g.normalized() : Point::Zero());
   }
   const auto none = [](const Point& d) { return d.isZero(0); };

@@ -55,16 +55,16 @@ class Cell {
     const auto n = static_cast<Eigen::Index>(elements.size());
     Eigen::MatrixXd f(n, functions);
     Eigen::VectorXd volume(n);
-    for (Eigen::Index e = 0; e < n; ++e) {
-      volume[e] = elements[static_cast<std::size_t>(e)].volume;
-      Point centre = Point::Zero();
-      for (const int a : mesh.tets[first + static_cast<std::size_t>(e)]) centre += mesh.vertices[index_of(a)] / 4;
-      f.row(e) << 1, centre.transpose();
-    }
+    for (Eigen::Index e = 0; e < n; ++e) volume[e] = elements[static_cast<std::size_t>(e)].volume;
     if (n <= functions) {
       f.setZero();
       f.diagonal() = volume.cwiseSqrt().cwiseInverse();
       return f;
+    }
+    for (Eigen::Index e = 0; e < n; ++e) {
+      Point centre = Point::Zero();
+      for (const int a : mesh.tets[first + static_cast<std::size_t>(e)]) centre += mesh.vertices[index_of(a)] / 4;
+      f.row(e) << 1, centre.transpose();
     }
     for (int i = 0; i < functions; ++i) {
       const double before = (volume.array() * f.col(i).array().square()).sum();
