@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstring>
 #include <plica/core/fields.hpp>
+#include <plica/core/launch.hpp>
 
 #if __has_include(<sys/mman.h>)
 #include <sys/mman.h>
@@ -39,6 +40,56 @@ void ask_for_huge_pages([[maybe_unused]] void* x, [[maybe_unused]] std::size_t b
 #endif
 }
 
+template <class Exec>
+struct Copy {
+  Exec exec;
+  void* to;
+  const void* from;
+  std::size_t bytes;
+
+  void operator()() const {
+    using Memory = typename Exec::memory_space;
+    Kokkos::deep_copy(exec, at<Memory>(to, bytes), at<Memory>(from, bytes));
+  }
+  bool operator==(const Copy& other) const { return to == other.to && from == other.from && bytes == other.bytes; }
+};
+
+template <class Exec, class Number>
+struct Set {
+  Exec exec;
+  Number* x;
+  std::size_t count;
+  Number value;
+
+  void operator()() const {
+    using Memory = typename Exec::memory_space;
+    Kokkos::deep_copy(exec, Kokkos::View<Number*, Kokkos::LayoutRight, Memory, Unmanaged>(x, count), value);
+  }
+  bool operator==(const Set& other) const { return x == other.x && count == other.count && value == other.value; }
+};
+
+/// One of these among the launches.
+template <class Task>
+class GatheredTask final : public Launch {
+ public:
+  explicit GatheredTask(const Task& task) : task_(task) {}
+  void go() const override { task_(); }
+  bool same(const Launch& other) const override {
+    const auto* const its = dynamic_cast<const GatheredTask*>(&other);
+    return its && task_ == its->task_;
+  }
+
+ private:
+  Task task_;
+};
+
+template <class Exec, class Task>
+void in_order(const Task& task) {
+  if constexpr (gathers<Exec>)
+    if (auto* const queue = LaunchQueue<Exec>::now()) return queue->add(std::make_unique<GatheredTask<Task>>(task));
+  task();
+}
+
 }  // namespace
 
 template <class Memory>
@@ -54,8 +105,7 @@ void clear_new(void* x, std::size_t bytes) {
 
 template <class Exec>
 void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes) {
-  using Memory = typename Exec::memory_space;
-  Kokkos::deep_copy(exec, at<Memory>(to, bytes), at<Memory>(from, bytes));
+  if (bytes > 0) in_order<Exec>(Copy<Exec>{exec, to, from, bytes});
 }
 
 template <class Memory>
@@ -66,6 +116,7 @@ void upload(void* to, const void* from, std::size_t bytes) {
 template <class Exec>
 void download(const Exec& exec, void* to, const void* from, std::size_t bytes) {
   using Memory = typename Exec::memory_space;
+  launch_gathered<Exec>();
   if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>) {
     exec.fence("plica::download");
     if (bytes > 0) std::memcpy(to, from, bytes);
@@ -77,8 +128,7 @@ void download(const Exec& exec, void* to, const void* from, std::size_t bytes) {
 
 template <class Exec, class Number>
 void set(const Exec& exec, Number* x, std::size_t count, Number value) {
-  using Memory = typename Exec::memory_space;
-  Kokkos::deep_copy(exec, Kokkos::View<Number*, Kokkos::LayoutRight, Memory, Unmanaged>(x, count), value);
+  if (count > 0) in_order<Exec>(Set<Exec, Number>{exec, x, count, value});
 }
 
 #define PLICA_INSTANTIATE_SPACE(Exec)                                           \

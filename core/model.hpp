@@ -3,7 +3,6 @@
 #include <plica/core/fields.hpp>
 #include <plica/core/nodal_rows.hpp>
 #include <plica/core/patches.hpp>
-#include <string>
 
 namespace plica {
 
@@ -17,19 +16,23 @@ struct MassDamping {
   }
 };
 
-/// What stays constant on one level.
+/// What stays constant at the vertices of one level.
 template <class B>
-struct Model {
-  int vertices = 0;
-  int tets = 0;
-  std::string material;
-  Patches<B>
-      patches;  ///< of linear elements; also where an implicit level of nodal ones is preconditioned by linear ones
-  NodalRows<B> rows;        ///< of nodal elements
-  VertexShares<B> shares;   ///< in which the elements' forces are left, of the one or the other
+struct VertexModel {
   Scalars<B> mass;          ///< lumped [kg], > 0
   Scalars<B> inverse_mass;  ///< [1/kg]; 0: the vertex's motion is given, forces do not move it
   MassDamping<B> damping;
+  VertexShares<B> shares;  ///< in which the elements' forces are left, linear or nodal
+};
+
+/// What stays constant on one level. Kernels take the parts that they read: the whole is too long for an argument.
+template <class B>
+struct Model : VertexModel<B> {
+  int vertices = 0;
+  int tets = 0;
+  Patches<B>
+      patches;  ///< of linear elements; also where nodal ones of an implicit level are preconditioned by linear ones
+  NodalRows<B> rows;  ///< of nodal elements
 };
 
 /// Displacement from rest u [m] and velocity v [m/s], each [vertices][3].

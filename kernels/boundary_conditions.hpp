@@ -49,11 +49,12 @@ template <class B>
 struct PrescribeMotion {
   PrescribedVertices<B> given;
   State<B> state;
-  double time, ahead;
+  Changing<B, double> time;
+  double ahead;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     using Real = typename B::Real;
-    const PathPoint p = path_step(given.paths(given.path(i)), given.knots.data(), time, ahead);
+    const PathPoint p = path_step(given.paths(given.path(i)), given.knots.data(), *time, ahead);
     for (int k = 0; k < 3; ++k) {
       state.u(given.vertex(i), k) = static_cast<Real>(p.displacement[k]);
       state.v(given.vertex(i), k) = static_cast<Real>(p.velocity[k]);
@@ -76,10 +77,10 @@ struct AddLoad {
   using Real = typename B::Real;
   Indices<B> vertex;
   Vectors<B> force, f;
-  Real factor;
+  Changing<B, Real> factor;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) f(vertex(i), k) += factor * force(i, k);
+    for (int k = 0; k < 3; ++k) f(vertex(i), k) += *factor * force(i, k);
   }
 };
 

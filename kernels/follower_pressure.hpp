@@ -28,20 +28,21 @@ struct FollowerPlaces {
 };
 
 /// A given pressure [Pa].
-template <class Real>
+template <class B>
 struct GivenPressure {
-  Real value;
-  KOKKOS_INLINE_FUNCTION Real operator()() const { return value; }
+  Changing<B, typename B::Real> value;
+  KOKKOS_INLINE_FUNCTION typename B::Real operator()() const { return *value; }
 };
 
 /// That of the fluid in a cavity, see Cavity.
 template <class B>
 struct FluidPressure {
   Doubles<B> volume;
-  double goal, stiffness;  ///< [m^3], [Pa/m^3]
-  KOKKOS_INLINE_FUNCTION double at(double now) const { return stiffness * (goal - now); }
+  Changing<B, double> goal;  ///< [m^3]
+  double stiffness;          ///< [Pa/m^3]
+  KOKKOS_INLINE_FUNCTION double at(double now) const { return stiffness * (*goal - now); }
   KOKKOS_INLINE_FUNCTION typename B::Real operator()() const { return static_cast<typename B::Real>(at(volume(0))); }
-  double energy(double now) const { return (goal - now) * at(now) / 2; }  ///< [J]
+  double energy(double now) const { return (*goal - now) * at(now) / 2; }  ///< [J]
 };
 
 /// Adds a pressure p on triangles as they are now: each puts -p A n / 3 at its corners.

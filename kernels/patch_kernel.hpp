@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/inlining.hpp>
+#include <plica/core/launch.hpp>
 #include <plica/core/patches.hpp>
 #include <plica/core/small.hpp>
 #include <plica/core/transposed.hpp>
@@ -160,8 +161,8 @@ void launch_patches(const typename B::Exec& exec, const char* label, const Patch
   using Kernel = PatchKernel<B, Integrand>;
   if (patches.count == 0) return;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
-  Kokkos::parallel_for(label, policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
-                       Kernel{patches, integrand, partial});
+  launch(label, policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
+         Kernel{patches, integrand, partial});
 }
 
 }  // namespace plica

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/fields.hpp>
+#include <plica/core/launch.hpp>
 #include <type_traits>
 
 namespace plica {
@@ -94,9 +95,9 @@ template <class B, class Sum>
 void launch_blocks(const typename B::Exec& exec, const char* label, int count, const Sum& sum) {
   using Exec = typename B::Exec;
   if constexpr (B::for_cpu)
-    Kokkos::parallel_for(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
+    launch(label, Kokkos::RangePolicy<Exec>(exec, 0, count), sum);
   else
-    Kokkos::parallel_for(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
+    launch(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
 }
 
 /// result(k) = sum over b < count of blocks(b, k) for k < n; the last `maxima` of them the largest instead.

@@ -112,7 +112,7 @@ struct FillFromHash {
 template <class Exec, class Work>
 void each(const Exec& exec, const char* label, std::size_t count, const Work& work) {
   using Policy = Kokkos::RangePolicy<Exec, Kokkos::IndexType<std::size_t>>;
-  Kokkos::parallel_for(label, Policy(exec, 0, count), work);
+  launch(label, Policy(exec, 0, count), work);
 }
 
 template <class B>

@@ -16,7 +16,7 @@ namespace plica {
 /// work(i) for i < n
 template <class B, class Work>
 void update_vertices(const typename B::Exec& exec, const char* label, int n, const Work& work) {
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, n), like_device::shuffled(n, work));
+  launch(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, n), like_device::shuffled(n, work));
 }
 
 /// Work that is left out where a count on the device is 0, without the host knowing; an empty count: always done.

@@ -139,7 +139,7 @@ class EnergyMeter {
   Scalars<B> inverse_edge_;
   double mass_ = 0;
   BlockSums<B> blocks_;
-  Kokkos::View<double*, typename B::Memory> result_;
+  Doubles<B> result_;
 
   std::array<double, 6> read() const;
 };

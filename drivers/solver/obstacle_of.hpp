@@ -69,7 +69,7 @@ class ObstacleOf final : public Obstacle<B> {
   }
   ObstaclePlace<B> place(double time, double ahead) const override {
     const PathPoint now = path_step(path_, knots_.data(), time, ahead);
-    return {origin_, now.displacement, now.velocity, time, tools_, first_, turning_.at(time, ahead)};
+    return {origin_, ObstaclePose{now.displacement, now.velocity, time, turning_.at(time, ahead)}, tools_, first_};
   }
   void set_motion(const Motion& motion) override {
     knots_.clear();

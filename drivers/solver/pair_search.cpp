@@ -60,6 +60,7 @@ void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points)
   where_touching<B>(exec, stale, "plica::pairs_keep", points.points, KeepPlaces<B>{grid_});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
   where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{of});
+  launch_gathered<Exec>();  // Kokkos lends a scan memory that may be elsewhere the next time
   Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, buckets),
                         SumBefore<B>{grid_.filled, grid_.first, buckets, stale});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
@@ -71,6 +72,7 @@ template <class B>
 void PairSearch<B>::list_parts(const Exec& exec, const PairedPoints<B>& pairs) const {
   const int points = pairs.points, all = 2 * points;
   where_touching<B>(exec, pairs.found, "plica::pairs_parts", all, CountParts<B>{pairs, count_});
+  launch_gathered<Exec>();  // Kokkos lends a scan memory that may be elsewhere the next time
   Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, points + 1),
                         SumBefore<B>{count_, pairs.from, points, pairs.found});
   where_touching<B>(exec, pairs.found, "plica::pairs_list", all, ListParts<B>{pairs, count_});

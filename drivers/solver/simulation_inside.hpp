@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <plica/core/error.hpp>
+#include <plica/core/launch.hpp>
 #include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
@@ -25,6 +26,7 @@ struct Simulation<B>::Inside {
 
   Problem problem;  // without meshes: those in use are in `built`
   BuiltHierarchy<B> built;
+  LaunchQueue<Exec> queue;
   EnergyMeter<B> meter;
   std::vector<Vectors<B>> rest;  // of each level's vertices, where somebody has asked for positions
 

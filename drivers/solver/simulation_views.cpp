@@ -125,7 +125,7 @@ template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const Point& rotation) {
   expect_finite_move("displacement", displacement), expect_finite_move("rotation", rotation);
   const ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
-  const Vec3<double>& about = place.turn.turned ? place.turn.centre : place.origin;
+  const Vec3<double>& about = place.pose->turn.turned ? place.pose->turn.centre : place.origin;
   const Point before = obstacle_rotation(obstacle);
   const Point way = rotation_vector(rotation_by(rotation) * rotation_by(-before));
   const double now = inside_->time, angle = way.norm();
@@ -135,12 +135,12 @@ void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const
 }
 template <class B>
 Point Simulation<B>::obstacle_displacement(int obstacle) const {
-  const Vec3<double> d = inside_->contact_with(obstacle).place(obstacle, inside_->time).displacement;
+  const Vec3<double> d = inside_->contact_with(obstacle).place(obstacle, inside_->time).pose->displacement;
   return {d[0], d[1], d[2]};
 }
 template <class B>
 Point Simulation<B>::obstacle_rotation(int obstacle) const {
-  const Attitude turn = inside_->contact_with(obstacle).place(obstacle, inside_->time).turn;
+  const Attitude turn = inside_->contact_with(obstacle).place(obstacle, inside_->time).pose->turn;
   return turn.turned ? rotation_vector(turn.rotation) : Point(Point::Zero());
 }
 template <class B>
@@ -222,6 +222,8 @@ std::map<std::string, long> Simulation<B>::counters() const {
     }
     all["tet_evaluations"] += passes * level.model.tets;
   }
+  if (gathers<Exec>)
+    all["launches_in_graphs"] = inside_->queue.in_graphs(), all["launches_alone"] = inside_->queue.alone();
   if (inside_->retries()) all["halvings"] = inside_->halvings, all["rejected_steps"] = inside_->rejected;
   return all;
 }

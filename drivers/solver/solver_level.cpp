@@ -52,7 +52,7 @@ void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
 }
 
 template <class B>
-GivenPressure<typename B::Real> SolverLevel<B>::given_pressure(const FollowerLoad<B>& load, double time) const {
+GivenPressure<B> SolverLevel<B>::given_pressure(const FollowerLoad<B>& load, double time) const {
   return {static_cast<typename B::Real>(load.pressure * load_factor(load.course, time))};
 }
 
@@ -201,6 +201,8 @@ void SolverLevel<B>::set_external(const ExternalForces<B>& forces, const Vectors
 template <class B>
 void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, double ahead, const Vectors<B>& force) {
   if (implicit_) fill(exec(), external_stiffness_, typename B::Real(0));
+  launch_gathered<typename B::Exec>();
+  const typename LaunchQueue<typename B::Exec>::Scope at_once(nullptr);
   external_({exec(), number_, time, rest_, at.u, at.v, force, this->surface, step, ahead, external_stiffness_});
 }
 

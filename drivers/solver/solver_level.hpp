@@ -145,7 +145,7 @@ class SolverLevel : public Level<B> {
   void add_loads(double time, const Vectors<B>& f) const;
   /// Pressures that follow the state.
   void add_followers(const State<B>& state, double time, const Vectors<B>& f);
-  GivenPressure<typename B::Real> given_pressure(const FollowerLoad<B>& load, double time) const;
+  GivenPressure<B> given_pressure(const FollowerLoad<B>& load, double time) const;
   void measure(const FollowerLoad<B>& load, const Vectors<B>& u) const;
   double enclosed_volume(const FollowerLoad<B>& load) const;  ///< at its state, up to a constant [m^3]
   /// Of the volume that was last measured.

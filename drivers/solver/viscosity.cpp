@@ -100,15 +100,17 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
   stress.region = to_device<Indices<B>>("viscosity.region", regions_of_packs(mesh, level));
   stress.memory = zeros<Scalars<B>>("plica::viscosity.memory", slots * 6 * static_cast<std::size_t>(1 + stress.terms));
   stress.lost = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
-  steps_.t = none;
+  stepped_ = none;
 }
 
 /// What depends on the time from the memory's alone.
 template <class B>
 void Viscosity<B>::step_over(const Exec& exec, double t) {
-  if (t == steps_.t) return;
-  steps_.t = t;
-  update_vertices<B>(exec, "plica::relaxation_steps", static_cast<int>(steps_.share.extent(0)), steps_);
+  if (t == stepped_) return;
+  stepped_ = t;
+  RelaxationSteps<B> steps = steps_;
+  steps.t = t;
+  update_vertices<B>(exec, "plica::relaxation_steps", static_cast<int>(steps.share.extent(0)), steps);
 }
 
 template <class B>

@@ -55,9 +55,10 @@ class Viscosity {
   Indices<B> set_region_;    ///< of each set of these
   Scalars<B> whole_, half_;  ///< with all of the energy of shape and half of it
   Scalars<B> isochoric_;
-  double time_ = 0;       ///< of the memory [s]
-  double shared_ = 0;     ///< time from the memory's that the model's constants are for [s]
-  double looked_ = none;  ///< likewise level.stress.lost
+  double time_ = 0;        ///< of the memory [s]
+  double shared_ = 0;      ///< time from the memory's that the model's constants are for [s]
+  double stepped_ = none;  ///< likewise steps_
+  double looked_ = none;   ///< likewise level.stress.lost
 
   void step_over(const Exec& exec, double t);
   void take_share(const Exec& exec, double t);

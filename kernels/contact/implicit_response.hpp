@@ -247,7 +247,7 @@ struct SweepTouching {
 
 /// What mass damping leaves of an acceleration; see ContactStep.
 template <class B>
-KOKKOS_INLINE_FUNCTION typename B::Real kept(const Model<B>& model, int a, typename B::Real damped) {
+KOKKOS_INLINE_FUNCTION typename B::Real kept(const VertexModel<B>& model, int a, typename B::Real damped) {
   return 1 / (1 + damped * model.damping(a));
 }
 
@@ -256,7 +256,7 @@ template <class B>
 struct FreeAcceleration {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f, v, e;
   Real damped;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
@@ -272,7 +272,7 @@ template <class B>
 struct AnswerByMass {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
-  Model<B> model;
+  VertexModel<B> model;
   TouchingPoints<B> points;
   Vectors<B> answer;
   Indices<B> reached;  ///< [touched] 1 or 0

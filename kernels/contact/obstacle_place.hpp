@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/fields.hpp>
+#include <plica/core/launch.hpp>
 #include <plica/core/path.hpp>
 #include <plica/core/small.hpp>
 
@@ -14,6 +15,13 @@ struct Attitude {
   Vec3<double> rate;      ///< angular velocity [rad/s]
 };
 
+/// By its motion and its turn.
+struct ObstaclePose {
+  Vec3<double> displacement, speed;  ///< [m], [m/s]
+  double time = 0;                   ///< [s]
+  Attitude turn;
+};
+
 /// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool with mass goes, which the device knows
 /// and which does not turn.
 template <class B>
@@ -21,43 +29,44 @@ struct ObstaclePlace {
   using Real = typename B::Real;
   static constexpr int numbers = 7;  ///< of a tool: displacement [m] and velocity [m/s] at a time [s]
 
-  Vec3<double> origin;               ///< at t = 0, what torques are about [m]
-  Vec3<double> displacement, speed;  ///< by its motion [m], [m/s]
-  double time = 0;                   ///< [s]
-  Doubles<B> tools;                  ///< [numbers of each obstacle]; empty: it has no mass
-  int first = 0;                     ///< its own of them
-  Attitude turn;
+  Vec3<double> origin;  ///< at t = 0, what torques are about [m]
+  Changing<B, ObstaclePose> pose;
+  Doubles<B> tools;  ///< [numbers of each obstacle]; empty: it has no mass
+  int first = 0;     ///< its own of them
 
   KOKKOS_INLINE_FUNCTION Vec3<double> moved() const {
-    if (tools.extent(0) == 0) return displacement;
-    const double since = time - tools(first + 6);
+    if (tools.extent(0) == 0) return pose->displacement;
+    const double since = pose->time - tools(first + 6);
     Vec3<double> x;
     for (int k = 0; k < 3; ++k) x[k] = tools(first + k) + since * tools(first + 3 + k);
     return x;
   }
   /// What torques are about.
   KOKKOS_INLINE_FUNCTION Vec3<double> about() const {
+    const Attitude& turn = pose->turn;
     return turn.turned ? turn.centre + turn.rotation * (origin - turn.centre) + moved() : origin + moved();
   }
   /// A place, as the shape has it.
   KOKKOS_INLINE_FUNCTION Vec3<Real> local(const Vec3<Real>& x) const {
-    return turn.turned ? rounded(turned_back(exact(x))) : x - rounded(moved());
+    return pose->turn.turned ? rounded(turned_back(exact(x))) : x - rounded(moved());
   }
   /// How far that is moved [m].
   KOKKOS_INLINE_FUNCTION Vec3<double> way(const Vec3<Real>& x) const {
-    return turn.turned ? exact(x) - turned_back(exact(x)) : moved();
+    return pose->turn.turned ? exact(x) - turned_back(exact(x)) : moved();
   }
   /// A direction, as the shape has it, and back.
   KOKKOS_INLINE_FUNCTION Vec3<Real> inward(const Vec3<Real>& d) const {
-    return turn.turned ? rounded(transpose(turn.rotation) * exact(d)) : d;
+    return pose->turn.turned ? rounded(transpose(pose->turn.rotation) * exact(d)) : d;
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(const Vec3<Real>& d) const {
-    return turn.turned ? rounded(turn.rotation * exact(d)) : d;
+    return pose->turn.turned ? rounded(pose->turn.rotation * exact(d)) : d;
   }
   /// Of what the obstacle has at x [m/s].
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
     if (tools.extent(0) > 0) return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});
-    return rounded(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - displacement) : speed);
+    const Vec3<double>& speed = pose->speed;
+    const Attitude& turn = pose->turn;
+    return rounded(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - pose->displacement) : speed);
   }
 
  private:
@@ -68,6 +77,7 @@ struct ObstaclePlace {
     return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
   }
   KOKKOS_INLINE_FUNCTION Vec3<double> turned_back(const Vec3<double>& x) const {
+    const Attitude& turn = pose->turn;
     return turn.centre + transpose(turn.rotation) * (x - turn.centre - moved());
   }
 };
@@ -77,19 +87,19 @@ struct ObstaclePlace {
 /// to be at the end of the next step and how fast it gets there.
 template <class B>
 struct MoveTool {
-  ObstaclePlace<B> place;  ///< at the end of the step
-  PathPoint asked;         ///< at the end of the next
-  Doubles<B> wrench;       ///< on the body
-  int force;               ///< its first number in it
+  ObstaclePlace<B> place;        ///< at the end of the step
+  Changing<B, PathPoint> asked;  ///< at the end of the next
+  Doubles<B> wrench;             ///< on the body
+  int force;                     ///< its first number in it
   double span, mass, stiffness, damping;
 
   KOKKOS_INLINE_FUNCTION void operator()(int k) const {
     const int x = place.first + k, v = x + 3;
     const double T = span, now = place.tools(x) + T * place.tools(v);
-    const double pull = -wrench(force + k) + stiffness * (asked.displacement[k] - now) + damping * asked.velocity[k];
+    const double pull = -wrench(force + k) + stiffness * (asked->displacement[k] - now) + damping * asked->velocity[k];
     place.tools(v) = (place.tools(v) + T / mass * pull) / (1 + T / mass * (damping + T * stiffness));
     place.tools(x) = now;
-    if (k == 0) place.tools(place.first + 6) = place.time;
+    if (k == 0) place.tools(place.first + 6) = place.pose->time;
   }
 };
 

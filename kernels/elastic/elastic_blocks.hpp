@@ -200,8 +200,8 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
   policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
   policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
-  Kokkos::parallel_for("plica::elastic_blocks", policy,
-                       Kernel{model.patches, pairs, u, place, shares, scale, static_cast<Real>(weights.a)});
+  launch("plica::elastic_blocks", policy,
+         Kernel{model.patches, pairs, u, place, shares, scale, static_cast<Real>(weights.a)});
   finish_blocks<B>(exec, model, pairs, weights, shares, A);
 }
 

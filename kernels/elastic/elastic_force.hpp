@@ -15,7 +15,7 @@ struct ElasticForce {
   Vectors<B> field[1];
   Scalars<B> constants;   ///< of the patches
   ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0
-  int evaluation;
+  Changing<B, int> evaluation;
   Scalars<B> fibres = {};  ///< likewise, or empty
 
   template <class T>
@@ -35,7 +35,7 @@ struct ElasticForce {
   template <class T>
   PLICA_SELDOM KOKKOS_FUNCTION void raise(const T& J, int patch, int pack) const {
     for (int l = 0; l < LaneOf<T>::count; ++l)
-      if (!(lane(J, l) > 0)) flags.raise(patch, evaluation, pack * LaneOf<T>::count + l, lane(J, l));
+      if (!(lane(J, l) > 0)) flags.raise(patch, *evaluation, pack * LaneOf<T>::count + l, lane(J, l));
   }
 };
 

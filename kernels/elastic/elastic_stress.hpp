@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/launch.hpp>
 #include <plica/core/patches.hpp>
 #include <plica/kernels/elastic/stress_memory.hpp>
 #include <plica/kernels/materials/material.hpp>
@@ -45,9 +46,8 @@ template <class B, class Material>
 void elastic_stress(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
                     const Scalars<B>& von_mises, const Scalars<B>& J, const Scalars<B>& lost) {
   if (patches.count == 0) return;
-  Kokkos::parallel_for("plica::elastic_stress",
-                       Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
-                       ElasticStress<B, Material>{patches, u, von_mises, J, lost});
+  launch("plica::elastic_stress", Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
+         ElasticStress<B, Material>{patches, u, von_mises, J, lost});
 }
 
 }  // namespace plica

@@ -55,7 +55,7 @@ struct NodalForce {
   using T = RowPack<B>;
   RowScales<B> scales;
   ElementFlags<B> flags;  ///< where Watched: raised by det F <= 0, a record per slice
-  int evaluation;
+  Changing<B, int> evaluation;
   RowPressure<B, Smoothed> pressure;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&field)[fields],
@@ -85,7 +85,7 @@ struct NodalForce {
 
   PLICA_SELDOM KOKKOS_FUNCTION void raise(const T& J, const RowsAt<B>& at) const {
     for (int l = 0; l < B::lanes; ++l)
-      if (!(lane(J, l) > 0)) flags.raise(at.slice, evaluation, at.slot + l, lane(J, l));
+      if (!(lane(J, l) > 0)) flags.raise(at.slice, *evaluation, at.slot + l, lane(J, l));
   }
 };
 

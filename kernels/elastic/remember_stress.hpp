@@ -68,9 +68,8 @@ void remember_elements(const typename B::Exec& exec, const Level<B>& level, cons
   using Kernel = RememberElements<B, Material>;
   const Patches<B>& patches = level.model.patches;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
-  Kokkos::parallel_for("plica::remember_elements",
-                       policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
-                       Kernel{patches, level.stress, u, constants});
+  launch("plica::remember_elements", policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
+         Kernel{patches, level.stress, u, constants});
 }
 
 /// Of nodal elements.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/fields.hpp>
+#include <plica/core/launch.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/small.hpp>
 
@@ -49,7 +50,7 @@ struct RelaxationSteps {
   using Real = typename B::Real;
   int terms = 0;          ///< of the longest series
   Doubles<B> alpha, tau;  ///< [regions][terms]; s
-  double t = 0;           ///< [s]
+  Changing<B, double> t;  ///< [s]
   bool backward_euler = false;
   Scalars<B> step;    ///< [regions][terms][2] keep and gain
   Scalars<B> weight;  ///< [regions][1 + terms] of S_n and of each -H_i in what is lost
@@ -59,7 +60,7 @@ struct RelaxationSteps {
     double shared = 0, elastic = 0;
     for (int i = 0; i < terms; ++i) {
       const int at = region * terms + i;
-      const double x = t / tau(at);
+      const double x = *t / tau(at);
       const double gain = backward_euler ? 1 / (1 + x) : x > 0 ? -Kokkos::expm1(-x) / x : 1;
       const double keep = backward_euler ? gain : Kokkos::exp(-x);
       shared += alpha(at) * (1 - gain), elastic += alpha(at) * gain;

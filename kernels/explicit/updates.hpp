@@ -15,7 +15,7 @@ struct SymplecticEulerUpdate {
   static constexpr const char* label = "plica::symplectic_euler";
   static ContactStep contact(double h) { return {.span = h, .entry = h, .damped = h}; }
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f, u, v;
   Real h;
 
@@ -33,7 +33,7 @@ struct SymplecticEulerUpdate {
 template <class B>
 struct HalfKickAndDrift {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f;
   State<B> state;
   Real h;
@@ -52,7 +52,7 @@ struct HalfKickAndDrift {
 template <class B>
 struct HalfKick {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f, v;
   Real h;
 
@@ -68,7 +68,7 @@ struct ForwardEulerUpdate {
   static constexpr const char* label = "plica::euler";
   static ContactStep contact(double h) { return {.span = h, .ahead = h, .entry = h}; }
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f, u, v;
   Real h;
 
@@ -87,7 +87,7 @@ struct ForwardEulerUpdate {
 template <class B>
 struct RungeKuttaStage {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f;
   State<B> start, stage, sum;
   Real h, weight, ahead;

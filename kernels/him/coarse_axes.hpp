@@ -193,28 +193,36 @@ struct ForceAndAnswer {
   KOKKOS_INLINE_FUNCTION void operator()(int item) const { force(item), answer(item); }
 };
 
-/// p += t E^T g, of vertices that forces move.
+/// p += t E^T g, of vertices that forces move, and q likewise, where there is one.
 template <class B>
 struct PushByAxes {
   using Real = typename B::Real;
   SparseRows<B> spread;
   Scalars<B> inverse_mass;
-  Vectors<B> force, p;
+  Vectors<B> force, p, q;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(inverse_mass(a) > 0)) return;
     const Vec3<Real> f = row_product<B>(spread, a, force);
     for (int k = 0; k < 3; ++k) p(a, k) += t * f[k];
+    for (int k = 0; k < 3 && q.extent(0) > 0; ++k) q(a, k) += t * f[k];
   }
 };
 
-/// The same, and the finest level's mean acceleration that follows from p.
+/// The same, and the finest level's answer to what is pushed.
 template <class B>
-struct AccelerationOfPushed {
+struct AnswerOfPushed {
   PushByAxes<B> push;
   AnswerOfFinest<B> answer;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { push(a), answer(a); }
+};
+
+/// The same, and the mean acceleration that follows.
+template <class B>
+struct AccelerationOfPushed {
+  AnswerOfPushed<B> answer;
   MeanAcceleration<B> mean;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { push(a), answer(a), mean(a); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { answer(a), mean(a); }
 };
 
 /// A middle level's share of that: += t Pi^T E^T g.

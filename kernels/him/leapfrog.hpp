@@ -16,20 +16,50 @@ struct Loss {
   }
 };
 
-/// p = ((1 - t d / 2) p + t f - c g) / (1 + t d / 2), d the mass damping; no g: p - m v
+/// A rigid motion about the body's centre as it is now, in double.
+struct RigidFrame {
+  double centre[3];
+  double linear[3], angular[3];  ///< [m/s], [rad/s]
+};
+
+template <class B>
+using RigidFrameOf = Kokkos::View<RigidFrame, typename B::Memory>;
+
+KOKKOS_INLINE_FUNCTION Vec3<double> vector_of(const double* x) { return {x[0], x[1], x[2]}; }
+
+/// The velocities of a rigid motion at the body's vertices; none: 0.
+template <class B>
+struct RigidMotion {
+  using Real = typename B::Real;
+  Vectors<B> rest, u;
+  RigidFrameOf<B> frame;
+  KOKKOS_INLINE_FUNCTION Vec3<Real> operator()(int a) const {
+    if (rest.extent(0) == 0) return {};
+    Vec3<double> x;
+    for (int k = 0; k < 3; ++k)
+      x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k)) - frame().centre[k];
+    const Vec3<double> v = vector_of(frame().linear) + cross(vector_of(frame().angular), x);
+    return {static_cast<Real>(v[0]), static_cast<Real>(v[1]), static_cast<Real>(v[2])};
+  }
+};
+
+/// p = ((1 - t d / 2) p + t f - c (p - m v)) / (1 + t d / 2), d the mass damping; of p - m v without its rigid part, where the body is free:
+/// that changes neither sum p nor sum x x p.
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
-  Model<B> model;
-  Vectors<B> f, v, g, p;
+  VertexModel<B> model;
+  Vectors<B> f, v, p;
+  RigidMotion<B> rigid;  ///< of p - m v
   Loss<B> loss;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
     const Real c = static_cast<Real>(loss()), m = model.mass(a), half_damping = t * model.damping(a) / 2,
                kept = 1 / (1 + half_damping);
+    const Vec3<Real> whole = rigid(a);
     for (int k = 0; k < 3; ++k) {
-      const Real slowed = g.extent(0) > 0 ? g(a, k) : p(a, k) - m * v(a, k);
+      const Real slowed = p(a, k) - m * v(a, k) - m * whole[k];
       p(a, k) = kept * ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed);
     }
   }
@@ -97,30 +127,18 @@ struct EndOfStep {
   }
 };
 
-// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the rigid part of momenta that are to
-// change neither sum p nor sum x x p.
+// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the rigid part of momenta.
 
-/// About the body's centre as it is now, in double.
-struct RigidFrame {
-  double centre[3];
-  double linear[3], angular[3];  ///< of momenta [m/s], [rad/s]
-};
-
-template <class B>
-using RigidFrameOf = Kokkos::View<RigidFrame, typename B::Memory>;
-
-KOKKOS_INLINE_FUNCTION Vec3<double> vector_of(const double* x) { return {x[0], x[1], x[2]}; }
-
-/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of momenta p: 16 sums.
+/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of p - m v: 16 sums.
 template <class B>
 struct BodyMoments {
   Scalars<B> mass;
-  Vectors<B> rest, u, p;
+  Vectors<B> rest, u, p, v;
   KOKKOS_INLINE_FUNCTION Sums<16> operator()(int a) const {
     Vec3<double> x, part;
     for (int k = 0; k < 3; ++k) {
       x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k));
-      part[k] = static_cast<double>(p(a, k));
+      part[k] = static_cast<double>(p(a, k) - mass(a) * v(a, k));
     }
     const double m = static_cast<double>(mass(a));
     const Vec3<double> moment = cross(x, part);
@@ -149,22 +167,6 @@ struct SetRigidFrame {
   }
 };
 
-/// p -= m (its rigid motion)
-template <class B>
-struct TakeRigidMotion {
-  using Real = typename B::Real;
-  Scalars<B> mass;
-  Vectors<B> rest, u, p;
-  RigidFrameOf<B> frame;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    Vec3<double> x;
-    for (int k = 0; k < 3; ++k)
-      x[k] = static_cast<double>(rest(a, k)) + static_cast<double>(u(a, k)) - frame().centre[k];
-    const Vec3<double> rigid = vector_of(frame().linear) + cross(vector_of(frame().angular), x);
-    for (int k = 0; k < 3; ++k) p(a, k) -= mass(a) * static_cast<Real>(rigid[k]);
-  }
-};
-
 /// m and p, each summed
 template <class B>
 struct SumOfMomenta {
@@ -173,6 +175,16 @@ struct SumOfMomenta {
   KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
     return {{static_cast<double>(mass(a)), static_cast<double>(p(a, 0)), static_cast<double>(p(a, 1)),
              static_cast<double>(p(a, 2))}};
+  }
+};
+
+/// The kick, and the sums of what it leaves.
+template <class B>
+struct KickAndSum {
+  KickMomentum<B> kick;
+  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
+    kick(a);
+    return SumOfMomenta<B>{kick.model.mass, kick.p}(a);
   }
 };
 
@@ -208,6 +220,14 @@ struct PutTranslation {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     for (int k = 0; k < 3; ++k) v(a, k) += static_cast<Real>((wanted(k + 1) - sums(k + 1)) / sums(0));
   }
+};
+
+/// The same, and the mean acceleration that follows.
+template <class B>
+struct AccelerationOfTranslated {
+  PutTranslation<B> put;
+  MeanAcceleration<B> mean;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { put(a), mean(a); }
 };
 
 }  // namespace plica

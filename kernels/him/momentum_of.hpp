@@ -8,7 +8,7 @@ namespace plica {
 /// y = K x from the elements' copies of -K x; none where the motion is given.
 template <class B>
 struct GatherStiffness {
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> partial, y;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     using Real = typename B::Real;
@@ -20,7 +20,7 @@ struct GatherStiffness {
 /// r = v - answer
 template <class B>
 struct StartResidual {
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> v, answer, r;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     double square = 0;
@@ -36,7 +36,7 @@ struct StartResidual {
 template <class B>
 struct MoveAlong {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> s, answer, p, r;
   Real alpha;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {

@@ -9,7 +9,7 @@ namespace plica {
 /// a
 template <class B>
 struct Accelerations {
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> f, v, a;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const typename B::Real w = model.inverse_mass(i), c = w > 0 ? model.damping(i) : typename B::Real(0);
@@ -58,7 +58,7 @@ struct GeneralizedAlphaEnd {
 template <class B>
 struct StageAt {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   State<B> base, state;
   Real a, b;
 

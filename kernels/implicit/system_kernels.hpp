@@ -11,7 +11,7 @@ namespace plica {
 template <class B>
 struct SystemProduct {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> p, partial, q;
   Real a, b;
 
@@ -27,7 +27,7 @@ struct SystemProduct {
 template <class B>
 struct DiagonalColumn {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> partial;
   Blocks<B> diagonal;
   Real a, b;
@@ -58,7 +58,7 @@ struct AddBlockProduct {
 template <class B>
 struct InvertBlocks {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Blocks<B> d;
   Real b;
 

@@ -24,7 +24,7 @@ struct ScaleByMass {
 template <class B>
 struct LanczosProduct {
   using Real = typename B::Real;
-  Model<B> model;
+  VertexModel<B> model;
   Vectors<B> partial, v, before, w;
   Real beta;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {

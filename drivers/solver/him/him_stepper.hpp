@@ -35,11 +35,22 @@ class FreeMotion {
     update_vertices<B>(exec, "plica::free_put", model.vertices, PutTranslation<B>{v, total_, sums_});
   }
 
-  /// Takes the rigid part of momenta at a state out of them.
-  void take_rigid(const Exec& exec, const Model<B>& model, const Vectors<B>& u, const Vectors<B>& p) const {
-    reduce<B, 16>(exec, "plica::free_moments", model.vertices, BodyMoments<B>{model.mass, rest_, u, p}, blocks_, sums_,
-                  SetRigidFrame<B>{sums_, frame_});
-    update_vertices<B>(exec, "plica::free_take", model.vertices, TakeRigidMotion<B>{model.mass, rest_, u, p, frame_});
+  /// The rigid part of p - m v at a state.
+  RigidMotion<B> rigid_part(const Exec& exec, const Model<B>& model, const State<B>& state, const Vectors<B>& p) const {
+    reduce<B, 16>(exec, "plica::free_moments", model.vertices, BodyMoments<B>{model.mass, rest_, state.u, p, state.v},
+                  blocks_, sums_, SetRigidFrame<B>{sums_, frame_});
+    return {rest_, state.u, frame_};
+  }
+  /// The kick, and what it leaves but for translation, whose sum is noted.
+  void kick(const Exec& exec, const Model<B>& model, const KickMomentum<B>& kick, const Vectors<B>& rest) const {
+    reduce<B, 4>(exec, "plica::him_momenta", model.vertices, KickAndSum<B>{kick}, blocks_, total_);
+    update_vertices<B>(exec, "plica::free_take", model.vertices, TakeTranslation<B>{model.mass, kick.p, rest, total_});
+  }
+  /// a = (a - v) / t, of a = A p with the translation.
+  void accelerate(const Exec& exec, const Model<B>& model, const Vectors<B>& v, const Vectors<B>& a, double t) const {
+    reduce<B, 4>(exec, "plica::free_total", model.vertices, SumOfMotion<B>{model.mass, a}, blocks_, sums_);
+    update_vertices<B>(exec, "plica::him_acceleration", model.vertices,
+                       AccelerationOfTranslated<B>{{a, total_, sums_}, {v, a, static_cast<typename B::Real>(1 / t)}});
   }
 
  private:
@@ -198,7 +209,7 @@ class HimStepper final : public Stepper<B> {
   int n_ = 0;
   Vectors<B> p_, g_, a_, f_before_, a_before_;
   BlockSums<B> blocks_;
-  Kokkos::View<double*, typename B::Memory> turned_, sums_, watch_;
+  Doubles<B> turned_, sums_, watch_;
   bool first_ = true;
   bool has_momenta_ = true;  // else the next step finds them
   int substeps_ = 1;
@@ -240,9 +251,8 @@ class HimStepper final : public Stepper<B> {
   void push_and_accelerate(const typename B::Exec& exec, const Level<B>& level, double t) const {
     const Vectors<B>& v = level.state.v;
     if (!parts_.free) return parts_.inverse_mass->push_and_accelerate(exec, t, p_, v, a_);
-    parts_.inverse_mass->push(exec, t, p_);
-    answer(exec, level.model, p_, a_);
-    update_vertices<B>(exec, "plica::him_acceleration", n_, MeanAcceleration<B>{v, a_, static_cast<Real>(1 / t)});
+    parts_.inverse_mass->push_and_answer(exec, t, g_, p_, a_);
+    parts_.free->accelerate(exec, level.model, v, a_, t);
   }
 
   /// Momenta as the levels get to see them, in g_ where that differs.
@@ -255,15 +265,20 @@ class HimStepper final : public Stepper<B> {
 
   void kick(const typename B::Exec& exec, const Level<B>& level, double t) {
     parts_.inverse_mass->turn(exec, level.state.u);
+    KickMomentum<B> kick{.model = level.model,
+                         .f = level.f,
+                         .v = level.state.v,
+                         .p = p_,
+                         .rigid = {},
+                         .loss = {turned_, parts_.options.dissipation.value_or(-1)},
+                         .t = static_cast<Real>(t)};
     if (parts_.free) {
-      weigh<B>(exec, "plica::him_slowed", level.model, -1, level.state.v, 1, p_, g_);
-      parts_.free->take_rigid(exec, level.model, level.state.u, g_);
+      kick.rigid = parts_.free->rigid_part(exec, level.model, level.state, p_);
+      parts_.free->kick(exec, level.model, kick, g_);
+    } else {
+      update_vertices<B>(exec, "plica::him_momenta", n_, kick);
     }
-    update_vertices<B>(
-        exec, "plica::him_momenta", n_,
-        KickMomentum<B>{level.model, level.f, level.state.v, parts_.free ? g_ : Vectors<B>{}, p_,
-                        Loss<B>{turned_, parts_.options.dissipation.value_or(-1)}, static_cast<Real>(t)});
-    parts_.inverse_mass->find_push(exec, without_translation(exec, level.model, p_), t);
+    parts_.inverse_mass->find_push(exec, parts_.free ? g_ : p_, t);
   }
 
   /// Contact's forces on the vertices, and A's answer to them.

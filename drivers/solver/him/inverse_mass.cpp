@@ -89,13 +89,6 @@ void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) 
 }
 
 template <class B>
-void InverseMass<B>::push(const Exec& exec, double t, const Vectors<B>& p) const {
-  if (coarser_.empty()) return;
-  update_vertices<B>(exec, "plica::axes_force", groups_of<B>(filter_.vertices), axes_.force_of_torques());
-  update_vertices<B>(exec, "plica::axes_push", vertices_, axes_.push(t, inverse_mass_, p));
-}
-
-template <class B>
 void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
                                          const Vectors<B>& a) const {
   const MeanAcceleration<B> mean{v, a, static_cast<Real>(1 / t)};
@@ -103,14 +96,25 @@ void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vecto
     apply(exec, p, a);
     return update_vertices<B>(exec, "plica::him_acceleration", vertices_, mean);
   }
+  go_up_pushed(exec, t, AccelerationOfPushed<B>{{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a)}, mean});
+}
+
+template <class B>
+void InverseMass<B>::push_and_answer(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& q,
+                                     const Vectors<B>& a) const {
+  go_up_pushed(exec, t, AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p, q), answer_of_finest(p, a)});
+}
+
+template <class B>
+template <class Last>
+void InverseMass<B>::go_up_pushed(const Exec& exec, double t, const Last& last) const {
   update_vertices<B>(exec, "plica::him_coarsest", groups_of<B>(filter_.vertices),
                      ForceAndAnswer<B>{axes_.force_of_torques(), answer_of_coarsest()});
   for (std::size_t i = 0; i + 1 < coarser_.size(); ++i)
     update_vertices<B>(exec, "plica::axes_share", coarser_[i].vertices,
                        AddShareOfAxes<B>{coarser_[i].share, axes_.force(), coarser_[i].force, static_cast<Real>(t)});
   go_up(exec, {});
-  update_vertices<B>(exec, "plica::him_up", vertices_,
-                     AccelerationOfPushed<B>{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a), mean});
+  update_vertices<B>(exec, "plica::him_up", vertices_, last);
 }
 
 template <class B>

@@ -29,11 +29,11 @@ class InverseMass {
   void turn(const Exec& exec, const Vectors<B>& u) const;
   /// Finds the force by which the axes act for a time t on the momenta q, with that force in them.
   void find_push(const Exec& exec, const Vectors<B>& q, double t) const;
-  /// p += t times that force
-  void push(const Exec& exec, double t, const Vectors<B>& p) const;
-  /// The same where p are the momenta q themselves, and a = (A p - v) / t: the way down that the force was found by is not gone again.
+  /// p += t times that force, and a = (A p - v) / t, where p are the momenta that it was found for: the way down is not gone again.
   void push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
                            const Vectors<B>& a) const;
+  /// The same with a = A p; and the force is added to q as well.
+  void push_and_answer(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& q, const Vectors<B>& a) const;
   /// a = A f; vertices whose motion is given get none. With a `count` on the device only where that is above 0.
   void apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count = {}) const;
 
@@ -58,6 +58,9 @@ class InverseMass {
   void go_down_to_axes(const Exec& exec, const Vectors<B>& f, const Doubles<B>& count, const Turn& turn) const;
   /// From the coarsest level's answer, or the lowest that has a weight, to the level below the finest.
   void go_up(const Exec& exec, const Doubles<B>& count) const;
+  /// After find_push(): with the force, up to the finest level, and there `last`.
+  template <class Last>
+  void go_up_pushed(const Exec& exec, double t, const Last& last) const;
   AnswerOfCoarsest<B> answer_of_coarsest() const;
   AnswerOfFinest<B> answer_of_finest(const Vectors<B>& f, const Vectors<B>& a) const;
 };

@@ -53,9 +53,9 @@ class TurningAxes {
                     double t) const;
   /// g of those torques, group by group.
   ForceOfTorques<B> force_of_torques() const { return {axes_}; }
-  /// p += t times that force
-  PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p) const {
-    return {axes_.spread, inverse_mass, axes_.force, p, static_cast<Real>(t)};
+  /// p += t times that force, and q, where it is not empty
+  PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p, const Vectors<B>& q = {}) const {
+    return {axes_.spread, inverse_mass, axes_.force, p, q, static_cast<Real>(t)};
   }
   /// g
   const Vectors<B>& force() const { return axes_.force; }

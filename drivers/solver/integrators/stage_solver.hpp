@@ -40,7 +40,7 @@ class StageSolver {
     if (!iterates()) return;
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
     blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
-    result_ = Kokkos::View<double*, typename B::Memory>("plica::stage.result", 4);
+    result_ = Doubles<B>("plica::stage.result", 4);
   }
 
   /// The base (u~, v~), to be set before solve().
@@ -106,7 +106,7 @@ class StageSolver {
   Scalars<B> carrying_, carried_,
       last_carried_;  ///< with room for the pressures, these, and those before the last solve
   BlockSums<B> blocks_;
-  Kokkos::View<double*, typename B::Memory> result_;
+  Doubles<B> result_;
   long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
   long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;

@@ -32,7 +32,7 @@ struct Direct {
     }
 
     SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
-      exec.fence("plica::direct");
+      fence(exec, "plica::direct");
       const int n = 3 * system_.rows();
       Eigen::VectorXd b(n);
       for (int i = 0; i < n; ++i) b[i] = static_cast<double>(r(i / 3, i % 3));
@@ -72,7 +72,7 @@ struct Direct {
       const Exec& exec = level.exec();
       system_.prepare(level, state, weights, positive);
       const BlockMatrix<B>& A = system_.matrix(exec);
-      exec.fence("plica::direct");
+      fence(exec, "plica::direct");
       if (lower_.rows() == 0) analyse(A);
       double* value = lower_.valuePtr();
       for (const auto& [block, entry] : entries_) *value++ = static_cast<double>(A.value(block, entry));

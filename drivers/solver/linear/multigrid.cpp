@@ -141,7 +141,7 @@ void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   const int n = coarsest_.size;
   update_vertices<F>(exec, "plica::to_dense", n / 3, ToDense<F>{grids_.back().A, coarsest_});
   if constexpr (B::on_host) {
-    exec.fence("plica::to_dense");
+    fence(exec, "plica::to_dense");
     if (invert_on_host(n, coarsest_.matrix.data()))
       return update_vertices<F>(exec, "plica::pack_inverse", n, PackInverse<F>{coarsest_, 1});
     update_vertices<F>(exec, "plica::to_dense", n / 3, ToDense<F>{grids_.back().A, coarsest_});

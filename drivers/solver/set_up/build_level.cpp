@@ -161,7 +161,6 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   Level<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
-  level.model.material = body.material.model;
   add_elements(level, body, placed, c, beside);
 
   std::vector<Real> mass(n), inverse(n);

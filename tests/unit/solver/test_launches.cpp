@@ -71,7 +71,7 @@ std::vector<Method> methods() {
           {"rsv", "symplectic_euler", "linear", 4, Method::falling, 26},
           {"rsv", "symplectic_euler", "linear", 4, Method::touching, 86},
           {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
-          {"him", "symplectic_euler", "linear", 3, Method::falling, 34},
+          {"him", "symplectic_euler", "linear", 3, Method::falling, 28},
           {"him", "symplectic_euler", "linear", 3, Method::hanging, 25},
           {"single", "implicit_euler", "linear", 1, Method::falling, 45, 1}};
 }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "any_order.hpp"
+#include "step_problems.hpp"
+#include "support/simulate.hpp"
+
+// Launches that are gathered (core/launch_queue.hpp). What a queue keeps is replayed with its own arguments: one that changes from step to
+// step and is no Changing would show as other results, or as steps that are launched one by one for ever.
+namespace {
+
+using namespace plica;
+using namespace plica::test;
+
+using Exec = Host::Exec;
+using Queue = LaunchQueue<Exec>;
+
+std::vector<double> numbers_of(const Simulation<Host>& simulation) {
+  std::vector<double> all;
+  for (const auto& field : {simulation.positions(), simulation.velocities()})
+    for (const Point& x : field) all.insert(all.end(), x.begin(), x.end());
+  return all;
+}
+
+bool is_implicit(const Problem& problem) { return problem.integration.integrator[0] == "implicit_euler"; }
+
+class Graphs : public testing::TestWithParam<StepProblem> {};
+
+TEST_P(Graphs, AreWhatEveryStepIs) {
+  constexpr int until_all_was_seen = 12;  // some arrays take turns
+  const Problem problem = GetParam().make();
+  Simulation<Host> gathered(problem), apart(problem);
+  apart.time_stages(true);
+  const auto launched = [&](const char* how) { return gathered.counters().at(how); };
+  advance(gathered, until_all_was_seen), advance(apart, until_all_was_seen);
+  const long alone = launched("launches_alone"), in_graphs = launched("launches_in_graphs");
+  for (int n = 0; n < 5; ++n) {
+    gathered.step(), apart.step();
+    EXPECT_TRUE(same_bits(numbers_of(gathered), numbers_of(apart))) << n;
+  }
+  const long more_alone = launched("launches_alone") - alone,
+             more_in_graphs = launched("launches_in_graphs") - in_graphs;
+  EXPECT_GE(more_in_graphs, 5 * 3);
+  // an implicit step's iterations are as many as it takes, and what is done where they end is seldom the same
+  EXPECT_LE(more_alone, is_implicit(problem) ? more_in_graphs / 10 : 0);
+  EXPECT_EQ(apart.counters().at("launches_in_graphs"), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(LikeDevice, Graphs, testing::ValuesIn(step_problems()),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+// A step of another length, a state from outside, a tool that is told to go elsewhere: none is what came before.
+TEST(Graphs, FollowWhatIsDoneBetweenSteps) {
+  const Problem problem = driven("single", "symplectic_euler");
+  Simulation<Host> gathered(problem), apart(problem);
+  apart.time_stages(true);
+  for (Simulation<Host>* s : {&gathered, &apart}) {
+    advance(*s, 6);
+    s->move_obstacle(1, {0.001, 0, -0.003}, {0, 0, 0.2});
+    advance(*s, 6);
+    s->set_state(std::vector<Point>(s->positions().size(), Point(0, 0, 1e-3)), s->velocities());
+    s->set_time(0.5);
+    advance(*s, 6);
+    s->end_at(s->time() + 2.5 * problem.integration.macro_step.value());
+    advance(*s, 3);
+  }
+  EXPECT_TRUE(same_bits(numbers_of(gathered), numbers_of(apart)));
+  EXPECT_GT(gathered.counters().at("launches_in_graphs"), 100);
+}
+
+struct Put {
+  Changing<Host, double> value;
+  Doubles<Host> to;
+  void operator()(int i) const { to(i) = *value; }
+};
+
+// What the host waits for comes after what was launched before.
+TEST(LaunchQueue, KeepsTheOrder) {
+  const Exec exec;
+  Queue queue(exec);
+  const auto x = zeros<Doubles<Host>>("x", 2), y = zeros<Doubles<Host>>("y", 2);
+  for (int n = 1; n <= 4; ++n) {
+    const Queue::Scope gather(&queue);
+    fill(exec, x, 1.0 * n);
+    copy(exec, y, x);
+    update_vertices<Host>(exec, "put", 1, Put{10.0 * n, x});
+    EXPECT_EQ(x(0), n == 1 ? 0 : -1);
+    EXPECT_EQ(host_values(exec, x), (std::vector<double>{10.0 * n, 1.0 * n}));
+    EXPECT_EQ(y(0), n);
+    update_vertices<Host>(exec, "put", 2, Put{-1, x});
+  }
+  EXPECT_EQ(x(1), -1);
+  EXPECT_EQ(queue.alone(), 4 * 3 + 4);  // another number is set every time, and one launch is no graph
+}
+
+TEST(LaunchQueue, TakesChangingValuesWhereTheyHaveRoom) {
+  const Exec exec;
+  Queue queue(exec);
+  const auto x = zeros<Doubles<Host>>("x", 3000);
+  for (const int values : {5, 3000})
+    for (int n = 1; n <= 3; ++n) {
+      {
+        const Queue::Scope gather(&queue);
+        for (int i = 0; i < values; ++i)
+          update_vertices<Host>(exec, "put", 1, Put{100.0 * n + i, Kokkos::subview(x, std::pair(i, i + 1))});
+      }
+      for (int i = 0; i < values; ++i) ASSERT_EQ(x(i), 100.0 * n + i);
+    }
+  EXPECT_EQ(queue.in_graphs(), 2 * 5);
+  EXPECT_EQ(queue.alone(), 5 + 3 * 3000);
+}
+
+}  // namespace
