@@ -103,12 +103,13 @@ void contact(benchmark::State& state, const std::string& name, Problem (*scene)(
   state.counters["points_per_second"] = points / time;
 }
 
-/// One macro step of the main scene on all four levels, contact included.
+/// One macro step of the main scene on all four levels, contact included; its launches as graphs, where the device has any, or one by one.
 template <class Real>
-void cycle(benchmark::State& state, std::size_t levels) {
+void cycle(benchmark::State& state, std::size_t levels, bool graphs) {
   using B = Backend<Real, Exec>;
   auto& simulation = fixture<Simulation<B>>(std::string("cycle ") + precision_name<Real>() + std::to_string(levels),
                                             [&] { return std::make_shared<Simulation<B>>(ball_problem(levels, 3)); });
+  simulation.use_graphs(graphs);
   double tets = 0;
   for (const LevelReport& level : simulation.levels()) tets += level.tets * level.substeps;
   const double time = measure<Real>(state, Exec(), {}, [&] { simulation.step(); });
@@ -148,8 +149,12 @@ void register_precision() {
   add_contact("bowl", "10242", [] { return ball_problem(1, 5); });
   add_contact("probe", "10242", probe_problem);
   add_contact("bodies", "5764", blocks_problem);
-  add("cycle/single/neo_hookean/" + real + "/29478", cycle<Real>, std::size_t{1});
-  add("cycle/rsv/neo_hookean/" + real + "/29478", cycle<Real>, std::size_t{4});
+  for (const bool graphs : {true, false}) {
+    if (!graphs && !gathers<Exec>) continue;
+    const std::string how = graphs ? "" : "/one_by_one";
+    add("cycle/single/neo_hookean/" + real + "/29478" + how, cycle<Real>, std::size_t{1}, graphs);
+    add("cycle/rsv/neo_hookean/" + real + "/29478" + how, cycle<Real>, std::size_t{4}, graphs);
+  }
   add("set_up/patches/" + real + "/" + medium, set_up_patches<Real>);
   add("set_up/hierarchy_of_4/" + real + "/" + medium, set_up_hierarchy<Real>)->Unit(benchmark::kMillisecond);
 }

@@ -2,19 +2,16 @@
 #include <algorithm>
 #include <cstdlib>
 #include <new>
-#include <optional>
 #include <plica/core/launch_queue.hpp>
-
-#if defined(KOKKOS_ENABLE_CUDA)
-#include <Kokkos_Graph.hpp>
-#endif
+#include <stdexcept>
+#include <string>
 
 namespace plica {
 
 namespace {
 
-constexpr std::size_t room = 2048;   // words for values
-constexpr std::size_t shortest = 3;  // launches that are worth a graph
+constexpr std::size_t room = 2048;  // words for values
+constexpr long shortest = 3;        // launches that are worth a graph
 constexpr std::size_t most_known = 16;
 
 /// Values as arguments: they are on the way when the launch returns, and the host may change its own.
@@ -27,35 +24,53 @@ struct PutWords {
   KOKKOS_INLINE_FUNCTION void operator()(std::size_t i) const { to(first + i) = word[i]; }
 };
 
+using Launches = std::vector<std::unique_ptr<Launch>>;
+
+void go(const Launches& launches) {
+  for (const auto& launch : launches) launch->go();
+}
+
+/// A sequence that is launched as one: as it is, on a CPU, which has no graphs.
 template <class Exec>
-struct Recorded {
-  /// The launches as they are: a CPU has no graphs, but tests of how they are used.
-  template <class Launches>
-  void make(const Exec&, const Launches&) {}
-  template <class Launches>
-  void replay(const Exec&, const Launches& launches) const {
-    for (const auto& launch : launches) launch->go();
-  }
+class Graph {
+ public:
+  Graph(const Exec&, const Launches& launches) : launches_(launches) {}
+  void go() const { plica::go(launches_); }
+
+ private:
+  const Launches& launches_;
 };
 
 #if defined(KOKKOS_ENABLE_CUDA)
-template <>
-struct Recorded<Kokkos::Cuda> {
-  std::optional<Kokkos::Experimental::Graph<Kokkos::Cuda>> graph;
+void expect_cuda(cudaError_t result, const char* what) {
+  if (result == cudaSuccess) return;
+  throw std::runtime_error(std::string("CUDA graphs: ") + what + ": " + cudaGetErrorString(result));
+}
 
-  template <class Launches>
-  void make(const Kokkos::Cuda& exec, const Launches& launches) {
-    graph.emplace(Kokkos::Experimental::get_device_handle(exec));
-    const auto all = [&launches](const Kokkos::Cuda&) {
-      for (const auto& launch : launches) launch->go();
-    };
-    static_cast<void>(graph->root_node().cuda_capture(exec, all));
-    graph->instantiate();
+template <>
+class Graph<Kokkos::Cuda> {
+ public:
+  /// Captured, which launches nothing. Other threads may go on with theirs meanwhile, which Kokkos's own cuda_capture() does not let them.
+  Graph(const Kokkos::Cuda& exec, const Launches& launches) : exec_(exec) {
+    cudaGraph_t captured = nullptr;
+    expect_cuda(cudaStreamBeginCapture(exec.cuda_stream(), cudaStreamCaptureModeThreadLocal), "begin of a capture");
+    plica::go(launches);
+    expect_cuda(cudaStreamEndCapture(exec.cuda_stream(), &captured), "end of a capture");
+    const cudaError_t made = cudaGraphInstantiate(&graph_, captured, 0);
+    cudaGraphDestroy(captured);
+    expect_cuda(made, "instantiation");
   }
-  template <class Launches>
-  void replay(const Kokkos::Cuda& exec, const Launches&) const {
-    graph->submit(exec);
+  ~Graph() {
+    exec_.fence("plica::graph");
+    cudaGraphExecDestroy(graph_);
   }
+  Graph(const Graph&) = delete;
+  Graph& operator=(const Graph&) = delete;
+  void go() const { expect_cuda(cudaGraphLaunch(graph_, exec_.cuda_stream()), "launch"); }
+
+ private:
+  Kokkos::Cuda exec_;
+  cudaGraphExec_t graph_ = nullptr;
 };
 #endif
 
@@ -70,7 +85,7 @@ void Launch::operator delete(void* memory) { std::free(memory); }
 template <class Exec, bool on>
 struct LaunchQueue<Exec, on>::Sequence {
   Launches launches;
-  std::optional<Recorded<Exec>> graph = {};
+  std::unique_ptr<Graph<Exec>> graph = {};
 
   bool is(const Launches& others) const {
     return std::ranges::equal(launches, others, [](const auto& a, const auto& b) { return a->same(*b); });
@@ -106,23 +121,25 @@ void LaunchQueue<Exec, on>::send_values() {
 
 template <class Exec, bool on>
 void LaunchQueue<Exec, on>::launch_all() {
+  send_values();  // also for a launch that is not gathered
   if (waiting_.empty()) return;
-  send_values();
   Launches launches;
   launches.swap(waiting_);
-  const auto known = std::ranges::find_if(known_, [&](const Sequence& s) { return s.is(launches); });
-  if (known == known_.end()) {
-    for (const auto& launch : launches) launch->go();
-    alone_ += static_cast<long>(launches.size());
-    if (launches.size() < shortest) return;
-    if (known_.size() == most_known) known_.pop_back();
-    known_.insert(known_.begin(), Sequence{std::move(launches)});
+  const auto count = static_cast<long>(launches.size());
+  const auto known = std::ranges::find_if(known_, [&](const auto& s) { return s->is(launches); });
+  if (known != known_.end()) {
+    Sequence& sequence = **known;
+    if (!sequence.graph) sequence.graph = std::make_unique<Graph<Exec>>(exec_, sequence.launches);
+    sequence.graph->go();
+    in_graphs_ += count;
+    std::rotate(known_.begin(), known, known + 1);
     return;
   }
-  if (!known->graph) known->graph.emplace().make(exec_, known->launches);
-  known->graph->replay(exec_, known->launches);
-  in_graphs_ += static_cast<long>(launches.size());
-  std::rotate(known_.begin(), known, known + 1);
+  go(launches);
+  alone_ += count;
+  if (count < shortest) return;
+  if (known_.size() == most_known) known_.pop_back();
+  known_.insert(known_.begin(), std::unique_ptr<Sequence>(new Sequence{std::move(launches)}));
 }
 
 #define PLICA_INSTANTIATE(Exec) template class LaunchQueue<Exec>;

@@ -80,10 +80,9 @@ class Gathered final : public Launch {
 /// time is made a graph (on CUDA: captured), which is replayed from then on: one launch in place of many. Any other goes out launch by
 /// launch. So what is computed is the same in any case.
 ///
-///   launch(), launch(), ...        waiting_: kernels with their arguments   values_: what Changing arguments are now
-///              |
-///   launch_all()                   the values go to the device, then:  a new sequence          one by one, and kept in known_
-///                                                                      one that is in known_   its graph
+///   launch(), launch(), ...   waiting_: kernels and their arguments    values_: what Changing ones are now
+///   launch_all()              the values to the device; then, of a sequence that is known_, its graph,
+///                             of a new one each launch, and it is known_
 template <class Exec, bool = gathers<Exec>>
 class LaunchQueue {
  public:
@@ -128,7 +127,7 @@ class LaunchQueue {
   Launches waiting_;
   std::vector<Word> values_;
   Kokkos::View<Word*, typename Exec::memory_space> place_;  // of the values
-  std::vector<Sequence> known_;                             // the last one first
+  std::vector<std::unique_ptr<Sequence>> known_;            // the last one first
   long in_graphs_ = 0, alone_ = 0;
 
   void send_values();

@@ -22,16 +22,16 @@ void update_vertices(const typename B::Exec& exec, const char* label, int n, con
 /// Work that is left out where a count on the device is 0, without the host knowing; an empty count: always done.
 template <class B, class Work>
 struct WhereTouching {
-  Doubles<B> count;
+  const double* count;
   Work work;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    if (count.extent(0) == 0 || count(0) > 0) work(i);
+    if (!count || *count > 0) work(i);
   }
 };
 
 template <class B, class Work>
 void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label, int n, const Work& work) {
-  update_vertices<B>(exec, label, n, WhereTouching<B, Work>{count, work});
+  update_vertices<B>(exec, label, n, WhereTouching<B, Work>{count.data(), work});
 }
 
 // ---- of one vertex, point or block --------------------------------------------------------------------------------------

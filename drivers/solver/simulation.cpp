@@ -130,7 +130,7 @@ void Simulation<B>::Inside::arrive() {
 template <class B>
 void Simulation<B>::Inside::advance(double from, double span) {
   // a profiler sees every kernel by itself, and the clock waits for each stage
-  const bool apart = hierarchy().clock.on || Kokkos::Tools::profileLibraryLoaded();
+  const bool apart = !graphs || hierarchy().clock.on || Kokkos::Tools::profileLibraryLoaded();
   const typename LaunchQueue<Exec>::Scope gather(apart ? nullptr : &queue);
   hierarchy().begin_macro_step();
   hold_as_asked(hierarchy(), from, span);

@@ -27,6 +27,7 @@ struct Simulation<B>::Inside {
   Problem problem;  // without meshes: those in use are in `built`
   BuiltHierarchy<B> built;
   LaunchQueue<Exec> queue;
+  bool graphs = true;  // of launches that come again
   EnergyMeter<B> meter;
   std::vector<Vectors<B>> rest;  // of each level's vertices, where somebody has asked for positions
 

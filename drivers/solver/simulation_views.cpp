@@ -159,6 +159,11 @@ void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
 }
 
 template <class B>
+void Simulation<B>::use_graphs(bool on) {
+  inside_->graphs = on;
+}
+
+template <class B>
 void Simulation<B>::share_cores() {
   if (!inside_->cores) inside_->cores.emplace(inside_->hierarchy().exec());
 }

@@ -205,6 +205,15 @@ RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
   return some;
 }
 
+/// The first of these points, `count` of them free, ascending: neighbours beside each other, as in the mesh.
+std::vector<int> first_free(const std::vector<int>& order, int count, const std::vector<char>& constrained) {
+  std::vector<int> points;
+  for (auto point = order.begin(); count > 0 && point != order.end(); ++point)
+    points.push_back(*point), count -= !constrained[index_of(*point)];
+  std::ranges::sort(points);
+  return points;
+}
+
 }  // namespace
 
 std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
@@ -239,16 +248,19 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
       rows = slivers->points;
       spaces.push_back(std::move(*slivers));
     }
-  for (const int size : options.sizes) {
-    std::vector<int> points;
-    int free = 0;
-    for (auto point = order.begin(); free < size && point != order.end(); ++point)
-      points.push_back(*point), free += !constrained[index_of(*point)];
-    std::ranges::sort(points);  // neighbours beside each other, as in the mesh
-    const double spacing = mean_spacing(graph, points);
-    const RowMatrix P = moving_least_squares(mesh, graph, rows, points, spacing, options.reach);
-    spaces.push_back({without_constrained(P, constrained, points), points, spacing});
-    rows = points;
+  const std::size_t count = options.sizes.size();
+  std::vector<std::vector<int>> points(count);
+  std::vector<double> spacing(count);
+  for_row_ranges(count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      points[i] = first_free(order, options.sizes[i], constrained);
+      spacing[i] = mean_spacing(graph, points[i]);
+    }
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    const RowMatrix P = moving_least_squares(mesh, graph, rows, points[i], spacing[i], options.reach);
+    spaces.push_back({without_constrained(P, constrained, points[i]), points[i], spacing[i]});
+    rows = points[i];
   }
   drop_constrained_rows(spaces.front().up, constrained);  // they have no part in any
   return spaces;
