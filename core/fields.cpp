@@ -65,7 +65,9 @@ struct Set {
     using Memory = typename Exec::memory_space;
     Kokkos::deep_copy(exec, Kokkos::View<Number*, Kokkos::LayoutRight, Memory, Unmanaged>(x, count), value);
   }
-  bool operator==(const Set& other) const { return x == other.x && count == other.count && value == other.value; }
+  bool operator==(const Set& other) const {
+    return x == other.x && count == other.count && std::memcmp(&value, &other.value, sizeof value) == 0;
+  }
 };
 
 /// One of these among the launches.

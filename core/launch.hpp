@@ -16,7 +16,7 @@ bool takes_pooled_memory(const Policy& policy) {
     return false;
 }
 
-/// Kokkos::parallel_for, now or when the queue is emptied. The kernel has no member that the caller's stack holds.
+/// Kokkos::parallel_for, at once or when the queue is emptied. What the kernel points to lives until then.
 template <class Policy, class Work>
 void launch(const char* label, const Policy& policy, const Work& work) {
   using Exec = typename Policy::execution_space;
@@ -29,7 +29,7 @@ void launch(const char* label, const Policy& policy, const Work& work) {
   Kokkos::parallel_for(label, policy, work);
 }
 
-/// What is not gathered comes after what is: before the host waits for a space, or launches there by itself.
+/// Sends out what waits: before the host waits for a space, or launches there without launch().
 template <class Exec>
 void launch_gathered() {
   if constexpr (gathers<Exec>)
@@ -44,7 +44,8 @@ void fence(const Exec& exec, const char* label) {
 }
 
 /// An argument of a kernel that may be another in the next step: a place, a time, a factor. In gathered launches it lies in device memory,
-/// so that the launch stays the same.
+/// so that the launch stays the same. It is made for one launch, which comes at once: when the queue is emptied, its place is used again.
+/// Within a step only kernels read it.
 template <class B, class T, bool = gathers<typename B::Exec>>
 class Changing {
  public:
@@ -66,18 +67,19 @@ class Changing<B, T, true> {
  public:
   Changing() {
     const T value{};
-    std::memcpy(word_, &value, sizeof value);
+    std::memcpy(bytes_, &value, sizeof value);
   }
   Changing(const T& value) {  // NOLINT(google-explicit-constructor): as if it were the value
     if (auto* const queue = Queue::now()) place_ = static_cast<const T*>(queue->put(&value, sizeof value));
-    if (!place_) std::memcpy(word_, &value, sizeof value);
+    if (!place_) std::memcpy(bytes_, &value, sizeof value);
   }
-  KOKKOS_INLINE_FUNCTION const T& operator*() const { return place_ ? *place_ : *reinterpret_cast<const T*>(word_); }
+  KOKKOS_INLINE_FUNCTION const T& operator*() const { return place_ ? *place_ : *reinterpret_cast<const T*>(bytes_); }
   KOKKOS_INLINE_FUNCTION const T* operator->() const { return &**this; }
 
  private:
   const T* place_ = nullptr;
-  Word word_[(sizeof(T) + sizeof(Word) - 1) / sizeof(Word)] = {};  // the value where it has no place; whole words
+  // the value where it has no place, in whole words
+  alignas(Word) unsigned char bytes_[(sizeof(T) + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word)] = {};
 };
 
 }  // namespace plica

@@ -34,7 +34,10 @@ void go(const Launches& launches) {
 template <class Exec>
 class Graph {
  public:
-  Graph(const Exec&, const Launches& launches) : launches_(launches) {}
+  explicit Graph(const Launches& launches) : launches_(launches) {}
+  static std::unique_ptr<Graph> capture(const Exec&, const Launches& launches) {
+    return std::make_unique<Graph>(launches);
+  }
   void go() const { plica::go(launches_); }
 
  private:
@@ -42,23 +45,25 @@ class Graph {
 };
 
 #if defined(KOKKOS_ENABLE_CUDA)
-void expect_cuda(cudaError_t result, const char* what) {
-  if (result == cudaSuccess) return;
-  throw std::runtime_error(std::string("CUDA graphs: ") + what + ": " + cudaGetErrorString(result));
-}
-
 template <>
 class Graph<Kokkos::Cuda> {
  public:
-  /// Captured, which launches nothing. Other threads may go on with theirs meanwhile, which Kokkos's own cuda_capture() does not let them.
-  Graph(const Kokkos::Cuda& exec, const Launches& launches) : exec_(exec) {
+  /// Captures launches, which does not run them; none where CUDA refuses, as in a stream that the caller captures. Only this thread is held to
+  /// what a capture allows; Kokkos's own cuda_capture() holds all threads to it.
+  static std::unique_ptr<Graph> capture(const Kokkos::Cuda& exec, const Launches& launches) {
+    if (cudaStreamBeginCapture(exec.cuda_stream(), cudaStreamCaptureModeThreadLocal) != cudaSuccess) return refused();
+    bool sound = true;
+    try {
+      plica::go(launches);
+    } catch (const std::exception&) {
+      sound = false;
+    }
     cudaGraph_t captured = nullptr;
-    expect_cuda(cudaStreamBeginCapture(exec.cuda_stream(), cudaStreamCaptureModeThreadLocal), "begin of a capture");
-    plica::go(launches);
-    expect_cuda(cudaStreamEndCapture(exec.cuda_stream(), &captured), "end of a capture");
-    const cudaError_t made = cudaGraphInstantiate(&graph_, captured, 0);
-    cudaGraphDestroy(captured);
-    expect_cuda(made, "instantiation");
+    sound = cudaStreamEndCapture(exec.cuda_stream(), &captured) == cudaSuccess && sound;
+    cudaGraphExec_t graph = nullptr;
+    sound = sound && cudaGraphInstantiate(&graph, captured, 0) == cudaSuccess;
+    if (captured) cudaGraphDestroy(captured);
+    return sound ? std::unique_ptr<Graph>(new Graph(exec, graph)) : refused();
   }
   ~Graph() {
     exec_.fence("plica::graph");
@@ -66,11 +71,20 @@ class Graph<Kokkos::Cuda> {
   }
   Graph(const Graph&) = delete;
   Graph& operator=(const Graph&) = delete;
-  void go() const { expect_cuda(cudaGraphLaunch(graph_, exec_.cuda_stream()), "launch"); }
+  void go() const {
+    if (const cudaError_t result = cudaGraphLaunch(graph_, exec_.cuda_stream()); result != cudaSuccess)
+      throw std::runtime_error(std::string("launch of a CUDA graph: ") + cudaGetErrorString(result));
+  }
 
  private:
   Kokkos::Cuda exec_;
-  cudaGraphExec_t graph_ = nullptr;
+  cudaGraphExec_t graph_;
+
+  Graph(const Kokkos::Cuda& exec, cudaGraphExec_t graph) : exec_(exec), graph_(graph) {}
+  static std::unique_ptr<Graph> refused() {
+    static_cast<void>(cudaGetLastError());  // or a later call reports it
+    return {};
+  }
 };
 #endif
 
@@ -86,6 +100,7 @@ template <class Exec, bool on>
 struct LaunchQueue<Exec, on>::Sequence {
   Launches launches;
   std::unique_ptr<Graph<Exec>> graph = {};
+  bool refused = false;  // it cannot be a graph
 
   bool is(const Launches& others) const {
     return std::ranges::equal(launches, others, [](const auto& a, const auto& b) { return a->same(*b); });
@@ -96,6 +111,12 @@ template <class Exec, bool on>
 LaunchQueue<Exec, on>::LaunchQueue(const Exec& exec) : exec_(exec), place_("plica::changing_values", room) {}
 template <class Exec, bool on>
 LaunchQueue<Exec, on>::~LaunchQueue() = default;
+
+template <class Exec, bool on>
+void LaunchQueue<Exec, on>::add(std::unique_ptr<Launch> launch) {
+  waiting_.push_back(std::move(launch));
+  if (values_.size() > room / 2) launch_all();
+}
 
 template <class Exec, bool on>
 const void* LaunchQueue<Exec, on>::put(const void* value, std::size_t bytes) {
@@ -129,9 +150,14 @@ void LaunchQueue<Exec, on>::launch_all() {
   const auto known = std::ranges::find_if(known_, [&](const auto& s) { return s->is(launches); });
   if (known != known_.end()) {
     Sequence& sequence = **known;
-    if (!sequence.graph) sequence.graph = std::make_unique<Graph<Exec>>(exec_, sequence.launches);
-    sequence.graph->go();
-    in_graphs_ += count;
+    if (!sequence.graph && !sequence.refused) {
+      sequence.graph = Graph<Exec>::capture(exec_, sequence.launches);
+      sequence.refused = !sequence.graph;
+    }
+    if (sequence.graph)
+      sequence.graph->go(), in_graphs_ += count;
+    else
+      go(launches), alone_ += count;
     std::rotate(known_.begin(), known, known + 1);
     return;
   }

@@ -43,7 +43,8 @@ class Launch {
 template <class Policy, class Work>
 class Gathered final : public Launch {
  public:
-  static_assert(sizeof(Work) < 3500, "more arguments than go along with a launch on CUDA");
+  static_assert(sizeof(Work) < 3500, "arguments are copied and compared in every step: take those that are read");
+  static_assert(alignof(Work) <= alignof(std::max_align_t));
 
   Gathered(const char* label, const Policy& policy, const Work& work) : label_(label), policy_(policy), work_(work) {
     if constexpr (std::is_trivially_copyable_v<Work>) clear_padding();  // or it is the caller's
@@ -76,7 +77,7 @@ class Gathered final : public Launch {
   }
 };
 
-/// Launches of one simulation, from the begin of a step to its end or to where the host waits in it. A sequence that comes for the second
+/// Launches of one simulation, from the start of a step to its end or to where the host waits in it. A sequence that comes for the second
 /// time is made a graph (on CUDA: captured), which is replayed from then on: one launch in place of many. Any other goes out launch by
 /// launch. So what is computed is the same in any case.
 ///
@@ -93,12 +94,16 @@ class LaunchQueue {
   LaunchQueue(const LaunchQueue&) = delete;
   LaunchQueue& operator=(const LaunchQueue&) = delete;
 
-  /// While it lives, launches of this thread are gathered; at its end they go out.
+  /// While it lives, launches of this thread are gathered.
   class Scope {
    public:
     explicit Scope(LaunchQueue* queue) : before_(now_) { now_ = queue; }  ///< none: they go out at once
+    /// Sends out what an exception left. Else launch_all() comes before it, since that may throw.
     ~Scope() {
-      if (now_) now_->launch_all();
+      try {
+        if (now_) now_->launch_all();
+      } catch (...) {  // the first exception says what is wrong
+      }
       now_ = before_;
     }
     Scope(const Scope&) = delete;
@@ -110,9 +115,11 @@ class LaunchQueue {
   /// The one that gathers; none: nothing does.
   static LaunchQueue* now() { return now_; }
 
-  void add(std::unique_ptr<Launch> launch) { waiting_.push_back(std::move(launch)); }
+  /// Where values then take up much of their room, all that waits goes out.
+  void add(std::unique_ptr<Launch> launch);
   /// Where a value will lie on the device when the launches go out; none where there is no room.
   const void* put(const void* value, std::size_t bytes);
+  /// Sends out what waits. Throws what the launches throw.
   void launch_all();
 
   long in_graphs() const { return in_graphs_; }  ///< launches so far that went out in a graph

@@ -25,7 +25,7 @@ struct VertexModel {
   VertexShares<B> shares;  ///< in which the elements' forces are left, linear or nodal
 };
 
-/// What stays constant on one level. Kernels take the parts that they read: the whole is too long for an argument.
+/// What stays constant on one level. Kernels take the parts that they read: the whole is long to copy.
 template <class B>
 struct Model : VertexModel<B> {
   int vertices = 0;

@@ -40,9 +40,9 @@ struct FluidPressure {
   Doubles<B> volume;
   Changing<B, double> goal;  ///< [m^3]
   double stiffness;          ///< [Pa/m^3]
-  KOKKOS_INLINE_FUNCTION double at(double now) const { return stiffness * (*goal - now); }
-  KOKKOS_INLINE_FUNCTION typename B::Real operator()() const { return static_cast<typename B::Real>(at(volume(0))); }
-  double energy(double now) const { return (*goal - now) * at(now) / 2; }  ///< [J]
+  KOKKOS_INLINE_FUNCTION typename B::Real operator()() const {
+    return static_cast<typename B::Real>(stiffness * (*goal - volume(0)));
+  }
 };
 
 /// Adds a pressure p on triangles as they are now: each puts -p A n / 3 at its corners.

@@ -136,6 +136,7 @@ void Simulation<B>::Inside::advance(double from, double span) {
   hold_as_asked(hierarchy(), from, span);
   built.stepper->step(hierarchy(), from, span);
   move_obstacles(hierarchy(), wrench, from + span, span);
+  launch_gathered<Exec>();
   for (const auto& level : hierarchy().levels) residual = std::max(residual, level.integrator->residual());
   worst_residual = std::max(worst_residual, residual);
 }

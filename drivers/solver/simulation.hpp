@@ -270,8 +270,8 @@ class Simulation {
   /// who waits (Linux does). Steps are to be called one after the other: their wall times are compared.
   void share_cores();
 
-  /// From now on launches of a step that come again as they were go out as one graph, or each by itself. On CUDA only, where they do unless
-  /// this says no; elsewhere there are none. Results are the same.
+  /// Whether launches that come again from step to step go out as CUDA graphs, as they do by default, or one by one. Results are the same. No
+  /// effect on other back ends.
   void use_graphs(bool on);
 
   /// From now on measure the wall time of each stage (this waits between stages).

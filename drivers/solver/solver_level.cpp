@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
@@ -110,7 +111,7 @@ double SolverLevel<B>::follower_energy(double time) const {
     if (!load.cavity)
       sum -= pressure * volume;
     else
-      sum += last_pressure(load, time).energy(volume);
+      sum += load.cavity->stiffness() / 2 * std::pow(volume_given(load, time) - volume, 2);
   }
   return sum;
 }
@@ -128,8 +129,12 @@ double SolverLevel<B>::enclosed_volume(const FollowerLoad<B>& load) const {
 
 template <class B>
 FluidPressure<B> SolverLevel<B>::last_pressure(const FollowerLoad<B>& load, double time) const {
-  const Cavity& cavity = *load.cavity;
-  return {load.volume, cavity.goal(load_factor(load.course, time)) - cavity.caps, cavity.stiffness()};
+  return {load.volume, volume_given(load, time), load.cavity->stiffness()};
+}
+
+template <class B>
+double SolverLevel<B>::volume_given(const FollowerLoad<B>& load, double time) const {
+  return load.cavity->goal(load_factor(load.course, time)) - load.cavity->caps;
 }
 
 template <class B>
@@ -137,8 +142,8 @@ std::vector<CavityState> SolverLevel<B>::cavities(double time) const {
   std::vector<CavityState> all;
   for (const FollowerLoad<B>& load : this->followers) {
     if (!load.cavity) continue;
-    const double volume = enclosed_volume(load);
-    all.push_back({load.cavity->load, volume + load.cavity->caps, last_pressure(load, time).at(volume)});
+    const double volume = enclosed_volume(load), lacking = volume_given(load, time) - volume;
+    all.push_back({load.cavity->load, volume + load.cavity->caps, load.cavity->stiffness() * lacking});
   }
   return all;
 }

@@ -150,6 +150,8 @@ class SolverLevel : public Level<B> {
   double enclosed_volume(const FollowerLoad<B>& load) const;  ///< at its state, up to a constant [m^3]
   /// Of the volume that was last measured.
   FluidPressure<B> last_pressure(const FollowerLoad<B>& load, double time) const;
+  /// Of a cavity, up to its caps [m^3].
+  double volume_given(const FollowerLoad<B>& load, double time) const;
 };
 
 }  // namespace plica

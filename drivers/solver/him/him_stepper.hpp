@@ -82,7 +82,6 @@ void momentum_of(const typename B::Exec& exec, const Model<B>& model,
   const double whole = read(StartResidual<B>{model, v, As, r});  // As is still 0
   A(p, As);
   double square = read(StartResidual<B>{model, v, As, r});
-  fill(exec, s, 0);
   double beta = 0;
   const double enough = tolerance * tolerance * whole;
   for (int i = 0; i < most_iterations && square > enough; ++i) {

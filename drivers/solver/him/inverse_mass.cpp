@@ -102,6 +102,7 @@ void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vecto
 template <class B>
 void InverseMass<B>::push_and_answer(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& q,
                                      const Vectors<B>& a) const {
+  if (coarser_.empty()) return apply(exec, p, a);
   go_up_pushed(exec, t, AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p, q), answer_of_finest(p, a)});
 }
 

@@ -29,7 +29,7 @@ class InverseMass {
   void turn(const Exec& exec, const Vectors<B>& u) const;
   /// Finds the force by which the axes act for a time t on the momenta q, with that force in them.
   void find_push(const Exec& exec, const Vectors<B>& q, double t) const;
-  /// p += t times that force, and a = (A p - v) / t, where p are the momenta that it was found for: the way down is not gone again.
+  /// p += t times that force, and a = (A p - v) / t, where p are the momenta that it was found for: what came down to the levels is used again.
   void push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
                            const Vectors<B>& a) const;
   /// The same with a = A p; and the force is added to q as well.
