@@ -27,12 +27,12 @@ Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& pla
   std::vector<PathKnot> knots;
   const Path path = make_path(options.motion, knots);
   ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement, .speed = {}, .time = 0, .turn = {}};
-  if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
-  ObstaclePlace<Backend<double, Kokkos::DefaultHostExecutionSpace>> start;
-  start.pose = pose;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     if constexpr (requires { shape.template shape<double>(its); }) {
       const auto gap = shape.template shape<double>(its);
+      if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
+      ObstaclePlace<Backend<double, Kokkos::DefaultHostExecutionSpace>> start;
+      start.pose = pose;
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double depth = -gap(start.local(vec3<double>(places[i]))).distance;
         if (depth > 0) ++found.inside;
