@@ -72,4 +72,16 @@ RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vec
   return {solver.eigenvalues()(last), next * std::abs(solver.eigenvectors()(last, last))};
 }
 
+bool LargestRitz::add(double diagonal, double next) {
+  if (!diagonal_.empty()) beside_.push_back(next_);
+  diagonal_.push_back(diagonal), next_ = next;
+  const bool last = !(next > 1e-12 * std::abs(diagonal));
+  const std::size_t steps = diagonal_.size();
+  if (!last && steps < look_at_) return false;
+  look_at_ = steps + 1 + steps / 16;
+  const RitzBound top = largest_ritz_bound(diagonal_, beside_, next);
+  bound_ = top.value + top.residual;
+  return last || top.residual < tolerance_ * top.value;
+}
+
 }  // namespace plica::dense

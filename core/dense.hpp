@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <vector>
 
 // Dense algebra on the host with the processor's vector instructions, for what is factorised while a simulation runs. Matrices
@@ -32,5 +33,23 @@ struct RitzBound {
 /// @param beside    one less
 /// @param next      what would stand beside the next one
 RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside, double next);
+
+/// The same for an iteration that goes on until it knows enough.
+class LargestRitz {
+ public:
+  /// @param tolerance  of the residual, as a part of the value
+  explicit LargestRitz(double tolerance) : tolerance_(tolerance) {}
+
+  /// The next step's entry on the diagonal and the one beside it. True where that is enough, or nothing can follow.
+  bool add(double diagonal, double next);
+
+  /// The eigenvalue with its residual: on the sure side.
+  double bound() const { return bound_; }
+
+ private:
+  double tolerance_, bound_ = 0, next_ = 0;
+  std::vector<double> diagonal_, beside_;
+  std::size_t look_at_ = 5;  // entries, then at each; less often the more there are
+};
 
 }  // namespace plica::dense

@@ -18,6 +18,7 @@ struct StepperSetup {
   const std::vector<LevelConstants>& constants;     ///< of these meshes
   const std::vector<Embedding>& up;                 ///< [i]: level i-1's vertices in level i
   std::shared_ptr<const Elasticity<B>> elasticity;  ///< of the finest level
+  double eigenvalue;                                ///< largest_eigenvalue() of the finest level at rest [1/s^2]
   std::shared_ptr<const Contact<B>> contact;        ///< none without obstacles
   std::vector<LevelReport>& reports;                ///< of all levels in use; completed by the plan
   double macro_step = 0;                            ///< [s], by the plan

@@ -5,18 +5,6 @@
 // Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m; residuals r in r.m r.
 namespace plica {
 
-/// y = K x from the elements' copies of -K x; none where the motion is given.
-template <class B>
-struct GatherStiffness {
-  VertexModel<B> model;
-  Vectors<B> partial, y;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    using Real = typename B::Real;
-    const bool moves = model.inverse_mass(a) > 0;
-    set_vector<B>(y, a, moves ? Real(-1) * sum_of_shares<B>(model.shares, partial, a) : Vec3<Real>{});
-  }
-};
-
 /// r = v - answer
 template <class B>
 struct StartResidual {

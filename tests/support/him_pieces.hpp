@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/him/him_stepper.hpp>
+#include <plica/drivers/solver/largest_eigenvalue.hpp>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/drivers/solver/spaces/coarse_stiffness.hpp>
 #include <plica/drivers/study/level_probe.hpp>
@@ -66,9 +67,11 @@ struct Pieces {
         std::make_unique<InverseMass<Host>>(level, spaces,
                                             made ? axes_of_space(levels.front(), whole, probe.mass())
                                                  : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
+    const std::shared_ptr<const Elasticity<Host>> elasticity = make_elasticity<Host>(problem.body.material.model);
+    const Vectors<Host> rest("rest", levels[0].vertices.size());
     fitter = std::make_unique<InertiaFitter<Host>>(
-        typename Host::Exec{}, level, make_elasticity<Host>(problem.body.material.model), *inverse_mass,
-        CoarseModes(coarse_stiffness(levels[0], constants, whole), spaces.back().mass));
+        typename Host::Exec{}, level, elasticity, largest_eigenvalue<Host>({}, {level, *elasticity, rest}),
+        *inverse_mass, CoarseModes(coarse_stiffness(levels[0], constants, whole), spaces.back().mass));
   }
 
   Eigen::MatrixXd matrix() {

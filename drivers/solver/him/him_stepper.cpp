@@ -72,8 +72,8 @@ HimParts<B> him_parts(StepperSetup<B>& setup) {
                              : axes_of_space(meshes.front(), whole, constants.mass);
   }
   parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
-  parts.fitter =
-      std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, *parts.inverse_mass, std::move(modes));
+  parts.fitter = std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, setup.eigenvalue,
+                                                    *parts.inverse_mass, std::move(modes));
   if (setup.contact) {
     const auto n = static_cast<std::size_t>(finest.model.vertices);
     parts.contact_force = zeros<Vectors<B>>("plica::him.contact_force", n);

@@ -2,85 +2,14 @@
 #include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
 #include <cmath>
-#include <plica/core/dense.hpp>
 #include <plica/drivers/solver/him/inertia.hpp>
-#include <plica/kernels/him/momentum_of.hpp>
-#include <plica/kernels/vectors.hpp>
+#include <plica/drivers/solver/largest_eigenvalue.hpp>
 
 namespace plica {
 
 namespace {
 
-template <class B>
-class ProductLanczos {
-  using Real = typename B::Real;
-
- public:
-  ProductLanczos(const typename B::Exec& exec, const Level<B>& level, const VectorMap<B>& A, const VectorMap<B>& K)
-      : exec_(exec), level_(level), A_(A), K_(K), n_(level.model.vertices), blocks_(n_) {}
-
-  double largest(double tolerance) {
-    fill_from_hash<B>(exec_, "plica::him_lanczos", level_.model.inverse_mass, v_, blocks_, result_);
-    double beta = normalise(), value = 0;
-    if (!(beta > 0)) return 0;
-    std::vector<double> alphas, betas;
-    for (int step = 1; step <= 200; ++step) {
-      A_(kv_, w_);
-      const double alpha = product(w_, kv_);
-      add<B>(exec_, "plica::him_lanczos", static_cast<Real>(-alpha), v_, w_);
-      if (!alphas.empty()) add<B>(exec_, "plica::him_lanczos", static_cast<Real>(-beta), before_, w_);
-      alphas.push_back(alpha);
-      std::swap(before_, v_), std::swap(v_, w_);
-      beta = normalise();
-      const bool last = !(beta > 1e-12 * std::abs(alpha));
-      if (step % 5 == 0 || last) {
-        const dense::RitzBound top = dense::largest_ritz_bound(alphas, betas, beta);
-        value = top.value;
-        if (top.residual < tolerance * value || last) return value + top.residual;
-      }
-      betas.push_back(beta);
-    }
-    return value * (1 + tolerance);
-  }
-
- private:
-  const typename B::Exec& exec_;
-  const Level<B>& level_;
-  const VectorMap<B>&A_, &K_;
-  int n_;
-  BlockSums<B> blocks_;
-  Vectors<B> v_ = zeros<Vectors<B>>("plica::him_lanczos.v", static_cast<std::size_t>(n_)),
-             w_ = zeros<Vectors<B>>("plica::him_lanczos.w", v_.extent(0)),
-             before_ = zeros<Vectors<B>>("plica::him_lanczos.before", v_.extent(0)),
-             kv_ = zeros<Vectors<B>>("plica::him_lanczos.Kv", v_.extent(0));
-  Doubles<B> result_ = zeros<Doubles<B>>("plica::him_lanczos.result", 1);
-
-  /// Kv, and v to length 1 in its product; its length before.
-  double normalise() {
-    K_(v_, kv_);
-    const double size = std::sqrt(std::max(0.0, product(v_, kv_)));
-    if (size > 0)
-      for (const Vectors<B>& x : {v_, kv_}) scale<B>(exec_, "plica::him_lanczos", static_cast<Real>(1 / size), x);
-    return size;
-  }
-
-  double product(const Vectors<B>& x, const Vectors<B>& y) {
-    dot<B>(exec_, "plica::him_lanczos", x, y, blocks_, result_);
-    return host_values(exec_, result_)[0];
-  }
-};
-
-}  // namespace
-
-template <class B>
-double largest_of_product(const typename B::Exec& exec, const Level<B>& level, const VectorMap<B>& A,
-                          const VectorMap<B>& K, double tolerance) {
-  return ProductLanczos<B>(exec, level, A, K).largest(tolerance);
-}
-
-namespace {
-
-constexpr double least_scale = 1e-4, finest_tolerance = 1e-3, parts_tolerance = 1e-2, fit_tolerance = 1e-2;
+constexpr double rounding = 1e-12, least_scale = 1e-4, parts_tolerance = 1e-2, fit_tolerance = 1e-2;
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
 constexpr int scales = 1 << halvings, most_guesses = 5;
 
@@ -119,8 +48,8 @@ std::vector<double> weights_of(const std::vector<double>& alpha) {
 
 template <class B>
 InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level,
-                                std::shared_ptr<const Elasticity<B>> elasticity, InverseMass<B>& inverse_mass,
-                                std::optional<CoarseModes> modes)
+                                std::shared_ptr<const Elasticity<B>> elasticity, double eigenvalue,
+                                InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes)
     : exec_(exec),
       level_(level),
       elasticity_(std::move(elasticity)),
@@ -131,23 +60,19 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
   const Vectors<B> rest = zeros<Vectors<B>>("plica::him.rest", static_cast<std::size_t>(level.model.vertices));
   const auto n = modes_ ? static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices) : 0;
   inverse_mass_.set_answer(Eigen::MatrixXd::Zero(n, n));
-  for (std::size_t i = 0; i + 1 < std::max<std::size_t>(levels, 2); ++i) {
+  critical_.push_back(2 / std::sqrt(eigenvalue));
+  for (std::size_t i = 1; i + 1 < levels; ++i) {
     std::vector<double> alone(levels, 0.0);
     alone[i] = 1;
     inverse_mass_.set_weights(alone);
-    critical_.push_back(2 / std::sqrt(largest(rest, i == 0 ? finest_tolerance : parts_tolerance)));
+    critical_.push_back(2 / std::sqrt(largest(rest, parts_tolerance)));
   }
 }
 
 template <class B>
 double InertiaFitter<B>::largest(const Vectors<B>& u, double tolerance) const {
   const VectorMap<B> A = [this](const Vectors<B>& x, const Vectors<B>& y) { inverse_mass_.apply(exec_, x, y); };
-  const VectorMap<B> K = [&](const Vectors<B>& x, const Vectors<B>& y) {
-    elasticity_->tangent(exec_, level_, u, x, 0);
-    update_vertices<B>(exec_, "plica::him_stiffness", level_.model.vertices,
-                       GatherStiffness<B>{level_.model, level_.partial, y});
-  };
-  return largest_of_product<B>(exec_, level_, A, K, tolerance);
+  return largest_eigenvalue<B>(exec_, A, {level_, *elasticity_, u}, tolerance);
 }
 
 template <class B>
@@ -155,7 +80,9 @@ std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
   std::vector<double> alpha;
   double before = 0;
   for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(inverse_mass_.levels()); ++i) {
-    before = std::max(before, std::min(1.0, scale * std::pow(critical_[i] / t, 2)));
+    const double own = scale * std::pow(critical_[i] / t, 2);
+    before =
+        std::max(before, own < 1 - rounding ? own : 1.0);  // at 1 the coarser levels have no weight and are left out
     alpha.push_back(before);
   }
   alpha.push_back(1);
@@ -227,11 +154,7 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
   return found(below.scale);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                     \
-  template class InertiaFitter<Backend<Real, Exec>>;                                                      \
-  template double largest_of_product<Backend<Real, Exec>>(const Exec&, const Level<Backend<Real, Exec>>&, \
-                                                          const VectorMap<Backend<Real, Exec>>&,          \
-                                                          const VectorMap<Backend<Real, Exec>>&, double);
+#define PLICA_INSTANTIATE(Real, Exec) template class InertiaFitter<Backend<Real, Exec>>;
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

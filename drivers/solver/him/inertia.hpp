@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <functional>
 #include <memory>
 #include <optional>
 #include <plica/core/level.hpp>
@@ -9,17 +8,6 @@
 #include <vector>
 
 namespace plica {
-
-/// y = an operator's product with x.
-template <class B>
-using VectorMap = std::function<void(const Vectors<B>& x, const Vectors<B>& y)>;
-
-/// The largest eigenvalue of A K for a symmetric positive definite A and a positive semi-definite K, by the Lanczos iteration in
-/// the inner product of K (Parlett, The Symmetric Eigenvalue Problem, 15.4) to a relative residual of `tolerance`, which is
-/// added. Waits.
-template <class B>
-double largest_of_product(const typename B::Exec& exec, const Level<B>& level, const VectorMap<B>& A,
-                          const VectorMap<B>& K, double tolerance);
 
 /// How a hierarchical inverse mass was fitted to a step.
 struct InertiaFit {
@@ -34,8 +22,9 @@ struct InertiaFit {
 template <class B>
 class InertiaFitter {
  public:
+  /// @param eigenvalue  of the level by itself at rest, see largest_eigenvalue() [1/s^2]
   InertiaFitter(const typename B::Exec& exec, const Level<B>& level, std::shared_ptr<const Elasticity<B>> elasticity,
-                InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
+                double eigenvalue, InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
 
   /// Sets weights and answer so that t^2 lambda_max(A K) = 4 sigma^2 at the state u, axes turned as they are, with gamma at most 1;
   /// nothing fits: none, and the weights are of no use.

@@ -63,6 +63,16 @@ double CoarseModes::largest(double t, double kappa) const {
 
 namespace {
 
+/// Calls work(row) for a matrix's rows by all threads of the host.
+template <class Work>
+void for_rows(const RowMatrix& A, const Work& work) {
+  for_row_ranges(static_cast<std::size_t>(A.rows()), [&](std::size_t first, std::size_t last) {
+    for (std::size_t a = first; a < last; ++a) work(static_cast<Eigen::Index>(a));
+  });
+}
+
+bool is_not_zero(Eigen::Index, int, double value) { return value != 0; }
+
 std::vector<double> inverse_row_sums(const RowMatrix& M) {
   std::vector<double> inverse(static_cast<std::size_t>(M.rows()), 0.0);
   for (Eigen::Index a = 0; a < M.rows(); ++a) {
@@ -79,7 +89,7 @@ RowMatrix main_entries(RowMatrix M, const std::vector<double>& inverse_diagonal)
   constexpr double least = 1e-3;
   const Eigen::Map<const Eigen::ArrayXd> inverse(inverse_diagonal.data(), M.rows());
   const Eigen::ArrayXd scale = inverse.sqrt();
-  for (Eigen::Index a = 0; a < M.rows(); ++a) {
+  for_rows(M, [&](Eigen::Index a) {
     double small = 0, *own = nullptr;
     for (RowMatrix::InnerIterator entry(M, a); entry; ++entry)
       if (entry.col() == a)
@@ -87,9 +97,8 @@ RowMatrix main_entries(RowMatrix M, const std::vector<double>& inverse_diagonal)
       else if (std::abs(entry.value()) * scale[a] * scale[entry.col()] < least)
         small += std::exchange(entry.valueRef(), 0.0);
     if (own) *own += small;
-  }
-  M.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0; });
-  return M;
+  });
+  return some_entries(M, is_not_zero);
 }
 
 /// Q x, see MassSpace.
@@ -143,7 +152,7 @@ namespace {
 
 /// Entries below `least` go to the largest one of their row.
 void drop_small(RowMatrix& A, double least) {
-  for (Eigen::Index a = 0; a < A.rows(); ++a) {
+  for_rows(A, [&](Eigen::Index a) {
     double small = 0, *largest = nullptr;
     for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) {
       double& value = entry.valueRef();
@@ -151,8 +160,8 @@ void drop_small(RowMatrix& A, double least) {
       if (std::abs(value) < least) small += std::exchange(value, 0.0);
     }
     if (largest && *largest != 0) *largest += small;
-  }
-  A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0; });
+  });
+  A = some_entries(A, is_not_zero);
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ class HierarchyBuilder {
   std::vector<Embedding> down_, up_;  // [i]: level i's vertices in level i-1, and the other way; [0] empty
   std::vector<int> massless_ = {0};   // [i]: level i's vertices that inherit no mass
   std::vector<std::shared_ptr<const Elasticity<B>>> elasticity_;  // per level
+  std::vector<double> eigenvalues_;                               // likewise, largest_eigenvalue() at rest
   std::shared_ptr<const Contact<B>> contact_;
 
   const std::string& integrator_of(std::size_t i) const {
@@ -304,12 +305,14 @@ class HierarchyBuilder {
   void add_dynamics(std::size_t i) {
     LevelReport& report = built_.reports[i];
     SolverLevel<B>& level = built_.hierarchy->levels[i];
+    const StiffnessAt<B> K{level, *elasticity_[i], level.state.u};
+    eigenvalues_.push_back(largest_eigenvalue<B>(level.exec(), K));
     Integrators::visit(report.integrator, [&](auto integrator) {
       using Kind = decltype(integrator);
       report.explicit_integrator = Kind::is_explicit;
-      report.critical_step = critical_step<B>(level.exec(), level, *elasticity_[i], level.state.u,
-                                              Kind::is_explicit ? Kind::limit : SymplecticEuler::limit,
-                                              damping_limit(constants_[i]), cavity_eigenvalue<B>(level));
+      report.critical_step =
+          critical_step<B>(level.exec(), K, Kind::is_explicit ? Kind::limit : SymplecticEuler::limit,
+                           damping_limit(constants_[i]), eigenvalues_[i], cavity_eigenvalue<B>(level));
       ImplicitOptions implicit = problem_.integration.implicit;
       implicit.newton_iterations = newton_iterations(implicit, report.integrator);
       const auto make_solver = [&] {
@@ -332,8 +335,8 @@ class HierarchyBuilder {
   void plan() {
     Steppers::visit(problem_.integration.cycle,
                     [&](auto stepper) { built_.stepper = decltype(stepper)::template make<B>(); });
-    StepperSetup<B> setup{problem_, *built_.hierarchy, built_.meshes, constants_,
-                          up_,      elasticity_[0],    contact_,      built_.reports};
+    StepperSetup<B> setup{problem_,       *built_.hierarchy, built_.meshes, constants_,    up_,
+                          elasticity_[0], eigenvalues_[0],   contact_,      built_.reports};
     built_.stepper->plan(setup);
     built_.macro_step = setup.macro_step, built_.him = setup.him;
   }

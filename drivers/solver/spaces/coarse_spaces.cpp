@@ -167,17 +167,9 @@ RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& const
     number.push_back(constrained[index_of(point)] ? -1 : static_cast<int>(free.size()));
     if (!constrained[index_of(point)]) free.push_back(point);
   }
-  RowMatrix kept(P.rows(), static_cast<Eigen::Index>(free.size()));
-  kept.reserve(P.nonZeros());
-  for (Eigen::Index a = 0; a < P.rows(); ++a) {
-    kept.startVec(a);
-    for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
-      if (const int column = number[static_cast<std::size_t>(entry.col())]; column >= 0)
-        kept.insertBack(a, column) = entry.value();
-  }
-  kept.finalize();
   points = std::move(free);
-  return kept;
+  return renumbered(P, static_cast<Eigen::Index>(points.size()),
+                    [&](Eigen::Index, int column, double) { return number[index_of(column)]; });
 }
 
 /// None where there are no slivers. Vertices whose motion is given have no column.
@@ -191,7 +183,7 @@ std::optional<CoarseSpace> slivers_of(const TetMesh& mesh, const std::vector<cha
 }
 
 void drop_constrained_rows(RowMatrix& P, const std::vector<char>& constrained) {
-  P.prune([&](Eigen::Index a, Eigen::Index, double) { return !constrained[static_cast<std::size_t>(a)]; });
+  P = some_entries(P, [&](Eigen::Index a, int, double) { return !constrained[static_cast<std::size_t>(a)]; });
 }
 
 RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {

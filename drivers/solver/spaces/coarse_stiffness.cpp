@@ -84,9 +84,11 @@ class Cell {
 class Cells {
  public:
   explicit Cells(std::array<double, 2> lame) : lame_(lame) {}
-  void add(Cell cell) { cells_.push_back(std::move(cell)); }
+  /// A cell of the elements from `first` to `last`.
+  void add(std::size_t first, std::size_t last) { elements_.emplace_back(first, last); }
 
-  void multiply(const RowMatrix& P) {
+  void multiply(const TetMesh& mesh, const RowMatrix& P) {
+    for (const auto& [first, last] : elements_) cells_.emplace_back(mesh, first, last);
     std::vector<int> place(static_cast<std::size_t>(P.cols()), -1);
     for (const Cell& cell : cells_)
       cell.for_moments(P, [&](int column, const Cell::Moments&) {
@@ -124,6 +126,7 @@ class Cells {
 
  private:
   std::array<double, 2> lame_;
+  std::vector<std::pair<std::size_t, std::size_t>> elements_;  // of each cell
   std::vector<Cell> cells_;
   std::vector<int> columns_;
   Eigen::MatrixXd G_;  // its lower half, [k][column]
@@ -147,12 +150,12 @@ Eigen::MatrixXd coarse_stiffness(const TetMesh& mesh, const std::vector<std::arr
       for (std::size_t c = 0; c < together && first < mesh.tets.size() && region_of(first) == r; ++c) {
         std::size_t last = first;
         while (last < std::min(first + of_cell, mesh.tets.size()) && region_of(last) == r) ++last;
-        cells.add(Cell(mesh, first, last));
+        cells.add(first, last);
         first = last;
       }
     }
     for_row_ranges(parts.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p) parts[p].multiply(P);
+      for (std::size_t p = begin; p < end; ++p) parts[p].multiply(mesh, P);
     });
     for_row_ranges(columns, [&](std::size_t begin, std::size_t end) {
       for (const Cells& part : parts) part.add_to(K, static_cast<int>(begin), static_cast<int>(end));

@@ -53,8 +53,9 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
 
 std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart) {
   std::vector<double> distance(index_of(graph.vertices()), unreached);
-  std::priority_queue<std::pair<double, int>> furthest;  // distances that may have shrunk since
-  for (int v = 0; v < graph.vertices(); ++v) furthest.emplace(unreached, v);
+  std::vector<std::pair<double, int>> all;
+  for (int v = 0; v < graph.vertices(); ++v) all.emplace_back(unreached, v);
+  std::priority_queue furthest(std::less<>(), std::move(all));  // distances that may have shrunk since
   std::vector<int> points;
   WaveQueue open(graph);
   for (int counted = 0; counted < count && !furthest.empty();) {

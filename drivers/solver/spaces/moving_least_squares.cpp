@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <numeric>
 #include <plica/drivers/solver/spaces/moving_least_squares.hpp>
+#include <plica/drivers/solver/spaces/row_matrix.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
-#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
+#include <span>
 
 namespace plica {
 
@@ -54,7 +56,7 @@ class Fitter {
   }
 
   /// The row of vertex `a` as (point, weight): by the points `near` within the first radius, or by more of them.
-  void fit(int a, const std::vector<Near>& near, std::vector<std::pair<int, double>>& row) {
+  void fit(int a, std::span<const Near> near, std::vector<std::pair<int, double>>& row) {
     row.clear();
     if (good(a, near, radius_, row)) return;
     const double widest = radius_growth * radius_;
@@ -85,7 +87,7 @@ class Fitter {
     return std::max((mesh_.vertices[index_of(v)] - mesh_.vertices[index_of(w)]).norm(), along / edge_detour);
   }
 
-  void gather(int a, const std::vector<Near>& near, double radius) {
+  void gather(int a, std::span<const Near> near, double radius) {
     fit_.clear(), fitted_.clear();
     for (const Near& one : near)
       if (const double w = fit_weight(one.distance / radius); w > 0) {
@@ -95,7 +97,7 @@ class Fitter {
     if (fit_.size() > 0) fit_.prepare();
   }
 
-  bool good(int a, const std::vector<Near>& near, double radius, std::vector<std::pair<int, double>>& row) {
+  bool good(int a, std::span<const Near> near, double radius, std::vector<std::pair<int, double>>& row) {
     gather(a, near, radius);
     if (fit_.size() < fewest_fitted || fit_.flattest() < least_fit_spread || fit_.weights(0, weight_) > most_fit_weight)
       return false;
@@ -111,9 +113,17 @@ class Fitter {
   }
 };
 
-/// Each row's points within the first radius, ascending: by walks from the points, which are fewer than the rows.
-std::vector<std::vector<Near>> neighbourhoods(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
-                                              const std::vector<int>& points, double radius) {
+/// Each row's points within the first radius, ascending.
+struct Neighbourhoods {
+  std::vector<std::size_t> first;  // of a row in `near`
+  std::vector<Near> near;
+
+  std::span<const Near> of(std::size_t row) const { return {near.data() + first[row], near.data() + first[row + 1]}; }
+};
+
+/// By walks from the points, which are fewer than the rows.
+Neighbourhoods neighbourhoods(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
+                              const std::vector<int>& points, double radius) {
   std::vector<int> place(mesh.vertices.size(), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) place[index_of(rows[i])] = static_cast<int>(i);
   std::vector<std::vector<Fitter::Reached>> reached(points.size());
@@ -121,21 +131,26 @@ std::vector<std::vector<Near>> neighbourhoods(const TetMesh& mesh, const EdgeGra
     Fitter fitter(mesh, graph, points, radius);
     for (std::size_t j = first; j < last; ++j) fitter.reached(static_cast<int>(j), place, reached[j]);
   });
-  std::vector<std::vector<Near>> near(rows.size());
+  Neighbourhoods all{std::vector<std::size_t>(rows.size() + 1, 0), {}};
+  for (const auto& of_point : reached)
+    for (const Fitter::Reached& one : of_point) ++all.first[index_of(one.row) + 1];
+  std::partial_sum(all.first.begin(), all.first.end(), all.first.begin());
+  all.near.resize(all.first.back());
+  std::vector<std::size_t> next = all.first;
   for (std::size_t j = 0; j < points.size(); ++j)
-    for (const auto& [row, distance] : reached[j]) near[index_of(row)].push_back({static_cast<int>(j), distance});
-  return near;
+    for (const auto& [row, distance] : reached[j]) all.near[next[index_of(row)]++] = {static_cast<int>(j), distance};
+  return all;
 }
 
 }  // namespace
 
 RowMatrix moving_least_squares(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
                                const std::vector<int>& points, double spacing, double reach) {
-  const auto near = neighbourhoods(mesh, graph, rows, points, reach * spacing);
+  const Neighbourhoods near = neighbourhoods(mesh, graph, rows, points, reach * spacing);
   std::vector<std::vector<std::pair<int, double>>> fitted(rows.size());
   for_row_ranges(rows.size(), [&](std::size_t first, std::size_t last) {
     Fitter fitter(mesh, graph, points, reach * spacing);
-    for (std::size_t i = first; i < last; ++i) fitter.fit(rows[i], near[i], fitted[i]);
+    for (std::size_t i = first; i < last; ++i) fitter.fit(rows[i], near.of(i), fitted[i]);
   });
   return matrix_of_rows(fitted, static_cast<Eigen::Index>(points.size()));
 }

@@ -2,11 +2,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/meshes/mesh_quality.hpp>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace plica {
@@ -83,117 +80,9 @@ RowMatrix transfer_matrix(const TetMesh& fine, const std::vector<char>& fine_con
                           const std::vector<char>& coarse_constrained, const Embedding& up, bool smooth) {
   RowMatrix P = barycentric_transfer(up, coarse.vertices.size());
   if (smooth) P = RowMatrix(ring_smoothing(fine) * P);
-  P.prune([&](Eigen::Index a, Eigen::Index b, double value) {
-    return !fine_constrained[static_cast<std::size_t>(a)] && !coarse_constrained[static_cast<std::size_t>(b)] &&
-           std::abs(value) > 1e-6;
+  return some_entries(P, [&](Eigen::Index a, int b, double value) {
+    return !fine_constrained[static_cast<std::size_t>(a)] && !coarse_constrained[index_of(b)] && std::abs(value) > 1e-6;
   });
-  return P;
-}
-
-namespace {
-
-/// Some of the product's rows, one after the other.
-struct ProductRows {
-  std::vector<int> first{0}, column;
-  std::vector<double> value;
-};
-
-/// A row in the making.
-class ProductRow {
- public:
-  explicit ProductRow(Eigen::Index columns)
-      : sum_(static_cast<std::size_t>(columns), 0.0), known_(static_cast<std::size_t>(columns), 0) {}
-
-  /// += factor times a row of B, from a column on
-  void add(double factor, const RowMatrix& B, Eigen::Index row, int from = 0) {
-    const int *const column = B.innerIndexPtr(), *const last = column + B.outerIndexPtr()[row + 1];
-    for (const int* at = std::lower_bound(column + B.outerIndexPtr()[row], last, from); at < last; ++at) {
-      const auto j = static_cast<std::size_t>(*at);
-      if (!std::exchange(known_[j], 1)) sum_[j] = 0, columns_.push_back(*at);
-      sum_[j] += factor * B.valuePtr()[at - column];
-    }
-  }
-
-  /// Moves what was added to the end of `rows`, columns ascending.
-  void append_to(ProductRows& rows) {
-    std::sort(columns_.begin(), columns_.end());
-    for (const int column : columns_) {
-      known_[static_cast<std::size_t>(column)] = 0;
-      rows.column.push_back(column), rows.value.push_back(sum_[static_cast<std::size_t>(column)]);
-    }
-    rows.first.push_back(static_cast<int>(rows.column.size()));
-    columns_.clear();
-  }
-
- private:
-  std::vector<double> sum_;
-  std::vector<char> known_;
-  std::vector<int> columns_;
-};
-
-RowMatrix joined_rows(const std::vector<ProductRows>& parts, Eigen::Index rows, Eigen::Index columns) {
-  RowMatrix result(rows, columns);
-  int* const first = result.outerIndexPtr();
-  Eigen::Index row = 0;
-  first[0] = 0;
-  std::vector<int> start;
-  for (const ProductRows& part : parts) {
-    start.push_back(first[row]);
-    for (std::size_t i = 1; i < part.first.size(); ++i) first[++row] = start.back() + part.first[i];
-  }
-  result.resizeNonZeros(first[rows]);
-  for_row_ranges(parts.size(), [&](std::size_t from, std::size_t to) {
-    for (std::size_t p = from; p < to; ++p) {
-      std::copy(parts[p].column.begin(), parts[p].column.end(), result.innerIndexPtr() + start[p]);
-      std::copy(parts[p].value.begin(), parts[p].value.end(), result.valuePtr() + start[p]);
-    }
-  });
-  return result;
-}
-
-}  // namespace
-
-namespace {
-
-/// A B, of row i from column from(i) on.
-template <class From>
-RowMatrix product_from(const RowMatrix& A, const RowMatrix& B, const From& from) {
-  const auto rows = static_cast<std::size_t>(A.rows());
-  std::vector<ProductRows> parts(row_parts(rows));
-  for_row_parts(rows, [&](std::size_t p, std::size_t first, std::size_t last) {
-    ProductRow sum(B.cols());
-    for (std::size_t i = first; i < last; ++i) {
-      for (RowMatrix::InnerIterator entry(A, static_cast<Eigen::Index>(i)); entry; ++entry)
-        sum.add(entry.value(), B, entry.col(), from(i));
-      sum.append_to(parts[p]);
-    }
-  });
-  return joined_rows(parts, A.rows(), B.cols());
-}
-
-}  // namespace
-
-RowMatrix product(const RowMatrix& A, const RowMatrix& B) {
-  return product_from(A, B, [](std::size_t) { return 0; });
-}
-
-RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P) {
-  const RowMatrix upper =
-      product_from(RowMatrix(P.transpose()), product(A, P), [](std::size_t i) { return static_cast<int>(i); });
-  return upper.selfadjointView<Eigen::Upper>();
-}
-
-RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns) {
-  RowMatrix A(static_cast<Eigen::Index>(rows.size()), columns);
-  int* first = A.outerIndexPtr();
-  first[0] = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) first[i + 1] = first[i] + static_cast<int>(rows[i].size());
-  A.resizeNonZeros(first[rows.size()]);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t k = 0; k < rows[i].size(); ++k)
-      std::tie(A.innerIndexPtr()[first[i] + static_cast<int>(k)], A.valuePtr()[first[i] + static_cast<int>(k)]) =
-          rows[i][k];
-  return A;
 }
 
 }  // namespace plica

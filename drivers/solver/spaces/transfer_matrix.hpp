@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <Eigen/SparseCore>
 #include <plica/core/fields.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/core/mesh.hpp>
+#include <plica/drivers/solver/spaces/row_matrix.hpp>
 #include <plica/meshes/embedding.hpp>
-#include <utility>
 #include <vector>
 
 namespace plica {
-
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
-/// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same bits for any number of threads.
-RowMatrix product(const RowMatrix& A, const RowMatrix& B);
-
-/// P^T A P of a symmetric A.
-RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P);
-
-/// The matrix of these rows of (column, value), columns ascending.
-RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns);
 
 /// Values at a mesh's vertices smoothed over their edges, [vertices x vertices]: each vertex takes a weighted average over itself
 /// and its neighbours, by moving least squares of degree one (Lancaster & Salkauskas 1981), so that linear fields stay as they
@@ -29,19 +17,15 @@ RowMatrix ring_smoothing(const TetMesh& mesh);
 
 /// A sparse matrix on the device.
 template <class B, class Value = typename B::Real>
-SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
-  std::vector<int> first{0}, column;
-  std::vector<Value> value;
-  for (Eigen::Index a = 0; a < A.rows(); ++a) {
-    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) {
-      column.push_back(static_cast<int>(entry.col()));
-      value.push_back(static_cast<Value>(entry.value()));
-    }
-    first.push_back(static_cast<int>(column.size()));
-  }
-  return {static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", first),
-          to_device<Indices<B>>(name + ".column", column),
-          to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", value)};
+SparseRows<B, Value> sparse_rows(const std::string& name, RowMatrix A) {
+  A.makeCompressed();
+  const int *const first = A.outerIndexPtr(), *const column = A.innerIndexPtr();
+  const double* const value = A.valuePtr();
+  const auto entries = A.nonZeros();
+  return {
+      static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", std::vector<int>(first, first + A.rows() + 1)),
+      to_device<Indices<B>>(name + ".column", std::vector<int>(column, column + entries)),
+      to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", std::vector<Value>(value, value + entries))};
 }
 
 template <class... Views>
