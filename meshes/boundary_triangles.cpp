@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <span>
 #include <utility>
 
 namespace plica {
@@ -15,17 +16,18 @@ struct Face {
   std::size_t number;         // 4 * tetrahedron + corner across
 };
 
-// Those that one tetrahedron alone has, ascending. Put beside each other by the lowest vertex by counting, then sorted for each
-// vertex: several times faster than one sort of all
-std::vector<std::size_t> single_faces(const TetMesh& mesh) {
+// Calls visit(its faces) for every three vertices that tetrahedra have a face of. Put beside each other by the lowest vertex by counting, then
+// sorted for each vertex: several times faster than one sort of all
+template <class Visit>
+void for_faces(const TetMesh& mesh, const Visit& visit) {
   std::vector<std::size_t> start(mesh.vertices.size() + 1, 0);
-  const auto for_each = [&](auto visit) {
+  const auto for_each = [&](auto use) {
     std::size_t number = 0;
     for (const auto& tet : mesh.tets)
       for (const auto& [i, j, k] : outward_faces) {
         std::array<int, 3> key = {tet[i], tet[j], tet[k]};
         std::sort(key.begin(), key.end());
-        visit(static_cast<std::size_t>(key[0]), Face{{key[1], key[2]}, number++});
+        use(static_cast<std::size_t>(key[0]), Face{{key[1], key[2]}, number++});
       }
   };
   for_each([&](std::size_t lowest, const Face&) { ++start[lowest + 1]; });
@@ -34,7 +36,6 @@ std::vector<std::size_t> single_faces(const TetMesh& mesh) {
   std::vector<std::size_t> next(start.begin(), start.end() - 1);
   for_each([&](std::size_t lowest, const Face& face) { faces[next[lowest]++] = face; });
 
-  std::vector<std::size_t> single;
   for (std::size_t v = 0; v + 1 < start.size(); ++v) {
     const auto first = faces.begin() + static_cast<std::ptrdiff_t>(start[v]);
     const auto last = faces.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
@@ -42,20 +43,30 @@ std::vector<std::size_t> single_faces(const TetMesh& mesh) {
     for (auto face = first; face != last;) {
       auto other = face + 1;
       while (other != last && other->others == face->others) ++other;
-      if (other == face + 1) single.push_back(face->number);
+      visit(std::span<const Face>(face, other));
       face = other;
     }
   }
-  std::sort(single.begin(), single.end());
-  return single;
 }
 
 const Point& vertex(const TriangleSurface& surface, int v) { return surface.vertices[static_cast<std::size_t>(v)]; }
 
 }  // namespace
 
+std::optional<std::array<std::size_t, 3>> crowded_face(const TetMesh& mesh) {
+  std::optional<std::array<std::size_t, 3>> found;
+  for_faces(mesh, [&](std::span<const Face> same) {
+    if (same.size() > 2 && !found) found = {same[0].number / 4, same[1].number / 4, same[2].number / 4};
+  });
+  return found;
+}
+
 std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh) {
-  const std::vector<std::size_t> single = single_faces(mesh);
+  std::vector<std::size_t> single;
+  for_faces(mesh, [&](std::span<const Face> same) {
+    if (same.size() == 1) single.push_back(same[0].number);
+  });
+  std::sort(single.begin(), single.end());
   std::vector<std::array<int, 3>> triangles;
   triangles.reserve(single.size());
   for (const std::size_t number : single) {

@@ -2,11 +2,15 @@
 #pragma once
 #include <array>
 #include <map>
+#include <optional>
 #include <plica/core/mesh.hpp>
 #include <string>
 #include <vector>
 
 namespace plica {
+
+/// Three tetrahedra with a face in common, if there are any: of those one or two overlap the others.
+std::optional<std::array<std::size_t, 3>> crowded_face(const TetMesh& mesh);
 
 /// The faces that belong to one tetrahedron only, counter-clockwise seen from outside; mesh vertex numbers, in the
 /// order of the tetrahedra.

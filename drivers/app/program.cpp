@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -161,7 +162,10 @@ class CommandLine {
                                           [this] { return study(arguments_, study_); });
     command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)")->type_name("FOLDER");
     command
-        ->add_option("--budget", study_.budget, "wall time of all runs [s]; what does not fit is left out and listed")
+        ->add_option("--budget", study_.budget,
+                     "wall time of all runs [s]; what does not fit is left out and listed, but for the reference and "
+                     "every level "
+                     "alone")
         ->type_name("TIME");
     CLI::Option* space = command->add_flag("--space", study_.space,
                                            "a second reference on a mesh twice as fine, for the error in space");
@@ -347,6 +351,7 @@ ExitStatus guarded(const std::vector<std::string>& words) {
 }  // namespace
 
 int program(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of sizes: its write fails and says so
   ExitStatus status = guarded({argv, argv + argc});
   if (!std::cout.flush() && status == ExitStatus::done)
     status = failed("cannot write the standard output", ExitStatus::failed);

@@ -21,6 +21,7 @@
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/python/any_simulation.hpp>
 #include <plica/drivers/python/kokkos_session.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/version.hpp>
 
@@ -154,7 +155,7 @@ void bind_scene(nb::module_& m) {
       .def_prop_ro("levels", [](const app::Scene& s) { return s.problem.body.levels.size(); })
       .def_prop_ro("placement",
                    [](const app::Scene& s) {
-                     const Point shift = app::placement_of(s.problem.body);
+                     const Point shift = placement_of(s.problem.body);
                      return nb::make_tuple(shift.x(), shift.y(), shift.z());
                    })
       .def("mesh",

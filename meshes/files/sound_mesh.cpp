@@ -3,6 +3,7 @@
 #include <cmath>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/checked.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/files/raw_mesh.hpp>
@@ -115,6 +116,15 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
          " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
 }
 
+/// After the repeats: tetrahedra of the mesh are those of the file, in its order.
+void refuse_crowded_faces(const RawMesh& raw, const TetMesh& mesh) {
+  const auto found = crowded_face(mesh);
+  if (!found) return;
+  const RawTet &one = raw.tets[(*found)[0]], &two = raw.tets[(*found)[1]], &three = raw.tets[(*found)[2]];
+  refuse(raw, three.place, "tetrahedron ", three.tag, " shares a face with tetrahedra ", one.tag, " and ", two.tag,
+         ", which share it already; expected tetrahedra that do not overlap");
+}
+
 void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
   const auto element = [] { return "an element"; };
   for (const RawTriangle& triangle : raw.triangles)
@@ -211,6 +221,7 @@ TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws) {
   add_tets(raw, numbering, flaws, mesh, report);
   refuse_folded(raw, numbering);
   flaws == Flaws::refused ? refuse_repeats(raw, mesh) : drop_repeats(mesh, report);
+  if (flaws == Flaws::refused) refuse_crowded_faces(raw, mesh);
   add_sets(raw, numbering, mesh, report);
   drop_unreferenced(raw, numbering, mesh, report);
   add_vectors(raw, mesh, report);

@@ -5,6 +5,8 @@
 #include <plica/drivers/app/output/json_parts.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
+#include <plica/drivers/app/scene/load_scene.hpp>
+#include <plica/drivers/study/study_case.hpp>
 
 namespace plica::app {
 namespace {
@@ -23,6 +25,15 @@ Plan plan_of(const Scene& scene, const Simulation<B>& simulation, const Machine&
           simulation.parts()};
 }
 
+void check_its_study(const Scene& scene) {
+  if (scene.study.methods.empty() && scene.study.variants.empty()) return;
+  try {
+    check_study(scene.problem, scene.study);
+  } catch (const InputError& error) {
+    throw located(error, scene.source);
+  }
+}
+
 }  // namespace
 
 ExitStatus explain(const SceneArguments& arguments) {
@@ -36,6 +47,7 @@ ExitStatus explain(const SceneArguments& arguments) {
 ExitStatus check(const SceneArguments& arguments) {
   try {
     with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine&, double) {
+      check_its_study(scene);
       if (arguments.json)
         std::cout << json_text({{"scene", scene.file},
                                 {"sound", true},

@@ -38,6 +38,37 @@ void announce(const Scene& scene, const Simulation<B>& simulation, const Machine
     message(fmt::format("resumed after {} at {:.5g} s", counted(start.macro_steps, "macro step"), start.time));
 }
 
+void warn_of(const std::string& sentence) { message(coloured("warning: ", Colour::yellow) + sentence); }
+
+/// What is to be said of a run's step before it is taken.
+template <class B>
+std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& simulation, const Summary& summary) {
+  std::vector<std::string> sentences;
+  if (simulation.him()) sentences = him_advice(scene.problem, summary.levels, summary.macro_step);
+  if (!scene.problem.integration.macro_step && summary.macro_step > scene.duration)
+    sentences.push_back(fmt::format(
+        "integration.macro_step: the step of {} that fits this body is longer than the duration, {}: the run is one "
+        "shorter step; expected a longer duration, or the body's sizes in metres and its young_modulus in Pa",
+        in_units(summary.macro_step, "s"), in_units(scene.duration, "s")));
+  constexpr double many = 1e6;
+  if (const double steps = scene.duration / summary.macro_step; steps > many)
+    sentences.push_back(
+        fmt::format("integration.macro_step: the run takes {:.2g} macro steps of {}; expected an implicit integrator, "
+                    "cycle: him, a "
+                    "mesh without slivers (plica explain names them), or a poisson_ratio further from 0.5",
+                    steps, in_units(summary.macro_step, "s")));
+  return sentences;
+}
+
+/// What it has shown.
+template <class B>
+std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunOutput<B>& output) {
+  std::vector<std::string> sentences = output.warnings();
+  if (std::string unsolved = unsolved_text(simulation.counters()); !unsolved.empty())
+    sentences.push_back(std::move(unsolved));
+  return sentences;
+}
+
 template <class B>
 Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& end,
                    const RunOutput<B>& output) {
@@ -64,10 +95,8 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.held = simulation.held();
   summary.diagnosis = end.diagnosis;
   summary.warnings = scene.warnings;
-  if (simulation.him())
-    for (const std::string& sentence : him_advice(scene.problem, summary.levels, summary.macro_step))
-      summary.warnings.push_back(sentence);
-  if (const std::string warning = output.energy().warning(); !warning.empty()) summary.warnings.push_back(warning);
+  for (const std::string& sentence : step_advice(scene, simulation, summary)) summary.warnings.push_back(sentence);
+  for (const std::string& sentence : end_warnings(simulation, output)) summary.warnings.push_back(sentence);
   return summary;
 }
 
@@ -180,9 +209,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   const auto leaving = watch.on_leave(lock, [&] { leave_run(scene, latest, arguments, folder); });
   lock.unlock();
   if (!arguments.quiet) announce(scene, simulation, machine, start);
-  if (simulation.him())
-    for (const std::string& sentence : him_advice(scene.problem, latest.levels, latest.macro_step))
-      message(coloured("warning: ", Colour::yellow) + sentence);
+  for (const std::string& sentence : step_advice(scene, simulation, latest)) warn_of(sentence);
   simulation.share_cores();
   simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
   RunEnd end = [&] {
@@ -199,8 +226,8 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   summary.diagnosed = diagnosed;
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
   if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
-  if (const std::string warning = output.energy().warning(); !warning.empty() && !end.diagnosis)
-    message(coloured("warning: ", Colour::yellow) + warning);
+  if (!end.diagnosis)
+    for (const std::string& sentence : end_warnings(simulation, output)) warn_of(sentence);
   if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
   return status_of_run(end);
 }

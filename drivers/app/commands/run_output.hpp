@@ -4,11 +4,13 @@
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
+#include <plica/drivers/app/output/inside_out.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/material_points.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <set>
 
 namespace plica::app {
@@ -69,11 +71,13 @@ class RunOutput {
         probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()),
         energy_(simulation, scene.problem),
         watches_energy_(EnergyBudget::knows(scene.problem)),
+        inside_out_(scene.problem.body.material),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
     if (resumed) {
       energy_.restore(checkpoint_.energy);
       work_.restore(checkpoint_.energy.at(5), checkpoint_.energy.at(6) > 0);
+      inside_out_.restore(checkpoint_.inside_out);
     }
     if (!scene.output.probes.empty())
       probes_.emplace(scene, folder / "probes.csv",
@@ -104,8 +108,12 @@ class RunOutput {
   }
 
   const RunFiles& files() const { return files_; }
-  /// What the rows of history.csv have shown.
-  const EnergyBudget& energy() const { return energy_; }
+  /// What frames and the rows of history.csv have shown to be wrong, in a sentence each.
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning()};
+    std::erase(sentences, "");
+    return sentences;
+  }
   /// Wall time per stage since the first start [s].
   std::map<std::string, double> stages() const {
     std::map<std::string, double> all = stages_before_;
@@ -117,6 +125,7 @@ class RunOutput {
   void write_frame(double time) {
     const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
     if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
+    if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
     files_.write(now);
     for (const std::string& name : empty_handed(contact_, now, simulation_.macro_step()))
       if (warned_.insert(name).second)
@@ -132,6 +141,7 @@ class RunOutput {
     checkpoint_.stages = stages();
     checkpoint_.energy = energy_.save();
     checkpoint_.energy.insert(checkpoint_.energy.end(), {work_.done(), work_.known() ? 1.0 : 0.0});
+    checkpoint_.inside_out = inside_out_.save();
     checkpoint_.files = files_.mark();
     if (probes_) checkpoint_.files.probe_bytes = probes_->file().size();
     checkpoint_.state = simulation_.save();
@@ -150,6 +160,7 @@ class RunOutput {
   Schedule frames_, probing_;
   EnergyBudget energy_;
   bool watches_energy_;
+  InsideOut inside_out_;
   ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
   long saved_ = -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iostream>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
@@ -75,7 +76,14 @@ ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
       message(fmt::format("{}: {:g} s, {} tetrahedra; {} on {}, {}", scene.name, scene.duration,
                           scene.problem.body.levels.front().tets.size(), fmt::join(options.precision, " and "),
                           files.machine().backend, counted(files.machine().threads, "thread")));
+    const auto start = std::chrono::steady_clock::now();
     const StudyResult result = run_study(scene, options, files, arguments.quiet, interrupts);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    if (!arguments.quiet && options.budget && taken.count() > 1.1 * *options.budget)
+      message(
+          fmt::format("the study took {}, more than its budget of {}: the reference and every level alone are run "
+                      "whatever they take",
+                      in_units(taken.count(), "s"), in_units(*options.budget, "s")));
     if (!arguments.quiet) std::cout << study_text(scene, result, folder.string());
     return result.stopped ? ExitStatus::interrupted : ExitStatus::done;
   } catch (const InputError& error) {

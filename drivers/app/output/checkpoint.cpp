@@ -45,6 +45,7 @@ Json header_of(const Checkpoint& c) {
           {"wall_time", c.wall_time},
           {"stages", c.stages},
           {"energy", c.energy},
+          {"inside_out", c.inside_out},
           {"frame_times", c.files.frame_times},
           {"history_bytes", c.files.history_bytes},
           {"probe_bytes", c.files.probe_bytes}};
@@ -63,6 +64,7 @@ Checkpoint checkpoint_of(const Json& json) {
   json.at("wall_time").get_to(c.wall_time);
   json.at("stages").get_to(c.stages);
   json.at("energy").get_to(c.energy);
+  c.inside_out = json.value("inside_out", c.inside_out);  // older ones have none
   json.at("frame_times").get_to(c.files.frame_times);
   json.at("history_bytes").get_to(c.files.history_bytes);
   json.at("probe_bytes").get_to(c.files.probe_bytes);

@@ -20,7 +20,8 @@ struct Checkpoint {
   double wall_time = 0;                  ///< so far [s]
   std::map<std::string, double> stages;  ///< so far [s]
   FilesMark files;
-  std::vector<double> energy;  ///< of EnergyBudget; then the work of obstacles [J], and 1 where that is known
+  std::vector<double> energy;      ///< of EnergyBudget; then the work of obstacles [J], and 1 where that is known
+  std::vector<double> inside_out;  ///< of InsideOut
   SavedState state;
 };
 

@@ -7,6 +7,7 @@
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/fibres.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
@@ -147,7 +148,7 @@ std::vector<int> written_levels(const Scene& scene) {
 // The checkpoint is removed first: without its files it is worthless
 const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv"})
+  for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv", "report.html"})
     std::filesystem::remove(folder / file, ignored);
   std::vector<std::string> films = {"volume"};
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -158,12 +159,6 @@ const std::filesystem::path& without_former_run(const std::filesystem::path& fol
 }
 
 }  // namespace
-
-Point placement_of(const Body& body) {
-  if (!body.initial.position) return Point::Zero();
-  const Box box = bounding_box(body.levels.front().vertices);
-  return *body.initial.position - (box.min + box.max) / 2;
-}
 
 RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from)
     : body_(with_regions(scene.problem.body)),

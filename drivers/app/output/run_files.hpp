@@ -90,9 +90,6 @@ struct FilesMark {
   std::uint64_t history_bytes = 0, probe_bytes = 0;
 };
 
-/// Where the body's rest mesh is at the start: its translation. [m]
-Point placement_of(const Body& body);
-
 /// What a run leaves in its folder while it goes on: frames and history. A former run's files there give way, or are cut
 /// back to the mark of the checkpoint from which this run goes on.
 class RunFiles {

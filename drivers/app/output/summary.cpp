@@ -217,6 +217,17 @@ static std::string solves_text(std::map<std::string, long> count) {
                             count["newton_misses"]);
 }
 
+std::string unsolved_text(std::map<std::string, long> count) {
+  const bool newton = count["newton_iterations"] > 0;  // makes up for linear systems that are not solved
+  const long missed = count[newton ? "newton_misses" : "cg_misses"];
+  if (missed == 0) return "";
+  return fmt::format(
+      "integration.implicit: {} not solved as far as asked, and the run went on: expected a smaller "
+      "integration.macro_step, or more integration.implicit.{}",
+      counted(missed, newton ? "step" : "linear system") + (missed == 1 ? " was" : " were"),
+      newton ? "newton_iterations" : "max_iterations");
+}
+
 std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {
   const double wall = s.wall_time;
   std::string speed;

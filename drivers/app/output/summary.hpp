@@ -43,6 +43,9 @@ struct Summary {
 /// summary.json; `words` is the command line.
 std::string summary_json(const Scene& scene, const Summary& summary, const std::vector<std::string>& words);
 
+/// A sentence of systems, or of Newton's steps, that were not solved, of a simulation's counters; empty where all were.
+std::string unsolved_text(std::map<std::string, long> counters);
+
 /// The same in a few lines for people.
 std::string summary_text(const Scene& scene, const Summary& summary, const std::string& folder);
 

@@ -48,6 +48,7 @@ std::string in_units(double value, const std::string& unit) {
 
 std::string counted(long count, const std::string& noun) {
   if (count != 1 && noun.ends_with("hedron")) return fmt::format("{} {}a", count, noun.substr(0, noun.size() - 2));
+  if (count != 1 && noun.ends_with("vertex")) return fmt::format("{} {}ices", count, noun.substr(0, noun.size() - 2));
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 

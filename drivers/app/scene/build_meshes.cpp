@@ -44,8 +44,8 @@ double extent_of(const TetMesh& mesh) {
 
 bool no_body(const TetMesh& mesh) { return extent_of(mesh) > largest_body || extent_of(mesh) < smallest_body; }
 
-// The likely cause is that the file is in another unit
-std::string size_text(const TetMesh& mesh) {
+// Where it is from a file, the likely cause is that this is in another unit
+std::string size_text(const TetMesh& mesh, bool of_file) {
   const double extent = extent_of(mesh);
   std::string text = fmt::format("the body is {:.4g} m long", extent);
   const struct {
@@ -54,7 +54,9 @@ std::string size_text(const TetMesh& mesh) {
   } units[] = {{"mm", 0.001}, {"cm", 0.01}, {"um", 1e-6}};
   for (const auto& [unit, scale] : units)
     if (extent > largest_body && extent * scale > 0.005 && extent * scale < largest_body)
-      return text + fmt::format("; is the file in {}? Then its scale is {:g}", unit, scale);
+      return text + (of_file
+                         ? fmt::format("; is the file in {}? Then its scale is {:g}", unit, scale)
+                         : fmt::format("; are its numbers in {0}? A number may have its unit, such as 5 {0}", unit));
   return text;
 }
 
@@ -68,7 +70,7 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
   sentences.add(report.unreferenced, "unused point", "dropped");
   sentences.add(count_duplicate_vertices(mesh, at_the_same_place * mean_edge_length(mesh)), "duplicate",
                 "among the vertices: at the place of another one, where the mesh may come apart (merge them?)");
-  sentences.add(no_body(mesh), size_text(mesh));
+  sentences.add(no_body(mesh), size_text(mesh, true));
   const int parts = count_parts(mesh);
   sentences.add(parts > 1, fmt::format("the mesh has {} parts that share no vertex", parts));
   for (const std::string& section : report.skipped_sections)
@@ -225,11 +227,12 @@ TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest, c
   return sphere_surface(recipe.sphere->centre.value_or(middle), recipe.sphere->radius, recipe.sphere->subdivisions);
 }
 
-TriangleSurface tool_surface(const ToolRecipe& recipe, const Scene& scene, const Where& where) {
+TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const Where& where) {
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
   TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
   if (!report.closed()) throw InputError(fmt::format("the surface '{}' {}", file.string(), why_open(report)), where);
+  warn(scene, file, surface_warnings(report));
   const double angle = recipe.rotation.norm();
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(angle, angle > 0 ? Point(recipe.rotation / angle) : Point::UnitZ()).toRotationMatrix();
@@ -318,6 +321,8 @@ void build_meshes(Scene& scene, const Tree& tree) {
     body.levels.push_back(recipe.file.empty() ? placed(where, [&] { return generated(recipe); })
                                               : from_file(recipe, scene, where, scene.numbering[i]));
     if (scene.jitter > 0) body.levels.back() = jittered(std::move(body.levels.back()), scene.jitter);
+    if (i == 0 && recipe.file.empty() && no_body(body.levels.back()))
+      scene.warnings.push_back(scene.file + ": body.levels.0: " + size_text(body.levels.back(), false));
   }
   if (scene.surface) {
     const Where where = place_of(tree, "body.surface");

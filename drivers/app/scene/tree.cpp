@@ -138,6 +138,12 @@ const Tree* Tree::find(std::string_view name) const {
 }
 
 std::string Tree::shown() const {
+  constexpr std::size_t most = 80;  // bytes of a text
+  if (kind == Kind::scalar && text.size() > most) {
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // whole characters
+    return "'" + text.substr(0, end) + "...'";
+  }
   if (kind == Kind::scalar) return "'" + text + "'";
   if (kind == Kind::list) return "a list of " + std::to_string(items.size());
   if (kind == Kind::nothing) return "nothing";

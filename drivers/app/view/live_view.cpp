@@ -15,6 +15,7 @@
 #include <plica/drivers/app/view/hands.hpp>
 #include <plica/drivers/app/view/live_view.hpp>
 #include <plica/drivers/solver/materials.hpp>
+#include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <set>
 #include <thread>

@@ -55,6 +55,22 @@ void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
                                : ": expected a finer mesh"));
 }
 
+// Of a tool that is lighter than what it touches: its own inertia then counts for nothing, and it is thrown about
+void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
+  const TetMesh& mesh = problem.body.levels.front();
+  double mass = -1;  // of a vertex, in the mean [kg]
+  for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i) {
+    const std::optional<double>& own = problem.contact.obstacles[i].mass;
+    if (!own) continue;
+    if (mass < 0)
+      mass = mesh_size(mesh, region_densities(problem.body, mesh)).mass / static_cast<double>(mesh.vertices.size());
+    if (*own < mass)
+      sentences.push_back(text(
+          "contact.obstacles.", i, ".mass: ", number(*own, 3), " kg is less than a vertex of the body has, ",
+          number(mass, 3), " kg: contact throws it about; expected a tool that is not lighter than what it touches"));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Problem& problem) {
@@ -67,6 +83,7 @@ std::vector<std::string> doubts(const Problem& problem) {
                           std::to_string(levels[i - 1].tets.size()) + "; expected the finest first");
   if (levels.size() > 1) doubt_levels(problem, sentences);
   doubt_elements(problem.body, sentences);
+  doubt_tools(problem, sentences);
   for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);
   if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
     const TetMesh& mesh = levels.front();

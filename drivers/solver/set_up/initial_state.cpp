@@ -67,10 +67,15 @@ std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh
   return velocity;
 }
 
+Point placement_of(const Body& body) {
+  if (!body.initial.position) return Point::Zero();
+  const Box box = bounding_box(body.levels.front().vertices);
+  return *body.initial.position - (box.min + box.max) / 2;
+}
+
 std::vector<Point> places_at_start(const Body& body) {
   if (!body.surface) return {};
-  const Box box = bounding_box(body.levels.front().vertices);
-  const Point shift = body.initial.position ? Point(*body.initial.position - (box.min + box.max) / 2) : Point::Zero();
+  const Point shift = placement_of(body);
   std::vector<Point> places = body.surface->vertices;
   for (Point& place : places) place += shift;
   return places;

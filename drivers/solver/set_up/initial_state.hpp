@@ -9,6 +9,9 @@ namespace plica {
 /// Whether a body starts in another shape than that of its rest.
 bool starts_deformed(const InitialOptions& options);
 
+/// Where the body's rest mesh is at the start: its translation. [m]
+Point placement_of(const Body& body);
+
 /// The points of a body's surface as they are placed; none where it has no surface.
 std::vector<Point> places_at_start(const Body& body);
 

@@ -138,6 +138,35 @@ TEST_F(Program, DivergedIs3) {
   EXPECT_EQ(content_of(folder / "out/history.csv").find("nan"), std::string::npos);
 }
 
+// A law that does not stop there must not end without a word; what a resumed run says is what the whole one says.
+TEST_F(Program, WarnsOfElementsThatTurnInsideOut) {
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"run",
+                                      PLICA_SOURCE_DIR "/drivers/scenes/smallest.yaml",
+                                      "-o",
+                                      out,
+                                      "--force",
+                                      "--set",
+                                      "body.material.young_modulus=3 kPa",
+                                      "--set",
+                                      "output.every=20 ms"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Child child = plica(words);
+    EXPECT_EQ(child.status, 0) << child.errors;
+    return child.errors;
+  };
+  const std::string said = run({});
+  EXPECT_NE(said.find("warning: body.material: elements turned inside out, first at "), std::string::npos) << said;
+  const Json warnings = summary()["warnings"];
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.back().get<std::string>().find("turned inside out"), std::string::npos);
+  run({"--checkpoint", "every=100", "--duration", "0.6 s"});
+  ASSERT_EQ(plica({"run", "--resume", out, "--duration", "1 s"}).status, 0);
+  EXPECT_EQ(summary()["warnings"], warnings);
+  EXPECT_EQ(run({"--set", "body.material.allow_inversion=true"}).find("inside out"), std::string::npos);
+  EXPECT_EQ(run({"--set", "body.material.young_modulus=200 kPa"}).find("inside out"), std::string::npos);
+}
+
 TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
   const std::vector<std::string> again = {"run", scene, "-o", out, "--set", "output.probes={tip: [0, 0, 0]}"};
   const auto with = [&](const std::vector<std::string>& more) {
@@ -160,8 +189,11 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
   EXPECT_EQ(plica({"run", "--resume", out}).status, 0);
   EXPECT_NE(with({"--duration", "5 kg"}).errors.find("duration: expected a time"), std::string::npos)
       << "what the scene says wrong comes first";
+  ASSERT_EQ(plica({"report", out}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
   EXPECT_EQ(with({"--force"}).status, 0);
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/checkpoint.bin"));
+  for (const char* file : {"checkpoint.bin", "report.html"})
+    EXPECT_FALSE(std::filesystem::exists(folder / "out" / file)) << file;
   EXPECT_EQ(with({}).errors.find("--resume"), std::string::npos) << "there is no checkpoint to go on from";
 }
 

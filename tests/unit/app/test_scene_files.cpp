@@ -171,6 +171,12 @@ TEST(SceneFiles, SizesNoBodyHasAreWarnedOf) {
   const Scene scene = scene_of(of_files(sample("blocks_41.msh") + ", scale: 1000"));
   EXPECT_TRUE(mentions(scene.warnings, "the body is 40 m long; is the file in mm? Then its scale is 0.001"));
   EXPECT_FALSE(mentions(scene_of(of_files(sample("blocks_41.msh"))).warnings, "long"));
+  const auto box = [](const std::string& size) {
+    return scene_of("duration: 1\nbody: {levels: [{box: {size: [" + size + ", 1 m, 1 m], cells: [2, 2, 2]}}]}\n")
+        .warnings;
+  };
+  EXPECT_TRUE(mentions(box("100"), "the body is 100 m long; are its numbers in mm?"));
+  EXPECT_FALSE(mentions(box("100 cm"), "long"));
 }
 
 TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {

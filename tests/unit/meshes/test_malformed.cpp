@@ -229,6 +229,12 @@ TEST_P(Malformed, RepeatedTetrahedron) {
   refused({"tetrahedron " + number(2) + " repeats tetrahedron " + number(0)});
 }
 
+TEST_P(Malformed, ThreeTetrahedraOnAFace) {
+  mesh.vertices.push_back({2, 2, 2});
+  mesh.tets.push_back({1, 2, 3, 5});
+  refused({"tetrahedron " + number(2) + " shares a face with tetrahedra " + number(0) + " and " + number(1)});
+}
+
 TEST_P(Malformed, NoVolume) {
   mesh.vertices[4] = Point(0.5, 0.5, 0);
   mesh.tets[1] = {0, 1, 2, 4};

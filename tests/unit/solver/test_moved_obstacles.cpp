@@ -92,4 +92,34 @@ TEST(StartInObstacles, IsSaidOrRefused) {
             "contact.obstacles.0 contains the whole body at the start; expected a body outside");
 }
 
+TEST(StartInObstacles, WithinTheBodyIsRefused) {
+  Problem p = small_cube();
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  const Box box = bounding_box(p.body.levels[0].vertices);
+  const Point middle = (box.min + box.max) / 2, size = box.max - box.min;
+  const auto starts_at = [&](const Point& centre) {
+    p.contact.obstacles = {{SphereOptions{centre, 0.1 * size.minCoeff()}, {}, {}}};
+    return refusal([&] { starts_in_obstacles(p); });
+  };
+  EXPECT_EQ(starts_at(middle),
+            "contact.obstacles.0 is inside the body at the start, where contact does not find it; expected it outside");
+  EXPECT_EQ(starts_at(box.max + 0.2 * size), "");
+  p.body.initial.position = box.max + 0.2 * size;
+  EXPECT_NE(starts_at(box.max + 0.2 * size), "") << "where the body starts";
+  EXPECT_EQ(starts_at(box.min), "");
+}
+
+TEST(MovedObstacles, AreDoubtedWhereTheyAreTooLight) {
+  Problem p = small_cube();
+  const double mass = 1000 * 0.1 * 0.1 * 0.1 / static_cast<double>(p.body.levels[0].vertices.size());
+  p.body.material.density = 1000;
+  p.contact.obstacles = {{SphereOptions{{0, 0, 1}, 0.01}, {}, {}}};
+  const auto said = [&](double factor) {
+    p.contact.obstacles[0].mass = factor * mass;
+    return std::ranges::count_if(doubts(p), [](const std::string& s) { return s.find("0.mass") != std::string::npos; });
+  };
+  EXPECT_EQ(said(0.9), 1);
+  EXPECT_EQ(said(1.1), 0);
+}
+
 }  // namespace
