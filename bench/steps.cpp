@@ -100,9 +100,9 @@ template <class B>
 void assembly(benchmark::State& state, const Case& c) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, true);
-  const double tets = system.level().model.tets, blocks = system.system.pattern().blocks();
+  const double tets = system.level().model.tets, stored = system.system.pattern().stored();
   measure<typename B::Real>(state, system.built.hierarchy->exec(),
-                            {tets, tets * (8 + 10 * s) + system.vertices() * 3 * s + blocks * 9 * s, 0},
+                            {tets, tets * (8 + 10 * s) + system.vertices() * 3 * s + stored * 9 * s, 0},
                             [&] { system.prepare(); });
 }
 
@@ -111,11 +111,11 @@ template <class B>
 void block_product(benchmark::State& state, const Case& c) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, true);
-  const double tets = system.level().model.tets, blocks = system.system.pattern().blocks();
-  measure<typename B::Real>(state, system.built.hierarchy->exec(),
-                            {tets, blocks * (9 * s + 4) + system.vertices() * (6 * s + 4), 18 * blocks}, [&] {
-                              system.system.product(system.built.hierarchy->exec(), system.right_side, system.x);
-                            });
+  const BlockMatrix<B>& A = system.system.pattern();
+  const double tets = system.level().model.tets, blocks = A.blocks(), stored = A.stored(), vertices = system.vertices();
+  measure<typename B::Real>(
+      state, system.built.hierarchy->exec(), {tets, stored * 9 * s + blocks * 8 + vertices * (6 * s + 8), 18 * blocks},
+      [&] { system.system.product(system.built.hierarchy->exec(), system.right_side, system.x); });
 }
 
 }  // namespace

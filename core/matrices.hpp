@@ -26,17 +26,33 @@ template <class B>
 using Fours = Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory>;
 
 /// A square sparse matrix of 3x3 blocks, by rows in compressed form (block CSR). It is symmetric, but for columns of vertices whose motion
-/// is given: their own rows are empty.
+/// is given: their own rows have their own block alone.
+///
+/// Of the two blocks (a, b) and (b, a) = (a, b)^T of free vertices a < b one is stored, in row a. A row's numbers follow each other: the
+/// transposes of blocks left of its own whose column is of a given motion; its own; those right of it.
+///
+///   row a    (a, 3)  (a, 7)  (a, a)  (a, b)         place      of (a, 3): where (3, a) is stored; so of (a, 7)
+///            turned  turned   own                   value      ... | (a, a) (a, b) | ...
 template <class B>
 struct BlockMatrix {
   int rows = 0;
-  Indices<B> first;     ///< [rows + 1] into the others
+  Indices<B> first;     ///< [rows + 1] into column and place
   Indices<B> column;    ///< of a block, ascending in a row
-  Indices<B> diagonal;  ///< [rows] where a row's own block stands
+  Indices<B> diagonal;  ///< [rows] where a row's own block stands among them
+  Indices<B> place;     ///< of a block in `value`; left of the own one it is stored transposed
   Blocks9<B>
-      value;  ///< [blocks + 1][9] column by column; the last one only lets vectors of four numbers be read to the end
+      value;  ///< [stored + 1][9] column by column; the last one only lets vectors of four numbers be read to the end
 
   int blocks() const { return static_cast<int>(column.extent(0)); }
+  int stored() const { return static_cast<int>(value.extent(0)) - 1; }
+  /// Number k of block s of row a.
+  KOKKOS_INLINE_FUNCTION typename B::Real number(int a, int s, int k) const {
+    return value(place(s), s < diagonal(a) ? k % 3 * 3 + k / 3 : k);
+  }
+  /// Whether block s is stored in row a, and not in that of its column.
+  KOKKOS_INLINE_FUNCTION bool is_stored(int a, int s) const {
+    return s >= diagonal(a) || first(column(s) + 1) - first(column(s)) == 1;
+  }
 };
 
 /// Where the element matrices of Patches go in a block matrix: the pairs (i < j) of a patch's vertices that share a tetrahedron and
@@ -44,9 +60,8 @@ struct BlockMatrix {
 ///
 /// * patch p: pairs [first_pair(p), first_pair(p+1)), those from first_shared(p) on in other patches too
 /// * pair s: the blocks [first_slot(s), first_turned(s)) of `slot` as they are, then transposed those up to first_slot(s+1)
-/// * `upper` and `lower`: the places of blocks (i, j) and (j, i) in the matrix, -1 where that row's motion is given; of a shared pair
-///   `upper` is its place among the shares
-/// * shared block b: the sum of shares [first_share(b), first_share(b+1)), for `shared_upper` and `shared_lower`
+/// * `place`: of block (i, j) in the matrix; of a shared pair among the shares
+/// * shared block b: the sum of shares [first_share(b), first_share(b+1)), for `shared_place`
 ///
 /// In a patch and among the shared ones or the others, pairs of equally many blocks follow each other.
 template <class B>
@@ -57,21 +72,20 @@ struct PatchPairs {
   Indices<B> first_slot;
   Indices<B> first_turned;
   Kokkos::View<std::uint16_t*, Memory> slot;  ///< offset of a block among the patch's element blocks
-  Indices<B> upper, lower;
+  Indices<B> place;
   Indices<B> first_share;
-  Indices<B> shared_upper, shared_lower;
+  Indices<B> shared_place;
 };
 
-/// The blocks (I, J), I <= J, of P^T A P as constant sums over the blocks of A: block k = sum of weight * block `fine` of A over
-/// [first(k), first(k+1)), to go to `upper` and, transposed, to `lower`.
+/// The stored blocks of P^T A P as constant sums over those of A: block k = sum of weight * block `fine` of A, or of -1 - `fine` transposed,
+/// over [first(k), first(k+1)).
 template <class B>
 struct GalerkinMap {
   Indices<B> first;
   Indices<B> fine;
   Scalars<B> weight;  ///< P_iI P_jJ
-  Indices<B> upper, lower;
 
-  int blocks() const { return static_cast<int>(upper.extent(0)); }
+  int blocks() const { return static_cast<int>(first.extent(0)) - 1; }
 };
 
 }  // namespace plica

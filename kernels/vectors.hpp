@@ -53,17 +53,18 @@ template <class B>
 KOKKOS_INLINE_FUNCTION void set_block(const Blocks<B>& d, int a, const SymMat3<typename B::Real>& value) {
   for (int k = 0; k < 6; ++k) d(a, k) = value[k];
 }
-/// A symmetric one of a matrix's blocks.
+/// A row's own block of a matrix.
 template <class B>
-KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> block_at(const BlockMatrix<B>& A, int s) {
-  const auto* const b = &A.value(s, 0);
+KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> own_block(const BlockMatrix<B>& A, int a) {
+  const auto* const b = &A.value(A.place(A.diagonal(a)), 0);
   return {{b[0], b[4], b[8], b[1], b[2], b[5]}};
 }
-/// block += weight C
+/// Stored block += weight C
 template <class B>
 KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B::Real weight,
                                       const SymMat3<typename B::Real>& C) {
-  for (int k = 0; k < 9; ++k) A.value(s, k) += weight * C[SymMat3<typename B::Real>::place(k)];
+  const int at = A.place(s);
+  for (int k = 0; k < 9; ++k) A.value(at, k) += weight * C[SymMat3<typename B::Real>::place(k)];
 }
 
 /// start + the sum of the shares that patches or regions have in vertex a, in their order. A kernel of linear elements leaves a

@@ -125,8 +125,8 @@ struct AddContactBlocks {
   }
 };
 
-/// A += W^T C W of points that touch obstacles: a row of A per work item, its points in order. Vertices of one tetrahedron are coupled
-/// in A already, unless the row's motion is given.
+/// A += W^T C W of points that touch obstacles: a row of A per work item, its points in order, the blocks that are stored in it. Vertices of
+/// one tetrahedron are coupled in A already, unless the row's motion is given.
 template <class B>
 struct AddContactToMatrix {
   using Real = typename B::Real;
@@ -144,7 +144,7 @@ struct AddContactToMatrix {
       for (int c = 0; c < 4; ++c) {
         int at = first;
         while (at < last && A.column(at) != surface.embedding.source(p, c)) ++at;
-        if (at == last) continue;
+        if (at == last || !A.is_stored(a, at)) continue;
         const Real w = surface.weight(s) * surface.embedding.weight(p, c);
         add_block<B>(A, at, w, C);
       }

@@ -14,8 +14,8 @@
 //   3. OwnBlocks                   a vertex's own block: the mass, minus the sum of its row, as the stiffness has no force against
 //                                  a motion of the whole body
 //
-// All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 12 (slots), and 9 s per block of the
-// matrix, written, and read once more; in scratch, which a second-level cache holds, 56 s written and 54 s read.
+// All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 12 (slots), and 9 s per stored block
+// of the matrix, written, and read once or twice more; in scratch, which a second-level cache holds, 56 s written and 54 s read.
 namespace plica {
 
 constexpr int element_numbers = 56;  ///< of the six blocks, in whole quarters of a register
@@ -50,19 +50,6 @@ KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const Element
   K[54] = K[55] = T(0);
 }
 
-/// Puts the sum of element blocks of a pair of vertices where it belongs, and its transpose.
-template <class B>
-struct PlaceBlock {
-  BlockMatrix<B> A;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int upper, int lower, const typename B::Real* sum) const {
-    if (upper >= 0)
-      for (int k = 0; k < 9; ++k) A.value(upper, k) = sum[k];
-    if (lower >= 0)
-      for (int k = 0; k < 9; ++k) A.value(lower, k % 3 * 3 + k / 3) = sum[k];
-  }
-};
-
 template <class B, class Material, class Tangent>
 struct ElasticBlocks {
   using Real = typename B::Real;
@@ -81,7 +68,7 @@ struct ElasticBlocks {
   Patches<B> patches;
   PatchPairs<B> pairs;
   Vectors<B> u;
-  PlaceBlock<B> place;
+  BlockMatrix<B> A;
   Blocks9<B> shares;
   TangentScale<B> scale;
   Real a;
@@ -135,9 +122,8 @@ struct ElasticBlocks {
       const Real* const from = blocks + pairs.slot(s);
       for (int k = 0; k < 9; ++k) total[k] += from[k];
     }
-    const int upper = pairs.upper(pair);
-    if (!shared) return place(upper, pairs.lower(pair), total);
-    for (int k = 0; k < 9; ++k) shares(upper, k) = total[k];
+    Real* const to = shared ? &shares(pairs.place(pair), 0) : &A.value(pairs.place(pair), 0);
+    for (int k = 0; k < 9; ++k) to[k] = total[k];
   }
 };
 
@@ -146,12 +132,12 @@ template <class B>
 struct AddShares {
   PatchPairs<B> pairs;
   Blocks9<B> shares;
-  PlaceBlock<B> place;
+  BlockMatrix<B> A;
   KOKKOS_INLINE_FUNCTION void operator()(int b) const {
     typename B::Real total[9] = {};
     for (int s = pairs.first_share(b); s < pairs.first_share(b + 1); ++s)
       for (int k = 0; k < 9; ++k) total[k] += shares(s, k);
-    place(pairs.shared_upper(b), pairs.shared_lower(b), total);
+    for (int k = 0; k < 9; ++k) A.value(pairs.shared_place(b), k) = total[k];
   }
 };
 
@@ -165,16 +151,16 @@ struct OwnBlocks {
   Real b;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const int own = A.diagonal(a);
-    Real sum[9] = {};
+    const int own = A.diagonal(a), at = A.place(own);
+    Real sum[9] = {};  // turned or not: of the answer, which is symmetric, half of both is taken
     const auto subtract = [&](int first, int last) {
       for (int s = first; s < last; ++s)
-        for (int k = 0; k < 9; ++k) sum[k] -= A.value(s, k);
+        for (int k = 0; k < 9; ++k) sum[k] -= A.value(A.place(s), k);
     };
     subtract(A.first(a), own), subtract(own + 1, A.first(a + 1));
     const Real m = (1 + b * damping(a)) * mass(a);
     for (int k = 0; k < 9; ++k)
-      A.value(own, k) = Real(0.5) * (sum[k] + sum[k % 3 * 3 + k / 3]) + (k % 4 == 0 ? m : Real(0));
+      A.value(at, k) = Real(0.5) * (sum[k] + sum[k % 3 * 3 + k / 3]) + (k % 4 == 0 ? m : Real(0));
   }
 };
 
@@ -182,8 +168,8 @@ struct OwnBlocks {
 template <class B>
 void finish_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
                    const ImplicitWeights& weights, const Blocks9<B>& shares, const BlockMatrix<B>& A) {
-  update_vertices<B>(exec, "plica::add_shares", static_cast<int>(pairs.shared_upper.extent(0)),
-                     AddShares<B>{pairs, shares, {A}});
+  update_vertices<B>(exec, "plica::add_shares", static_cast<int>(pairs.shared_place.extent(0)),
+                     AddShares<B>{pairs, shares, A});
   update_vertices<B>(exec, "plica::own_blocks", model.vertices,
                      OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
 }
@@ -196,12 +182,11 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   using Real = typename B::Real;
   using Kernel = ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>>;
   const TangentScale<B> scale{model.patches.damping, static_cast<Real>(weights.b / weights.a)};
-  const PlaceBlock<B> place{A};
   typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
   policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
   policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
   launch("plica::elastic_blocks", policy,
-         Kernel{model.patches, pairs, u, place, shares, scale, static_cast<Real>(weights.a)});
+         Kernel{model.patches, pairs, u, A, shares, scale, static_cast<Real>(weights.a)});
   finish_blocks<B>(exec, model, pairs, weights, shares, A);
 }
 

@@ -34,7 +34,7 @@ struct ToDense {
       for (int j = 0; j < dense.size; ++j) dense.matrix(3 * a + i, j) = 0;
     for (int s = A.first(a); s < A.first(a + 1); ++s)
       for (int k = 0; k < 9; ++k)
-        dense.matrix(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.value(s, k));
+        dense.matrix(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.number(a, s, k));
   }
 };
 

@@ -141,13 +141,12 @@ struct SpaceProducts {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     constexpr int m = SolutionSpace<B>::size;
     BlockSum<Real> y[m];
-    for (int s = A.first(a); s < A.first(a + 1); ++s) {
-      const int b = A.column(s);
-      for (int k = 0; k < 3; ++k)
-        for (int i = 0; i < m; ++i) y[i].add(&A.value(s, 3 * k), space.w[i](b, k));
-    }
-    for (int i = 0; i < m; ++i)
-      for (int k = 0; k < 3; ++k) space.q[i](a, k) = y[i][k];
+    const int own = A.diagonal(a), last = A.first(a + 1);
+    for (int s = A.first(a); s < own; ++s)
+      for (int i = 0; i < m; ++i) y[i].add_turned(&A.value(A.place(s), 0), &space.w[i](A.column(s), 0));
+    for (int s = own; s < last; ++s)
+      for (int i = 0; i < m; ++i) y[i].add(&A.value(A.place(s), 0), &space.w[i](A.column(s), 0));
+    for (int i = 0; i < m; ++i) set_vector<B>(space.q[i], a, y[i].sum());
   }
 };
 

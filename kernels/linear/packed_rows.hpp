@@ -86,7 +86,7 @@ struct ScaleOfVertex {
   PackedRows<B> rows;
   KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
     const int a = rows.vertex(slot);
-    const auto own = a >= 0 ? block_at<B>(A, A.diagonal(a)) : SymMat3<float>{};
+    const auto own = a >= 0 ? own_block<B>(A, a) : SymMat3<float>{};
     const auto most = Kokkos::max(own[0], Kokkos::max(own[1], own[2]));
     rows.scale(slot) = most > 0 ? Kokkos::sqrt(most / (0x1p16F * 32767)) : 1;
   }
@@ -107,11 +107,11 @@ struct PackRow {
                   lower = t * rows.scale(rows.column(e, 1, l));
       for (int k = 0; k < 9; ++k)
         rows.word(e, k, l) =
-            static_cast<int>(number(s, k, upper) << 16 | (s + 1 < last ? number(s + 1, k, lower) & 0xffffU : 0U));
+            static_cast<int>(number(a, s, k, upper) << 16 | (s + 1 < last ? number(a, s + 1, k, lower) & 0xffffU : 0U));
     }
   }
-  KOKKOS_INLINE_FUNCTION unsigned number(int s, int k, float scale) const {
-    const float q = A.value(s, k) / scale * 0x1p-16F;
+  KOKKOS_INLINE_FUNCTION unsigned number(int a, int s, int k, float scale) const {
+    const float q = A.number(a, s, k) / scale * 0x1p-16F;
     return static_cast<unsigned>(static_cast<int>(Kokkos::round(Kokkos::fmin(Kokkos::fmax(q, -32767.0F), 32767.0F))));
   }
 };

@@ -11,7 +11,7 @@ template <class B>
 struct TakeDiagonal {
   BlockMatrix<B> A;
   Blocks<B> diagonal;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_block<B>(diagonal, a, block_at<B>(A, A.diagonal(a))); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_block<B>(diagonal, a, own_block<B>(A, a)); }
 };
 
 /// The inverse of a matrix's own block of every row. One that is not positive definite gives way to what is positive on its
@@ -22,7 +22,7 @@ struct InvertDiagonal {
   BlockMatrix<B> A;
   Blocks<B> inverse;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const SymMat3<Real> block = block_at<B>(A, A.diagonal(a));
+    const SymMat3<Real> block = own_block<B>(A, a);
     SymMat3<Real> answer;
     if (!invert_positive(block, answer))
       for (int k = 0; k < 3; ++k) answer[k] = block[k] > 0 ? 1 / block[k] : Real(0);
@@ -39,54 +39,62 @@ struct AddToDiagonal {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { add_block<B>(A, A.diagonal(a), scale, block_at<B>(block, a)); }
 };
 
-/// A sum of columns of blocks, each times a number. A CPU takes a column as four numbers, the last of which is not used.
+/// A sum of blocks times vectors. A CPU takes a column as four numbers, the last of which is not used; so it adds up the products of columns
+/// with a vector, number by number, and sums up the numbers of a column at the end.
 template <class Real>
 struct BlockSum {
 #if defined(__GNUC__) && !defined(__CUDACC__)
   typedef Real Column __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
-  Column v = {};
-  void add(const Real* column, Real x) { v += *reinterpret_cast<const Column*>(column) * x; }
-  Real operator[](int i) const { return v[i]; }
+  Column straight[3] = {}, turned[3] = {};
+
+  static const Column& four(const Real* at) { return *reinterpret_cast<const Column*>(at); }
+  void add(const Real* block, const Real* x) {
+    for (int k = 0; k < 3; ++k) straight[k] += four(block + 3 * k) * x[k];
+  }
+  /// Of the transposed block; the number after x is read.
+  void add_turned(const Real* block, const Real* x) {
+    for (int k = 0; k < 3; ++k) turned[k] += four(block + 3 * k) * four(x);
+  }
+  Vec3<Real> sum() const {
+    const Column y = straight[0] + straight[1] + straight[2];
+    Vec3<Real> all;
+    for (int k = 0; k < 3; ++k) all[k] = y[k] + (turned[k][0] + turned[k][1] + turned[k][2]);
+    return all;
+  }
 #else
-  Vec3<Real> v;
-  KOKKOS_INLINE_FUNCTION void add(const Real* column, Real x) { v += x * Vec3<Real>{column[0], column[1], column[2]}; }
-  KOKKOS_INLINE_FUNCTION Real operator[](int i) const { return v[i]; }
+  Vec3<Real> y;
+  KOKKOS_INLINE_FUNCTION void add(const Real* block, const Real* x) {
+    for (int k = 0; k < 9; ++k) y[k % 3] += block[k] * x[k / 3];
+  }
+  KOKKOS_INLINE_FUNCTION void add_turned(const Real* block, const Real* x) {
+    for (int k = 0; k < 9; ++k) y[k / 3] += block[k] * x[k % 3];
+  }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> sum() const { return y; }
 #endif
 };
 
-/// Row a of A x. Per block 9 s + 4 bytes, 18 flops. Of a large matrix, what rows further down need is asked for early: a processor foresees
-/// no further than the page in memory.
+/// Row a of A x. Per stored block 9 s + 12 bytes, 36 flops, where those of rows above are still in a cache. Of a large matrix, what rows
+/// further down need is asked for early: a processor foresees no further than the page in memory.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatrix<B>& A, int a, const Vectors<B>& x) {
   using Real = typename B::Real;
-  const int first = A.first(a), last = A.first(a + 1);
+  const int own = A.diagonal(a), last = A.first(a + 1);
+  const auto value = [&](int place) { return A.value.data() + 9 * static_cast<std::ptrdiff_t>(place); };
+  const auto vector = [&](int s) { return x.data() + 3 * static_cast<std::ptrdiff_t>(A.column(s)); };
+  BlockSum<Real> sum;
+  for (int s = A.first(a); s < own; ++s) sum.add_turned(value(A.place(s)), vector(s));
+  const Real* block = value(A.place(own));
 #if defined(__GNUC__) && !defined(__CUDACC__)
-  if constexpr (B::for_cpu) {
-    BlockSum<Real> even[3], odd[3];  // two blocks at a time: sums need not wait for each other
-    const Real* value = A.value.data() + 9 * static_cast<std::ptrdiff_t>(first);
-    constexpr std::ptrdiff_t ahead = 8192 / sizeof(Real), line = 64 / sizeof(Real);
-    const bool large = A.blocks() > (8 << 20) / static_cast<int>(9 * sizeof(Real));
-    const auto add = [&](BlockSum<Real>(&sum)[3], int s, const Real* block) {
-      const Real* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(A.column(s));
-      for (int k = 0; k < 3; ++k) sum[k].add(block + 3 * k, at[k]);
-    };
-    int s = first;
-    for (; s + 1 < last; s += 2, value += 18) {
-      if (large) __builtin_prefetch(value + ahead), __builtin_prefetch(value + ahead + line);
-      add(even, s, value), add(odd, s + 1, value + 9);
-    }
-    if (s < last) add(even, s, value);
-    const auto y = (even[0].v + even[1].v + even[2].v) + (odd[0].v + odd[1].v + odd[2].v);
-    return {y[0], y[1], y[2]};
-  }
+  constexpr std::ptrdiff_t ahead = 8192 / sizeof(Real), line = 64 / sizeof(Real);
+  const bool large = A.stored() > (8 << 20) / static_cast<int>(9 * sizeof(Real));
 #endif
-  Vec3<Real> y;
-  for (int s = first; s < last; ++s)
-    for (int k = 0; k < 3; ++k) {
-      const Real w = x(A.column(s), k);
-      for (int i = 0; i < 3; ++i) y[i] += A.value(s, 3 * k + i) * w;
-    }
-  return y;
+  for (int s = own; s < last; ++s, block += 9) {
+#if defined(__GNUC__) && !defined(__CUDACC__)
+    if (large) __builtin_prefetch(block + ahead), __builtin_prefetch(block + ahead + line);
+#endif
+    sum.add(block, vector(s));
+  }
+  return sum.sum();
 }
 
 /// y = A x
@@ -117,7 +125,7 @@ struct BlockProductDot {
 ///   fine   i   i' ------ j          here i, i' hang on I, and j on J
 ///
 /// Which terms there are depends on the meshes alone: GalerkinMap lists them once, block by block, and a work item adds up one
-/// block. A is symmetric, so that only I <= J is added up and (J, I) is its transpose. Per term 8 + 9 s bytes, 18 flops.
+/// block that is stored. Per term 8 + 9 s bytes, 18 flops.
 template <class B>
 struct GalerkinProduct {
   using Real = typename B::Real;
@@ -125,15 +133,14 @@ struct GalerkinProduct {
   BlockMatrix<B> fine, coarse;
 
   KOKKOS_INLINE_FUNCTION void operator()(int block) const {
-    Real sum[9] = {};
+    Real sum[2][9] = {};  // of blocks, and of those to be transposed
     for (int s = map.first(block); s < map.first(block + 1); ++s) {
       const Real w = map.weight(s);
-      const Real* const from = &fine.value(map.fine(s), 0);
-      for (int k = 0; k < 9; ++k) sum[k] += w * from[k];
+      const int place = map.fine(s), turned = place < 0;
+      const Real* const from = &fine.value(turned ? -1 - place : place, 0);
+      for (int k = 0; k < 9; ++k) sum[turned][k] += w * from[k];
     }
-    Real* const upper = &coarse.value(map.upper(block), 0);
-    Real* const lower = &coarse.value(map.lower(block), 0);
-    for (int k = 0; k < 9; ++k) upper[k] = sum[k], lower[k % 3 * 3 + k / 3] = sum[k];
+    for (int k = 0; k < 9; ++k) coarse.value(block, k) = sum[0][k] + sum[1][k % 3 * 3 + k / 3];
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
+#include <plica/drivers/solver/linear/host_pattern.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/kernels/elastic/elastic_blocks.hpp>
@@ -44,12 +45,7 @@ class PatternBuilder {
 
   BlockPattern<B> finish() const {
     BlockPattern<B> made;
-    BlockMatrix<B>& A = made.matrix;
-    A.rows = vertices_;
-    A.first = to_device<Indices<B>>("matrix.first", first_);
-    A.column = to_device<Indices<B>>("matrix.column", column_);
-    A.diagonal = to_device<Indices<B>>("matrix.diagonal", diagonal_);
-    A.value = zeros<Blocks9<B>>("plica::matrix.value", column_.size() + 1);
+    made.matrix = block_matrix<B>("matrix", pattern_);
     PatchPairs<B>& P = made.pairs;
     P.shares = first_share_.back();
     P.first_pair = to_device<Indices<B>>("pairs.first_pair", first_pair_);
@@ -57,11 +53,9 @@ class PatternBuilder {
     P.first_slot = to_device<Indices<B>>("pairs.first_slot", first_slot_);
     P.first_turned = to_device<Indices<B>>("pairs.first_turned", first_turned_);
     P.slot = to_device<decltype(P.slot)>("pairs.slot", slot_);
-    P.upper = to_device<Indices<B>>("pairs.upper", upper_);
-    P.lower = to_device<Indices<B>>("pairs.lower", lower_);
+    P.place = to_device<Indices<B>>("pairs.place", place_);
     P.first_share = to_device<Indices<B>>("pairs.first_share", first_share_);
-    P.shared_upper = to_device<Indices<B>>("pairs.shared_upper", shared_upper_);
-    P.shared_lower = to_device<Indices<B>>("pairs.shared_lower", shared_lower_);
+    P.shared_place = to_device<Indices<B>>("pairs.shared_place", shared_place_);
     return made;
   }
 
@@ -75,10 +69,11 @@ class PatternBuilder {
   Host<Indices<B>> element_;
   std::vector<ElementPair> block_;  // of elements, patch by patch, pair by pair
   std::vector<PairOfPatch> pair_;   // patch by patch
-  std::vector<int> patches_of_;     // [blocks of the matrix] i < j: how many have the pair
-  std::vector<int> first_pair_{0}, first_shared_, first_slot_{0}, first_turned_, upper_, lower_;
+  HostPattern pattern_;
+  std::vector<int> patches_of_;  // [blocks that are stored] how many have the pair
+  std::vector<int> first_pair_{0}, first_shared_, first_slot_{0}, first_turned_, place_;
   std::vector<std::uint16_t> slot_;
-  std::vector<int> first_, column_, diagonal_, first_share_{0}, shared_upper_, shared_lower_;
+  std::vector<int> first_share_{0}, shared_place_;
 
   bool is_free(int a) const { return inverse_mass_(a) > 0; }
 
@@ -117,30 +112,25 @@ class PatternBuilder {
       if (is_free(pair.first)) rows[index_of(pair.first)].push_back(pair.second);
       if (is_free(pair.second)) rows[index_of(pair.second)].push_back(pair.first);
     }
-    first_.push_back(0);
-    for (int a = 0; a < vertices_; ++a) {
-      std::vector<int>& row = rows[index_of(a)];
+    std::vector<int> first{0}, column;
+    for (std::vector<int>& row : rows) {
       std::sort(row.begin(), row.end());
-      row.erase(std::unique(row.begin(), row.end()), row.end());
-      diagonal_.push_back(first_.back() + static_cast<int>(std::lower_bound(row.begin(), row.end(), a) - row.begin()));
-      column_.insert(column_.end(), row.begin(), row.end());
-      first_.push_back(static_cast<int>(column_.size()));
+      column.insert(column.end(), row.begin(), std::unique(row.begin(), row.end()));
+      first.push_back(static_cast<int>(column.size()));
     }
+    pattern_ = {std::move(first), std::move(column)};
   }
 
-  /// Of block (a, b) in the matrix; -1 where row a is empty.
-  int place_of(int a, int b) const {
-    if (!is_free(a)) return -1;
-    const auto row = column_.begin() + first_[index_of(a)];
-    return static_cast<int>(std::lower_bound(row, column_.begin() + first_[index_of(a + 1)], b) - column_.begin());
-  }
-  /// Of one of the two blocks of a pair.
+  /// Of a pair's block in the matrix.
   int place_of(const PairOfPatch& pair) const {
-    return is_free(pair.first) ? place_of(pair.first, pair.second) : place_of(pair.second, pair.first);
+    const auto [a, b] = is_free(pair.first) ? std::pair(pair.first, pair.second) : std::pair(pair.second, pair.first);
+    const auto row = pattern_.column.begin() + pattern_.first[index_of(a)];
+    const auto block = std::lower_bound(row, row + pattern_.blocks_of_row(a), b);
+    return pattern_.place[static_cast<std::size_t>(block - pattern_.column.begin())];
   }
 
   void count_patches() {
-    patches_of_.resize(column_.size());
+    patches_of_.resize(index_of(pattern_.stored));
     for (const PairOfPatch& pair : pair_) ++patches_of_[index_of(place_of(pair))];
   }
 
@@ -164,23 +154,20 @@ class PatternBuilder {
 
   /// Shares of a block follow each other in the order of the patches.
   void place_pairs() {
-    std::vector<int> first_share(column_.size(), -1);
-    upper_.resize(pair_.size()), lower_.resize(pair_.size());
-    for (std::size_t s = 0; s < pair_.size(); ++s) {
-      const PairOfPatch& pair = pair_[s];
-      const int block = place_of(pair), upper = place_of(pair.first, pair.second);
-      const int lower = place_of(pair.second, pair.first);
-      if (patches_of_[index_of(block)] == 1) {
-        upper_[s] = upper, lower_[s] = lower;
+    std::vector<int> first_share(patches_of_.size(), -1);
+    for (const PairOfPatch& pair : pair_) {
+      const int place = place_of(pair);
+      if (patches_of_[index_of(place)] == 1) {
+        place_.push_back(place);
         continue;
       }
-      int& share = first_share[index_of(block)];
+      int& share = first_share[index_of(place)];
       if (share < 0) {
         share = first_share_.back();
-        shared_upper_.push_back(upper), shared_lower_.push_back(lower);
-        first_share_.push_back(share + patches_of_[index_of(block)]);
+        shared_place_.push_back(place);
+        first_share_.push_back(share + patches_of_[index_of(place)]);
       }
-      upper_[s] = share++, lower_[s] = -1;
+      place_.push_back(share++);
     }
   }
 };

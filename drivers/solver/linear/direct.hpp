@@ -86,7 +86,7 @@ struct Direct {
         for (int s = A.diagonal(a); s < A.first(a + 1); ++s)  // column a, by symmetry
           for (int k = 0; k < 9 && (A.column(s) == a || coupled(A, A.column(s))); ++k)
             if (3 * A.column(s) + k / 3 >= 3 * a + k % 3)
-              triplets.emplace_back(3 * A.column(s) + k / 3, 3 * a + k % 3, static_cast<double>(9 * s + k));
+              triplets.emplace_back(3 * A.column(s) + k / 3, 3 * a + k % 3, static_cast<double>(9 * A.place(s) + k));
       lower_.resize(3 * A.rows, 3 * A.rows);
       lower_.setFromTriplets(triplets.begin(), triplets.end());
       lower_.makeCompressed();

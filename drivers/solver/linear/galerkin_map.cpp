@@ -8,14 +8,16 @@ namespace plica {
 
 namespace {
 
-/// Calls use(column, block, weight) for the terms, weight times a block of A, of a coarse row from its own column on, blocks ascending.
+/// Calls use(column, block, weight) for the terms, weight times a block of A as GalerkinMap names it, of a coarse row from its own column on.
 template <class Use>
 void for_terms(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt, int row, const Use& use) {
   for (RowMatrix::InnerIterator i(Pt, row); i; ++i) {
     const auto a = static_cast<std::size_t>(i.col());
-    for (int s = A.first[a]; s < A.first[a + 1]; ++s)
+    for (int s = A.first[a]; s < A.first[a + 1]; ++s) {
+      const int place = A.place[index_of(s)], block = s < A.diagonal[a] ? -1 - place : place;
       for (RowMatrix::InnerIterator j(P, A.column[index_of(s)]); j; ++j)
-        if (j.col() >= row) use(static_cast<std::size_t>(j.col()), s, i.value() * j.value());
+        if (j.col() >= row) use(static_cast<std::size_t>(j.col()), block, i.value() * j.value());
+    }
   }
 }
 
@@ -47,39 +49,16 @@ HostPattern both_halves(const std::vector<std::vector<int>>& upper) {
       if (static_cast<int>(a) != b) rows[index_of(b)].push_back(static_cast<int>(a));
       rows[a].push_back(b);
     }
-  HostPattern pattern;
+  std::vector<int> first{0}, column;
   for (auto& row : rows) {
     std::sort(row.begin(), row.end());
-    pattern.column.insert(pattern.column.end(), row.begin(), row.end());
-    pattern.first.push_back(static_cast<int>(pattern.column.size()));
+    column.insert(column.end(), row.begin(), row.end());
+    first.push_back(static_cast<int>(column.size()));
   }
-  return pattern;
-}
-
-int place_of(const HostPattern& A, int a, int b) {
-  const auto first = A.column.begin() + A.first[index_of(a)], last = A.column.begin() + A.first[index_of(a + 1)];
-  return static_cast<int>(std::lower_bound(first, last, b) - A.column.begin());
+  return {std::move(first), std::move(column)};
 }
 
 }  // namespace
-
-template <class B>
-HostPattern host_pattern(const BlockMatrix<B>& A) {
-  HostPattern pattern;
-  const auto first = on_host(A.first), column = on_host(A.column);
-  pattern.first.assign(first.data(), first.data() + first.extent(0));
-  pattern.column.assign(column.data(), column.data() + column.extent(0));
-  return pattern;
-}
-
-template <class B>
-BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern) {
-  std::vector<int> diagonal;
-  for (int a = 0; a < pattern.rows(); ++a) diagonal.push_back(place_of(pattern, a, a));
-  return {pattern.rows(), to_device<Indices<B>>(name + ".first", pattern.first),
-          to_device<Indices<B>>(name + ".column", pattern.column), to_device<Indices<B>>(name + ".diagonal", diagonal),
-          zeros<Blocks9<B>>("plica::" + name + ".value", pattern.column.size() + 1)};
-}
 
 template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
@@ -107,19 +86,12 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   CoarseMatrix<B> made;
   made.pattern = both_halves(columns);
   made.matrix = block_matrix<B>("multigrid", made.pattern);
-  std::vector<int> to_upper, to_lower;
-  for (int a = 0; a < static_cast<int>(columns.size()); ++a)
-    for (const int b : columns[index_of(a)])
-      to_upper.push_back(place_of(made.pattern, a, b)), to_lower.push_back(place_of(made.pattern, b, a));
   made.map = {to_device<Indices<B>>("galerkin.first", first), to_device<Indices<B>>("galerkin.fine", fine),
-              to_device<Scalars<B>>("galerkin.weight", weight), to_device<Indices<B>>("galerkin.upper", to_upper),
-              to_device<Indices<B>>("galerkin.lower", to_lower)};
+              to_device<Scalars<B>>("galerkin.weight", weight)};
   return made;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                                  \
-  template HostPattern host_pattern<Backend<Real, Exec>>(const BlockMatrix<Backend<Real, Exec>>&);                     \
-  template BlockMatrix<Backend<Real, Exec>> block_matrix<Backend<Real, Exec>>(const std::string&, const HostPattern&); \
+#define PLICA_INSTANTIATE(Real, Exec) \
   template CoarseMatrix<Backend<Real, Exec>> coarse_matrix<Backend<Real, Exec>>(const HostPattern&, const RowMatrix&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

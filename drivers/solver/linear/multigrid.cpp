@@ -41,7 +41,8 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
   for (std::size_t i = 0; i < grids_.size(); ++i) {
     Grid& grid = grids_[i];
     if (i == 0) {
-      grid.A = {A.rows, A.first, A.column, A.diagonal, zeros<Blocks9<F>>("plica::multigrid.value", A.value.extent(0))};
+      grid.A = {A.rows,     A.first, A.column,
+                A.diagonal, A.place, zeros<Blocks9<F>>("plica::multigrid.value", A.value.extent(0))};
     } else {
       CoarseMatrix<F> coarse = coarse_matrix<F>(pattern, transfers[i - 1]);
       grid.A = coarse.matrix, grid.map = coarse.map, pattern = std::move(coarse.pattern);
@@ -212,11 +213,12 @@ std::size_t Multigrid<B>::bytes() const {
                       4 * bytes_of_views(lanczos_[0]);
   for (const Grid& grid : grids_) {
     const Chebyshev<F>& on = grid.smoother;
-    total += bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word,
-                            on.A.scale, on.inverse_diagonal, on.largest, on.r, on.x, grid.d, grid.e) +
-             bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
-             bytes_of_views(grid.map.first, grid.map.fine, grid.map.weight, grid.map.upper, grid.map.lower) +
-             (&grid == &grids_.front() ? 0 : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal));
+    total +=
+        bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word, on.A.scale,
+                       on.inverse_diagonal, on.largest, on.r, on.x, grid.d, grid.e) +
+        bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
+        bytes_of_views(grid.map.first, grid.map.fine, grid.map.weight) +
+        (&grid == &grids_.front() ? 0 : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal, grid.A.place));
   }
   return total;
 }

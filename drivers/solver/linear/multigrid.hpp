@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/matrices.hpp>
+#include <plica/drivers/solver/linear/host_pattern.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
 #include <plica/kernels/linear/chebyshev.hpp>
@@ -26,23 +27,12 @@ class Preconditioner {
   virtual void refit(const Exec& exec) = 0;
 };
 
-/// Which blocks a matrix has, on the host.
-struct HostPattern {
-  std::vector<int> first{0}, column;
-  int rows() const { return static_cast<int>(first.size()) - 1; }
-};
-
 template <class B>
 struct CoarseMatrix {
   HostPattern pattern;
   BlockMatrix<B> matrix;  ///< P^T A P, its values zero
   GalerkinMap<B> map;
 };
-
-template <class B>
-HostPattern host_pattern(const BlockMatrix<B>& A);
-template <class B>
-BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern);
 
 /// Which vertex stands in which slot of packed rows, and the other way round: in windows of slices the longest rows first, so that little
 /// is filled up.

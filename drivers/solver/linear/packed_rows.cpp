@@ -7,12 +7,6 @@
 
 namespace plica {
 
-namespace {
-
-int blocks_of_row(const HostPattern& A, int a) { return A.first[index_of(a + 1)] - A.first[index_of(a)]; }
-
-}  // namespace
-
 SlotOrder plain_order(int vertices) {
   SlotOrder order;
   order.vertex.resize(index_of(vertices));
@@ -26,7 +20,7 @@ SlotOrder slot_order(const HostPattern& A, int height) {
   const int window = 32 * height;
   for (int begin = 0; begin < A.rows(); begin += window)
     std::stable_sort(order.vertex.begin() + begin, order.vertex.begin() + std::min(begin + window, A.rows()),
-                     [&](int a, int b) { return blocks_of_row(A, a) > blocks_of_row(A, b); });
+                     [&](int a, int b) { return A.blocks_of_row(a) > A.blocks_of_row(b); });
   for (int s = 0; s < A.rows(); ++s) order.slot[index_of(order.vertex[index_of(s)])] = s;
   order.vertex.resize(index_of((A.rows() + height - 1) / height * height), -1);
   return order;
@@ -44,12 +38,12 @@ PackedRows<B> packed_rows(const HostPattern& A, const SlotOrder& order) {
     const auto of_slice = order.vertex.begin() + q * height;
     int longest = 0;
     for (int l = 0; l < height; ++l)
-      if (of_slice[l] >= 0) longest = std::max(longest, blocks_of_row(A, of_slice[l]));
+      if (of_slice[l] >= 0) longest = std::max(longest, A.blocks_of_row(of_slice[l]));
     column.resize(column.size() + index_of((longest + 1) / 2));
     for (int l = 0; l < height; ++l)
       for (int j = 0; j < longest + longest % 2; ++j) {
         const int a = of_slice[l];
-        const bool is_block = a >= 0 && j < blocks_of_row(A, a);
+        const bool is_block = a >= 0 && j < A.blocks_of_row(a);
         column[index_of(first.back() + j / 2)][index_of(j % 2)][index_of(l)] =
             is_block ? order.slot[index_of(A.column[index_of(A.first[index_of(a)] + j)])] : q * height + l;
       }

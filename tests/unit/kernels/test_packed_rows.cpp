@@ -3,11 +3,12 @@
 
 #include <cmath>
 #include <plica/drivers/solver/linear/multigrid.hpp>
+#include <plica/kernels/linear/krylov.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/meshes/generators.hpp>
 #include <set>
 
-// Matrices in 16 bits a number, by slots, and the polynomial that smooths with them.
+// Symmetric matrices of blocks; the same in 16 bits a number, by slots, and the polynomial that smooths with them.
 namespace {
 
 using namespace plica;
@@ -19,7 +20,7 @@ Eigen::MatrixXd dense(const BlockMatrix<B>& A) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * A.rows, 3 * A.rows);
   for (int a = 0; a < A.rows; ++a)
     for (int s = A.first(a); s < A.first(a + 1); ++s)
-      for (int k = 0; k < 9; ++k) all(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.value(s, k));
+      for (int k = 0; k < 9; ++k) all(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.number(a, s, k));
   return all;
 }
 
@@ -37,19 +38,18 @@ struct Sample {
       for (const int a : tet)
         for (const int b : tet)
           if (!is_given(a)) row[at(a)].insert(b);
-    std::vector<int> diagonal;
-    for (int a = 0; a < n; ++a) {
-      for (const int b : row[at(a)]) {
-        if (b == a) diagonal.push_back(static_cast<int>(pattern.column.size()));
-        pattern.column.push_back(b);
-      }
-      pattern.first.push_back(static_cast<int>(pattern.column.size()));
+    std::vector<int> first{0}, column;
+    for (const auto& columns : row) {
+      column.insert(column.end(), columns.begin(), columns.end());
+      first.push_back(static_cast<int>(column.size()));
     }
-    A = {n, to_device<Indices<B>>("first", pattern.first), to_device<Indices<B>>("column", pattern.column),
-         to_device<Indices<B>>("diagonal", diagonal), zeros<Blocks9<B>>("value", pattern.column.size() + 1)};
+    pattern = {first, column};
+    A = block_matrix<B>("test", pattern);
     for (int a = 0; a < n; ++a)
       for (int s = A.first(a); s < A.first(a + 1); ++s)
-        for (int k = 0; k < 9; ++k) A.value(s, k) = block(a, A.column(s), k % 3, k / 3);
+        for (int k = 0; k < 9 && A.is_stored(a, s); ++k)
+          A.value(A.place(s), k) =
+              s < A.diagonal(a) ? block(A.column(s), a, k % 3, k / 3) : block(a, A.column(s), k % 3, k / 3);
   }
 
   static bool is_given(int a) { return a % 11 == 3; }
@@ -61,6 +61,50 @@ struct Sample {
     return size(a) * size(b) * std::sin(static_cast<float>(7 * a + 3 * b + 5 * i + 2 * j));
   }
 };
+
+TEST(BlockMatrix, StoresOneOfTwoBlocks) {
+  const Sample m;
+  std::set<int> places;
+  for (int a = 0; a < m.A.rows; ++a)
+    for (int s = m.A.first(a); s < m.A.first(a + 1); ++s) {
+      const int b = m.A.column(s);
+      if (m.A.is_stored(a, s)) {
+        EXPECT_TRUE(places.insert(m.A.place(s)).second) << a << ' ' << b;
+      } else {
+        EXPECT_FALSE(Sample::is_given(b));
+      }
+      for (int k = 0; k < 9; ++k) EXPECT_EQ(m.A.number(a, s, k), Sample::block(a, b, k % 3, k / 3)) << a << ' ' << b;
+    }
+  EXPECT_EQ(static_cast<int>(places.size()), m.A.stored());
+  EXPECT_LT(m.A.stored(), 0.6 * m.A.blocks());
+}
+
+// Also of vertices whose motion is given: only their rows are empty.
+TEST(BlockMatrix, ProductsAreThoseOfTheDenseOne) {
+  const Sample m;
+  const Eigen::MatrixXd A = dense(m.A);
+  SolutionSpace<B> space;
+  for (int i = 0; i < SolutionSpace<B>::size; ++i) {
+    space.w[i] = zeros<Vectors<B>>("test.w", at(m.A.rows)), space.q[i] = zeros<Vectors<B>>("test.q", at(m.A.rows));
+    for (int a = 0; a < 3 * m.A.rows; ++a) space.w[i](a / 3, a % 3) = std::sin(static_cast<float>(2 * a + 5 * i));
+  }
+  const auto y = zeros<Vectors<B>>("test.y", at(m.A.rows));
+  update_vertices<B>({}, "test", m.A.rows, BlockProduct<B>{m.A, space.w[1], y});
+  update_vertices<B>({}, "test", m.A.rows, SpaceProducts<B>{m.A, space});
+  Kokkos::fence();
+  for (int i = 0; i < SolutionSpace<B>::size; ++i) {
+    Eigen::VectorXd w(A.rows());
+    for (int a = 0; a < w.size(); ++a) w[a] = static_cast<double>(space.w[i](a / 3, a % 3));
+    const Eigen::VectorXd want = A * w;
+    for (int a = 0; a < w.size(); ++a) {
+      const double bound = 2e-6 * A.row(a).cwiseAbs().sum();
+      EXPECT_NEAR(static_cast<double>(space.q[i](a / 3, a % 3)), want[a], bound) << a;
+      if (i == 1) {
+        EXPECT_NEAR(static_cast<double>(y(a / 3, a % 3)), want[a], bound) << a;
+      }
+    }
+  }
+}
 
 struct Packed : Sample {
   B::Exec exec;
