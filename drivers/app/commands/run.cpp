@@ -147,9 +147,7 @@ std::filesystem::path folder_of(const RunArguments& arguments) {
 
 // A new run deletes the one in its folder, so the user has to say so
 void refuse_to_replace(const std::filesystem::path& folder) {
-  std::vector<std::string> found;
-  for (const char* file : {"checkpoint.bin", "summary.json", "history.csv", "probes.csv", "frames.pvd"})
-    if (std::filesystem::exists(folder / file)) found.emplace_back(file);
+  const std::vector<std::string> found = former_run(folder);
   if (found.empty()) return;
   const std::string resume =
       found.front() == "checkpoint.bin" ? fmt::format(", --resume {} to go on with it", folder.string()) : "";

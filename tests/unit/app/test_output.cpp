@@ -116,6 +116,18 @@ TEST(RunFiles, KeepOnlyThisRun) {
             std::string::npos);
 }
 
+TEST(RunFiles, LeaveAPageThatShowsSomethingElse) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  write_file(folder / "report.html", "of a study");
+  EXPECT_TRUE(former_run(folder.path()).empty());
+  { RunFiles files(scene, folder.path()); }
+  EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
+  EXPECT_EQ(former_run(folder.path()), std::vector<std::string>{"history.csv"});
+  { RunFiles files(scene, folder.path()); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
+}
+
 TEST(RunFiles, HistoryHasItsColumns) {
   const TemporaryFolder folder;
   const Scene scene = scene_of(block);
