@@ -328,6 +328,21 @@ TEST(PlanText, NamesElementsThatAreOutOfTheOrdinary) {
   EXPECT_EQ(plan_text(scene, plan).find("limit the step"), std::string::npos);
 }
 
+TEST(ManySteps, AreToldWithWhatTheSceneDoesNotHave) {
+  Summary summary;
+  summary.macro_step = 1e-7, summary.cycle = "single", summary.levels = {level_with(1e-6)};
+  Scene scene = scene_of(block);
+  const std::string begin = "integration.macro_step: the run takes 1e+07 macro steps of 100 ns; expected ",
+                    end = ", or a mesh without slivers (plica explain names them), or a poisson_ratio further from 0.5";
+  EXPECT_EQ(many_steps_text(scene, summary), begin + "an implicit integrator, or cycle: him" + end);
+  summary.cycle = "him";
+  EXPECT_EQ(many_steps_text(scene, summary), begin + "an implicit integrator" + end);
+  summary.levels[0].explicit_integrator = false, scene.problem.integration.macro_step = 1e-7;
+  EXPECT_EQ(many_steps_text(scene, summary), begin + "a longer one");
+  summary.macro_step = 1e-3;
+  EXPECT_EQ(many_steps_text(scene, summary), "");
+}
+
 TEST(LevelsJson, HaveTheStiffestElements) {
   const nlohmann::ordered_json levels = levels_json({level_with(0.04e-3)});
   EXPECT_EQ(levels[0]["typical_element"], 1e-3);

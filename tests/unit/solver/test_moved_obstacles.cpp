@@ -181,6 +181,10 @@ TEST(MovedObstacles, AreDoubtedWhereTheyAreTooLight) {
   };
   EXPECT_EQ(said(0.9), 1);
   EXPECT_EQ(said(1.1), 0);
+  p.body.regions["heavy"].where = Box{{-1, -1, -1}, {1, 1, 1}};
+  p.body.regions["heavy"].density = 3000;
+  EXPECT_EQ(said(2.7), 1);
+  EXPECT_EQ(said(3.3), 0);
 }
 
 }  // namespace
