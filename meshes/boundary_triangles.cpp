@@ -16,7 +16,7 @@ struct Face {
   std::size_t number;         // 4 * tetrahedron + corner across
 };
 
-// Calls visit(its faces) for every three vertices that tetrahedra have a face of. Put beside each other by the lowest vertex by counting, then
+// Calls visit(its faces, ascending by number) for every three vertices that tetrahedra have a face of. Put beside each other by the lowest vertex by counting, then
 // sorted for each vertex: several times faster than one sort of all
 template <class Visit>
 void for_faces(const TetMesh& mesh, const Visit& visit) {
@@ -39,7 +39,9 @@ void for_faces(const TetMesh& mesh, const Visit& visit) {
   for (std::size_t v = 0; v + 1 < start.size(); ++v) {
     const auto first = faces.begin() + static_cast<std::ptrdiff_t>(start[v]);
     const auto last = faces.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
-    std::sort(first, last, [](const Face& a, const Face& b) { return a.others < b.others; });
+    std::sort(first, last, [](const Face& a, const Face& b) {
+      return a.others != b.others ? a.others < b.others : a.number < b.number;  // the same order everywhere
+    });
     for (auto face = first; face != last;) {
       auto other = face + 1;
       while (other != last && other->others == face->others) ++other;

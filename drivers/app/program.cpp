@@ -4,9 +4,11 @@
 #include <csignal>
 #include <functional>
 #include <iostream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/output/json_parts.hpp>
+#include <plica/drivers/app/output/peak_memory.hpp>
 #include <plica/drivers/app/output/study_choice.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -136,31 +138,40 @@ class CommandLine {
   void add_run() {
     CLI::App* command =
         add_scene_command("run", "simulate the scene and write its files", [this] { return run(arguments_); });
-    CLI::Option* folder = command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)");
-    folder->type_name("FOLDER");
+    CLI::Option* folder = add_output(command, "out/SCENE");
     command
         ->add_option("--checkpoint", arguments_.checkpoint,
                      "save a checkpoint to resume from, every N macro steps or every TIME [s] of simulated time")
         ->type_name("every=N|TIME");
     CLI::Option* resume =
         command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint");
-    resume->type_name("FOLDER")->excludes(folder)->excludes(add_study_option(command));
+    takes_folder(resume)->excludes(folder)->excludes(add_study_option(command));
     command->add_flag("--force", arguments_.force, "replace the run that is in the folder")->excludes(resume);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
     command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
   }
 
   CLI::Option* add_study_option(CLI::App* command) {
-    return command
-        ->add_option("--study", study_folder_,
-                     "as the study of the scene in this folder chose for integration.error_class, by error and time")
-        ->type_name("FOLDER");
+    return takes_folder(command->add_option(
+        "--study", study_folder_,
+        "as the study of the scene in this folder chose for integration.error_class, by error and time"));
+  }
+
+  CLI::Option* add_output(CLI::App* command, const std::string& otherwise) {
+    return takes_folder(
+        command->add_option("-o,--output", arguments_.folder, "folder for the files (" + otherwise + ")"));
+  }
+
+  /// Nothing, as of a variable of the shell that is not set, is no folder.
+  static CLI::Option* takes_folder(CLI::Option* option) {
+    return option->type_name("FOLDER")->check(
+        [](const std::string& text) { return std::string(text.empty() ? "expected a folder, got ''" : ""); });
   }
 
   void add_study() {
     CLI::App* command = add_scene_command("study", "measure methods' errors against their run times",
                                           [this] { return study(arguments_, study_); });
-    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE)")->type_name("FOLDER");
+    add_output(command, "out/SCENE");
     command
         ->add_option("--budget", study_.budget,
                      "wall time of all runs [s]; what does not fit is left out and listed, but for the reference and "
@@ -180,8 +191,7 @@ class CommandLine {
                                           [this] { return stability(arguments_, stability_); });
     command->add_flag("--matrix", stability_.matrix,
                       "no scene: all stiff and extreme cases, each with the outcome that it must have");
-    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/SCENE, out/stability)")
-        ->type_name("FOLDER");
+    add_output(command, "out/SCENE, out/stability");
     command
         ->add_option("--budget", stability_.budget,
                      "wall time of all runs [s]; what does not fit is left out and listed")
@@ -200,7 +210,7 @@ class CommandLine {
     CLI::App* command =
         add("verify", "solve problems with known answers", [this] { return verify(arguments_, verify_); });
     command->add_option("PROBLEM", verify_.problems, "only these (all)");
-    command->add_option("-o,--output", arguments_.folder, "folder for the files (out/verify)")->type_name("FOLDER");
+    add_output(command, "out/verify");
     command->add_flag("--small", verify_.small, "on coarser meshes, in seconds");
     add_threads(command);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
@@ -343,6 +353,10 @@ ExitStatus guarded(const std::vector<std::string>& words) {
     return failed(error.what(), ExitStatus::bad_input);
   } catch (const FolderError& error) {
     return failed(error.what(), ExitStatus::bad_input);
+  } catch (const std::bad_alloc&) {
+    return failed("memory ran out, of which the process had " + in_bytes(peak_memory()) +
+                      "; expected coarser meshes, or a machine with more",
+                  ExitStatus::failed);
   } catch (const std::exception& error) {
     return failed(error.what(), ExitStatus::failed);
   }

@@ -346,6 +346,7 @@ NB_MODULE(_plica, m) {
   });
   m.def("read_mesh", [](const std::string& file) { return parts_of(read_mesh(file)); });
   m.def("write_mesh", &write_mesh_file, "file"_a, "points"_a, "tets"_a, "region"_a, "region_names"_a, "vertex_sets"_a);
+  m.def("former_run", [](const std::string& folder) { return app::former_run(folder); });
   m.def("report", [](const std::string& folder, std::size_t frames) {
     const app::Report made = app::make_report(folder, frames);
     const auto file = (std::filesystem::path(folder) / "report.html").string();

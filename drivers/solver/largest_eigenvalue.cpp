@@ -10,7 +10,7 @@ namespace plica {
 
 namespace {
 
-/// Its vectors are not made 1 long: `scale` times v is, in the product of K.
+/// For P and Q, which are K and A, or A and K. Its vectors are not made 1 long: `scale` times v is, in the product of P.
 template <class B>
 class Lanczos {
   using Real = typename B::Real;
@@ -20,25 +20,13 @@ class Lanczos {
   Lanczos(const Exec& exec, const VectorMap<B>& A, const StiffnessAt<B>& K)
       : exec_(exec), A_(A), K_(K), n_(K.level.model.vertices), blocks_(n_) {}
 
+  /// In the product of K, or of A, which always is one, where K is indefinite, as of a compressed body: there the iteration in the
+  /// product of K comes to vectors without a length, and says nothing of what is left.
   double largest(double tolerance) {
-    fill_from_hash<B>(exec_, "plica::lanczos_start", K_.level.model.inverse_mass, v_, blocks_, result_);
-    double beta = length(), scale = 1 / beta, scale_before = 0;
-    if (!(beta > 0)) return 0;
-    dense::LargestRitz top(tolerance);
-    for (int step = 0; step < most_steps; ++step) {
-      A_(kv_, w_);
-      dot<B>(exec_, "plica::lanczos_product", w_, kv_, blocks_, result_);
-      const double alpha = scale * scale * host_values(exec_, result_)[0];
-      update_vertices<B>(
-          exec_, "plica::lanczos_next", n_,
-          NextLanczosVector<B>{w_, v_, before_, static_cast<Real>(scale), static_cast<Real>(alpha * scale),
-                               static_cast<Real>(beta * scale_before)});
-      std::swap(before_, v_), std::swap(v_, w_);
-      beta = length();
-      if (top.add(alpha, beta)) break;
-      scale_before = std::exchange(scale, 1 / beta);
-    }
-    return top.bound();
+    const auto A = [this](const Vectors<B>& x, const Vectors<B>& y) { return map(x, y); };
+    const auto K = [this](const Vectors<B>& x, const Vectors<B>& y) { return stiffness(x, y); };
+    const Found found = iterate(K, A, tolerance);
+    return found.indefinite ? std::max(iterate(A, K, tolerance).bound, 0.0) : found.bound;
   }
 
  private:
@@ -47,19 +35,52 @@ class Lanczos {
   const VectorMap<B>& A_;
   const StiffnessAt<B>& K_;
   int n_;
-  Vectors<B> v_ = vectors("plica::lanczos.v"), kv_ = vectors("plica::lanczos.Kv"), w_ = vectors("plica::lanczos.w"),
+  Vectors<B> v_ = vectors("plica::lanczos.v"), pv_ = vectors("plica::lanczos.Pv"), w_ = vectors("plica::lanczos.w"),
              before_ = vectors("plica::lanczos.before");
   BlockSums<B> blocks_;
   Doubles<B> result_ = zeros<Doubles<B>>("plica::lanczos.result", 1);
 
+  struct Found {
+    double bound = 0;
+    bool indefinite = false;  ///< P has shown to be: the bound is none
+  };
+
   Vectors<B> vectors(const char* name) const { return zeros<Vectors<B>>(name, static_cast<std::size_t>(n_)); }
 
-  /// kv = K v; that of v in the product of K.
-  double length() {
-    K_.elasticity.tangent(exec_, K_.level, K_.u, v_, K_.over);
-    reduce<B, 1>(exec_, "plica::lanczos_stiffness", n_, StiffnessProduct<B>{K_.level.model, K_.level.partial, v_, kv_},
+  /// P and Q are called as y = P x, and return x.y.
+  template <class P, class Q>
+  Found iterate(const P& product, const Q& other, double tolerance) {
+    fill_from_hash<B>(exec_, "plica::lanczos_start", K_.level.model.inverse_mass, v_, blocks_, result_);
+    double square = product(v_, pv_);
+    if (!(square > 0)) return {0, square < 0};
+    double beta = std::sqrt(square), scale = 1 / beta, scale_before = 0;
+    dense::LargestRitz top(tolerance);
+    for (int step = 0; step < most_steps; ++step) {
+      const double alpha = scale * scale * other(pv_, w_);
+      update_vertices<B>(
+          exec_, "plica::lanczos_next", n_,
+          NextLanczosVector<B>{w_, v_, before_, static_cast<Real>(scale), static_cast<Real>(alpha * scale),
+                               static_cast<Real>(beta * scale_before)});
+      std::swap(before_, v_), std::swap(v_, w_);
+      square = product(v_, pv_);
+      beta = square < 0 ? 0 : std::sqrt(square);
+      if (top.add(alpha, beta)) break;
+      scale_before = std::exchange(scale, 1 / beta);
+    }
+    return {top.bound(), square < 0};
+  }
+
+  double stiffness(const Vectors<B>& x, const Vectors<B>& y) {
+    K_.elasticity.tangent(exec_, K_.level, K_.u, x, K_.over);
+    reduce<B, 1>(exec_, "plica::lanczos_stiffness", n_, StiffnessProduct<B>{K_.level.model, K_.level.partial, x, y},
                  blocks_, result_);
-    return std::sqrt(std::max(0.0, host_values(exec_, result_)[0]));
+    return host_values(exec_, result_)[0];
+  }
+
+  double map(const Vectors<B>& x, const Vectors<B>& y) {
+    A_(x, y);
+    dot<B>(exec_, "plica::lanczos_product", y, x, blocks_, result_);
+    return host_values(exec_, result_)[0];
   }
 };
 

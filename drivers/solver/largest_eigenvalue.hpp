@@ -20,8 +20,8 @@ template <class B>
 using VectorMap = std::function<void(const Vectors<B>& x, const Vectors<B>& y)>;
 
 /// The largest eigenvalue of A K for a symmetric positive definite A, by the Lanczos iteration in the inner product of K (Parlett, The
-/// Symmetric Eigenvalue Problem, 15.4) to a relative residual of `tolerance`, which is added: on the sure side. It converges where the
-/// power iteration still crawls. Waits.
+/// Symmetric Eigenvalue Problem, 15.4), of A where K is indefinite, to a relative residual of `tolerance`, which is added: on the sure
+/// side. It converges where the power iteration still crawls. 0 where none is above it. Waits.
 template <class B>
 double largest_eigenvalue(const typename B::Exec& exec, const VectorMap<B>& A, const StiffnessAt<B>& K,
                           double tolerance);

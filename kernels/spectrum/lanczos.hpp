@@ -3,7 +3,7 @@
 #include <plica/core/model.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Vertex kernels of the Lanczos iteration on A K in the inner product of K.
+// Vertex kernels of the Lanczos iteration on A K in the inner product of K or A.
 namespace plica {
 
 /// y = K x, and x.y; partial: the shares of -K x. A vertex whose inverse mass is 0 does not move.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/resource.h>
 
 #include <iostream>
 #include <plica/drivers/app/commands/run_output.hpp>
 #include <plica/drivers/app/commands/session.hpp>
+#include <plica/drivers/app/output/peak_memory.hpp>
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
@@ -19,12 +19,6 @@
 
 namespace plica::app {
 namespace {
-
-std::size_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 template <class B>
 void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& start) {
@@ -50,20 +44,15 @@ std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& si
         "integration.macro_step: the step of {} that fits this body is longer than the duration, {}: the run is one "
         "shorter step; expected a longer duration, or the body's sizes in metres and its young_modulus in Pa",
         in_units(summary.macro_step, "s"), in_units(scene.duration, "s")));
-  constexpr double many = 1e6;
-  if (const double steps = scene.duration / summary.macro_step; steps > many)
-    sentences.push_back(
-        fmt::format("integration.macro_step: the run takes {:.2g} macro steps of {}; expected an implicit integrator, "
-                    "cycle: him, a "
-                    "mesh without slivers (plica explain names them), or a poisson_ratio further from 0.5",
-                    steps, in_units(summary.macro_step, "s")));
+  if (std::string many = many_steps_text(scene, summary); !many.empty()) sentences.push_back(std::move(many));
   return sentences;
 }
 
-/// What it has shown.
+/// What it has shown. A step that was not solved may be what ended it: then the diagnosis says so.
 template <class B>
-std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunOutput<B>& output) {
+std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunEnd& end, const RunOutput<B>& output) {
   std::vector<std::string> sentences = output.warnings();
+  if (end.diagnosis) return sentences;
   if (std::string unsolved = unsolved_text(simulation.counters()); !unsolved.empty())
     sentences.push_back(std::move(unsolved));
   return sentences;
@@ -96,7 +85,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.diagnosis = end.diagnosis;
   summary.warnings = scene.warnings;
   for (const std::string& sentence : step_advice(scene, simulation, summary)) summary.warnings.push_back(sentence);
-  for (const std::string& sentence : end_warnings(simulation, output)) summary.warnings.push_back(sentence);
+  for (const std::string& sentence : end_warnings(simulation, end, output)) summary.warnings.push_back(sentence);
   return summary;
 }
 
@@ -147,9 +136,7 @@ std::filesystem::path folder_of(const RunArguments& arguments) {
 
 // A new run deletes the one in its folder, so the user has to say so
 void refuse_to_replace(const std::filesystem::path& folder) {
-  std::vector<std::string> found;
-  for (const char* file : {"checkpoint.bin", "summary.json", "history.csv", "probes.csv", "frames.pvd"})
-    if (std::filesystem::exists(folder / file)) found.emplace_back(file);
+  const std::vector<std::string> found = former_run(folder);
   if (found.empty()) return;
   const std::string resume =
       found.front() == "checkpoint.bin" ? fmt::format(", --resume {} to go on with it", folder.string()) : "";
@@ -227,7 +214,7 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
   if (end.diagnosis) message(coloured("diverged: ", Colour::red) + end.diagnosis->text());
   if (!end.diagnosis)
-    for (const std::string& sentence : end_warnings(simulation, output)) warn_of(sentence);
+    for (const std::string& sentence : end_warnings(simulation, end, output)) warn_of(sentence);
   if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
   return status_of_run(end);
 }

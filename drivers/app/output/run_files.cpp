@@ -145,11 +145,14 @@ std::vector<int> written_levels(const Scene& scene) {
   return levels;
 }
 
-// The checkpoint is removed first: without its files it is worthless
+// The checkpoint is removed first: without its files it is worthless. A page is removed with the run that it shows; where there is none, it
+// is of something else
 const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv", "report.html"})
+  const bool has_run = !former_run(folder).empty();
+  for (const char* file : {"checkpoint.bin", "checkpoint.bin.part", "summary.json", "probes.csv"})
     std::filesystem::remove(folder / file, ignored);
+  if (has_run) std::filesystem::remove(folder / "report.html", ignored);
   std::vector<std::string> films = {"volume"};
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".pvd" && entry.path().stem().string().starts_with("volume_level"))
@@ -159,6 +162,13 @@ const std::filesystem::path& without_former_run(const std::filesystem::path& fol
 }
 
 }  // namespace
+
+std::vector<std::string> former_run(const std::filesystem::path& folder) {
+  std::vector<std::string> found;
+  for (const char* file : {"checkpoint.bin", "summary.json", "history.csv", "probes.csv", "frames.pvd"})
+    if (std::filesystem::exists(folder / file)) found.emplace_back(file);
+  return found;
+}
 
 RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from)
     : body_(with_regions(scene.problem.body)),

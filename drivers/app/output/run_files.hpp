@@ -84,6 +84,9 @@ class History {
   bool retries_;
 };
 
+/// Which of the files that tell of a run are in a folder, its checkpoint first; none: it holds no run.
+std::vector<std::string> former_run(const std::filesystem::path& folder);
+
 /// How far a run's files are: what a checkpoint remembers of them.
 struct FilesMark {
   std::vector<double> frame_times;  ///< [s]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -226,6 +227,22 @@ std::string unsolved_text(std::map<std::string, long> count) {
       "integration.macro_step, or more integration.implicit.{}",
       counted(missed, newton ? "step" : "linear system") + (missed == 1 ? " was" : " were"),
       newton ? "newton_iterations" : "max_iterations");
+}
+
+std::string many_steps_text(const Scene& scene, const Summary& s) {
+  constexpr double many = 1e6;
+  const double steps = scene.duration / s.macro_step;
+  if (!(steps > many)) return "";
+  std::vector<std::string> remedies;
+  if (scene.problem.integration.macro_step) remedies.emplace_back("a longer one");
+  if (std::ranges::any_of(s.levels, [](const auto& level) { return level.share > 0 && level.explicit_integrator; })) {
+    remedies.emplace_back("an implicit integrator");
+    if (s.cycle != "him") remedies.emplace_back("cycle: him");
+    remedies.emplace_back("a mesh without slivers (plica explain names them)");
+    remedies.emplace_back("a poisson_ratio further from 0.5");
+  }
+  return fmt::format("integration.macro_step: the run takes {:.2g} macro steps of {}; expected {}", steps,
+                     in_units(s.macro_step, "s"), fmt::join(remedies, ", or "));
 }
 
 std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {

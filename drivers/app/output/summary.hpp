@@ -46,7 +46,10 @@ std::string summary_json(const Scene& scene, const Summary& summary, const std::
 /// A sentence of systems, or of Newton's steps, that were not solved, of a simulation's counters; empty where all were.
 std::string unsolved_text(std::map<std::string, long> counters);
 
-/// The same in a few lines for people.
+/// A sentence where the run takes very many macro steps: what would make them longer that the scene does not have yet. Else empty.
+std::string many_steps_text(const Scene& scene, const Summary& summary);
+
+/// The same as summary.json in a few lines for people.
 std::string summary_text(const Scene& scene, const Summary& summary, const std::string& folder);
 
 /// Whether a level has elements, not points of a coarse space alone.

@@ -66,7 +66,7 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
   Sentences sentences;
   for (const auto& [kind, count] : report.linearised) sentences.add(count, kind, "taken by the corners alone");
   for (const auto& [kind, count] : report.cut) sentences.add(count, kind, "cut into tetrahedra");
-  sentences.add(report.flipped, "inverted element", "turned the right way round");
+  sentences.add(report.flipped, "element", "inside out in the file: turned");
   sentences.add(report.unreferenced, "unused point", "dropped");
   sentences.add(count_duplicate_vertices(mesh, at_the_same_place * mean_edge_length(mesh)), "duplicate",
                 "among the vertices: at the place of another one, where the mesh may come apart (merge them?)");

@@ -163,7 +163,7 @@ class Simulation:
         return Run(self, end, interval, steps, folder is not None)
 
     def _start_files(self, folder, force: bool) -> None:
-        there = [name for name in ("checkpoint.bin", "summary.json", "history.csv", "frames.pvd") if (Path(folder) / name).exists()]
+        there = _plica.former_run(os.fspath(folder))
         if there and not force:
             raise InputError(f"folder: {folder} holds a run already ({', '.join(there)}); expected another one, or force=True")
         self._open().start_files(os.fspath(folder))

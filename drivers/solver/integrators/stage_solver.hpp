@@ -140,6 +140,7 @@ class StageSolver {
     if (!out.indefinite || options_.tangent != "auto" || level.followers.empty() || level.prescribed.count > 0)
       return true;
     undo(level, weights, 1);  // the pressure takes more stiffness away than there is
+    if (!out.converged) --misses_;
     correct(level, weights, false, true);
     return true;
   }

@@ -305,7 +305,9 @@ class HierarchyBuilder {
   void add_dynamics(std::size_t i) {
     LevelReport& report = built_.reports[i];
     SolverLevel<B>& level = built_.hierarchy->levels[i];
-    const StiffnessAt<B> K{level, *elasticity_[i], level.state.u};
+    // not the level's state, which a given motion may start elsewhere
+    const auto rest = zeros<Vectors<B>>("plica::rest", static_cast<std::size_t>(level.model.vertices));
+    const StiffnessAt<B> K{level, *elasticity_[i], rest};
     eigenvalues_.push_back(largest_eigenvalue<B>(level.exec(), K));
     Integrators::visit(report.integrator, [&](auto integrator) {
       using Kind = decltype(integrator);

@@ -15,15 +15,19 @@ namespace plica {
 
 namespace {
 
+MeshSize size_of_level(const Body& body, std::size_t level) {
+  TetMesh mesh = body.levels[level];
+  add_regions(mesh, body.regions, static_cast<int>(level));
+  return mesh_size(mesh, region_densities(body, mesh));
+}
+
 // Of coarse levels that are somewhat another body; where one is quite another, the set-up refuses it
 void doubt_levels(const Problem& problem, std::vector<std::string>& sentences) {
   const bool automatic = problem.integration.cycle == "auto";
   if (!automatic && !uses_coarse_levels(problem.integration.cycle)) return;
   MeshSize finest;
   for (std::size_t i = 0; i < problem.body.levels.size(); ++i) {
-    TetMesh mesh = problem.body.levels[i];
-    add_regions(mesh, problem.body.regions, static_cast<int>(i));
-    const MeshSize size = mesh_size(mesh, region_densities(problem.body, mesh));
+    const MeshSize size = size_of_level(problem.body, i);
     if (i == 0) finest = size;
     const LevelComparison found = compare_levels(finest, size, i);
     if (found.same == SameBody::doubtful || (automatic && found.same == SameBody::no))
@@ -57,13 +61,12 @@ void doubt_elements(const Body& body, std::vector<std::string>& sentences) {
 
 // Of a tool that is lighter than what it touches: its own inertia then counts for nothing, and it is thrown about
 void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
-  const TetMesh& mesh = problem.body.levels.front();
   double mass = -1;  // of a vertex, in the mean [kg]
   for (std::size_t i = 0; i < problem.contact.obstacles.size(); ++i) {
     const std::optional<double>& own = problem.contact.obstacles[i].mass;
     if (!own) continue;
     if (mass < 0)
-      mass = mesh_size(mesh, region_densities(problem.body, mesh)).mass / static_cast<double>(mesh.vertices.size());
+      mass = size_of_level(problem.body, 0).mass / static_cast<double>(problem.body.levels.front().vertices.size());
     if (*own < mass)
       sentences.push_back(text(
           "contact.obstacles.", i, ".mass: ", number(*own, 3), " kg is less than a vertex of the body has, ",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <optional>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/courses.hpp>
@@ -9,8 +11,11 @@
 #include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/embedding.hpp>
 #include <plica/meshes/mesh_quality.hpp>
+#include <plica/meshes/signed_distance.hpp>
+#include <utility>
 
 namespace plica {
 
@@ -18,35 +23,68 @@ namespace {
 
 constexpr double bearable_depth = 0.5;  // of an edge
 
+ObstaclePose pose_at_start(const ObstacleOptions& options) {
+  std::vector<PathKnot> knots;
+  const Path path = make_path(options.motion, knots);
+  ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement, .speed = {}, .time = 0, .turn = {}};
+  if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
+  return pose;
+}
+
 /// The deepest of some places in a solid, and how many are in it.
 struct Deepest {
   std::size_t place = 0, inside = 0;
-  double depth = 0;  ///< [m]
+  double depth = 0;                                          ///< [m]
+  double nearest = std::numeric_limits<double>::infinity();  ///< of all places, how far outside [m]
 };
 
 /// A sampled surface is looked at when it has been sampled.
 Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& places) {
   Deepest found;
-  std::vector<PathKnot> knots;
-  const Path path = make_path(options.motion, knots);
-  ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement, .speed = {}, .time = 0, .turn = {}};
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     if constexpr (requires { shape.template shape<double>(its); }) {
       const auto gap = shape.template shape<double>(its);
-      if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
       ObstaclePlace<Backend<double, Kokkos::DefaultHostExecutionSpace>> start;
-      start.pose = pose;
+      start.pose = pose_at_start(options);
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double depth = -gap(start.local(vec3<double>(places[i]))).distance;
         if (depth > 0) ++found.inside;
         if (depth > found.depth) found.depth = depth, found.place = i;
+        found.nearest = std::min(found.nearest, -depth);
       }
     }
   });
   return found;
 }
 
-bool contains(const std::array<Point, 4>& corners, const Point& x) {
+/// Places of a solid at the start that are all inside a body which it is inside of: its middle, both ends of a long one, the corners of a
+/// box. None of a shape that does not contain its middle: a bowl, a plane.
+std::vector<Point> marks_of(const ObstacleOptions& options) {
+  std::vector<Point> marks;
+  visit_shape(options.shape, [&](auto shape, const auto& its) {
+    if constexpr (requires { shape.template shape<double>(its); }) {
+      const auto gap = shape.template shape<double>(its);
+      std::vector<Vec3<double>> places = {vec3<double>(shape.origin(its))};
+      if (!(gap(places.front()).distance < 0)) return;
+      if constexpr (requires { its.to; }) places.insert(places.end(), {vec3<double>(its.from), vec3<double>(its.to)});
+      if constexpr (requires { gap.axes; })
+        for (const double x : {-1.0, 1.0})
+          for (const double y : {-1.0, 1.0})
+            for (const double z : {-1.0, 1.0})
+              places.push_back(gap.centre + x * gap.half[0] * gap.axes[0] + y * gap.half[1] * gap.axes[1] +
+                               z * gap.half[2] * gap.axes[2]);
+      const ObstaclePose pose = pose_at_start(options);
+      for (Vec3<double> at : places) {
+        if (pose.turn.turned) at = pose.turn.centre + pose.turn.rotation * (at - pose.turn.centre);
+        at += pose.displacement;
+        marks.emplace_back(at[0], at[1], at[2]);
+      }
+    }
+  });
+  return marks;
+}
+
+bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x) {
   for (int k = 0; k < 3; ++k) {  // most are beside it
     const auto [least, most] = std::ranges::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
     if (x[k] < least || x[k] > most) return false;
@@ -54,21 +92,50 @@ bool contains(const std::array<Point, 4>& corners, const Point& x) {
   return std::ranges::all_of(barycentric(x, corners), [](double weight) { return weight >= 0; });
 }
 
-/// Whether a solid of which the body's surface touches nothing is inside the body: its middle is. Not looked at where it turns about
-/// another point.
-bool is_inside(const ObstacleOptions& options, const Body& body) {
-  if (options.turn && options.turn->about) return false;
-  std::vector<PathKnot> knots;
-  const Path path = make_path(options.motion, knots);
-  const Vec3<double> moved = path_at(path, knots.data(), 0).displacement;
-  const Point middle = turned_about(options) + Point(moved[0], moved[1], moved[2]), x = middle - placement_of(body);
-  if (deepest_in(options, {middle}).inside == 0) return false;  // a bowl, a plane
-  const TetMesh& mesh = body.levels.front();
-  return std::ranges::any_of(mesh.tets, [&](const auto& tet) {
-    const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(tet[k])]; };
-    return contains({at(0), at(1), at(2), at(3)}, x);
-  });
-}
+/// The body where it starts. What is inside it the surface says, which is what contact moves, where that is closed; lattices reach beyond
+/// it. Else the tetrahedra of level 0 do.
+class StartingBody {
+ public:
+  explicit StartingBody(const Body& body)
+      : mesh_(body.levels.front()), surface_(*body.surface), shift_(placement_of(body)) {
+    const Box skin = bounding_box(surface_.vertices), cells = bounding_box(mesh_.vertices);
+    around_ = {skin.min.cwiseMin(cells.min), skin.max.cwiseMax(cells.max)};
+  }
+
+  /// Whether a solid is inside it, of which the surface touches nothing. Not looked at where it turns about another point.
+  bool contains(const ObstacleOptions& options) {
+    if (options.turn && options.turn->about) return false;
+    std::vector<Point> marks = marks_of(options);
+    for (Point& x : marks) x -= shift_;
+    if (marks.empty() || !std::ranges::all_of(marks, [&](const Point& x) { return is_near(x); })) return false;
+    look_at_surface();
+    return std::ranges::all_of(marks, [&](const Point& x) { return distance_ ? (*distance_)(x) < 0 : is_in_mesh(x); });
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const TriangleSurface& surface_;
+  Point shift_;
+  Box around_;
+  bool looked_ = false;                     // once something is near
+  std::optional<SignedDistance> distance_;  // of a closed surface
+
+  bool is_near(const Point& x) const {
+    return (x.array() >= around_.min.array()).all() && (x.array() <= around_.max.array()).all();
+  }
+  void look_at_surface() {
+    if (std::exchange(looked_, true)) return;
+    SurfaceReport edges;
+    count_edges(surface_, edges);
+    if (edges.closed() && enclosed_volume(surface_) > 0) distance_.emplace(surface_);
+  }
+  bool is_in_mesh(const Point& x) const {
+    return std::ranges::any_of(mesh_.tets, [&](const auto& tet) {
+      const auto at = [&](std::size_t k) { return mesh_.vertices[static_cast<std::size_t>(tet[k])]; };
+      return is_in_tetrahedron({at(0), at(1), at(2), at(3)}, x);
+    });
+  }
+};
 
 }  // namespace
 
@@ -78,12 +145,14 @@ std::vector<std::string> starts_in_obstacles(const Problem& problem) {
   if (obstacles.empty() || !problem.body.surface || starts_deformed(problem.body.initial)) return sentences;
   const std::vector<Point> places = places_at_start(problem.body);
   const double edge = mean_edge_length(problem.body.levels.front());
+  StartingBody body(problem.body);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Deepest found = deepest_in(obstacles[i], places);
     const std::string path = "contact.obstacles." + std::to_string(i);
     if (found.inside == places.size())
       throw InputError(path + " contains the whole body at the start; expected a body outside");
-    if (found.inside == 0 && is_inside(obstacles[i], problem.body))
+    const bool holds = obstacles[i].grasp && found.nearest <= obstacles[i].grasp->reach;  // as an anchor in it may
+    if (found.inside == 0 && !holds && body.contains(obstacles[i]))
       throw InputError(path + " is inside the body at the start, where contact does not find it; expected it outside");
     if (!(found.depth > bearable_depth * edge)) continue;
     const Point& x = places[found.place];

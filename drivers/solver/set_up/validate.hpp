@@ -36,7 +36,7 @@ void validate_cavities(const Problem& problem);
 /// every vertex used, a region for every tetrahedron. InputError otherwise, with level and number.
 void validate_mesh(const TetMesh& mesh, int level);
 
-/// Of each obstacle that the body starts deep in: where and how deep. InputError where one contains the whole body.
+/// Of each obstacle that the body starts deep in: where and how deep. InputError where one contains the whole body, or is inside it.
 std::vector<std::string> starts_in_obstacles(const Problem& problem);
 
 /// What is allowed, but hardly meant: a sentence each. Of a problem that is valid.

@@ -116,6 +116,18 @@ TEST(RunFiles, KeepOnlyThisRun) {
             std::string::npos);
 }
 
+TEST(RunFiles, LeaveAPageThatShowsSomethingElse) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  write_file(folder / "report.html", "of a study");
+  EXPECT_TRUE(former_run(folder.path()).empty());
+  { RunFiles files(scene, folder.path()); }
+  EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
+  EXPECT_EQ(former_run(folder.path()), std::vector<std::string>{"history.csv"});
+  { RunFiles files(scene, folder.path()); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
+}
+
 TEST(RunFiles, HistoryHasItsColumns) {
   const TemporaryFolder folder;
   const Scene scene = scene_of(block);
@@ -314,6 +326,21 @@ TEST(PlanText, NamesElementsThatAreOutOfTheOrdinary) {
   EXPECT_EQ(text.find("0.6 ms"), std::string::npos) << text;  // more than half the median
   plan.levels = {level_with(0.55e-3)};
   EXPECT_EQ(plan_text(scene, plan).find("limit the step"), std::string::npos);
+}
+
+TEST(ManySteps, AreToldWithWhatTheSceneDoesNotHave) {
+  Summary summary;
+  summary.macro_step = 1e-7, summary.cycle = "single", summary.levels = {level_with(1e-6)};
+  Scene scene = scene_of(block);
+  const std::string begin = "integration.macro_step: the run takes 1e+07 macro steps of 100 ns; expected ",
+                    end = ", or a mesh without slivers (plica explain names them), or a poisson_ratio further from 0.5";
+  EXPECT_EQ(many_steps_text(scene, summary), begin + "an implicit integrator, or cycle: him" + end);
+  summary.cycle = "him";
+  EXPECT_EQ(many_steps_text(scene, summary), begin + "an implicit integrator" + end);
+  summary.levels[0].explicit_integrator = false, scene.problem.integration.macro_step = 1e-7;
+  EXPECT_EQ(many_steps_text(scene, summary), begin + "a longer one");
+  summary.macro_step = 1e-3;
+  EXPECT_EQ(many_steps_text(scene, summary), "");
 }
 
 TEST(LevelsJson, HaveTheStiffestElements) {

@@ -82,6 +82,8 @@ TEST_F(Program, BadInputIs2) {
   EXPECT_EQ(plica({"mesh"}).status, 2);
   EXPECT_EQ(plica({"mesh", "info", folder / "none.msh"}).status, 2);
   EXPECT_EQ(plica({"list", "material"}).status, 2);
+  for (const char* option : {"-o", "--resume", "--study"})
+    EXPECT_EQ(plica({"run", scene, option, ""}).status, 2) << option;
 }
 
 TEST_F(Program, ErrorsNameTheNearest) {
@@ -136,6 +138,20 @@ TEST_F(Program, DivergedIs3) {
   EXPECT_LE(json["last_good_time"], json["simulated_time"]);
   EXPECT_GE(lines("out/history.csv"), 2);
   EXPECT_EQ(content_of(folder / "out/history.csv").find("nan"), std::string::npos);
+}
+
+// That the run went on is said only where it did.
+TEST_F(Program, WarnsOfUnsolvedStepsWhereTheRunWentOn) {
+  for (const char* unfinished : {"accept", "stop"}) {
+    const bool stops = unfinished == std::string("stop");
+    const std::string implicit = "{newton_iterations: 2, newton_tolerance: 1e-12, unfinished: ";
+    const Child run =
+        plica({"run", scene, "-o", out, "--force", "--set",
+               "integration={integrator: implicit_euler, macro_step: 20 ms, implicit: " + implicit + unfinished + "}}",
+               "--set", "body.initial.angular_velocity=[0, 0, 10]"});
+    EXPECT_EQ(run.status, stops ? 3 : 0) << run.errors;
+    EXPECT_EQ(summary()["warnings"].dump().find("the run went on") == std::string::npos, stops) << summary();
+  }
 }
 
 // A law that does not stop there must not end without a word; what a resumed run says is what the whole one says.

@@ -280,6 +280,15 @@ TEST_F(Program, FullDiskIs1) {
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
 }
 
+TEST_F(Program, NoMemoryIs1) {
+  const std::string words = std::string("ulimit -v 400000; exec ") + PLICA_EXECUTABLE + " check " + scene +
+                            " --set 'body.levels=[{box: {size: [0.1, 0.1, 0.1], cells: [100, 100, 100]}}]'";
+  const Child check = run_child({"bash", "-c", words}, folder);
+  if (check.status == 127 || check.status < 0) GTEST_SKIP() << "no bash";
+  EXPECT_EQ(check.status, 1) << check.errors;
+  EXPECT_TRUE(check.errors.starts_with("error: memory ran out, of which the process had ")) << check.errors;
+}
+
 TEST_F(Program, KilledRunLeavesWholeFiles) {
   const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, SIGKILL) == 0; });
   EXPECT_EQ(run.status, 128 + SIGKILL);

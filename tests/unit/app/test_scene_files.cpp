@@ -133,7 +133,7 @@ TEST(SceneFiles, DuplicatesAreMergedOnRequest) {
   const std::string file = folder / "torn.msh";
   const Scene apart = scene_of(of_files(file));
   EXPECT_EQ(apart.problem.body.levels[0].vertices.size(), 8);
-  EXPECT_TRUE(mentions(apart.warnings, "1 inverted element turned"));
+  EXPECT_TRUE(mentions(apart.warnings, "1 element inside out in the file: turned"));
   EXPECT_TRUE(mentions(apart.warnings, "1 unused point dropped"));
   EXPECT_TRUE(mentions(apart.warnings, "has 2 parts"));
   const Scene glued = scene_of(of_files(file + ", merge_duplicates: 2 mm"));
@@ -189,7 +189,8 @@ TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {
                  "body.material.model=neo_hookean", "--set", "body.initial={angular_velocity: [9, 0, 0]}"},
                 folder);
   ASSERT_EQ(run.status, 3) << run.errors;
-  EXPECT_NE(run.errors.find("warning: " + (folder / "torn.msh").string() + ": 1 inverted element"), std::string::npos)
+  EXPECT_NE(run.errors.find("warning: " + (folder / "torn.msh").string() + ": 1 element inside out in the file"),
+            std::string::npos)
       << run.errors;
   const auto diagnosis = nlohmann::json::parse(content_of(folder / "out/summary.json"))["diagnosis"];
   const TetMesh volume = read_mesh(folder / "out/frames/volume_0000.vtu");

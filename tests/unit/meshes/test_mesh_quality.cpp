@@ -152,6 +152,16 @@ TEST(BoundaryTriangles, LeaveOutInnerVertices) {
 
 TetMesh beam() { return read_mesh(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "beam.msh"); }
 
+// Whichever library sorts them
+TEST(CrowdedFace, NamesItsFirstTetrahedra) {
+  TetMesh mesh;
+  constexpr int tets = 20;
+  mesh.vertices.assign(3 + tets, Point::Zero());
+  EXPECT_FALSE(crowded_face(mesh));
+  for (int k = 0; k < tets; ++k) mesh.tets.push_back({0, 1, 2, 3 + k});
+  EXPECT_EQ(crowded_face(mesh), (std::array<std::size_t, 3>{0, 1, 2}));
+}
+
 TEST(Reordering, KeepsTheMesh) {
   const TetMesh before = beam();
   const Reordering order = locality_order(before);

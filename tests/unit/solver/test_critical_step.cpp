@@ -126,6 +126,32 @@ TEST(CriticalStep, WithContact) {
   }
 }
 
+// The limit is that at rest, also where a given motion starts elsewhere.
+TEST(CriticalStep, DoesNotDependOnWhereAPathStarts) {
+  const auto limit = [](const Point& start) {
+    Problem p = small_cube("neo_hookean");
+    p.body.prescribed = {{left_face(), PathMotion{{{0, start}, {1, {0, 0, 0}}}}}};
+    return LevelProbe<Host>(p).built.reports[0].critical_step;
+  };
+  EXPECT_EQ(limit({-0.02, 0, 0}), limit({0, 0, 0}));
+}
+
+// Compressed so far some motions lower the energy, and K has no length for them.
+TEST(CriticalStep, EigenvaluesOfAnIndefiniteStiffness) {
+  LevelProbe<Host> probe(small_cube("st_venant_kirchhoff"));
+  for (const double size : {0.95, 0.9, 0.8}) {
+    std::vector<Point> u;
+    for (const Point& x : probe.problem.body.levels[0].vertices) u.push_back((size - 1) * x);
+    const Eigen::MatrixXd S = probe.scaled_by_mass(probe.stiffness_matrix(u));
+    const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues();
+    ASSERT_LT(eigenvalues.minCoeff(), -1e-3 * eigenvalues.maxCoeff()) << size;
+    const Level<Host>& level = probe.at(0);
+    const double found = largest_eigenvalue<Host>({}, {level, probe.at(0).elasticity(), device_field<Host>(u)});
+    EXPECT_GE(found, 0.99 * eigenvalues.maxCoeff()) << size;
+    EXPECT_LE(found, 1.003 * eigenvalues.maxCoeff()) << size;
+  }
+}
+
 TEST(CriticalStep, OfEulerIsDampingOverSquaredFrequency) {
   Problem p = small_cube("linear");
   p.integration.integrator = {"euler"};

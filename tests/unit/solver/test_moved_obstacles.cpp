@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/generators.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 
 #include "support/backends.hpp"
@@ -109,6 +111,65 @@ TEST(StartInObstacles, WithinTheBodyIsRefused) {
   EXPECT_EQ(starts_at(box.min), "");
 }
 
+/// A body that is its box, with that box's boundary as surface.
+Problem within(const Box& box, const std::array<int, 3>& cells) {
+  Problem p = body_of({box_mesh(box, cells)});
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  return p;
+}
+
+std::string refusal_of(Problem& p, const ShapeOptions& shape) {
+  p.contact.obstacles = {{shape, {}, {}}};
+  return refusal([&] { starts_in_obstacles(p); });
+}
+
+// Elements reach beyond the surface, as lattices do, or it beyond them: contact knows the surface alone.
+TEST(StartInObstacles, TheSurfaceSaysWhatIsWithin) {
+  Problem p = within(decimetre, {3, 3, 3});
+  const Point middle(0.05, 0.05, 0.05), corner(0.012, 0.012, 0.012), above(0.05, 0.05, 0.107);
+  const auto refused = [&](const Point& centre) { return refusal_of(p, SphereOptions{centre, 0.003}) != ""; };
+  EXPECT_TRUE(refused(middle) && refused(corner));
+  EXPECT_FALSE(refused(above));
+  p.body.surface = sphere_surface(middle, 0.04, 2);
+  EXPECT_TRUE(refused(middle));
+  EXPECT_FALSE(refused(corner)) << "in an element, outside the surface";
+  p.body.surface = sphere_surface(middle, 0.07, 2);
+  EXPECT_TRUE(refused(above)) << "in no element, inside the surface";
+  p.body.surface->triangles.pop_back();
+  EXPECT_TRUE(refused(middle) && refused(corner)) << "an open surface has no inside: elements say";
+  EXPECT_FALSE(refused(above));
+}
+
+TEST(StartInObstacles, WhatLooksOutAtAnEndIsNotWithin) {
+  Problem p = within(beam_box, {8, 2, 2});
+  const Point middle(0.225, 0.05, 0.025), x = Point::UnitX();
+  const auto refused = [&](const ShapeOptions& shape) { return refusal_of(p, shape) != ""; };
+  constexpr double thin = 0.002;
+  EXPECT_TRUE(refused(CapsuleOptions{middle - 0.1 * x, middle + 0.1 * x, thin}));
+  EXPECT_FALSE(refused(CapsuleOptions{middle - 0.3 * x, middle + 0.3 * x, thin})) << "a needle through it";
+  EXPECT_FALSE(refused(CapsuleOptions{middle - 0.1 * x, middle + 0.2 * x, thin})) << "one that sticks in it";
+  EXPECT_TRUE(refused(CylinderOptions{middle - 0.1 * x, middle + 0.1 * x, thin}));
+  EXPECT_FALSE(refused(ConeOptions{middle - 0.3 * x, middle + 0.3 * x, thin, 0}));
+  EXPECT_TRUE(refused(BlockOptions{middle, {0.2, thin, thin}, Point::Zero()}));
+  EXPECT_FALSE(refused(BlockOptions{middle, {0.5, thin, thin}, Point::Zero()}));
+  EXPECT_FALSE(refused(BlockOptions{middle, {0.2, thin, thin}, {0, 0, 0.5 * std::numbers::pi}}));
+  refusal_of(p, CapsuleOptions{middle - 0.1 * x, middle + 0.1 * x, thin});
+  p.contact.obstacles[0].turn = Turn{.rotation = {0, 0, 0.5 * std::numbers::pi}};
+  EXPECT_EQ(refusal([&] { starts_in_obstacles(p); }), "") << "turned, both ends look out";
+}
+
+TEST(StartInObstacles, AnAnchorThatHoldsTheBodyIsTaken) {
+  Problem p = within({{0, 0, 0}, {0.1, 0.1, 0.004}}, {4, 4, 1});
+  const SphereOptions anchor{{0.0125, 0.0125, 0.002}, 0.001};  // the nearest points are 17 mm from it
+  EXPECT_NE(refusal_of(p, anchor), "");
+  const auto with_reach = [&](double reach) {
+    p.contact.obstacles[0].grasp = GraspOptions{.from = {0}, .until = {}, .reach = reach, .stiffness = {}};
+    return refusal([&] { starts_in_obstacles(p); });
+  };
+  EXPECT_EQ(with_reach(0.02), "");
+  EXPECT_NE(with_reach(0.01), "") << "it would hold nothing";
+}
+
 TEST(MovedObstacles, AreDoubtedWhereTheyAreTooLight) {
   Problem p = small_cube();
   const double mass = 1000 * 0.1 * 0.1 * 0.1 / static_cast<double>(p.body.levels[0].vertices.size());
@@ -120,6 +181,10 @@ TEST(MovedObstacles, AreDoubtedWhereTheyAreTooLight) {
   };
   EXPECT_EQ(said(0.9), 1);
   EXPECT_EQ(said(1.1), 0);
+  p.body.regions["heavy"].where = Box{{-1, -1, -1}, {1, 1, 1}};
+  p.body.regions["heavy"].density = 3000;
+  EXPECT_EQ(said(2.7), 1);
+  EXPECT_EQ(said(3.3), 0);
 }
 
 }  // namespace
