@@ -5,12 +5,13 @@
 
 namespace plica {
 
-/// A sparse matrix of numbers that acts on vectors, by rows in compressed form.
+/// A sparse matrix of numbers that acts on vectors, by rows in compressed form. A row is filled up by zeros to four entries or a multiple,
+/// which are read together.
 template <class B, class Value = typename B::Real>
 struct SparseRows {
   int rows = 0;
   Indices<B> first;   ///< [rows + 1] into the others
-  Indices<B> column;  ///< of an entry, ascending in a row
+  Indices<B> column;  ///< of an entry, ascending in a row after those that fill it up
   Kokkos::View<Value*, Kokkos::LayoutRight, typename B::Memory> value;
 };
 

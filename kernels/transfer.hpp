@@ -131,29 +131,40 @@ struct DefectCorrection {
 // A sparse matrix of numbers times vectors. Per entry 4 bytes, those of a number, and 3 s of the vector it points at, which a cache
 // holds; 6 flops.
 
-/// Row `row` of A x, x of three numbers each or four. A CPU takes vectors as four numbers at a time, of which the fourth, the next vector's
-/// first, is not used. So the row's last entry, which may point at the last vector, is taken by itself.
+/// Row `row` of A x, x of three numbers each or four. A CPU takes four entries at a time, and vectors as four numbers, of which the fourth, the
+/// next vector's first, is not used. So the row's last entry, which may point at the last vector, is taken by itself.
 template <class B, class Value, class Field>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Value>& A, int row, const Field& x) {
   using Real = typename B::Real;
-  constexpr std::ptrdiff_t stride = Field::static_extent(1);
   int s = A.first(row);
   const int last = A.first(row + 1);
   Vec3<Real> y;
 #if defined(__GNUC__) && !defined(__CUDACC__)
   if constexpr (B::for_cpu) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
-    constexpr int sums = 4;  // taken in turns, so that an addition need not wait for the last one
-    Four sum[sums] = {};
-    const auto add = [&](int entry, Four& to) {
-      const Real* const at = x.data() + stride * A.column(entry);
-      to += *reinterpret_cast<const Four*>(at) * static_cast<Real>(A.value(entry));
+    typedef Value Numbers __attribute__((vector_size(4 * sizeof(Value)), may_alias, aligned(alignof(Value))));
+    constexpr std::ptrdiff_t stride = Field::static_extent(1);
+    const auto vector = [&](int entry) { return x.data() + stride * A.column(entry); };
+    Four number, sum[4] = {};  // so that an addition need not wait for the last one
+    const auto numbers = [&](int entry) {
+      number = __builtin_convertvector(*reinterpret_cast<const Numbers*>(A.value.data() + entry), Four);
     };
-    for (; s + sums < last; s += sums)
-      for (int i = 0; i < sums; ++i) add(s + i, sum[i]);
-    for (; s + 1 < last; ++s) add(s, sum[0]);
+    const auto add = [&](int entry, const Four& factor, Four& to) {
+      to += *reinterpret_cast<const Four*>(vector(entry)) * factor;
+    };
+    for (; s + 4 < last; s += 4) {
+      numbers(s);
+      add(s, __builtin_shufflevector(number, number, 0, 0, 0, 0), sum[0]);
+      add(s + 1, __builtin_shufflevector(number, number, 1, 1, 1, 1), sum[1]);
+      add(s + 2, __builtin_shufflevector(number, number, 2, 2, 2, 2), sum[2]);
+      add(s + 3, __builtin_shufflevector(number, number, 3, 3, 3, 3), sum[3]);
+    }
+    numbers(s);
+    for (int i = 0; i < 3; ++i) add(s + i, Four{} + number[i], sum[i]);
     const Four all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    y = {all[0], all[1], all[2]};
+    const Real* const at = vector(s + 3);
+    for (int k = 0; k < 3; ++k) y[k] = all[k] + number[3] * at[k];
+    return y;
   }
 #endif
   for (; s < last; ++s)

@@ -17,15 +17,21 @@ RowMatrix ring_smoothing(const TetMesh& mesh);
 
 /// A sparse matrix on the device.
 template <class B, class Value = typename B::Real>
-SparseRows<B, Value> sparse_rows(const std::string& name, RowMatrix A) {
-  A.makeCompressed();
-  const int *const first = A.outerIndexPtr(), *const column = A.innerIndexPtr();
-  const double* const value = A.valuePtr();
-  const auto entries = A.nonZeros();
-  return {
-      static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", std::vector<int>(first, first + A.rows() + 1)),
-      to_device<Indices<B>>(name + ".column", std::vector<int>(column, column + entries)),
-      to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", std::vector<Value>(value, value + entries))};
+SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
+  std::vector<int> first{0}, column;
+  std::vector<Value> value;
+  for (Eigen::Index row = 0; row < A.rows(); ++row) {
+    const auto begin = column.size();
+    for (RowMatrix::InnerIterator entry(A, row); entry; ++entry)
+      column.push_back(static_cast<int>(entry.col())), value.push_back(static_cast<Value>(entry.value()));
+    const auto entries = column.size() - begin, fill = entries == 0 ? 4 : (4 - entries % 4) % 4;
+    column.insert(column.begin() + static_cast<std::ptrdiff_t>(begin), fill, entries == 0 ? 0 : column[begin]);
+    value.insert(value.begin() + static_cast<std::ptrdiff_t>(begin), fill, Value(0));
+    first.push_back(static_cast<int>(column.size()));
+  }
+  return {static_cast<int>(A.rows()), to_device<Indices<B>>(name + ".first", first),
+          to_device<Indices<B>>(name + ".column", column),
+          to_device<decltype(SparseRows<B, Value>::value)>(name + ".value", value)};
 }
 
 template <class... Views>

@@ -3,6 +3,7 @@
 
 #include <numbers>
 #include <plica/drivers/solver/courses.hpp>
+#include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -214,19 +215,13 @@ TYPED_TEST(Vocabulary, RowsOfAMatrixAreSummedUp) {
   using B = TypeParam;
   using Real = typename B::Real;
   const typename B::Exec exec;
-  std::vector<int> first{0}, column;
-  std::vector<float> value;
   const auto entry = [](int row, int i) { return n - 1 - 3 * (row % 12 - 1 - i); };  // ascending, to n - 1
   const auto weight = [](int row, int i) { return static_cast<float>(1 + row % 7) / static_cast<float>(2 + i); };
-  for (int row = 0; row < n; ++row) {
-    for (int i = 0; i < row % 12; ++i) column.push_back(entry(row, i)), value.push_back(weight(row, i));
-    first.push_back(static_cast<int>(column.size()));
-  }
-  SparseRows<B, float> A{
-      n, to_device<Indices<B>>("test.first", first), to_device<Indices<B>>("test.column", column), {}};
-  A.value = to_device<decltype(A.value)>("test.value", value);
+  RowMatrix A(n, n);
+  for (int row = 0; row < n; ++row)
+    for (int i = 0; i < row % 12; ++i) A.insert(row, entry(row, i)) = static_cast<double>(weight(row, i));
   const Vectors<B> x = ramp<B>(1), y = zeros<Vectors<B>>("test.y", n);
-  update_vertices<B>(exec, "test", n, MultiplyRows<B, float>{A, x, y});
+  update_vertices<B>(exec, "test", n, MultiplyRows<B, float>{sparse_rows<B, float>("test", A), x, y});
   expect_values<B>(y, [&](int i) {
     double sum = 0;
     for (int s = 0; s < i / 3 % 12; ++s)
