@@ -5,13 +5,13 @@
 
 namespace plica {
 
-/// A sparse matrix of numbers that acts on vectors, by rows in compressed form. A row is filled up by zeros to four entries or a multiple,
-/// which are read together.
+/// A sparse matrix of numbers that acts on vectors, by rows in compressed form. A row is filled up to four entries or a multiple by zeros
+/// of column 0, which come first: four are read together. Without columns rows are empty.
 template <class B, class Value = typename B::Real>
 struct SparseRows {
   int rows = 0;
   Indices<B> first;   ///< [rows + 1] into the others
-  Indices<B> column;  ///< of an entry, ascending in a row after those that fill it up
+  Indices<B> column;  ///< of an entry, ascending in a row
   Kokkos::View<Value*, Kokkos::LayoutRight, typename B::Memory> value;
 };
 

@@ -132,7 +132,8 @@ struct DefectCorrection {
 // holds; 6 flops.
 
 /// Row `row` of A x, x of three numbers each or four. A CPU takes four entries at a time, and vectors as four numbers, of which the fourth, the
-/// next vector's first, is not used. So the row's last entry, which may point at the last vector, is taken by itself.
+/// next vector's first, is not used. So the row's last entry, which may point at the last vector, is taken by itself, and a single vector number
+/// by number.
 template <class B, class Value, class Field>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Value>& A, int row, const Field& x) {
   using Real = typename B::Real;
@@ -140,7 +141,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
   const int last = A.first(row + 1);
   Vec3<Real> y;
 #if defined(__GNUC__) && !defined(__CUDACC__)
-  if constexpr (B::for_cpu) {
+  if (B::for_cpu && x.extent(0) > 1) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
     typedef Value Numbers __attribute__((vector_size(4 * sizeof(Value)), may_alias, aligned(alignof(Value))));
     constexpr std::ptrdiff_t stride = Field::static_extent(1);

@@ -24,8 +24,9 @@ SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
     const auto begin = column.size();
     for (RowMatrix::InnerIterator entry(A, row); entry; ++entry)
       column.push_back(static_cast<int>(entry.col())), value.push_back(static_cast<Value>(entry.value()));
-    const auto entries = column.size() - begin, fill = entries == 0 ? 4 : (4 - entries % 4) % 4;
-    column.insert(column.begin() + static_cast<std::ptrdiff_t>(begin), fill, entries == 0 ? 0 : column[begin]);
+    const auto entries = column.size() - begin;
+    const auto fill = A.cols() == 0 ? 0 : entries == 0 ? 4 : (4 - entries % 4) % 4;
+    column.insert(column.begin() + static_cast<std::ptrdiff_t>(begin), fill, 0);
     value.insert(value.begin() + static_cast<std::ptrdiff_t>(begin), fill, Value(0));
     first.push_back(static_cast<int>(column.size()));
   }

@@ -231,4 +231,19 @@ TYPED_TEST(Vocabulary, RowsOfAMatrixAreSummedUp) {
   });
 }
 
+// A row that has the last vector alone, of a field of one vector, and of one of none.
+TYPED_TEST(Vocabulary, RowsReadNoFurtherThanTheLastVector) {
+  using B = TypeParam;
+  for (const int vectors : {0, 1, 2}) {
+    RowMatrix A(1, vectors);
+    if (vectors > 0) A.insert(0, vectors - 1) = 2;
+    const Vectors<B> x = zeros<Vectors<B>>("test.x", static_cast<std::size_t>(vectors)),
+                     y = zeros<Vectors<B>>("test.y", 1);
+    fill(typename B::Exec(), x, typename B::Real(3));
+    update_vertices<B>({}, "test", 1, MultiplyRows<B>{sparse_rows<B>("test", A), x, y});
+    Kokkos::fence();
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(static_cast<double>(y(0, k)), vectors > 0 ? 6.0 : 0.0) << vectors;
+  }
+}
+
 }  // namespace
