@@ -5,8 +5,8 @@
 
 namespace plica {
 
-/// A sparse matrix of numbers that acts on vectors, by rows in compressed form. A row is filled up to four entries or a multiple by zeros
-/// of column 0, which come first: four are read together. Without columns rows are empty.
+/// A sparse matrix of numbers that acts on vectors, by rows in compressed form. A row is filled up to four entries or a multiple by zeros,
+/// which come first and never have the last column: four are read together. Without columns rows are empty.
 template <class B, class Value = typename B::Real>
 struct SparseRows {
   int rows = 0;

@@ -140,7 +140,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
   int s = A.first(row);
   const int last = A.first(row + 1);
   Vec3<Real> y;
-#if defined(__GNUC__) && !defined(__CUDACC__)
+#if (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)
   if (B::for_cpu && x.extent(0) > 1) {
     typedef Real Four __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
     typedef Value Numbers __attribute__((vector_size(4 * sizeof(Value)), may_alias, aligned(alignof(Value))));

@@ -43,7 +43,7 @@ struct AddToDiagonal {
 /// with a vector, number by number, and sums up the numbers of a column at the end.
 template <class Real>
 struct BlockSum {
-#if defined(__GNUC__) && !defined(__CUDACC__)
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(PLICA_LIKE_DEVICE)
   typedef Real Column __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
   Column straight[3] = {}, turned[3] = {};
 

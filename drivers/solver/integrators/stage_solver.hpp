@@ -35,7 +35,7 @@ class StageSolver {
     if (level.model.rows.excess.extent(0) > 0) {
       carrying_ = zeros<Scalars<B>>("plica::stage.pressure", 3 * slots);
       carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
-      if (iterates()) last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
+      last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
     }
     if (!iterates()) return;
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
@@ -136,11 +136,13 @@ class StageSolver {
   bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     level.linearise(level.state, time, weights, ahead, level.f);
     if (iterates()) return newton(level, time + ahead, weights);
+    const double before = residual_;
     const SolveOutcome out = correct(level, weights, true, options_.tangent == "positive");
     if (!out.indefinite || options_.tangent != "auto" || level.followers.empty() || level.prescribed.count > 0)
       return true;
     undo(level, weights, 1);  // the pressure takes more stiffness away than there is
     if (!out.converged) --misses_;
+    residual_ = before;
     correct(level, weights, false, true);
     return true;
   }
@@ -177,7 +179,7 @@ class StageSolver {
     residual_ = std::max(residual_, out.relative_residual);
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     if (carries()) {
-      if (iterates()) copy(level.exec(), last_carried_, carried_);
+      copy(level.exec(), last_carried_, carried_);
       carry_pressures<B>(level.exec(), level, level.state.u, change_);
       ++updates_;
     }

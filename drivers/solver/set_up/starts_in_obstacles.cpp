@@ -38,6 +38,12 @@ struct Deepest {
   double nearest = std::numeric_limits<double>::infinity();  ///< of all places, how far outside [m]
 };
 
+/// An anchor may be inside the body that it holds.
+bool holds_at_start(const ObstacleOptions& options, const Deepest& found) {
+  if (!options.grasp || !(found.nearest <= options.grasp->reach)) return false;
+  return options.grasp->from.empty() || options.grasp->from.front() <= 0;
+}
+
 /// A sampled surface is looked at when it has been sampled.
 Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& places) {
   Deepest found;
@@ -151,8 +157,7 @@ std::vector<std::string> starts_in_obstacles(const Problem& problem) {
     const std::string path = "contact.obstacles." + std::to_string(i);
     if (found.inside == places.size())
       throw InputError(path + " contains the whole body at the start; expected a body outside");
-    const bool holds = obstacles[i].grasp && found.nearest <= obstacles[i].grasp->reach;  // as an anchor in it may
-    if (found.inside == 0 && !holds && body.contains(obstacles[i]))
+    if (found.inside == 0 && !holds_at_start(obstacles[i], found) && body.contains(obstacles[i]))
       throw InputError(path + " is inside the body at the start, where contact does not find it; expected it outside");
     if (!(found.depth > bearable_depth * edge)) continue;
     const Point& x = places[found.place];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <plica/core/fields.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/core/mesh.hpp>
@@ -26,7 +27,8 @@ SparseRows<B, Value> sparse_rows(const std::string& name, const RowMatrix& A) {
       column.push_back(static_cast<int>(entry.col())), value.push_back(static_cast<Value>(entry.value()));
     const auto entries = column.size() - begin;
     const auto fill = A.cols() == 0 ? 0 : entries == 0 ? 4 : (4 - entries % 4) % 4;
-    column.insert(column.begin() + static_cast<std::ptrdiff_t>(begin), fill, 0);
+    const int beside = std::max(0, std::min(entries == 0 ? 0 : column[begin], static_cast<int>(A.cols()) - 2));
+    column.insert(column.begin() + static_cast<std::ptrdiff_t>(begin), fill, beside);
     value.insert(value.begin() + static_cast<std::ptrdiff_t>(begin), fill, Value(0));
     first.push_back(static_cast<int>(column.size()));
   }
