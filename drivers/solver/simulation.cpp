@@ -43,11 +43,11 @@ namespace plica {
 
 namespace {
 
-constexpr double rounding = 1e-9;    // of times, relative
-constexpr int keep_every = 20;       // macro steps
-constexpr int long_ago = 200;        // macro steps, at least, between the two states that are kept
-constexpr int most_repairs = 8;      // of a stepper, until its steps stay stable to where the run was
-constexpr double least_edge = 1e-3;  // of an edge per macro step: motion that energy is not asked about
+constexpr double time_rounding = 1e-9;  // relative
+constexpr int keep_every = 20;          // macro steps
+constexpr int long_ago = 200;           // macro steps, at least, between the two states that are kept
+constexpr int most_repairs = 8;         // of a stepper, until its steps stay stable to where the run was
+constexpr double least_edge = 1e-3;     // of an edge per macro step: motion that energy is not asked about
 
 const Problem& steppable(const Problem& p) {
   validate(p);
@@ -110,7 +110,7 @@ void Simulation<B>::end_at(double time) {
 /// Whether the next macro step would go beyond the end that a caller has set.
 template <class B>
 bool Simulation<B>::Inside::reaches_end() const {
-  return time < end && origin + static_cast<double>(steps + 1) * built.macro_step > (1 + rounding) * end;
+  return time < end && origin + static_cast<double>(steps + 1) * built.macro_step > (1 + time_rounding) * end;
 }
 
 template <class B>
@@ -252,7 +252,8 @@ template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   const double there = time;
   go_back(kept);
-  const bool known = there <= time + (1 + rounding) * next_span();  // to be bad as a whole: it was the only step since
+  // Where it was the only step since, it is known to be bad as a whole.
+  const bool known = there <= time + (1 + time_rounding) * next_span();
   ++rejected;
   std::optional<Diagnosis> still = bad;
   while (time < there) {
