@@ -146,23 +146,23 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
     typedef Value Numbers __attribute__((vector_size(4 * sizeof(Value)), may_alias, aligned(alignof(Value))));
     constexpr std::ptrdiff_t stride = Field::static_extent(1);
     const auto vector = [&](int entry) { return x.data() + stride * A.column(entry); };
-    Four number, sum[4] = {};  // so that an addition need not wait for the last one
-    const auto numbers = [&](int entry) {
-      number = __builtin_convertvector(*reinterpret_cast<const Numbers*>(A.value.data() + entry), Four);
-    };
     const auto add = [&](int entry, const Four& factor, Four& to) {
       to += *reinterpret_cast<const Four*>(vector(entry)) * factor;
     };
+    const Value* const value = A.value.data();
+    Four a = {}, b = {}, c = {}, d = {};  // so that an addition need not wait for the last one
     for (; s + 4 < last; s += 4) {
-      numbers(s);
-      add(s, __builtin_shufflevector(number, number, 0, 0, 0, 0), sum[0]);
-      add(s + 1, __builtin_shufflevector(number, number, 1, 1, 1, 1), sum[1]);
-      add(s + 2, __builtin_shufflevector(number, number, 2, 2, 2, 2), sum[2]);
-      add(s + 3, __builtin_shufflevector(number, number, 3, 3, 3, 3), sum[3]);
+      const Four number = __builtin_convertvector(*reinterpret_cast<const Numbers*>(value + s), Four);
+      add(s, __builtin_shufflevector(number, number, 0, 0, 0, 0), a);
+      add(s + 1, __builtin_shufflevector(number, number, 1, 1, 1, 1), b);
+      add(s + 2, __builtin_shufflevector(number, number, 2, 2, 2, 2), c);
+      add(s + 3, __builtin_shufflevector(number, number, 3, 3, 3, 3), d);
     }
-    numbers(s);
-    for (int i = 0; i < 3; ++i) add(s + i, Four{} + number[i], sum[i]);
-    const Four all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    const Four number = __builtin_convertvector(*reinterpret_cast<const Numbers*>(value + s), Four);
+    add(s, __builtin_shufflevector(number, number, 0, 0, 0, 0), a);
+    add(s + 1, __builtin_shufflevector(number, number, 1, 1, 1, 1), b);
+    add(s + 2, __builtin_shufflevector(number, number, 2, 2, 2, 2), c);
+    const Four all = (a + b) + (c + d);
     const Real* const at = vector(s + 3);
     for (int k = 0; k < 3; ++k) y[k] = all[k] + number[3] * at[k];
     return y;

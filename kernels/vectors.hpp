@@ -38,11 +38,13 @@ void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const
 
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Vectors<B>& x, int a) {
-  return {x(a, 0), x(a, 1), x(a, 2)};
+  const auto* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(a);
+  return {at[0], at[1], at[2]};
 }
 template <class B>
 KOKKOS_INLINE_FUNCTION void set_vector(const Vectors<B>& x, int a, const Vec3<typename B::Real>& value) {
-  for (int k = 0; k < 3; ++k) x(a, k) = value[k];
+  auto* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(a);
+  at[0] = value[0], at[1] = value[1], at[2] = value[2];
 }
 
 template <class B>

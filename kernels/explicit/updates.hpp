@@ -21,11 +21,8 @@ struct SymplecticEulerUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = h * model.inverse_mass(a), keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
-    for (int i = 0; i < 3; ++i) {
-      const Real speed = (v(a, i) + w * f(a, i)) * keep;
-      v(a, i) = speed;
-      u(a, i) += h * speed;
-    }
+    const Vec3<Real> speed = keep * (vector_at<B>(v, a) + w * vector_at<B>(f, a)), at = vector_at<B>(u, a);
+    set_vector<B>(v, a, speed), set_vector<B>(u, a, at + h * speed);
   }
 };
 
@@ -40,11 +37,9 @@ struct HalfKickAndDrift {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = h * model.inverse_mass(a), c = w > 0 ? h * model.damping(a) : Real(0);
-    for (int i = 0; i < 3; ++i) {
-      const Real speed = state.v(a, i) + w * f(a, i) - c * state.v(a, i);
-      state.v(a, i) = speed;
-      state.u(a, i) += 2 * h * speed;
-    }
+    const Vec3<Real> before = vector_at<B>(state.v, a), speed = before + w * vector_at<B>(f, a) - c * before,
+                     at = vector_at<B>(state.u, a);
+    set_vector<B>(state.v, a, speed), set_vector<B>(state.u, a, at + 2 * h * speed);
   }
 };
 
@@ -58,7 +53,7 @@ struct HalfKick {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = h * model.inverse_mass(a), keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
-    for (int i = 0; i < 3; ++i) v(a, i) = (v(a, i) + w * f(a, i)) * keep;
+    set_vector<B>(v, a, keep * (vector_at<B>(v, a) + w * vector_at<B>(f, a)));
   }
 };
 
@@ -74,11 +69,8 @@ struct ForwardEulerUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = h * model.inverse_mass(a), c = w > 0 ? h * model.damping(a) : Real(0);
-    for (int i = 0; i < 3; ++i) {
-      const Real speed = v(a, i);
-      u(a, i) += h * speed;
-      v(a, i) += w * f(a, i) - c * speed;
-    }
+    const Vec3<Real> speed = vector_at<B>(v, a), force = vector_at<B>(f, a), at = vector_at<B>(u, a);
+    set_vector<B>(u, a, at + h * speed), set_vector<B>(v, a, speed + (w * force - c * speed));
   }
 };
 
@@ -94,13 +86,11 @@ struct RungeKuttaStage {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = model.inverse_mass(a), c = w > 0 ? model.damping(a) : Real(0);
-    for (int i = 0; i < 3; ++i) {
-      const Real ku = stage.v(a, i), kv = w * f(a, i) - c * stage.v(a, i);
-      sum.u(a, i) += weight * h * ku;
-      sum.v(a, i) += weight * h * kv;
-      stage.u(a, i) = start.u(a, i) + ahead * h * ku;
-      stage.v(a, i) = start.v(a, i) + ahead * h * kv;
-    }
+    const Vec3<Real> ku = vector_at<B>(stage.v, a), kv = w * vector_at<B>(f, a) - c * ku;
+    const Vec3<Real> u = vector_at<B>(start.u, a), v = vector_at<B>(start.v, a);
+    set_vector<B>(sum.u, a, vector_at<B>(sum.u, a) + weight * h * ku);
+    set_vector<B>(sum.v, a, vector_at<B>(sum.v, a) + weight * h * kv);
+    set_vector<B>(stage.u, a, u + ahead * h * ku), set_vector<B>(stage.v, a, v + ahead * h * kv);
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/inlining.hpp>
 #include <plica/core/inverse_mass.hpp>
 #include <plica/kernels/him/inverse_mass.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -193,7 +194,7 @@ struct ForceAndAnswer {
   KOKKOS_INLINE_FUNCTION void operator()(int item) const { force(item), answer(item); }
 };
 
-/// p += t E^T g, of vertices that forces move, and q likewise, where there is one.
+/// p += t E^T g, of vertices that forces move, and q likewise, where there is one. Returns p.
 template <class B>
 struct PushByAxes {
   using Real = typename B::Real;
@@ -201,11 +202,13 @@ struct PushByAxes {
   Scalars<B> inverse_mass;
   Vectors<B> force, p, q;
   Real t;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    if (!(inverse_mass(a) > 0)) return;
-    const Vec3<Real> f = row_product<B>(spread, a, force);
-    for (int k = 0; k < 3; ++k) p(a, k) += t * f[k];
-    for (int k = 0; k < 3 && q.extent(0) > 0; ++k) q(a, k) += t * f[k];
+  KOKKOS_INLINE_FUNCTION Vec3<Real> operator()(int a) const {
+    const Vec3<Real> before = vector_at<B>(p, a);
+    if (!(inverse_mass(a) > 0)) return before;
+    const Vec3<Real> push = t * row_product<B>(spread, a, force), pushed = before + push;
+    set_vector<B>(p, a, pushed);
+    if (q.extent(0) > 0) set_vector<B>(q, a, vector_at<B>(q, a) + push);
+    return pushed;
   }
 };
 
@@ -214,15 +217,19 @@ template <class B>
 struct AnswerOfPushed {
   PushByAxes<B> push;
   AnswerOfFinest<B> answer;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { push(a), answer(a); }
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_vector<B>(answer.acceleration, a, answer.of(a, push(a)));
+  }
 };
 
 /// The same, and the mean acceleration that follows.
 template <class B>
 struct AccelerationOfPushed {
-  AnswerOfPushed<B> answer;
+  AnswerOfPushed<B> pushed;
   MeanAcceleration<B> mean;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { answer(a), mean(a); }
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    mean.set(a, pushed.answer.of(a, pushed.push(a)));
+  }
 };
 
 /// A middle level's share of that: += t Pi^T E^T g.

@@ -34,11 +34,10 @@ struct AnswerOfFinest {
   Scalars<B> inverse_mass;
   Vectors<B> force, coarser, acceleration;
   Real weight;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    Vec3<Real> below;
-    if (up.rows > 0) below = row_product<B>(up, a, coarser);
-    const Real w = weight * inverse_mass(a);
-    for (int k = 0; k < 3; ++k) acceleration(a, k) = w * force(a, k) + below[k];
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(acceleration, a, of(a, vector_at<B>(force, a))); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> of(int a, const Vec3<Real>& own) const {
+    const Vec3<Real> answer = (weight * inverse_mass(a)) * own;
+    return up.rows > 0 ? answer + row_product<B>(up, a, coarser) : answer;
   }
 };
 
@@ -48,8 +47,9 @@ struct MeanAcceleration {
   using Real = typename B::Real;
   Vectors<B> v, answer;
   Real per_step;  ///< 1/t
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) answer(a, k) = (answer(a, k) - v(a, k)) * per_step;
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set(a, vector_at<B>(answer, a)); }
+  KOKKOS_INLINE_FUNCTION void set(int a, const Vec3<Real>& now) const {
+    set_vector<B>(answer, a, per_step * (now - vector_at<B>(v, a)));
   }
 };
 

@@ -79,18 +79,19 @@ struct KickAndDrift {
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     if (!(inverse_mass(i) > 0)) return {};
     const bool touches = contact.extent(0) > 0 && touching(0) > 0;
-    double answer = 0, work = 0;
+    const Vec3<Real> v = vector_at<B>(state.v, i), force = vector_at<B>(f, i), answer = vector_at<B>(a, i),
+                     df = force - vector_at<B>(f_before, i), da = answer - vector_at<B>(a_before, i),
+                     u = vector_at<B>(state.u, i);
+    const Vec3<Real> kicked = v + t * (touches ? answer + vector_at<B>(contact, i) : answer);
+    if (touches) set_vector<B>(p, i, vector_at<B>(p, i) + t * vector_at<B>(contact_force, i));
+    set_vector<B>(f_before, i, force), set_vector<B>(a_before, i, answer);
+    set_vector<B>(state.v, i, kicked), set_vector<B>(state.u, i, u + Real(0.5) * t * kicked);
+    double answered = 0, work = 0;
     for (int k = 0; k < 3; ++k) {
-      const Real v = state.v(i, k), df = f(i, k) - f_before(i, k),
-                 kicked = v + t * (touches ? a(i, k) + contact(i, k) : a(i, k));
-      if (touches) p(i, k) += t * contact_force(i, k);
-      answer += static_cast<double>(t * t * (a(i, k) - a_before(i, k))) * static_cast<double>(df);
-      work -= static_cast<double>(t * v) * static_cast<double>(df);
-      f_before(i, k) = f(i, k), a_before(i, k) = a(i, k);
-      state.v(i, k) = kicked;
-      state.u(i, k) += Real(0.5) * t * kicked;
+      answered += static_cast<double>(t * t * da[k]) * static_cast<double>(df[k]);
+      work -= static_cast<double>(t * v[k]) * static_cast<double>(df[k]);
     }
-    return {{answer, work}};
+    return {{answered, work}};
   }
 };
 

@@ -71,7 +71,9 @@ struct RestrictFours {
   SparseRows<B> down;
   Fours<B> residual;
   To r;
-  KOKKOS_INLINE_FUNCTION void operator()(int row) const { set_vector<B>(r, row, row_product<B>(down, row, residual)); }
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int row) const {
+    set_vector<B>(r, row, row_product<B>(down, row, residual));
+  }
 };
 
 /// A first direction d = P y, from a coarser level.
@@ -80,7 +82,7 @@ struct ChebyshevCorrection {
   Scalars<B> scale;
   SparseRows<B> up;
   Fours<B> y, d;
-  KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
     const Vec3<typename B::Real> sum = scale(slot) * row_product<B>(up, slot, y);
     for (int k = 0; k < 3; ++k) d(slot, k) = sum[k];
   }
