@@ -92,7 +92,7 @@ struct ElasticBlocks {
                          [&](int i) { sum(first + i, first + i >= first_shared, blocks); });
   }
 
-  KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* blocks) const {
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* blocks) const {
     ElementShape<T> shape;
     Mat3<T> G[1];
     load_pack<B, 1>(patches, pack, local, shape, G);
