@@ -107,6 +107,11 @@ class HierarchyBuilder {
     const auto& all = problem_.integration.integrator;
     return all.size() == 1 ? all.front() : all[i];
   }
+  bool is_explicit(std::size_t i) const {
+    bool is = false;
+    Integrators::visit(integrator_of(i), [&](auto integrator) { is = decltype(integrator)::is_explicit; });
+    return is;
+  }
 
   void place_meshes() {
     const Body& body = problem_.body;
@@ -173,21 +178,9 @@ class HierarchyBuilder {
     report.largest_miss = std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
   }
 
-  /// The constants of the linear elements that an implicit level of nodal ones is preconditioned by: lambda is capped, or the
-  /// preconditioner locks. A V-cycle that is the whole answer must not be softer than the elements.
-  const std::vector<std::vector<double>>* beside_nodal(std::size_t i) const {
-    const std::vector<std::vector<double>>* constants = nullptr;
-    Integrators::visit(integrator_of(i), [&](auto integrator) {
-      using Kind = decltype(integrator);
-      if (!Kind::is_explicit) constants = &constants_[i].capped;
-      if constexpr (requires { Kind::linear_solver; }) constants = &constants_[i].material;
-    });
-    return constants;
-  }
-
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], beside_nodal(i));
+    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], !is_explicit(i));
     level.loads = device_loads<B>(problem_.body, loads_[i]);
     level.followers = followers_[i];
     if (needs_.drift_limits && levels_ > 1) {
@@ -266,9 +259,7 @@ class HierarchyBuilder {
   void add_contact() {
     const Problem& p = problem_;
     bool stiff = true;
-    for (std::size_t i = 0; i < levels_; ++i)
-      Integrators::visit(integrator_of(i),
-                         [&](auto integrator) { stiff = stiff && decltype(integrator)::is_explicit; });
+    for (std::size_t i = 0; i < levels_; ++i) stiff = stiff && is_explicit(i);
     ContactOptions options = p.contact;
     if (options.whole_surface == "auto" && !needs_matrix(p.integration).empty()) options.whole_surface = "never";
     TouchingSurface touching{.surface = surface_,

@@ -126,7 +126,7 @@ namespace {
 
 template <class B>
 void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, const LevelConstants& c,
-                  const std::vector<std::vector<double>>* beside) {
+                  bool beside_nodal) {
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
@@ -143,8 +143,8 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
-    if (beside) model.patches = build_patches<B>(placed, *beside, c.stiffness_damping);
-    if (beside && !c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+    if (beside_nodal) model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
+    if (beside_nodal && !c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
   }
   level.partial = zeros<Vectors<B>>("plica::work.partial", std::max(model.shares.rows, model.patches.shares.rows));
   if (!allows_inversion(body.material))
@@ -154,14 +154,13 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
 }  // namespace
 
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c,
-                     const std::vector<std::vector<double>>* beside) {
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c, bool beside_nodal) {
   using Real = typename B::Real;
   const std::size_t n = placed.vertices.size();
   Level<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
-  add_elements(level, body, placed, c, beside);
+  add_elements(level, body, placed, c, beside_nodal);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
@@ -190,9 +189,9 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
   return level;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                   \
-  template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>( \
-      const Body&, const TetMesh&, const LevelConstants&, const std::vector<std::vector<double>>*);
+#define PLICA_INSTANTIATE(Real, Exec)                                                               \
+  template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>(const Body&, const TetMesh&, \
+                                                                       const LevelConstants&, bool);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -31,10 +31,10 @@ struct LevelConstants {
 /// selection chooses nothing on this level.
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level);
 
-/// Model, state and work arrays of a level. No transfers, no surface. `beside`: with nodal elements, constants of the linear ones that they are
-/// preconditioned by, as LevelConstants has them; null where nothing is.
+/// Model, state and work arrays of a level. No transfers, no surface. `beside_nodal`: nodal elements have linear ones of the same constants
+/// beside them, which precondition implicit steps.
 template <class B>
 Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants,
-                     const std::vector<std::vector<double>>* beside = nullptr);
+                     bool beside_nodal = false);
 
 }  // namespace plica

@@ -31,10 +31,10 @@ TEST(Multigrid, RunsOnSpacesOfOneMesh) {
   EXPECT_LE(3 * multigrid, iterations("block_jacobi"));
 }
 
-// Its few slivers have the largest eigenvalues that the smoother has to know of.
-TEST(Multigrid, SmoothsTheSliversOfAnOrgan) {
-  Problem p = body_of({read_mesh(PLICA_SOURCE_DIR "/meshes/data/organs/ventricle.vtk")});
+void expect_iterations_of_an_organ(double poisson_ratio, long at_most) {
+  Problem p = body_of({read_mesh(PLICA_SOURCE_DIR "/meshes/data/organs/ventricle.vtk")}, "neo_hookean");
   p.body.element = {"nodal"};
+  p.body.material.young_modulus = 5e3, p.body.material.poisson_ratio = poisson_ratio;
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
   p.gravity = {0, 0, -9.81};
   p.integration.integrator = {"implicit_euler"};
@@ -43,7 +43,14 @@ TEST(Multigrid, SmoothsTheSliversOfAnOrgan) {
   EXPECT_NE(simulation.levels().front().linear_solver.find("multigrid"), std::string::npos) << "a long step";
   advance(simulation, 2);
   EXPECT_EQ(simulation.counters().at("cg_misses"), 0);
-  EXPECT_LE(simulation.counters().at("cg_iterations"), 2 * 45);
+  EXPECT_LE(simulation.counters().at("cg_iterations"), 2 * at_most) << "nu " << poisson_ratio;
+}
+
+// Its few slivers have the largest eigenvalues that the smoother has to know of. The linear elements that precondition nodal ones resist
+// changes of volume as these do: with lambda = 2 mu it takes more iterations.
+TEST(Multigrid, SmoothsTheSliversOfAnOrgan) {
+  expect_iterations_of_an_organ(0.45, 29);
+  expect_iterations_of_an_organ(0.49, 61);
 }
 
 // Of nodal elements that stiffen exponentially, whose multigrid is that of linear ones.
