@@ -11,7 +11,7 @@ namespace plica {
 /// never passed by value, as the calling convention would then depend on the processor.
 ///
 /// Each step mixes two packs. That is one cheap instruction where numbers stay within their 16 bytes, or where 16 bytes move as a whole.
-/// These hold a row of floats, but a pair of doubles:
+/// 16 bytes are four floats or two doubles:
 ///
 ///   floats, in every four                           doubles
 ///   a0 a1 a2 a3 -.  a0 a2 b0 b2 -.                  a0 a1 a2 a3 -.  a0 b0 a2 b2 -.
