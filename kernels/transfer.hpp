@@ -150,7 +150,7 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> row_product(const SparseRows<B, Va
       to += *reinterpret_cast<const Four*>(vector(entry)) * factor;
     };
     const Value* const value = A.value.data();
-    Four a = {}, b = {}, c = {}, d = {};  // so that an addition need not wait for the last one
+    Four a = {}, b = {}, c = {}, d = {};  // so that an addition need not wait for the last one; an array goes to memory
     for (; s + 4 < last; s += 4) {
       const Four number = __builtin_convertvector(*reinterpret_cast<const Numbers*>(value + s), Four);
       add(s, __builtin_shufflevector(number, number, 0, 0, 0, 0), a);
@@ -178,10 +178,7 @@ template <class B, class Value = typename B::Real>
 struct MultiplyRows {
   SparseRows<B, Value> A;
   Vectors<B> x, y;
-  KOKKOS_INLINE_FUNCTION void operator()(int row) const {
-    const auto sum = row_product<B>(A, row, x);
-    for (int k = 0; k < 3; ++k) y(row, k) = sum[k];
-  }
+  KOKKOS_INLINE_FUNCTION void operator()(int row) const { set_vector<B>(y, row, row_product<B>(A, row, x)); }
 };
 
 }  // namespace plica

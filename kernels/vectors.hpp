@@ -36,6 +36,7 @@ void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const
 
 // ---- of one vertex, point or block --------------------------------------------------------------------------------------
 
+// By the stride that all of them have; a view's own index takes a multiplication.
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Vectors<B>& x, int a) {
   const auto* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(a);

@@ -107,6 +107,12 @@ std::size_t integrated_levels(std::string_view cycle, std::size_t levels) {
   return integrates_coarse_levels(cycle) ? levels : 1;
 }
 
+bool is_explicit(std::string_view integrator) {
+  bool is = true;
+  Integrators::visit(integrator, [&](auto member) { is = decltype(member)::is_explicit; });
+  return is;
+}
+
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator) {
   constexpr int enough = 20;
   bool conserves = false;

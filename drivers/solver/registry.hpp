@@ -24,6 +24,9 @@ bool has_coarse_levels(std::string_view cycle, const Body& body);
 /// How many of a body's levels that cycle integrates: those that have a state, from the finest on.
 std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 
+/// Whether that integrator is explicit; true for a name it does not know.
+bool is_explicit(std::string_view integrator);
+
 /// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 1 or,
 /// where it conserves energy on the linear problem, 20. What one iteration leaves unsolved is energy lost or won in every step.
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator);

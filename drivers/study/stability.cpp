@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
 #include <plica/core/error.hpp>
-#include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/study/cycle_growth.hpp>
@@ -70,12 +69,6 @@ constexpr double scene_at = 0.99;         // of the limit of small motions, wher
 constexpr double scene_least = 1.0 / 64;  // of where they begin
 
 struct Stopped {};  // thrown through the searches where the caller, or the budget, has had enough
-
-bool is_explicit(const std::string& integrator) {
-  bool result = true;
-  Integrators::visit(integrator, [&](auto member) { result = decltype(member)::is_explicit; });
-  return result;
-}
 
 /// What is searched for one method, and where.
 struct Sought {

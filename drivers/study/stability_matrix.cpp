@@ -35,13 +35,11 @@ bool writes_numbers(const Sim& simulation) {
 
 /// Whether a diagnosis says where and what to do, and is of a kind that this run can come to.
 bool is_sound(const Diagnosis& d, const Problem& p) {
-  bool is_explicit = true;
-  for (const std::string& name : p.integration.integrator)
-    Integrators::visit(name, [&](auto member) { is_explicit = is_explicit && decltype(member)::is_explicit; });
-  const bool possible = d.kind == "energy" || d.kind == "non_finite" || d.kind == "contact" ||
-                        (d.kind == "speed" && is_explicit) ||
-                        (d.kind == "inverted" && forbids_inversion(p.body.material.model)) ||
-                        (d.kind == "stability" && p.integration.cycle == "him") || (d.kind == "solver" && !is_explicit);
+  const bool all_explicit = std::ranges::all_of(p.integration.integrator, is_explicit);
+  const bool possible =
+      d.kind == "energy" || d.kind == "non_finite" || d.kind == "contact" || (d.kind == "speed" && all_explicit) ||
+      (d.kind == "inverted" && forbids_inversion(p.body.material.model)) ||
+      (d.kind == "stability" && p.integration.cycle == "him") || (d.kind == "solver" && !all_explicit);
   return possible && d.level >= 0 && (d.element >= 0 || d.vertex >= 0) && std::isfinite(d.J) &&
          std::isfinite(d.substep_over_critical) && !d.remedy.empty() && !d.text().empty();
 }

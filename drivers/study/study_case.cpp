@@ -24,12 +24,6 @@ constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
 constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
-bool steps_explicitly(const std::string& integrator) {
-  bool result = true;
-  Integrators::visit(integrator, [&](auto member) { result = decltype(member)::is_explicit; });
-  return result;
-}
-
 // The limit of an explicit integrator, undamped; 0 where it has none of this kind
 double limit_of(const std::string& integrator, double symplectic_limit) {
   double radius = 0;
@@ -53,7 +47,7 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   std::vector<LevelLimits> limits;
   for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
     const std::string integrator = integrator_of(o, limits.size());
-    const bool stepped = steps_explicitly(integrator);
+    const bool stepped = is_explicit(integrator);
     limits.push_back({levels[i].tets, integrator, stepped,
                       stepped ? limit_of(integrator, levels[i].critical_step) : levels[i].critical_step});
   }
@@ -129,7 +123,7 @@ struct Builder {
     const std::string integrator = one.integration.integrator.front();
     const bool finest = one.level == 0;
     const double critical = levels[static_cast<std::size_t>(one.level)].critical_step;
-    if (!steps_explicitly(integrator)) {
+    if (!is_explicit(integrator)) {
       std::vector<double> steps;
       for (const Step& step : options.macro_steps)
         if (step) steps.push_back(*step);
@@ -238,7 +232,7 @@ Problem problem_of(const Problem& problem, const StudyCase& one) {
   result.integration = one.integration;
   if (one.integration.cycle != "single") return result;
   // implicit ones have those below for multigrid
-  const bool alone = steps_explicitly(one.integration.integrator.front());
+  const bool alone = is_explicit(one.integration.integrator.front());
   keep_levels(result.body, static_cast<std::size_t>(one.level), alone ? 1 : problem.body.levels.size());
   const auto centre = [](const TetMesh& mesh) {
     const Box box = bounding_box(mesh.vertices);

@@ -107,11 +107,6 @@ class HierarchyBuilder {
     const auto& all = problem_.integration.integrator;
     return all.size() == 1 ? all.front() : all[i];
   }
-  bool is_explicit(std::size_t i) const {
-    bool is = false;
-    Integrators::visit(integrator_of(i), [&](auto integrator) { is = decltype(integrator)::is_explicit; });
-    return is;
-  }
 
   void place_meshes() {
     const Body& body = problem_.body;
@@ -180,7 +175,7 @@ class HierarchyBuilder {
 
   void add_level(std::size_t i) {
     const TetMesh& mesh = built_.meshes[i];
-    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], !is_explicit(i));
+    Level<B> level = build_level<B>(problem_.body, mesh, constants_[i], !is_explicit(integrator_of(i)));
     level.loads = device_loads<B>(problem_.body, loads_[i]);
     level.followers = followers_[i];
     if (needs_.drift_limits && levels_ > 1) {
@@ -259,7 +254,7 @@ class HierarchyBuilder {
   void add_contact() {
     const Problem& p = problem_;
     bool stiff = true;
-    for (std::size_t i = 0; i < levels_; ++i) stiff = stiff && is_explicit(i);
+    for (std::size_t i = 0; i < levels_; ++i) stiff = stiff && is_explicit(integrator_of(i));
     ContactOptions options = p.contact;
     if (options.whole_surface == "auto" && !needs_matrix(p.integration).empty()) options.whole_surface = "never";
     TouchingSurface touching{.surface = surface_,

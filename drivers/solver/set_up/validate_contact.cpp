@@ -5,6 +5,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/kernels/contact/shapes.hpp>
@@ -88,7 +89,7 @@ std::string needs_matrix(const IntegrationOptions& options) {
   bool implicit = false;
   for (const std::string& name : options.integrator) {
     if (name == VCycleEuler::name) return "integration.integrator is " + name;
-    Integrators::visit(name, [&](auto it) { implicit = implicit || !decltype(it)::is_explicit; });
+    implicit = implicit || !is_explicit(name);
   }
   const std::string& solver = options.implicit.solver;
   return implicit && solver != "auto" && solver != "conjugate_gradients" ? "integration.implicit.solver is " + solver
