@@ -95,14 +95,17 @@ void in_order(const Task& task) {
 }  // namespace
 
 template <class Memory>
+void prepare_new([[maybe_unused]] void* x, [[maybe_unused]] std::size_t bytes) {
+  if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>) ask_for_huge_pages(x, bytes);
+}
+
+template <class Memory>
 void clear_new(void* x, std::size_t bytes) {
   if (bytes == 0) return;
-  if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>) {
-    ask_for_huge_pages(x, bytes);
+  if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>)
     std::memset(x, 0, bytes);
-  } else {
+  else
     Kokkos::deep_copy(at<Memory>(x, bytes), static_cast<unsigned char>(0));
-  }
 }
 
 template <class Exec>
@@ -144,6 +147,7 @@ PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE_SPACE)
 
 #define PLICA_INSTANTIATE_MEMORY(Memory)                         \
   template void upload<Memory>(void*, const void*, std::size_t); \
+  template void prepare_new<Memory>(void*, std::size_t);         \
   template void clear_new<Memory>(void*, std::size_t);
 PLICA_FOR_EACH_MEMORY(PLICA_INSTANTIATE_MEMORY)
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <plica/core/backend.hpp>
 #include <string>
 #include <type_traits>
@@ -15,7 +16,11 @@ namespace fields {
 /// Copies bytes within the memory of an execution space, in the order of `exec`.
 template <class Exec>
 void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes);
-/// New memory is 0. Where it is large and the host's, it is asked to be in huge pages: kernels that read it in order then wait less.
+/// New memory, before it is first written: where it is large and the host's, huge pages are asked for. Kernels that read it in order then
+/// wait less.
+template <class Memory>
+void prepare_new(void* x, std::size_t bytes);
+/// New memory is 0.
 template <class Memory>
 void clear_new(void* x, std::size_t bytes);
 /// Bytes from the host to a memory space. Waits for all work.
@@ -36,10 +41,18 @@ std::size_t bytes_of(const View& x) {
 
 }  // namespace fields
 
+/// A field of n rows that are still to be written.
+template <class View>
+View unset(const std::string& label, std::size_t n) {
+  const View view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), n);
+  fields::prepare_new<typename View::memory_space>(view.data(), fields::bytes_of(view));
+  return view;
+}
+
 /// A field of n rows, all zero.
 template <class View>
 View zeros(const std::string& label, std::size_t n) {
-  const View view(Kokkos::view_alloc(label, Kokkos::WithoutInitializing), n);
+  const View view = unset<View>(label, n);
   fields::clear_new<typename View::memory_space>(view.data(), fields::bytes_of(view));
   return view;
 }
@@ -76,12 +89,34 @@ template <class View, class Element>
 View to_device(const std::string& name, const std::vector<Element>& values) {
   static_assert(std::is_trivially_copyable_v<Element> && alignof(typename View::value_type) <= alignof(Element) &&
                 sizeof(Element) % sizeof(typename View::value_type) == 0);
-  const View view = zeros<View>("plica::" + name, values.size());
+  const View view = unset<View>("plica::" + name, values.size());
   const std::size_t bytes = values.size() * sizeof(Element);
   if (fields::bytes_of(view) != bytes) throw std::logic_error("to_device: rows of " + name + " differ in size");
   fields::upload<typename View::memory_space>(view.data(), values.data(), bytes);
   return view;
 }
+
+/// A large field that the host writes: in its place where host and device share their memory, else in a copy that upload() takes there.
+template <class View>
+class HostWritten {
+ public:
+  using Number = typename View::value_type;
+  HostWritten(const std::string& name, std::size_t n) : view_(unset<View>("plica::" + name, n)) {
+    if constexpr (!in_place) copy_ = std::make_unique_for_overwrite<Number[]>(view_.span());
+  }
+  Number* data() const { return in_place ? view_.data() : copy_.get(); }
+  View upload() const {
+    if constexpr (!in_place)
+      fields::upload<typename View::memory_space>(view_.data(), copy_.get(), fields::bytes_of(view_));
+    return view_;
+  }
+
+ private:
+  static constexpr bool in_place =
+      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename View::memory_space>::accessible && !like_device::on;
+  View view_;
+  std::unique_ptr<Number[]> copy_;
+};
 
 // The kinds of fields that are common. Others work as well: they are compiled where they are used.
 #define PLICA_FIELD(EXTERN, Memory, ...)                                 \

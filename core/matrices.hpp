@@ -78,15 +78,21 @@ struct PatchPairs {
   Indices<B> shared_place;
 };
 
-/// The stored blocks of P^T A P as constant sums over those of A: block k = sum of weight * block `fine` of A, or of -1 - `fine` transposed,
-/// over [first(k), first(k+1)).
+/// Blocks as constant sums over others: number k is the sum of weight * `block`, or of -1 - `block` transposed, over [first(k), first(k+1)).
 template <class B>
-struct GalerkinMap {
+struct BlockTerms {
   Indices<B> first;
-  Indices<B> fine;
-  Scalars<B> weight;  ///< P_iI P_jJ
+  Indices<B> block;
+  Scalars<B> weight;
 
   int blocks() const { return static_cast<int>(first.extent(0)) - 1; }
+};
+
+/// How P^T A P follows from A: the blocks of A P from the stored ones of A, and what is stored of P^T A P from these.
+template <class B>
+struct GalerkinMap {
+  BlockTerms<B> right, left;
+  Blocks9<B> between;  ///< A P: the blocks that `left` asks for
 };
 
 }  // namespace plica

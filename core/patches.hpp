@@ -22,7 +22,8 @@ struct VertexShares {
 ///   vertices [first_vertex(p), first_vertex(p+1)) of `vertex`: which mesh vertices it touches
 /// * pack q: corner(q, c, l) is which of its patch's vertices corner c of element l is; shape(q, 0..8, l) the inverse of the
 ///   edge matrix with columns X1-X0, X2-X0, X3-X0, row by row [1/m]; shape(q, 9, l) the volume [m^3]
-/// * patch vertex i: slots [first_slot(i), first_slot(i+1)) of `slot`: where its share stands among the element forces
+/// * sum i of a patch: slots [first_slot(i), first_slot(i+1)) of `slot`, where the share of its vertex number summed(i) stands among the
+///   element forces; of a patch, sums of equally many slots follow each other: so a processor foresees where one ends
 /// * the shares of a mesh vertex: its patch vertices
 template <class B>
 struct Patches {
@@ -42,11 +43,12 @@ struct Patches {
   Indices<B> vertex;        ///< [patch vertices]
   Array<std::uint16_t* [4][lanes]> corner;
   Array<Real* [10][lanes]> shape;
-  Scalars<B> constants;   ///< [count * n] the n constants of its material: a patch never spans two regions
-  Scalars<B> fibres;      ///< [packs * lanes * 6] axis and sheet of each element, instead of its patch's; empty: none
-  Scalars<B> damping;     ///< [count] part of its stiffness that damps [s]; empty: none anywhere
-  Indices<B> first_slot;  ///< [patch vertices + 1]
-  Array<std::uint16_t*> slot;  ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
+  Scalars<B> constants;  ///< [count * n] the n constants of its material: a patch never spans two regions
+  Scalars<B> fibres;     ///< [packs * lanes * 6] axis and sheet of each element, instead of its patch's; empty: none
+  Scalars<B> damping;    ///< [count] part of its stiffness that damps [s]; empty: none anywhere
+  Array<std::uint16_t*> summed;  ///< [patch vertices]
+  Indices<B> first_slot;         ///< [patch vertices + 1]
+  Array<std::uint16_t*> slot;    ///< offset of the x component among the patch's element forces [pack][corner][3][lane]
   VertexShares<B> shares;
   Indices<B> element;  ///< [packs * lanes] the mesh's tetrahedron, -1: padding
 };

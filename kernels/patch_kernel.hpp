@@ -85,7 +85,7 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
 ///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
 ///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
 /// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
-/// 8 (slots), and per patch vertex 4 + 3 s fields + 3 s.
+/// 8 (slots), and per patch vertex 10 + 3 s fields + 3 s.
 template <class B, class Integrand>
 struct PatchKernel {
   using Real = typename B::Real;
@@ -127,11 +127,9 @@ struct PatchKernel {
         const Real* f = forces + patches.slot(s);
         x += f[0], y += f[lanes], z += f[2 * lanes];
       }
-      if constexpr (adds) {
-        const auto at = [&](int k) { return partial(first_vertex + i, k); };
-        x += at(0), y += at(1), z += at(2);
-      }
-      partial(first_vertex + i, 0) = x, partial(first_vertex + i, 1) = y, partial(first_vertex + i, 2) = z;
+      const int to = first_vertex + patches.summed(first_vertex + i);
+      if constexpr (adds) x += partial(to, 0), y += partial(to, 1), z += partial(to, 2);
+      partial(to, 0) = x, partial(to, 1) = y, partial(to, 2) = z;
     });
   }
 

@@ -8,44 +8,62 @@ namespace plica {
 
 namespace {
 
-/// Calls use(column, block, weight) for the terms, weight times a block of A as GalerkinMap names it, of a coarse row from its own column on.
-template <class Use>
-void for_terms(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt, int row, const Use& use) {
-  for (RowMatrix::InnerIterator i(Pt, row); i; ++i) {
-    const auto a = static_cast<std::size_t>(i.col());
-    for (int s = A.first[a]; s < A.first[a + 1]; ++s) {
-      const int place = A.place[index_of(s)], block = s < A.diagonal[a] ? -1 - place : place;
-      for (RowMatrix::InnerIterator j(P, A.column[index_of(s)]); j; ++j)
-        if (j.col() >= row) use(static_cast<std::size_t>(j.col()), block, i.value() * j.value());
-    }
-  }
-}
-
-/// The blocks of every coarse row from its own on, and of how many terms each is.
-struct UpperHalf {
-  std::vector<std::vector<int>> column, terms;
-
-  UpperHalf(const HostPattern& A, const RowMatrix& P, const RowMatrix& Pt)
-      : column(static_cast<std::size_t>(P.cols())), terms(column.size()) {
-    for_row_ranges(column.size(), [&](std::size_t begin, std::size_t end) {
-      std::vector<int> count(column.size(), 0);
-      for (std::size_t a = begin; a < end; ++a) {
-        const int own = static_cast<int>(a);
-        column[a].push_back(own);
-        for_terms(A, P, Pt, own, [&](std::size_t b, int, double) {
-          if (count[b]++ == 0 && b != a) column[a].push_back(static_cast<int>(b));
-        });
-        std::sort(column[a].begin(), column[a].end());
-        for (const int b : column[a]) terms[a].push_back(std::exchange(count[index_of(b)], 0));
-      }
-    });
-  }
+/// Rows of blocks, each of which is a sum.
+template <class B>
+struct RowsOfSums {
+  std::vector<int> first{0}, column;  ///< of the blocks of a row, ascending
+  BlockTerms<B> terms;
 };
 
-HostPattern both_halves(const std::vector<std::vector<int>>& upper) {
-  std::vector<std::vector<int>> rows(upper.size());
-  for (std::size_t a = 0; a < upper.size(); ++a)
-    for (const int b : upper[a]) {
+/// @param for_terms  (row, use): calls use(column, block, weight) for all terms of a row, in the same order every time
+/// @param own        whether a row has a block of its own number in any case
+template <class B, class ForTerms>
+RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_t columns, bool own,
+                           const ForTerms& for_terms) {
+  std::vector<std::vector<int>> column(rows), count(rows);
+  for_row_ranges(rows, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> terms(columns, 0);
+    for (std::size_t a = begin; a < end; ++a) {
+      if (own) column[a].push_back(static_cast<int>(a));
+      for_terms(a, [&](int b, int, double) {
+        if (terms[index_of(b)]++ == 0 && !(own && index_of(b) == a)) column[a].push_back(b);
+      });
+      std::sort(column[a].begin(), column[a].end());
+      for (const int b : column[a]) count[a].push_back(std::exchange(terms[index_of(b)], 0));
+    }
+  });
+  RowsOfSums<B> made;
+  std::vector<int> first_term{0};
+  for (std::size_t a = 0; a < rows; ++a) {
+    for (const int terms : count[a]) first_term.push_back(first_term.back() + terms);
+    made.column.insert(made.column.end(), column[a].begin(), column[a].end());
+    made.first.push_back(static_cast<int>(made.column.size()));
+  }
+  const auto terms = index_of(first_term.back());
+  const HostWritten<Indices<B>> block(name + ".block", terms);
+  const HostWritten<Scalars<B>> weight(name + ".weight", terms);
+  for_row_ranges(rows, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> next(columns);
+    for (std::size_t a = begin; a < end; ++a) {
+      int number = made.first[a];
+      for (const int b : column[a]) next[index_of(b)] = first_term[index_of(number++)];
+      for_terms(a, [&](int b, int term, double w) {
+        const int to = next[index_of(b)]++;
+        block.data()[to] = term, weight.data()[to] = static_cast<typename B::Real>(w);
+      });
+    }
+  });
+  made.terms = {to_device<Indices<B>>(name + ".first", first_term), block.upload(), weight.upload()};
+  return made;
+}
+
+/// The rows of a symmetric matrix of which the right half is given.
+template <class B>
+HostPattern both_halves(const RowsOfSums<B>& right) {
+  std::vector<std::vector<int>> rows(right.first.size() - 1);
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    for (int s = right.first[a]; s < right.first[a + 1]; ++s) {
+      const int b = right.column[index_of(s)];
       if (static_cast<int>(a) != b) rows[index_of(b)].push_back(static_cast<int>(a));
       rows[a].push_back(b);
     }
@@ -58,36 +76,46 @@ HostPattern both_halves(const std::vector<std::vector<int>>& upper) {
   return {std::move(first), std::move(column)};
 }
 
+/// A P; of row a the columns from the first one on that a hangs on: the right half of P^T A P asks for no others.
+template <class B>
+RowsOfSums<B> right_product(const HostPattern& A, const RowMatrix& P) {
+  const auto for_terms = [&](std::size_t a, const auto& use) {
+    const RowMatrix::InnerIterator least(P, static_cast<Eigen::Index>(a));
+    if (!least) return;
+    for (int s = A.first[a]; s < A.first[a + 1]; ++s) {
+      const int place = A.place[index_of(s)], block = s < A.diagonal[a] ? -1 - place : place;
+      for (RowMatrix::InnerIterator j(P, A.column[index_of(s)]); j; ++j)
+        if (j.col() >= least.col()) use(static_cast<int>(j.col()), block, j.value());
+    }
+  };
+  return rows_of_sums<B>("galerkin.right", static_cast<std::size_t>(P.rows()), static_cast<std::size_t>(P.cols()),
+                         false, for_terms);
+}
+
+/// The right half of P^T (A P).
+template <class B>
+RowsOfSums<B> left_product(const RowMatrix& P, const RowsOfSums<B>& AP) {
+  const RowMatrix Pt = P.transpose();
+  const auto for_terms = [&](std::size_t row, const auto& use) {
+    for (RowMatrix::InnerIterator i(Pt, static_cast<Eigen::Index>(row)); i; ++i) {
+      const auto a = static_cast<std::size_t>(i.col());
+      for (int s = AP.first[a]; s < AP.first[a + 1]; ++s)
+        if (const int b = AP.column[index_of(s)]; index_of(b) >= row) use(b, s, i.value());
+    }
+  };
+  const auto coarse = static_cast<std::size_t>(P.cols());
+  return rows_of_sums<B>("galerkin.left", coarse, coarse, true, for_terms);
+}
+
 }  // namespace
 
 template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
-  const RowMatrix Pt = P.transpose();
-  const UpperHalf upper(A, P, Pt);
-  const std::vector<std::vector<int>>& columns = upper.column;
-  std::vector<int> first{0}, first_block{0};
-  for (const auto& row : upper.terms) {
-    for (const int terms : row) first.push_back(first.back() + terms);
-    first_block.push_back(static_cast<int>(first.size()) - 1);
-  }
-  std::vector<int> fine(index_of(first.back()));
-  std::vector<typename B::Real> weight(fine.size());
-  for_row_ranges(columns.size(), [&](std::size_t begin, std::size_t end) {
-    std::vector<int> next(columns.size());
-    for (std::size_t a = begin; a < end; ++a) {
-      int block = first_block[a];
-      for (const int b : columns[a]) next[index_of(b)] = first[index_of(block++)];
-      for_terms(A, P, Pt, static_cast<int>(a), [&](std::size_t b, int s, double w) {
-        const auto to = index_of(next[b]++);
-        fine[to] = s, weight[to] = static_cast<typename B::Real>(w);
-      });
-    }
-  });
+  const RowsOfSums<B> AP = right_product<B>(A, P), half = left_product<B>(P, AP);
   CoarseMatrix<B> made;
-  made.pattern = both_halves(columns);
+  made.pattern = both_halves(half);
   made.matrix = block_matrix<B>("multigrid", made.pattern);
-  made.map = {to_device<Indices<B>>("galerkin.first", first), to_device<Indices<B>>("galerkin.fine", fine),
-              to_device<Scalars<B>>("galerkin.weight", weight)};
+  made.map = {AP.terms, half.terms, zeros<Blocks9<B>>("plica::galerkin.between", AP.column.size())};
   return made;
 }
 

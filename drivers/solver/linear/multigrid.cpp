@@ -87,8 +87,7 @@ void Multigrid<B>::refit(const Exec& exec) {
   fit_smoother(exec, grids_.front());
   for (std::size_t i = 1; i < grids_.size(); ++i) {
     const Grid& grid = grids_[i];
-    update_vertices<F>(exec, "plica::galerkin", grid.map.blocks(),
-                       GalerkinProduct<F>{grid.map, grids_[i - 1].A, grid.A});
+    galerkin_product<F>(exec, grid.map, grids_[i - 1].A, grid.A);
     if (!coarser_than(i)) return invert_coarsest(exec);
     update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows, InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
     fit_smoother(exec, grid);
@@ -217,7 +216,8 @@ std::size_t Multigrid<B>::bytes() const {
         bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word, on.A.scale,
                        on.inverse_diagonal, on.largest, on.r, on.x, grid.d, grid.e) +
         bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
-        bytes_of_views(grid.map.first, grid.map.fine, grid.map.weight) +
+        bytes_of_views(grid.map.right.first, grid.map.right.block, grid.map.right.weight, grid.map.left.first,
+                       grid.map.left.block, grid.map.left.weight, grid.map.between) +
         (&grid == &grids_.front() ? 0 : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal, grid.A.place));
   }
   return total;

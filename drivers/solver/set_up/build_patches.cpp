@@ -110,10 +110,7 @@ class PatchBuilder {
     corner_.resize(q0 + packs), shape_.resize(q0 + packs), element_.resize((q0 + packs) * W, -1);
     std::vector<std::vector<std::uint16_t>> slots(vertex_.size() - v0);
     for (std::size_t i = 0; i < elements.size(); ++i) add_element(elements[i], i / W, i % W, q0, slots);
-    for (const auto& of_vertex : slots) {
-      slot_.insert(slot_.end(), of_vertex.begin(), of_vertex.end());
-      first_slot_.push_back(static_cast<int>(slot_.size()));
-    }
+    add_sums(slots);
     first_pack_.push_back(static_cast<int>(shape_.size()));
     first_vertex_.push_back(static_cast<int>(vertex_.size()));
     const int region = mesh_.region.empty() ? 0 : mesh_.region[index_of(elements.front())];
@@ -134,6 +131,7 @@ class PatchBuilder {
     p.shape = to_device<decltype(p.shape)>("patches.shape", shape_);
     p.constants = to_device<Scalars<B>>("patches.constants", device_constants_);
     if (!damping_.empty()) p.damping = to_device<Scalars<B>>("patches.damping", device_damping_);
+    p.summed = to_device<decltype(p.summed)>("patches.summed", summed_);
     p.first_slot = to_device<Indices<B>>("patches.first_slot", first_slot_);
     p.slot = to_device<decltype(p.slot)>("patches.slot", slot_);
     p.element = to_device<Indices<B>>("patches.element", element_);
@@ -159,7 +157,7 @@ class PatchBuilder {
   std::vector<std::array<Lanes<Real>, 10>> shape_;
   std::vector<Real> device_constants_;
   std::vector<Real> device_damping_;
-  std::vector<std::uint16_t> slot_;
+  std::vector<std::uint16_t> summed_, slot_;
 
   void add_vertices(const std::vector<int>& elements) {
     const std::size_t v0 = vertex_.size();
@@ -189,6 +187,17 @@ class PatchBuilder {
       slots[index_of(v)].push_back(static_cast<std::uint16_t>((pack * 4 + c) * 3 * W + lane));
     }
     element_[(q0 + pack) * W + lane] = e;
+  }
+
+  void add_sums(const std::vector<std::vector<std::uint16_t>>& slots) {
+    std::vector<std::uint16_t> order(slots.size());
+    std::iota(order.begin(), order.end(), std::uint16_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::uint16_t i) { return slots[i].size(); });
+    for (const std::uint16_t i : order) {
+      summed_.push_back(i);
+      slot_.insert(slot_.end(), slots[i].begin(), slots[i].end());
+      first_slot_.push_back(static_cast<int>(slot_.size()));
+    }
   }
 };
 

@@ -56,6 +56,24 @@ TYPED_TEST(PatchKernelOn, KnowsTheConstantsOfEveryRegion) {
   }
 }
 
+// Every vertex of a patch once, sums of equal length one after the other
+TYPED_TEST(PatchKernelOn, SumsUpByLength) {
+  const Patches<TypeParam> patches = build_patches<TypeParam>(irregular_box(), {as_list(soft)});
+  const auto first_vertex = on_host(patches.first_vertex), first_slot = on_host(patches.first_slot);
+  const auto summed = on_host(patches.summed);
+  for (int p = 0; p < patches.count; ++p) {
+    std::vector<int> vertices, lengths;
+    for (int i = first_vertex(p); i < first_vertex(p + 1); ++i) {
+      vertices.push_back(summed(i));
+      lengths.push_back(first_slot(i + 1) - first_slot(i));
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(lengths)) << p;
+    EXPECT_LT(lengths.front(), lengths.back()) << p;
+    std::ranges::sort(vertices);
+    for (std::size_t i = 0; i < vertices.size(); ++i) EXPECT_EQ(vertices[i], static_cast<int>(i)) << p;
+  }
+}
+
 TYPED_TEST(PatchKernelOn, WatchesEveryLaneForInversion) {
   using B = TypeParam;
   const TetMesh mesh = irregular_box();
