@@ -97,23 +97,21 @@ View to_device(const std::string& name, const std::vector<Element>& values) {
 }
 
 /// A large field that the host writes: in its place where host and device share their memory, else in a copy that upload() takes there.
-template <class View>
+template <class B, class View>
 class HostWritten {
  public:
   using Number = typename View::value_type;
   HostWritten(const std::string& name, std::size_t n) : view_(unset<View>("plica::" + name, n)) {
-    if constexpr (!in_place) copy_ = std::make_unique_for_overwrite<Number[]>(view_.span());
+    if constexpr (!B::for_cpu) copy_ = std::make_unique_for_overwrite<Number[]>(view_.span());
   }
-  Number* data() const { return in_place ? view_.data() : copy_.get(); }
+  Number* data() const { return B::for_cpu ? view_.data() : copy_.get(); }
   View upload() const {
-    if constexpr (!in_place)
+    if constexpr (!B::for_cpu)
       fields::upload<typename View::memory_space>(view_.data(), copy_.get(), fields::bytes_of(view_));
     return view_;
   }
 
  private:
-  static constexpr bool in_place =
-      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename View::memory_space>::accessible && !like_device::on;
   View view_;
   std::unique_ptr<Number[]> copy_;
 };

@@ -40,8 +40,8 @@ RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_
     made.first.push_back(static_cast<int>(made.column.size()));
   }
   const auto terms = index_of(first_term.back());
-  const HostWritten<Indices<B>> block(name + ".block", terms);
-  const HostWritten<Scalars<B>> weight(name + ".weight", terms);
+  const HostWritten<B, Indices<B>> block(name + ".block", terms);
+  const HostWritten<B, Scalars<B>> weight(name + ".weight", terms);
   for_row_ranges(rows, [&](std::size_t begin, std::size_t end) {
     std::vector<int> next(columns);
     for (std::size_t a = begin; a < end; ++a) {
