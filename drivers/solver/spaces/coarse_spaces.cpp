@@ -206,6 +206,17 @@ std::vector<int> first_free(const std::vector<int>& order, int count, const std:
   return points;
 }
 
+/// Where these numbers stand among others; both ascending.
+std::vector<int> places_of(const std::vector<int>& numbers, const std::vector<int>& others) {
+  std::vector<int> places;
+  auto other = others.begin();
+  for (const int number : numbers) {
+    other = std::find(other, others.end(), number);
+    places.push_back(static_cast<int>(other - others.begin()));
+  }
+  return places;
+}
+
 }  // namespace
 
 std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
@@ -242,17 +253,21 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     }
   const std::size_t count = options.sizes.size();
   std::vector<std::vector<int>> points(count);
-  std::vector<double> spacing(count);
+  std::vector<PointGraph> graphs(count);
   for_row_ranges(count, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       points[i] = first_free(order, options.sizes[i], constrained);
-      spacing[i] = mean_spacing(graph, points[i]);
+      graphs[i] = point_graph(graph, points[i]);
     }
   });
   for (std::size_t i = 0; i < count; ++i) {
-    const RowMatrix P = moving_least_squares(mesh, graph, rows, points[i], spacing[i], options.reach);
-    spaces.push_back({without_constrained(P, constrained, points[i]), points[i], spacing[i]});
+    // each from the points above, along the edges of their graph
+    const RowMatrix P =
+        i == 0 ? moving_least_squares(graph, rows, points[0], graphs[0].spacing, options.reach)
+               : moving_least_squares(graphs[i - 1].graph, places_of(rows, points[i - 1]),
+                                      places_of(points[i], points[i - 1]), graphs[i].spacing, options.reach);
     rows = points[i];
+    spaces.push_back({without_constrained(P, constrained, rows), rows, graphs[i].spacing});
   }
   drop_constrained_rows(spaces.front().up, constrained);  // they have no part in any
   return spaces;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <plica/drivers/solver/spaces/edge_graph.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
 #include <plica/meshes/mesh_quality.hpp>
@@ -28,6 +29,7 @@ WaveQueue::WaveQueue(const EdgeGraph& graph) {
 EdgeGraph edge_graph(const TetMesh& mesh) {
   const auto edges = mesh_edges(mesh);
   EdgeGraph graph;
+  graph.place = mesh.vertices;
   graph.first.assign(mesh.vertices.size() + 1, 0);
   for (const auto& edge : edges)
     for (const int v : edge) ++graph.first[index_of(v) + 1];
@@ -84,42 +86,88 @@ std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::v
   return points;
 }
 
-double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points) {
-  // All points' neighbourhoods at once: a vertex keeps its nearest point, and where two neighbourhoods meet in an edge the
-  // way through it joins their points.
-  std::vector<double> distance(index_of(graph.vertices()), unreached), nearest(points.size(), unreached);
-  std::vector<int> owner(index_of(graph.vertices()), -1);
+namespace {
+
+/// Each vertex's nearest point.
+struct Nearest {
+  std::vector<double> distance;  ///< along edges [m]
+  std::vector<int> owner;        ///< the point, or -1: no way leads to one
+};
+
+Nearest nearest_points(const EdgeGraph& graph, const std::vector<int>& points) {
+  Nearest all{std::vector(index_of(graph.vertices()), unreached), std::vector(index_of(graph.vertices()), -1)};
   // the nearest on top: of two points as near, which one a vertex goes to depends on the order
   using Open = std::pair<double, int>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    distance[index_of(points[j])] = 0, owner[index_of(points[j])] = static_cast<int>(j);
-    open.emplace(0, points[j]);
-  }
+  const auto reach = [&](int v, double distance, int owner) {
+    if (!(distance < all.distance[index_of(v)])) return;
+    all.distance[index_of(v)] = distance, all.owner[index_of(v)] = owner;
+    open.emplace(distance, v);
+  };
+  for (std::size_t j = 0; j < points.size(); ++j) reach(points[j], 0, static_cast<int>(j));
   while (!open.empty()) {
     const auto [d, v] = open.top();
     open.pop();
-    if (d > distance[index_of(v)]) continue;
-    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
-      const int w = graph.neighbour[index_of(k)];
-      const double there = d + graph.length[index_of(k)];
-      if (!(there < distance[index_of(w)])) continue;
-      distance[index_of(w)] = there, owner[index_of(w)] = owner[index_of(v)];
-      open.emplace(there, w);
-    }
+    if (d > all.distance[index_of(v)]) continue;
+    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k)
+      reach(graph.neighbour[index_of(k)], d + graph.length[index_of(k)], all.owner[index_of(v)]);
   }
-  for (int v = 0; v < graph.vertices(); ++v)
-    for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
-      const int w = graph.neighbour[index_of(k)], a = owner[index_of(v)], b = owner[index_of(w)];
-      if (a < 0 || b < 0 || a == b) continue;
-      const double way = distance[index_of(v)] + graph.length[index_of(k)] + distance[index_of(w)];
-      nearest[index_of(a)] = std::min(nearest[index_of(a)], way);
-    }
+  return all;
+}
+
+/// The vertices of each owner, one after the other.
+struct Owned {
+  std::vector<int> first, vertex;
+
+  Owned(const std::vector<int>& owner, std::size_t owners) : first(owners + 1, 0), vertex(owner.size()) {
+    for (const int j : owner)
+      if (j >= 0) ++first[index_of(j) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<int> next = first;
+    for (std::size_t v = 0; v < owner.size(); ++v)
+      if (owner[v] >= 0) vertex[index_of(next[index_of(owner[v])]++)] = static_cast<int>(v);
+  }
+};
+
+}  // namespace
+
+PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
+  const Nearest nearest = nearest_points(graph, points);
+  const Owned owned(nearest.owner, points.size());
+  PointGraph result;
+  EdgeGraph& coarse = result.graph;
+  std::vector<double> way(points.size(), unreached);  // from the present point to another one, where they meet
+  std::vector<int> met;
+  int connected = 0;
   double sum = 0;
-  int known = 0;
-  for (const double d : nearest)
-    if (d < unreached) sum += d, ++known;
-  return known > 0 ? sum / known : 0;
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    met.clear();
+    for (int i = owned.first[a]; i < owned.first[a + 1]; ++i) {
+      const int v = owned.vertex[index_of(i)];
+      for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
+        const int w = graph.neighbour[index_of(k)], b = nearest.owner[index_of(w)];
+        if (b == static_cast<int>(a)) continue;
+        if (way[index_of(b)] == unreached) met.push_back(b);
+        way[index_of(b)] =
+            std::min(way[index_of(b)],
+                     nearest.distance[index_of(v)] + nearest.distance[index_of(w)] + graph.length[index_of(k)]);
+      }
+    }
+    std::ranges::sort(met);
+    double next = unreached;
+    for (const int b : met) {
+      const double along = std::exchange(way[index_of(b)], unreached);
+      next = std::min(next, along);
+      coarse.neighbour.push_back(b);
+      coarse.length.push_back(graph.distance(points[a], points[index_of(b)], along));
+      sum += coarse.length.back(), coarse.longest = std::max(coarse.longest, coarse.length.back());
+    }
+    if (!met.empty()) result.spacing += next, ++connected;
+    coarse.place.push_back(graph.place[index_of(points[a])]);
+    coarse.first.push_back(static_cast<int>(coarse.neighbour.size()));
+  }
+  if (connected > 0) result.spacing /= connected, coarse.mean = sum / static_cast<double>(coarse.length.size());
+  return result;
 }
 
 }  // namespace plica

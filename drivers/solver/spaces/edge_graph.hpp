@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <plica/core/mesh.hpp>
 #include <utility>
@@ -7,17 +8,35 @@
 
 namespace plica {
 
-/// A mesh's vertices and edges, by rows.
+/// Vertices and edges between them, by rows.
 struct EdgeGraph {
-  std::vector<int> first{0};     ///< [vertices + 1] into the others
+  std::vector<Point> place;      ///< of a vertex [m]
+  std::vector<int> first{0};     ///< [vertices + 1] into the following
   std::vector<int> neighbour;    ///< of a vertex, ascending
-  std::vector<double> length;    ///< of that edge [m]
+  std::vector<double> length;    ///< of that edge, not below the straight distance [m]
   double mean = 0, longest = 0;  ///< of the lengths [m]
 
+  static constexpr double detour = 1.4;  ///< at most, of a way along edges over the straight one, where nothing is in between
+
   int vertices() const { return static_cast<int>(first.size()) - 1; }
+  /// The straight distance of two vertices; or a longer one where the way along edges makes more than a detour. [m]
+  /// @param along  the length of this way [m]
+  double distance(int v, int w, double along) const {
+    return std::max((place[static_cast<std::size_t>(v)] - place[static_cast<std::size_t>(w)]).norm(), along / detour);
+  }
 };
 
+/// The edges of a mesh.
 EdgeGraph edge_graph(const TetMesh& mesh);
+
+/// Some vertices of a graph, as a smaller graph. Each owns the vertices that are nearest to it along edges.
+struct PointGraph {
+  EdgeGraph graph;     ///< of the points, in their order; an edge where what two of them own meets, as long as their distance()
+  double spacing = 0;  ///< the mean distance along edges from a point to the nearest other one [m]
+};
+
+/// @param points  numbers of vertices
+PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points);
 
 /// Distances along edges and the vertex, about the nearest first: by intervals of distance (Dial 1969). Where all that can shorten a
 /// distance is gone through again, distances come out as with a queue that is sorted, in a fraction of its time.
@@ -110,8 +129,5 @@ class EdgeWalk {
 /// @param count        how many; vertices that are `apart` come on top of it
 /// @param apart        per vertex; or empty
 std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart = {});
-
-/// The mean distance along edges from each of these vertices to the nearest other one [m].
-double mean_spacing(const EdgeGraph& graph, const std::vector<int>& points);
 
 }  // namespace plica

@@ -10,7 +10,6 @@ namespace plica {
 
 namespace {
 
-constexpr double edge_detour = 1.4;          // of a way along edges over the straight one
 constexpr double radius_growth = 1.8;        // of the radius, at most
 constexpr double radius_growth_step = 1.16;  // of it, at a time
 constexpr double most_fit_weight = 2;        // sum of |weights| of a good fit
@@ -25,18 +24,18 @@ struct Near {
 
 /// How far a vertex is from the ball in which points count at all.
 struct BeyondBall {
-  const TetMesh& mesh;
+  const EdgeGraph& graph;
   int centre;
   double radius;  // [m]
   double operator()(int v) const {
-    return std::max(0.0, (mesh.vertices[index_of(v)] - mesh.vertices[index_of(centre)]).norm() - radius);
+    return std::max(0.0, (graph.place[index_of(v)] - graph.place[index_of(centre)]).norm() - radius);
   }
 };
 
 class Fitter {
  public:
-  Fitter(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& points, double radius)
-      : mesh_(mesh), points_(points), radius_(radius), number_(mesh.vertices.size(), -1), walk_(graph) {
+  Fitter(const EdgeGraph& graph, const std::vector<int>& points, double radius)
+      : graph_(graph), points_(points), radius_(radius), number_(graph.place.size(), -1), walk_(graph) {
     for (std::size_t j = 0; j < points.size(); ++j) number_[index_of(points[j])] = static_cast<int>(j);
   }
 
@@ -49,9 +48,9 @@ class Fitter {
   /// The rows that point j reaches; place: of a vertex among the rows, or -1.
   void reached(int j, const std::vector<int>& place, std::vector<Reached>& rows) {
     const int point = points_[index_of(j)];
-    walk_.from(point, edge_detour * radius_, BeyondBall{mesh_, point, radius_}, [&](int v, double along) {
+    walk_.from(point, EdgeGraph::detour * radius_, BeyondBall{graph_, point, radius_}, [&](int v, double along) {
       if (place[index_of(v)] < 0) return;
-      if (const double d = distance(v, point, along); d < radius_) rows.push_back({place[index_of(v)], d});
+      if (const double d = graph_.distance(v, point, along); d < radius_) rows.push_back({place[index_of(v)], d});
     });
   }
 
@@ -61,8 +60,8 @@ class Fitter {
     if (good(a, near, radius_, row)) return;
     const double widest = radius_growth * radius_;
     std::vector<Near> more;
-    walk_.from(a, edge_detour * widest, BeyondBall{mesh_, a, widest}, [&](int v, double along) {
-      if (number_[index_of(v)] >= 0) more.push_back({number_[index_of(v)], distance(a, v, along)});
+    walk_.from(a, EdgeGraph::detour * widest, BeyondBall{graph_, a, widest}, [&](int v, double along) {
+      if (number_[index_of(v)] >= 0) more.push_back({number_[index_of(v)], graph_.distance(a, v, along)});
     });
     std::sort(more.begin(), more.end(), [](const Near& x, const Near& y) { return x.point < y.point; });
     for (double radius = radius_growth_step * radius_; radius <= widest; radius *= radius_growth_step)
@@ -74,7 +73,7 @@ class Fitter {
   }
 
  private:
-  const TetMesh& mesh_;
+  const EdgeGraph& graph_;
   const std::vector<int>& points_;
   double radius_;
   std::vector<int> number_;  // of a vertex among the points, or -1
@@ -83,15 +82,11 @@ class Fitter {
   std::vector<int> fitted_;  // points in it
   std::vector<double> weight_;
 
-  double distance(int v, int w, double along) const {
-    return std::max((mesh_.vertices[index_of(v)] - mesh_.vertices[index_of(w)]).norm(), along / edge_detour);
-  }
-
   void gather(int a, std::span<const Near> near, double radius) {
     fit_.clear(), fitted_.clear();
     for (const Near& one : near)
       if (const double w = fit_weight(one.distance / radius); w > 0) {
-        fit_.add((mesh_.vertices[index_of(points_[index_of(one.point)])] - mesh_.vertices[index_of(a)]) / radius, w);
+        fit_.add((graph_.place[index_of(points_[index_of(one.point)])] - graph_.place[index_of(a)]) / radius, w);
         fitted_.push_back(one.point);
       }
     if (fit_.size() > 0) fit_.prepare();
@@ -122,13 +117,13 @@ struct Neighbourhoods {
 };
 
 /// By walks from the points, which are fewer than the rows.
-Neighbourhoods neighbourhoods(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
-                              const std::vector<int>& points, double radius) {
-  std::vector<int> place(mesh.vertices.size(), -1);
+Neighbourhoods neighbourhoods(const EdgeGraph& graph, const std::vector<int>& rows, const std::vector<int>& points,
+                              double radius) {
+  std::vector<int> place(graph.place.size(), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) place[index_of(rows[i])] = static_cast<int>(i);
   std::vector<std::vector<Fitter::Reached>> reached(points.size());
   for_row_ranges(points.size(), [&](std::size_t first, std::size_t last) {
-    Fitter fitter(mesh, graph, points, radius);
+    Fitter fitter(graph, points, radius);
     for (std::size_t j = first; j < last; ++j) fitter.reached(static_cast<int>(j), place, reached[j]);
   });
   Neighbourhoods all{std::vector<std::size_t>(rows.size() + 1, 0), {}};
@@ -144,12 +139,12 @@ Neighbourhoods neighbourhoods(const TetMesh& mesh, const EdgeGraph& graph, const
 
 }  // namespace
 
-RowMatrix moving_least_squares(const TetMesh& mesh, const EdgeGraph& graph, const std::vector<int>& rows,
-                               const std::vector<int>& points, double spacing, double reach) {
-  const Neighbourhoods near = neighbourhoods(mesh, graph, rows, points, reach * spacing);
+RowMatrix moving_least_squares(const EdgeGraph& graph, const std::vector<int>& rows, const std::vector<int>& points,
+                               double spacing, double reach) {
+  const Neighbourhoods near = neighbourhoods(graph, rows, points, reach * spacing);
   std::vector<std::vector<std::pair<int, double>>> fitted(rows.size());
   for_row_ranges(rows.size(), [&](std::size_t first, std::size_t last) {
-    Fitter fitter(mesh, graph, points, reach * spacing);
+    Fitter fitter(graph, points, reach * spacing);
     for (std::size_t i = first; i < last; ++i) fitter.fit(rows[i], near.of(i), fitted[i]);
   });
   return matrix_of_rows(fitted, static_cast<Eigen::Index>(points.size()));

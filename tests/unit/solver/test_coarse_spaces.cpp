@@ -78,8 +78,8 @@ TEST(FarthestPoints, AreSpreadEvenlyAndReachEveryPart) {
     walk.from(order[j], 10, [&](int v, double d) { nearest[at(v)] = std::min(nearest[at(v)], d); });
   }
   EXPECT_LE(*std::max_element(nearest.begin(), nearest.end()), least);
-  EXPECT_GE(mean_spacing(graph, order), least);
-  EXPECT_LE(mean_spacing(graph, order), 2 * least);
+  EXPECT_GE(point_graph(graph, order).spacing, least);
+  EXPECT_LE(point_graph(graph, order).spacing, 2 * least);
 }
 
 TEST(FarthestPoints, OfAllVerticesAreAll) {
@@ -132,7 +132,7 @@ TEST(MovingLeastSquares, ReproduceLinearFields) {
   for (const TetMesh& mesh : {irregular_beam(), blob_mesh(Point::Zero(), 0.12, 8)}) {
     const EdgeGraph graph = edge_graph(mesh);
     const std::vector<int> points = farthest_points(graph, static_cast<int>(mesh.vertices.size() / 5));
-    const RowMatrix P = moving_least_squares(mesh, graph, all_of(mesh), points, mean_spacing(graph, points), 1.8);
+    const RowMatrix P = moving_least_squares(graph, all_of(mesh), points, point_graph(graph, points).spacing, 1.8);
     const auto field = [](const Point& x) { return 3 + x.dot(Point(1, -2, 0.5)); };
     for (Eigen::Index a = 0; a < P.rows(); ++a) {
       double sum = 0, value = 0;
@@ -151,7 +151,7 @@ TEST(MovingLeastSquares, KeepApartWhatIsNotConnected) {
   const TetMesh mesh = fork();
   const EdgeGraph graph = edge_graph(mesh);
   const std::vector<int> points = farthest_points(graph, 150);
-  const RowMatrix P = moving_least_squares(mesh, graph, all_of(mesh), points, mean_spacing(graph, points), 1.8);
+  const RowMatrix P = moving_least_squares(graph, all_of(mesh), points, point_graph(graph, points).spacing, 1.8);
   const auto upper = [&](int v) { return mesh.vertices[at(v)][2] > 0.055; };
   int looked_at = 0;
   for (Eigen::Index a = 0; a < P.rows(); ++a) {

@@ -32,7 +32,7 @@ RowMatrix from_some_points(const TetMesh& mesh) {
   std::vector<int> all(mesh.vertices.size());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<int> points = farthest_points(graph, 20);
-  return moving_least_squares(mesh, graph, all, points, mean_spacing(graph, points), 1.8);
+  return moving_least_squares(graph, all, points, point_graph(graph, points).spacing, 1.8);
 }
 
 /// P^T K P, by all numbers.
