@@ -148,9 +148,8 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
         const int w = graph.neighbour[index_of(k)], b = nearest.owner[index_of(w)];
         if (b == static_cast<int>(a)) continue;
         if (way[index_of(b)] == unreached) met.push_back(b);
-        way[index_of(b)] =
-            std::min(way[index_of(b)],
-                     nearest.distance[index_of(v)] + nearest.distance[index_of(w)] + graph.length[index_of(k)]);
+        way[index_of(b)] = std::min(way[index_of(b)], nearest.distance[index_of(v)] + nearest.distance[index_of(w)] +
+                                                          graph.length[index_of(k)]);
       }
     }
     std::ranges::sort(met);
