@@ -2,9 +2,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <span>
+#include <utility>
 
 namespace plica {
 
@@ -29,35 +32,66 @@ struct Domain {
 /// The domains of a mesh, those of region 0 first, in each region in the order of the vertices.
 class Domains {
  public:
-  explicit Domains(const TetMesh& mesh) : mesh_(mesh) {
+  explicit Domains(const TetMesh& mesh) : mesh_(mesh), corners_(mesh.tets.size()) {
     find_corners();
-    for (std::size_t e = 0; e < mesh.tets.size(); ++e) add_tet(e);
-    for (Domain& d : all) {
-      std::ranges::sort(d.pairs, {}, &Pair::neighbour);
-      for (Pair& p : d.pairs)
-        if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // an edge inside the region
-    }
+    for_row_ranges(all.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t d = begin; d < end; ++d) measure(static_cast<int>(d));
+    });
   }
 
   std::vector<Domain> all;
 
  private:
   const TetMesh& mesh_;
-  std::vector<std::array<int, 4>> corners_;  ///< per tetrahedron its domains
+  std::vector<std::array<int, 4>> corners_;        ///< per tetrahedron its domains
+  std::vector<int> first_tet_{0}, tet_of_domain_;  ///< by rows, ascending
 
-  int region_of(std::size_t e) const { return mesh_.region.empty() ? 0 : mesh_.region[e]; }
+  int region_of(int tet) const { return mesh_.region.empty() ? 0 : mesh_.region[index_of(tet)]; }
 
   void find_corners() {
-    std::vector<std::pair<int, int>> keys;  // region, vertex
-    for (std::size_t e = 0; e < mesh_.tets.size(); ++e)
-      for (int v : mesh_.tets[e]) keys.emplace_back(region_of(e), v);
-    std::vector<std::pair<int, int>> unique = keys;
-    std::ranges::sort(unique);
-    unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-    for (const auto& [region, vertex] : unique) all.push_back({vertex, region, 0, {}});
-    corners_.resize(mesh_.tets.size());
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      corners_[k / 4][k % 4] = static_cast<int>(std::ranges::lower_bound(unique, keys[k]) - unique.begin());
+    std::vector<int> tets(mesh_.tets.size());
+    std::iota(tets.begin(), tets.end(), 0);
+    std::ranges::stable_sort(tets, {}, [&](int e) { return region_of(e); });
+    std::vector<int> domain_of(mesh_.vertices.size(), -1);
+    for (auto first = tets.begin(); first != tets.end();) {
+      const int region = region_of(*first);
+      const auto last = std::find_if(first, tets.end(), [&](int e) { return region_of(e) != region; });
+      add_region(region, {first, last}, domain_of);
+      first = last;
+    }
+    tet_of_domain_.resize(4 * mesh_.tets.size());
+    for (const auto& corners : corners_)
+      for (const int d : corners) ++first_tet_[index_of(d) + 1];
+    std::partial_sum(first_tet_.begin(), first_tet_.end(), first_tet_.begin());
+    std::vector<int> next = first_tet_;
+    for (std::size_t e = 0; e < corners_.size(); ++e)
+      for (const int d : corners_[e]) tet_of_domain_[index_of(next[index_of(d)]++)] = static_cast<int>(e);
+  }
+
+  /// @param domain_of  per vertex; -1 before and after
+  void add_region(int region, std::span<const int> tets, std::vector<int>& domain_of) {
+    std::vector<int> vertices;
+    for (const int e : tets)
+      for (const int v : mesh_.tets[index_of(e)])
+        if (std::exchange(domain_of[index_of(v)], 0) < 0) vertices.push_back(v);
+    std::ranges::sort(vertices);
+    for (const int v : vertices) {
+      domain_of[index_of(v)] = static_cast<int>(all.size());
+      all.push_back({v, region, 0, {}});
+    }
+    for (const int e : tets)
+      for (std::size_t k = 0; k < 4; ++k) corners_[index_of(e)][k] = domain_of[index_of(mesh_.tets[index_of(e)][k])];
+    for (const int v : vertices) domain_of[index_of(v)] = -1;
+    first_tet_.resize(all.size() + 1, 0);
+  }
+
+  void measure(int d) {
+    Domain& domain = all[index_of(d)];
+    for (int i = first_tet_[index_of(d)]; i < first_tet_[index_of(d) + 1]; ++i)
+      add_tet(domain, d, index_of(tet_of_domain_[index_of(i)]));
+    std::ranges::sort(domain.pairs, {}, &Pair::neighbour);
+    for (Pair& p : domain.pairs)
+      if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // an edge inside the region
   }
 
   static Pair& pair(Domain& d, int neighbour) {
@@ -66,7 +100,7 @@ class Domains {
     return d.pairs.emplace_back(Pair{.neighbour = neighbour});
   }
 
-  void add_tet(std::size_t e) {
+  void add_tet(Domain& domain, int d, std::size_t e) const {
     const auto& t = mesh_.tets[e];
     Eigen::Matrix3d edges;
     for (int c = 0; c < 3; ++c)
@@ -76,16 +110,14 @@ class Domains {
     std::array<Point, 4> g;
     for (int c = 0; c < 3; ++c) g[index_of(c + 1)] = inverse.row(c).transpose();
     g[0] = -(g[1] + g[2] + g[3]);
-    for (std::size_t a = 0; a < 4; ++a) {
-      Domain& domain = all[index_of(corners_[e][a])];
-      domain.volume += volume / 4;
-      for (std::size_t b = 0; b < 4; ++b) {
-        if (a == b) continue;
-        Pair& p = pair(domain, corners_[e][b]);
-        p.gradient += volume / 4 * g[b], p.surface += volume / 4 * (g[a] + g[b]);
-        p.coupling += volume * g[a].dot(g[b]), p.smoothing += volume / 16;
-        p.size += volume / 4 * (g[a].norm() + g[b].norm());
-      }
+    const auto a = static_cast<std::size_t>(std::ranges::find(corners_[e], d) - corners_[e].begin());
+    domain.volume += volume / 4;
+    for (std::size_t b = 0; b < 4; ++b) {
+      if (a == b) continue;
+      Pair& p = pair(domain, corners_[e][b]);
+      p.gradient += volume / 4 * g[b], p.surface += volume / 4 * (g[a] + g[b]);
+      p.coupling += volume * g[a].dot(g[b]), p.smoothing += volume / 16;
+      p.size += volume / 4 * (g[a].norm() + g[b].norm());
     }
   }
 };
@@ -165,11 +197,12 @@ class SlicedRows {
   std::vector<Numbers> coupling_, smoothing_;
 
   void add_slice(std::size_t begin) {
+    static const Domain none;
     Integers self;
     for (std::size_t row = 0; row < H; ++row) self[row] = static_cast<int>(begin + row);
     for (std::size_t row = 0; row < H; ++row) {
       const int d = order_[begin + row];
-      const Domain domain = d >= 0 ? domains_[index_of(d)] : Domain{};
+      const Domain& domain = d >= 0 ? domains_[index_of(d)] : none;
       add_pairs(domain.pairs, row, self);
       vertex_.push_back(domain.vertex);
       volume_.push_back(static_cast<Real>(domain.volume));
