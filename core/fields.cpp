@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <plica/core/fields.hpp>
@@ -13,6 +14,8 @@ namespace plica {
 namespace fields {
 
 namespace {
+
+constexpr std::size_t huge_page = std::size_t{1} << 21;
 
 using Unmanaged = Kokkos::MemoryTraits<Kokkos::Unmanaged>;
 template <class Memory>
@@ -32,12 +35,21 @@ ConstBytes<Memory> at(const void* x, std::size_t bytes) {
 /// Whole pages of these bytes, before they are first written.
 void ask_for_huge_pages([[maybe_unused]] void* x, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  constexpr std::size_t huge = std::size_t{1} << 21;
-  if (bytes < 2 * huge) return;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(x) + huge - 1) / huge * huge;
-  const auto end = (reinterpret_cast<std::uintptr_t>(x) + bytes) / huge * huge;
+  if (bytes < 2 * huge_page) return;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(x) + huge_page - 1) / huge_page * huge_page;
+  const auto end = (reinterpret_cast<std::uintptr_t>(x) + bytes) / huge_page * huge_page;
   madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a hint: a system without them goes on
 #endif
+}
+
+/// By all threads of the host: pages come where they are used, and a system takes long to hand them out.
+void clear_on_host(void* x, std::size_t bytes) {
+  using Exec = Kokkos::DefaultHostExecutionSpace;
+  Kokkos::parallel_for("plica::clear", Kokkos::RangePolicy<Exec>(0, (bytes + huge_page - 1) / huge_page),
+                       [=](std::size_t page) {
+                         const std::size_t begin = page * huge_page;
+                         std::memset(static_cast<char*>(x) + begin, 0, std::min(huge_page, bytes - begin));
+                       });
 }
 
 template <class Exec>
@@ -103,7 +115,7 @@ template <class Memory>
 void clear_new(void* x, std::size_t bytes) {
   if (bytes == 0) return;
   if constexpr (std::is_same_v<Memory, Kokkos::HostSpace>)
-    std::memset(x, 0, bytes);
+    bytes < 2 * huge_page ? void(std::memset(x, 0, bytes)) : clear_on_host(x, bytes);
   else
     Kokkos::deep_copy(at<Memory>(x, bytes), static_cast<unsigned char>(0));
 }

@@ -115,7 +115,7 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   CoarseMatrix<B> made;
   made.pattern = both_halves(half);
   made.matrix = block_matrix<B>("multigrid", made.pattern);
-  made.map = {AP.terms, half.terms, zeros<Blocks9<B>>("plica::galerkin.between", AP.column.size())};
+  made.map = {AP.terms, half.terms, unset<Blocks9<B>>("plica::galerkin.between", AP.column.size())};
   return made;
 }
 
