@@ -15,29 +15,38 @@ struct RowsOfSums {
   BlockTerms<B> terms;
 };
 
+/// Of some rows, one after the other.
+struct CountedRows {
+  std::vector<int> blocks;         ///< of each row
+  std::vector<int> column, terms;  ///< of each block
+};
+
 /// @param for_terms  (row, use): calls use(column, block, weight) for all terms of a row, in the same order every time
 /// @param own        whether a row has a block of its own number in any case
 template <class B, class ForTerms>
 RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_t columns, bool own,
                            const ForTerms& for_terms) {
-  std::vector<std::vector<int>> column(rows), count(rows);
-  for_row_ranges(rows, [&](std::size_t begin, std::size_t end) {
-    std::vector<int> terms(columns, 0);
+  std::vector<CountedRows> parts(row_parts(rows));
+  for_row_parts(rows, [&](std::size_t p, std::size_t begin, std::size_t end) {
+    CountedRows& part = parts[p];
+    std::vector<int> terms(columns, 0), column;
     for (std::size_t a = begin; a < end; ++a) {
-      if (own) column[a].push_back(static_cast<int>(a));
+      column.clear();
+      if (own) column.push_back(static_cast<int>(a));
       for_terms(a, [&](int b, int, double) {
-        if (terms[index_of(b)]++ == 0 && !(own && index_of(b) == a)) column[a].push_back(b);
+        if (terms[index_of(b)]++ == 0 && !(own && index_of(b) == a)) column.push_back(b);
       });
-      std::sort(column[a].begin(), column[a].end());
-      for (const int b : column[a]) count[a].push_back(std::exchange(terms[index_of(b)], 0));
+      std::ranges::sort(column);
+      for (const int b : column) part.column.push_back(b), part.terms.push_back(std::exchange(terms[index_of(b)], 0));
+      part.blocks.push_back(static_cast<int>(column.size()));
     }
   });
   RowsOfSums<B> made;
   std::vector<int> first_term{0};
-  for (std::size_t a = 0; a < rows; ++a) {
-    for (const int terms : count[a]) first_term.push_back(first_term.back() + terms);
-    made.column.insert(made.column.end(), column[a].begin(), column[a].end());
-    made.first.push_back(static_cast<int>(made.column.size()));
+  for (const CountedRows& part : parts) {
+    made.column.insert(made.column.end(), part.column.begin(), part.column.end());
+    for (const int blocks : part.blocks) made.first.push_back(made.first.back() + blocks);
+    for (const int terms : part.terms) first_term.push_back(first_term.back() + terms);
   }
   const auto terms = index_of(first_term.back());
   const HostWritten<B, Indices<B>> block(name + ".block", terms);
@@ -45,8 +54,8 @@ RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_
   for_row_ranges(rows, [&](std::size_t begin, std::size_t end) {
     std::vector<int> next(columns);
     for (std::size_t a = begin; a < end; ++a) {
-      int number = made.first[a];
-      for (const int b : column[a]) next[index_of(b)] = first_term[index_of(number++)];
+      for (int s = made.first[a]; s < made.first[a + 1]; ++s)
+        next[index_of(made.column[index_of(s)])] = first_term[index_of(s)];
       for_terms(a, [&](int b, int term, double w) {
         const int to = next[index_of(b)]++;
         block.data()[to] = term, weight.data()[to] = static_cast<typename B::Real>(w);
