@@ -16,8 +16,8 @@ struct EdgeGraph {
   std::vector<double> length;    ///< of that edge, not below the straight distance [m]
   double mean = 0, longest = 0;  ///< of the lengths [m]
 
-  static constexpr double detour =
-      1.4;  ///< at most, of a way along edges over the straight one, where nothing is in between
+  /// A way along edges over the straight one, at most, where the body fills the space between.
+  static constexpr double detour = 1.4;
 
   int vertices() const { return static_cast<int>(first.size()) - 1; }
   /// The straight distance of two vertices; or a longer one where the way along edges makes more than a detour. [m]
@@ -30,10 +30,10 @@ struct EdgeGraph {
 /// The edges of a mesh.
 EdgeGraph edge_graph(const TetMesh& mesh);
 
-/// Some vertices of a graph, as a smaller graph. Each owns the vertices that are nearest to it along edges.
+/// Some vertices of a graph, the points, as a smaller graph. Each owns the vertices that are nearest to it along edges. Where what
+/// two of them own meets they are neighbours, and the edge is as long as their distance().
 struct PointGraph {
-  EdgeGraph
-      graph;  ///< of the points, in their order; an edge where what two of them own meets, as long as their distance()
+  EdgeGraph graph;     ///< of the points, in their order
   double spacing = 0;  ///< the mean distance along edges from a point to the nearest other one [m]
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numeric>
 #include <plica/drivers/solver/linear/stage_system.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
@@ -114,6 +115,39 @@ TEST(EdgeWalk, FindsTheShortestWays) {
   }
   EXPECT_GT(reached, 30);
   EXPECT_GT(left_out, 5);
+}
+
+TEST(PointGraph, JoinsPointsWhereTheirSurroundingsMeet) {
+  const TetMesh mesh = fork();
+  const EdgeGraph graph = edge_graph(mesh);
+  const std::vector<int> points = farthest_points(graph, 150);
+  const EdgeGraph coarse = point_graph(graph, points).graph;
+  ASSERT_EQ(coarse.vertices(), 150);
+  const auto prong = [&](int j) {
+    const Point& p = coarse.place[at(j)];
+    return p[0] < 0.2 ? 0 : p[2] > 0.055 ? 1 : -1;
+  };
+  std::map<std::pair<int, int>, double> length;
+  for (int a = 0; a < coarse.vertices(); ++a) {
+    EXPECT_EQ(coarse.place[at(a)], mesh.vertices[at(points[at(a)])]);
+    for (int k = coarse.first[at(a)]; k < coarse.first[at(a + 1)]; ++k)
+      length[{a, coarse.neighbour[at(k)]}] = coarse.length[at(k)];
+  }
+  for (const auto& [ends, l] : length) {
+    const auto [a, b] = ends;
+    EXPECT_EQ(l, (length.at({b, a})));
+    EXPECT_GE(l, (coarse.place[at(a)] - coarse.place[at(b)]).norm());
+    EXPECT_NE(prong(a) * prong(b), -1);
+  }
+  std::vector<double> far(mesh.vertices.size());
+  EdgeWalk(graph).from(points[0], 10, [&](int v, double d) { far[at(v)] = d; });
+  int reached = 0;
+  EdgeWalk(coarse).from(0, 10, [&](int j, double d) {
+    ++reached;
+    EXPECT_LE(d, 1.4 * far[at(points[at(j)])]);
+    EXPECT_GE(d, far[at(points[at(j)])] / 1.4);
+  });
+  EXPECT_EQ(reached, 150);
 }
 
 TEST(SparseProduct, IsThatOfTheFullMatrices) {
