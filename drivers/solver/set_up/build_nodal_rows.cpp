@@ -148,94 +148,112 @@ class SlicedRows {
   using Real = typename B::Real;
   using Rows = NodalRows<B>;
   static constexpr auto H = static_cast<std::size_t>(Rows::height);
-  using Integers = std::array<int, H>;
-  using Numbers = std::array<Real, H>;
-  using Gradients = std::array<Numbers, 3>;
 
  public:
-  SlicedRows(const std::vector<Domain>& domains, std::size_t vertices)
-      : domains_(domains), order_(row_order(domains, Rows::height)), slot_of_(domains.size()), slots_(vertices) {
+  explicit SlicedRows(const std::vector<Domain>& domains)
+      : domains_(domains), order_(row_order(domains, Rows::height)), slot_of_(domains.size()) {
     for (std::size_t s = 0; s < order_.size(); ++s)
       if (order_[s] >= 0) slot_of_[index_of(order_[s])] = static_cast<int>(s);
-    for (std::size_t begin = 0; begin < order_.size(); begin += H) add_slice(begin);
+    for (std::size_t begin = 0; begin < order_.size(); begin += H) {
+      std::ptrdiff_t pairs = 0, surface_pairs = 0;
+      for (std::size_t s = begin; s < begin + H; ++s) {
+        pairs = std::max(pairs, std::ssize(domain(s).pairs));
+        surface_pairs = std::max(surface_pairs, domain(s).surface_pairs());
+      }
+      first_.push_back(first_.back() + static_cast<int>(pairs));
+      first_surface_.push_back(first_surface_.back() + static_cast<int>(surface_pairs));
+    }
   }
 
-  Rows on_device(bool smoothed) const {
+  Rows on_device(std::size_t vertices, bool smoothed) const {
     Rows rows;
-    rows.slices = static_cast<int>(region_.size()), rows.domains = static_cast<int>(domains_.size());
+    rows.slices = static_cast<int>(order_.size() / H), rows.domains = static_cast<int>(domains_.size());
     rows.first = to_device<Indices<B>>("rows.first", first_);
-    rows.region = to_device<Indices<B>>("rows.region", region_);
-    rows.vertex = to_device<Indices<B>>("rows.vertex", vertex_);
-    rows.volume = to_device<Scalars<B>>("rows.volume", volume_);
-    rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse_);
-    rows.neighbour = to_device<decltype(rows.neighbour)>("rows.neighbour", neighbour_);
-    rows.gradient = to_device<decltype(rows.gradient)>("rows.gradient", gradient_);
-    rows.coupling = to_device<decltype(rows.coupling)>("rows.coupling", coupling_);
-    if (smoothed) rows.smoothing = to_device<decltype(rows.smoothing)>("rows.smoothing", smoothing_);
     rows.first_surface = to_device<Indices<B>>("rows.first_surface", first_surface_);
-    rows.surface_neighbour = to_device<decltype(rows.neighbour)>("rows.surface_neighbour", surface_neighbour_);
-    rows.surface_gradient = to_device<decltype(rows.gradient)>("rows.surface_gradient", surface_gradient_);
-    std::vector<int> first{0}, row;
-    for (const std::vector<int>& of_vertex : slots_) {
-      row.insert(row.end(), of_vertex.begin(), of_vertex.end());
-      first.push_back(static_cast<int>(row.size()));
-    }
-    rows.shares.rows = rows.slots();
-    rows.shares.first = to_device<Indices<B>>("shares.first", first);
-    rows.shares.row = to_device<Indices<B>>("shares.row", row);
+    add_slots(rows, vertices);
+    const auto pairs = index_of(first_.back()), surface_pairs = index_of(first_surface_.back());
+    const HostWritten<B, decltype(rows.neighbour)> neighbour("rows.neighbour", pairs),
+        surface_neighbour("rows.surface_neighbour", surface_pairs);
+    const HostWritten<B, decltype(rows.gradient)> gradient("rows.gradient", pairs),
+        surface_gradient("rows.surface_gradient", surface_pairs);
+    const HostWritten<B, decltype(rows.coupling)> coupling("rows.coupling", pairs),
+        smoothing("rows.smoothing", smoothed ? pairs : 0);
+    const Columns all{neighbour.data(), gradient.data(), coupling.data(), smoothed ? smoothing.data() : nullptr};
+    const Columns surface{surface_neighbour.data(), surface_gradient.data(), nullptr, nullptr};
+    for_row_ranges(order_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) add_pairs(s, all, surface);
+    });
+    rows.neighbour = neighbour.upload(), rows.gradient = gradient.upload(), rows.coupling = coupling.upload();
+    if (smoothed) rows.smoothing = smoothing.upload();
+    rows.surface_neighbour = surface_neighbour.upload(), rows.surface_gradient = surface_gradient.upload();
     return rows;
   }
 
  private:
   const std::vector<Domain>& domains_;
   std::vector<int> order_, slot_of_;
-  std::vector<std::vector<int>> slots_;  // of each vertex
-  std::vector<int> first_{0}, first_surface_{0}, region_, vertex_;
-  std::vector<Real> volume_, inverse_;
-  std::vector<Integers> neighbour_, surface_neighbour_;
-  std::vector<Gradients> gradient_, surface_gradient_;
-  std::vector<Numbers> coupling_, smoothing_;
+  std::vector<int> first_{0}, first_surface_{0};  // of each slice, among its columns
 
-  void add_slice(std::size_t begin) {
+  /// Pairs of a slice's rows, each in a column of its own.
+  struct Columns {
+    int* neighbour;
+    Real *gradient, *coupling, *smoothing;  ///< the last two may be left out
+
+    void put(std::size_t column, std::size_t row, int slot, const Point& g, const Pair& pair) const {
+      neighbour[column * H + row] = slot;
+      for (std::size_t k = 0; k < 3; ++k)
+        gradient[(3 * column + k) * H + row] = static_cast<Real>(g[static_cast<int>(k)]);
+      if (coupling) coupling[column * H + row] = static_cast<Real>(pair.coupling);
+      if (smoothing) smoothing[column * H + row] = static_cast<Real>(pair.smoothing);
+    }
+  };
+
+  const Domain& domain(std::size_t slot) const {
     static const Domain none;
-    Integers self;
-    for (std::size_t row = 0; row < H; ++row) self[row] = static_cast<int>(begin + row);
-    for (std::size_t row = 0; row < H; ++row) {
-      const int d = order_[begin + row];
-      const Domain& domain = d >= 0 ? domains_[index_of(d)] : none;
-      add_pairs(domain.pairs, row, self);
-      vertex_.push_back(domain.vertex);
-      volume_.push_back(static_cast<Real>(domain.volume));
-      inverse_.push_back(d >= 0 ? static_cast<Real>(1 / domain.volume) : Real(0));
-      if (d >= 0) slots_[index_of(domain.vertex)].push_back(self[row]);
-    }
-    region_.push_back(domains_[index_of(order_[begin])].region);
-    first_.push_back(static_cast<int>(neighbour_.size()));
-    first_surface_.push_back(static_cast<int>(surface_neighbour_.size()));
+    return order_[slot] >= 0 ? domains_[index_of(order_[slot])] : none;
   }
 
-  // In the order of their slots; `self`: what rows with fewer pairs point to
-  void add_pairs(std::vector<Pair> pairs, std::size_t row, const Integers& self) {
-    std::ranges::sort(pairs, {}, [&](const Pair& p) { return slot_of_[index_of(p.neighbour)]; });
-    std::size_t e = index_of(first_.back()), s = index_of(first_surface_.back());
-    neighbour_.resize(std::max(neighbour_.size(), e + pairs.size()), self);
-    gradient_.resize(neighbour_.size(), {}), coupling_.resize(neighbour_.size(), {});
-    smoothing_.resize(neighbour_.size(), {});
-    for (const Pair& p : pairs) {
-      neighbour_[e][row] = slot_of_[index_of(p.neighbour)];
-      put(p.gradient, gradient_[e], row);
-      coupling_[e][row] = static_cast<Real>(p.coupling), smoothing_[e][row] = static_cast<Real>(p.smoothing);
-      ++e;
-      if (p.surface == Point::Zero()) continue;
-      if (s >= surface_neighbour_.size()) surface_neighbour_.push_back(self), surface_gradient_.push_back({});
-      surface_neighbour_[s][row] = slot_of_[index_of(p.neighbour)];
-      put(p.surface, surface_gradient_[s], row);
-      ++s;
+  /// In the order of their slots; where there are fewer than in other rows of the slice, zeros and the row itself.
+  void add_pairs(std::size_t slot, const Columns& all, const Columns& surface) const {
+    std::vector<const Pair*> pairs;
+    for (const Pair& pair : domain(slot).pairs) pairs.push_back(&pair);
+    std::ranges::sort(pairs, {}, [&](const Pair* pair) { return slot_of_[index_of(pair->neighbour)]; });
+    const std::size_t slice = slot / H, row = slot % H;
+    auto column = index_of(first_[slice]), surface_column = index_of(first_surface_[slice]);
+    for (const Pair* pair : pairs) {
+      const int other = slot_of_[index_of(pair->neighbour)];
+      all.put(column++, row, other, pair->gradient, *pair);
+      if (pair->surface != Point::Zero()) surface.put(surface_column++, row, other, pair->surface, *pair);
     }
+    const auto self = static_cast<int>(slot);
+    while (column < index_of(first_[slice + 1])) all.put(column++, row, self, Point::Zero(), {});
+    while (surface_column < index_of(first_surface_[slice + 1]))
+      surface.put(surface_column++, row, self, Point::Zero(), {});
   }
 
-  static void put(const Point& from, Gradients& to, std::size_t row) {
-    for (std::size_t k = 0; k < 3; ++k) to[k][row] = static_cast<Real>(from[static_cast<int>(k)]);
+  /// What there is one of per slot or slice.
+  void add_slots(Rows& rows, std::size_t vertices) const {
+    std::vector<int> region, vertex, first(vertices + 1, 0), row(domains_.size());
+    std::vector<Real> volume, inverse;
+    for (std::size_t s = 0; s < order_.size(); ++s) {
+      const Domain& d = domain(s);
+      if (s % H == 0) region.push_back(d.region);
+      vertex.push_back(d.vertex);
+      volume.push_back(static_cast<Real>(d.volume));
+      inverse.push_back(d.vertex >= 0 ? static_cast<Real>(1 / d.volume) : Real(0));
+      if (d.vertex >= 0) ++first[index_of(d.vertex) + 1];
+    }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<int> next = first;
+    for (std::size_t s = 0; s < order_.size(); ++s)
+      if (vertex[s] >= 0) row[index_of(next[index_of(vertex[s])]++)] = static_cast<int>(s);
+    rows.region = to_device<Indices<B>>("rows.region", region);
+    rows.vertex = to_device<Indices<B>>("rows.vertex", vertex);
+    rows.volume = to_device<Scalars<B>>("rows.volume", volume);
+    rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse);
+    rows.shares.rows = rows.slots();
+    rows.shares.first = to_device<Indices<B>>("shares.first", first);
+    rows.shares.row = to_device<Indices<B>>("shares.row", row);
   }
 };
 
@@ -249,7 +267,7 @@ NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constan
   };
   const std::vector<Domain> domains = Domains(mesh).all;
   const bool smoothed = !constants.excess.empty();
-  NodalRows<B> rows = SlicedRows<B>(domains, mesh.vertices.size()).on_device(smoothed);
+  NodalRows<B> rows = SlicedRows<B>(domains).on_device(mesh.vertices.size(), smoothed);
   std::vector<double> material;
   for (const std::vector<double>& of_region : constants.material)
     material.insert(material.end(), of_region.begin(), of_region.end());
