@@ -86,118 +86,148 @@ std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements
 
 namespace {
 
-/// The host's copy of Patches, filled patch by patch.
+/// Clusters of elements as patches.
 template <class B>
 class PatchBuilder {
   using Real = typename B::Real;
-  static constexpr int W = B::lanes;
-  template <class T>
-  using Lanes = std::array<T, index_of(W)>;
+  using P = Patches<B>;
+  static constexpr auto W = static_cast<std::size_t>(B::lanes);
 
  public:
-  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
-               const std::vector<double>& damping)
-      : mesh_(mesh),
-        constants_(constants),
-        damping_(damping),
-        local_(mesh.vertices.size(), -1),
-        copies_(mesh.vertices.size()) {}
-
-  void add(const std::vector<int>& elements) {
-    const std::size_t v0 = vertex_.size(), q0 = shape_.size();
-    add_vertices(elements);
-    const std::size_t packs = (elements.size() + W - 1) / W;
-    corner_.resize(q0 + packs), shape_.resize(q0 + packs), element_.resize((q0 + packs) * W, -1);
-    std::vector<std::vector<std::uint16_t>> slots(vertex_.size() - v0);
-    for (std::size_t i = 0; i < elements.size(); ++i) add_element(elements[i], i / W, i % W, q0, slots);
-    add_sums(slots);
-    first_pack_.push_back(static_cast<int>(shape_.size()));
-    first_vertex_.push_back(static_cast<int>(vertex_.size()));
-    const int region = mesh_.region.empty() ? 0 : mesh_.region[index_of(elements.front())];
-    for (const double c : constants_[index_of(region)]) device_constants_.push_back(static_cast<Real>(c));
-    if (!damping_.empty()) device_damping_.push_back(static_cast<Real>(damping_[index_of(region)]));
-    for (std::size_t i = v0; i < vertex_.size(); ++i) local_[index_of(vertex_[i])] = -1;
+  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<int>>& clusters) : mesh_(mesh), clusters_(clusters) {
+    std::vector<std::vector<int>> vertices(clusters.size());
+    for_row_ranges(clusters.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) vertices[p] = vertices_of(clusters[p]);
+    });
+    for (std::size_t p = 0; p < clusters.size(); ++p) {
+      vertex_.insert(vertex_.end(), vertices[p].begin(), vertices[p].end());
+      first_vertex_.push_back(static_cast<int>(vertex_.size()));
+      first_pack_.push_back(first_pack_.back() + static_cast<int>((clusters[p].size() + W - 1) / W));
+      first_slot_.push_back(first_slot_.back() + 4 * clusters[p].size());
+    }
   }
 
-  Patches<B> finish() {
-    Patches<B> p;
-    p.count = static_cast<int>(first_pack_.size()) - 1;
-    p.vertices = static_cast<int>(mesh_.vertices.size());
-    p.packs = static_cast<int>(shape_.size());
-    p.first_pack = to_device<Indices<B>>("patches.first_pack", first_pack_);
-    p.first_vertex = to_device<Indices<B>>("patches.first_vertex", first_vertex_);
-    p.vertex = to_device<Indices<B>>("patches.vertex", vertex_);
-    p.corner = to_device<decltype(p.corner)>("patches.corner", corner_);
-    p.shape = to_device<decltype(p.shape)>("patches.shape", shape_);
-    p.constants = to_device<Scalars<B>>("patches.constants", device_constants_);
-    if (!damping_.empty()) p.damping = to_device<Scalars<B>>("patches.damping", device_damping_);
-    p.summed = to_device<decltype(p.summed)>("patches.summed", summed_);
-    p.first_slot = to_device<Indices<B>>("patches.first_slot", first_slot_);
-    p.slot = to_device<decltype(p.slot)>("patches.slot", slot_);
-    p.element = to_device<Indices<B>>("patches.element", element_);
-    std::vector<int> first_copy{0}, copy;
-    for (const auto& of_vertex : copies_) {
-      copy.insert(copy.end(), of_vertex.begin(), of_vertex.end());
-      first_copy.push_back(static_cast<int>(copy.size()));
-    }
-    p.shares.rows = static_cast<int>(vertex_.size());
-    p.shares.first = to_device<Indices<B>>("shares.first", first_copy);
-    p.shares.row = to_device<Indices<B>>("shares.row", copy);
-    return p;
+  P on_device() const {
+    P patches;
+    patches.count = static_cast<int>(clusters_.size());
+    patches.vertices = static_cast<int>(mesh_.vertices.size());
+    patches.packs = first_pack_.back();
+    patches.first_pack = to_device<Indices<B>>("patches.first_pack", first_pack_);
+    patches.first_vertex = to_device<Indices<B>>("patches.first_vertex", first_vertex_);
+    patches.vertex = to_device<Indices<B>>("patches.vertex", vertex_);
+    const auto packs = index_of(first_pack_.back());
+    const HostWritten<B, decltype(P::corner)> corner("patches.corner", packs);
+    const HostWritten<B, decltype(P::shape)> shape("patches.shape", packs);
+    const HostWritten<B, Indices<B>> element("patches.element", packs * W);
+    const HostWritten<B, decltype(P::summed)> summed("patches.summed", vertex_.size());
+    const HostWritten<B, Indices<B>> first_slot("patches.first_slot", vertex_.size() + 1);
+    const HostWritten<B, decltype(P::slot)> slot("patches.slot", first_slot_.back());
+    const Elements elements{corner.data(), shape.data(), element.data()};
+    const Sums sums{summed.data(), first_slot.data(), slot.data()};
+    sums.first_slot[0] = 0;
+    for_row_ranges(clusters_.size(), [&](std::size_t begin, std::size_t end) {
+      std::vector<int> local(mesh_.vertices.size());  // a mesh vertex's place in the patch
+      for (std::size_t p = begin; p < end; ++p) add_patch(p, local, elements, sums);
+    });
+    patches.corner = corner.upload(), patches.shape = shape.upload(), patches.element = element.upload();
+    patches.summed = summed.upload(), patches.first_slot = first_slot.upload(), patches.slot = slot.upload();
+    add_shares(patches.shares);
+    return patches;
+  }
+
+  /// What a patch has of its region: some numbers each.
+  Scalars<B> of_regions(const std::string& name, const std::vector<std::vector<double>>& values) const {
+    std::vector<Real> all;
+    for (const std::vector<int>& cluster : clusters_)
+      for (const double value : values[index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(cluster.front())])])
+        all.push_back(static_cast<Real>(value));
+    return to_device<Scalars<B>>(name, all);
   }
 
  private:
   const TetMesh& mesh_;
-  const std::vector<std::vector<double>>& constants_;
-  const std::vector<double>& damping_;
-  std::vector<int> local_;  // a mesh vertex's place in the patch being added
-  std::vector<std::vector<int>> copies_;
-  std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_slot_{0}, element_;
-  std::vector<std::array<Lanes<std::uint16_t>, 4>> corner_;
-  std::vector<std::array<Lanes<Real>, 10>> shape_;
-  std::vector<Real> device_constants_;
-  std::vector<Real> device_damping_;
-  std::vector<std::uint16_t> summed_, slot_;
+  const std::vector<std::vector<int>>& clusters_;
+  std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_;
+  std::vector<std::size_t> first_slot_{0};  // of a patch
 
-  void add_vertices(const std::vector<int>& elements) {
-    const std::size_t v0 = vertex_.size();
-    for (int e : elements)
-      for (int v : mesh_.tets[index_of(e)])
-        if (std::exchange(local_[index_of(v)], 0) < 0) vertex_.push_back(v);
-    std::sort(vertex_.begin() + static_cast<std::ptrdiff_t>(v0), vertex_.end());
-    for (std::size_t i = v0; i < vertex_.size(); ++i) {
-      local_[index_of(vertex_[i])] = static_cast<int>(i - v0);
-      copies_[index_of(vertex_[i])].push_back(static_cast<int>(i));
-    }
+  struct Elements {
+    std::uint16_t* corner;
+    Real* shape;
+    int* element;
+  };
+  struct Sums {
+    std::uint16_t* summed;
+    int* first_slot;
+    std::uint16_t* slot;
+  };
+
+  std::vector<int> vertices_of(const std::vector<int>& elements) const {
+    std::vector<int> vertices;
+    for (const int e : elements)
+      for (const int v : mesh_.tets[index_of(e)]) vertices.push_back(v);
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
   }
 
-  void add_element(int e, std::size_t pack, std::size_t lane, std::size_t q0,
-                   std::vector<std::vector<std::uint16_t>>& slots) {
-    const auto& t = mesh_.tets[index_of(e)];
+  void add_patch(std::size_t p, std::vector<int>& local, const Elements& to, const Sums& sums) const {
+    const auto v0 = index_of(first_vertex_[p]), v1 = index_of(first_vertex_[p + 1]);
+    for (std::size_t i = v0; i < v1; ++i) local[index_of(vertex_[i])] = static_cast<int>(i - v0);
+    std::vector<std::vector<std::uint16_t>> slots(v1 - v0);
+    const std::size_t begin = index_of(first_pack_[p]) * W, end = index_of(first_pack_[p + 1]) * W;
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool padding = i - begin >= clusters_[p].size();
+      const int e = padding ? -1 : clusters_[p][i - begin];
+      to.element[i] = e;
+      for (std::size_t c = 0; c < 4; ++c) {
+        const int v = padding ? 0 : local[index_of(mesh_.tets[index_of(e)][c])];
+        to.corner[(i / W * 4 + c) * W + i % W] = static_cast<std::uint16_t>(v);
+        if (!padding) slots[index_of(v)].push_back(slot_of((i - begin) / W, c, i % W));
+      }
+      const std::array<double, 10> shape = padding ? std::array<double, 10>{} : shape_of(index_of(e));
+      for (std::size_t k = 0; k < 10; ++k) to.shape[(i / W * 10 + k) * W + i % W] = static_cast<Real>(shape[k]);
+    }
+    add_sums(slots, v0, first_slot_[p], sums);
+  }
+
+  static std::uint16_t slot_of(std::size_t pack, std::size_t corner, std::size_t lane) {
+    return static_cast<std::uint16_t>((pack * 4 + corner) * 3 * W + lane);
+  }
+
+  /// The inverse of the edges, row by row, and the volume.
+  std::array<double, 10> shape_of(std::size_t e) const {
+    const auto& t = mesh_.tets[e];
     Eigen::Matrix3d edges;
     for (int c = 0; c < 3; ++c)
       edges.col(c) = mesh_.vertices[index_of(t[index_of(c + 1)])] - mesh_.vertices[index_of(t[0])];
     const Eigen::Matrix3d inverse = edges.inverse();
-    auto& shape = shape_[q0 + pack];
-    for (int k = 0; k < 9; ++k) shape[index_of(k)][lane] = static_cast<Real>(inverse(k / 3, k % 3));
-    shape[9][lane] = static_cast<Real>(mesh_.part(index_of(e)) * edges.determinant() / 6);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const int v = local_[index_of(t[c])];
-      corner_[q0 + pack][c][lane] = static_cast<std::uint16_t>(v);
-      slots[index_of(v)].push_back(static_cast<std::uint16_t>((pack * 4 + c) * 3 * W + lane));
-    }
-    element_[(q0 + pack) * W + lane] = e;
+    std::array<double, 10> shape;
+    for (int k = 0; k < 9; ++k) shape[index_of(k)] = inverse(k / 3, k % 3);
+    shape[9] = mesh_.part(e) * edges.determinant() / 6;
+    return shape;
   }
 
-  void add_sums(const std::vector<std::vector<std::uint16_t>>& slots) {
+  static void add_sums(const std::vector<std::vector<std::uint16_t>>& slots, std::size_t sum, std::size_t slot,
+                       const Sums& to) {
     std::vector<std::uint16_t> order(slots.size());
     std::iota(order.begin(), order.end(), std::uint16_t{0});
     std::ranges::stable_sort(order, {}, [&](std::uint16_t i) { return slots[i].size(); });
     for (const std::uint16_t i : order) {
-      summed_.push_back(i);
-      slot_.insert(slot_.end(), slots[i].begin(), slots[i].end());
-      first_slot_.push_back(static_cast<int>(slot_.size()));
+      to.summed[sum++] = i;
+      slot = static_cast<std::size_t>(std::ranges::copy(slots[i], to.slot + slot).out - to.slot);
+      to.first_slot[sum] = static_cast<int>(slot);
     }
+  }
+
+  void add_shares(VertexShares<B>& shares) const {
+    std::vector<int> first(mesh_.vertices.size() + 1, 0), row(vertex_.size());
+    for (const int v : vertex_) ++first[index_of(v) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<int> next = first;
+    for (std::size_t i = 0; i < vertex_.size(); ++i) row[index_of(next[index_of(vertex_[i])]++)] = static_cast<int>(i);
+    shares.rows = static_cast<int>(vertex_.size());
+    shares.first = to_device<Indices<B>>("shares.first", first);
+    shares.row = to_device<Indices<B>>("shares.row", row);
   }
 };
 
@@ -206,10 +236,14 @@ class PatchBuilder {
 template <class B>
 Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<double>>& constants,
                          const std::vector<double>& damping) {
-  PatchBuilder<B> builder(mesh, constants, damping);
-  for (const auto& cluster : element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity))
-    builder.add(cluster);
-  return builder.finish();
+  const auto clusters = element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
+  const PatchBuilder<B> builder(mesh, clusters);
+  Patches<B> patches = builder.on_device();
+  patches.constants = builder.of_regions("patches.constants", constants);
+  std::vector<std::vector<double>> damping_of;
+  for (const double value : damping) damping_of.push_back({value});
+  if (!damping.empty()) patches.damping = builder.of_regions("patches.damping", damping_of);
+  return patches;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec)                                       \
