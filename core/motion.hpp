@@ -28,8 +28,8 @@ struct PathMotion {
   std::vector<Knot> knots;  ///< at least one
 };
 
-/// amplitude * (sin(2 pi frequency t + phase) - sin(phase)): begins at rest's place whatever its phase; -90 degrees begin
-/// without speed.
+/// amplitude * (sin(2 pi frequency t + phase) - sin(phase)). The displacement is zero at t = 0 for any phase. With phase -pi/2
+/// the velocity is also zero then.
 struct SineMotion {
   Point amplitude = Point::Zero();  ///< [m]
   double frequency = 1;             ///< [1/s]

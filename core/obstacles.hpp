@@ -23,7 +23,7 @@ struct CouplingOptions {
 struct GraspOptions {
   std::vector<double> from = {};         ///< it closes [s]; empty: where a program says so
   std::vector<double> until = {};        ///< it opens, after each of these [s]; may lack the last: it stays closed
-  double reach = 0;                      ///< how far outside it a point may be that it takes hold of [m]
+  double reach = 0;                      ///< largest distance outside the obstacle at which a point is grasped [m]
   std::optional<double> stiffness = {};  ///< of the spring of each point [N/m]; none: as contact has it
   std::optional<Selection> where = {};   ///< of the points near it, by where they start; none: all
 };

@@ -151,8 +151,8 @@ struct Body {
   /// @}
 
   std::vector<TetMesh> levels;  ///< finest first, at least one
-  /// Coarse spaces of the one mesh there is, for what needs levels but no elements of theirs: their numbers of points, finest
-  /// first; empty: as many as it takes. None: likewise, where something needs them.
+  /// Coarse spaces of the one mesh there is, for methods that need coarse levels but no coarse elements (him, multigrid): their
+  /// numbers of points, finest first; empty: as many as it takes. None: likewise, where a method needs them.
   std::optional<std::vector<int>> coarsen = {};
   std::vector<std::string> element = {"auto"};   ///< of elements(): one for all levels, or one each, finest first
   double stabilisation = 0.4;                    ///< beta of nodal elements
@@ -265,7 +265,7 @@ struct ContactOptions {
   std::string whole_surface = "auto";               ///< of whole_surface_rules()
   double stiffness_scale = 1;                       ///< of the penalty
   double damping_scale = 1;                         ///< of the approach
-  double tangential_damping_scale = 1;              ///< caps what friction can do at small sliding speed
+  double tangential_damping_scale = 1;              ///< limits the friction force at small sliding speeds
 };
 
 /// What results call that obstacle.
@@ -283,7 +283,7 @@ struct Problem {
   ~Problem();
   /// @}
 
-  std::string preset = {};         ///< of presets(), whose options these were; see apply_preset()
+  std::string preset = {};         ///< name of the preset that these options came from; see presets()
   Body body;                       ///< what moves
   Point gravity = Point::Zero();   ///< [m/s^2]
   IntegrationOptions integration;  ///< in time

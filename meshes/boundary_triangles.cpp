@@ -51,16 +51,26 @@ void for_faces(const TetMesh& mesh, const Visit& visit) {
   }
 }
 
+/// Whether a face's vertices, counter-clockwise seen from outside its tetrahedron, are an even permutation of the ascending ones.
+bool is_even(const TetMesh& mesh, const Face& face) {
+  const auto& tet = mesh.tets[face.number / 4];
+  const auto& [i, j, k] = outward_faces[face.number % 4];
+  return ((tet[i] < tet[j]) + (tet[j] < tet[k]) + (tet[k] < tet[i])) == 2;
+}
+
 const Point& vertex(const TriangleSurface& surface, int v) { return surface.vertices[static_cast<std::size_t>(v)]; }
 
 }  // namespace
 
-std::optional<std::array<std::size_t, 3>> crowded_face(const TetMesh& mesh) {
-  std::optional<std::array<std::size_t, 3>> found;
+std::vector<std::size_t> overlap_at_a_face(const TetMesh& mesh) {
+  std::vector<std::size_t> crowd, same_side;
   for_faces(mesh, [&](std::span<const Face> same) {
-    if (same.size() > 2 && !found) found = {same[0].number / 4, same[1].number / 4, same[2].number / 4};
+    if (same.size() > 2 && crowd.empty())
+      crowd = {same[0].number / 4, same[1].number / 4, same[2].number / 4};
+    else if (same.size() == 2 && same_side.empty() && is_even(mesh, same[0]) == is_even(mesh, same[1]))
+      same_side = {same[0].number / 4, same[1].number / 4};
   });
-  return found;
+  return crowd.empty() ? same_side : crowd;
 }
 
 std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh) {

@@ -9,8 +9,9 @@
 
 namespace plica {
 
-/// Three tetrahedra with a face in common, if there are any: of those one or two overlap the others.
-std::optional<std::array<std::size_t, 3>> crowded_face(const TetMesh& mesh);
+/// Three tetrahedra with a face in common, if there are any, else two on the same side of one: some of them overlap. Else none. Of
+/// tetrahedra with positive volumes.
+std::vector<std::size_t> overlap_at_a_face(const TetMesh& mesh);
 
 /// The faces that belong to one tetrahedron only, counter-clockwise seen from outside; mesh vertex numbers, in the
 /// order of the tetrahedra.

@@ -20,6 +20,10 @@ namespace {
 // inside an obstacle, the next must not throw out.
 constexpr double most_stiffening = 64;
 
+// In mean edges of the surface, the radius from which on an obstacle is left to the points. A tool that is pressed in by its radius
+// spreads the points under it and comes between them, however fine the mesh is.
+constexpr double wide = 16;
+
 constexpr double pair_reach = 0.5, pair_margin = 0.25, face_reach = 0.25;  // of an edge
 
 double mean_surface_edge(const TriangleSurface& surface) {
@@ -82,7 +86,7 @@ template <class B>
 void Contact<B>::choose_whole(const std::string& rule, const TriangleSurface& surface) {
   const double edge = mean_surface_edge(surface);
   for (const auto& obstacle : obstacles_)
-    whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < edge));
+    whole_.push_back(rule == "always" || (rule == "auto" && obstacle->radius() < wide * edge));
 }
 
 template <class B>

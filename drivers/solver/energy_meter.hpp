@@ -16,7 +16,8 @@
 // Whether a body has got more energy than went into it.
 namespace plica {
 
-/// Compares the energies that a run looks at with the first ones. Gravity is in them; what obstacles do is told.
+/// Compares the energies that a run looks at with the first ones. Gravity is in them; what obstacles do is told. That of contact counts
+/// at the start alone: its few sweeps of a step give less force than its depth stands for.
 class EnergyBudget {
  public:
   static constexpr double notable = 0.1;  ///< of all that was put in: discrete energies waver
@@ -38,7 +39,7 @@ class EnergyBudget {
   void look(double time, const Energies& e, double work = 0) {
     if (!looked_) start_ = e.total(), looked_ = true;
     put_in_ = std::max(put_in_, start_ + work - e.potential);
-    const double surplus = e.total() - start_ - work;
+    const double surplus = e.total() - e.contact - start_ - work;
     if (put_in_ > 0 && surplus > growth_ * put_in_) growth_ = surplus / put_in_, at_ = time;
   }
 

@@ -69,10 +69,10 @@ std::vector<Choice> preconditioner_choices() {
 }
 
 std::vector<Choice> whole_surface_rules() {
-  return {
-      {"auto", "those with a radius below the surface's mean edge; none where a linear solver is direct or v_cycle"},
-      {"always", "all of them"},
-      {"never", "none: what fits between points passes"}};
+  return {{"auto",
+           "those with a radius below 16 of the surface's mean edges; none where a linear solver is direct or v_cycle"},
+          {"always", "all of them"},
+          {"never", "none: what fits between points passes"}};
 }
 
 std::vector<Choice> matrix_choices() {

@@ -104,6 +104,7 @@ void Simulation<B>::step() {
 
 template <class B>
 void Simulation<B>::end_at(double time) {
+  if (std::isnan(time)) throw InputError("end_at: the time is no number; expected one, or infinity for no end");
   inside_->end = time;
 }
 
@@ -383,6 +384,7 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
 
 template <class B>
 void Simulation<B>::set_time(double time) {
+  if (!std::isfinite(time)) throw InputError("set_time: the time is " + number(time) + "; expected a finite one");
   Inside& s = *inside_;
   s.remember();
   for (const auto& level : s.hierarchy().levels)

@@ -48,7 +48,7 @@ struct LevelReport {
   double critical_step =
       0;  ///< largest stable explicit step of its integrator; contact does not bound it (implicit: of
           ///< symplectic_euler); 0 where it is not integrated [s]
-  double element_bound = 0;            ///< the same from the worst single element: on the sure side [s]
+  double element_bound = 0;            ///< lower bound of critical_step without damping, from the worst element [s]
   double typical_element = 0;          ///< the median of that over all elements [s]
   std::vector<StiffElement> stiffest;  ///< the ten worst of its elements, the worst first
   double share = 0;                 ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
@@ -83,8 +83,8 @@ struct Energies {
   double total() const { return kinetic + elastic + potential + contact; }
 };
 
-/// What an obstacle does to the body, or to one of several bodies all the others: the mean force over the last macro step, of which
-/// an obstacle feels the opposite.
+/// What an obstacle does to the body, or to one of several bodies all the others. The mean force on the body over the last macro step.
+/// The force on the obstacle is the negative.
 struct Wrench {
   std::string obstacle;          ///< its name, or that of the body, see wrench_names()
   Point force = Point::Zero();   ///< on the body [N]
@@ -221,7 +221,7 @@ class Simulation {
   void set_external_forces(const ExternalForces<B>& forces);
 
   /// From now on an obstacle moves so, not as the problem says; displacements are from where its shape says. Its turn goes on. Does not
-  /// wait. What save() keeps is without it; check() no longer compares energies. Obstacles count from 0. InputError where there is none of
+  /// wait. save() does not store this motion; check() no longer compares energies. Obstacles count from 0. InputError where there is none of
   /// that number.
   void set_obstacle_motion(int obstacle, const Motion& motion);
   /// Likewise it turns so; none: it is as its shape says. Its motion goes on. InputError for one with mass, which does not turn.

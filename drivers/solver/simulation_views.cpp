@@ -93,7 +93,9 @@ const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
 
 template <class B>
 void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
-  inside_->contact_with(obstacle).set_motion(obstacle, motion);
+  const Contact<B>& contact = inside_->contact_with(obstacle);
+  validate_motion(motion);
+  contact.set_motion(obstacle, motion);
   inside_->budget_known = false;
 }
 template <class B>

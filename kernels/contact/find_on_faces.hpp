@@ -8,7 +8,7 @@ namespace plica {
 
 /// The record of each triangle near an obstacle, after those of the points: where the triangle is deepest, unless a corner is as deep.
 /// Its depth is what it is beyond the depths of the corners, so that nothing is pushed twice: all of it where they are outside,
-/// nothing where the obstacle is flat.
+/// nothing where the obstacle is flat. A triangle that the obstacle holds by a corner has none: held points keep their depth.
 template <class B, class Shape>
 struct FindOnFaces {
   using Real = typename B::Real;
@@ -30,8 +30,9 @@ struct FindOnFaces {
     Vec3<Real> x[3], depth;
     Real deepest = nowhere;
     for (int c = 0; c < 3; ++c) {
-      const int p = faces.corner(3 * t + c);
-      depth[c] = points.depth(points.record(obstacle, p));
+      const int p = faces.corner(3 * t + c), of_corner = points.record(obstacle, p);
+      if (points.held.holds(of_corner)) return;
+      depth[c] = points.depth(of_corner);
       deepest = Kokkos::max(deepest, depth[c]);
       x[c] = vector_at<B>(surface.rest, p);
     }

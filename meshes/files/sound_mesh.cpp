@@ -117,10 +117,15 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
 }
 
 /// After the repeats: tetrahedra of the mesh are those of the file, in its order.
-void refuse_crowded_faces(const RawMesh& raw, const TetMesh& mesh) {
-  const auto found = crowded_face(mesh);
-  if (!found) return;
-  const RawTet &one = raw.tets[(*found)[0]], &two = raw.tets[(*found)[1]], &three = raw.tets[(*found)[2]];
+void refuse_overlaps(const RawMesh& raw, const TetMesh& mesh) {
+  const std::vector<std::size_t> found = overlap_at_a_face(mesh);
+  if (found.empty()) return;
+  const RawTet &one = raw.tets[found[0]], &two = raw.tets[found[1]];
+  if (found.size() == 2)
+    refuse(raw, two.place, "tetrahedron ", two.tag, " lies on the same side of a face as tetrahedron ", one.tag, " ",
+           to_text(one.place),
+           ", which has it too; expected tetrahedra that do not overlap: a vertex may be out of place");
+  const RawTet& three = raw.tets[found[2]];
   refuse(raw, three.place, "tetrahedron ", three.tag, " shares a face with tetrahedra ", one.tag, " and ", two.tag,
          ", which share it already; expected tetrahedra that do not overlap");
 }
@@ -221,7 +226,7 @@ TetMesh sound_mesh(const RawMesh& raw, MeshReport& report, Flaws flaws) {
   add_tets(raw, numbering, flaws, mesh, report);
   refuse_folded(raw, numbering);
   flaws == Flaws::refused ? refuse_repeats(raw, mesh) : drop_repeats(mesh, report);
-  if (flaws == Flaws::refused) refuse_crowded_faces(raw, mesh);
+  if (flaws == Flaws::refused) refuse_overlaps(raw, mesh);
   add_sets(raw, numbering, mesh, report);
   drop_unreferenced(raw, numbering, mesh, report);
   add_vectors(raw, mesh, report);

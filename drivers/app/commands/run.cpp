@@ -177,7 +177,9 @@ template <class B>
 ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine& machine, double set_up_time,
                     const RunArguments& arguments, Checkpoint checkpoint, InterruptWatch& watch) {
   const std::filesystem::path folder = folder_of(arguments);
+  steps_to_cover(scene.duration, simulation.macro_step());  // too many are refused before there is a folder
   make_folder(folder);
+  const FolderLock alone(folder);
   take_over(checkpoint, machine);
   const RunEnd start = start_of(simulation, checkpoint, folder);
   if (start.macro_steps > steps_to_cover(scene.duration, simulation.macro_step()))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -77,6 +78,19 @@ void make_folder(const std::filesystem::path& folder) {
     throw FolderError("cannot make the folder " + folder.string() + ": " + there.string() + " is a file, not a folder");
   throw FolderError("cannot make the folder " + folder.string() + ": the system lets none be made in " +
                     there.string() + " (" + error.message() + "); expected a place to write to");
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder)
+    : handle_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (handle_ < 0 || flock(handle_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    return;  // not all systems have locks
+  close(handle_);
+  throw InputError("another run is writing to the folder " + folder.string() +
+                   "; expected its end, or another folder with -o");
+}
+
+FolderLock::~FolderLock() {
+  if (handle_ >= 0) close(handle_);
 }
 
 GrowingFile::GrowingFile(std::filesystem::path file, const std::string& head) : file_(std::move(file)) {

@@ -40,6 +40,19 @@ void write_files(const std::vector<MemoryFile>& files);
 /// Makes the folder, and those above it, where they are missing. FolderError says what stands in the way, and why.
 void make_folder(const std::filesystem::path& folder);
 
+/// Keeps other runs out of a folder as long as it lives: the system gives the folder back even where the program is killed.
+class FolderLock {
+ public:
+  /// InputError where another run has it.
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+ private:
+  int handle_;
+};
+
 /// A text file that grows by whole lines. Whoever looks at it, also after the run was killed, finds whole lines. FileError
 /// where it cannot be written.
 class GrowingFile {

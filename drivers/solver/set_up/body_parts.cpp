@@ -112,19 +112,28 @@ double BodyLocator::mean_edge(std::size_t part) const { return mean_edge_length(
 
 void expect_apart(const TriangleSurface& surface, const std::vector<BodyPart>& parts, double edge) {
   const std::vector<int> part = parts_of_points(parts);
+  std::vector<Point> below(surface.vertices.size(), Point::Zero());
+  for (const auto& [a, b, c] : surface.triangles) {
+    const auto x = [&](int p) -> const Point& { return surface.vertices[static_cast<std::size_t>(p)]; };
+    for (const int p : {a, b, c}) below[static_cast<std::size_t>(p)] += (x(b) - x(a)).cross(x(c) - x(a));
+  }
+  for (Point& n : below) n *= 2 * bearable_overlap * edge / std::max(n.norm(), 1e-300);
   int first = 0;
   for (std::size_t i = 0; i < parts.size(); first += parts[i].points, ++i) {
     const TriangleSurface one = surface_of_part(surface, first, parts[i].points);
     const Box box = bounding_box(one.vertices);
     const SignedDistance distance(one);
+    // and a little below it: of two bodies in one place all points are on the other's surface
+    const auto depth_at = [&](std::size_t p) {
+      return std::max(-distance(surface.vertices[p]), -distance(surface.vertices[p] - below[p]));
+    };
     double deepest = bearable_overlap * edge;
     std::size_t where = part.size();
     for (std::size_t p = 0; p < part.size(); ++p) {
       const Point& x = surface.vertices[p];
-      if (part[p] == static_cast<int>(i) || (x.array() <= box.min.array()).any() ||
-          (x.array() >= box.max.array()).any())
+      if (part[p] == static_cast<int>(i) || (x.array() < box.min.array()).any() || (x.array() > box.max.array()).any())
         continue;
-      if (const double depth = -distance(x); depth > deepest) deepest = depth, where = p;
+      if (const double depth = depth_at(p); depth > deepest) deepest = depth, where = p;
     }
     if (where == part.size()) continue;
     const Point& x = surface.vertices[where];

@@ -159,7 +159,7 @@ std::vector<std::string> starts_in_obstacles(const Problem& problem) {
       throw InputError(path + " contains the whole body at the start; expected a body outside");
     if (found.inside == 0 && !holds_at_start(obstacles[i], found) && body.contains(obstacles[i]))
       throw InputError(path + " is inside the body at the start, where contact does not find it; expected it outside");
-    if (!(found.depth > bearable_depth * edge)) continue;
+    if (!(found.depth > bearable_depth * edge) || holds_at_start(obstacles[i], found)) continue;
     const Point& x = places[found.place];
     sentences.push_back(text(path, ": the body starts inside it, ", number(found.depth, 3), " m deep at [",
                              number(x[0], 4), ", ", number(x[1], 4), ", ", number(x[2], 4), "] m, ",

@@ -214,6 +214,10 @@ void validate_mesh(const TetMesh& mesh, int level) {
   }
   if (const auto unused = std::find(used.begin(), used.end(), 0); unused != used.end())
     refuse(": no tetrahedron has vertex " + std::to_string(unused - used.begin()));
+  for (const auto& [name, set] : mesh.vertex_sets)
+    for (const int v : set)
+      if (v < 0 || v >= vertices)
+        refuse(": group '" + name + "' has vertex " + std::to_string(v) + " of " + std::to_string(vertices));
   if (!mesh.region.empty() && mesh.region.size() != mesh.tets.size())
     refuse(" has regions for " + std::to_string(mesh.region.size()) + " of " + std::to_string(mesh.tets.size()) +
            " tetrahedra; expected all or none");
@@ -284,6 +288,12 @@ void check_points(const Body& body) {
 }  // namespace
 
 void validate_turn(const Turn& turn, const std::string& path) { check_values(path, turn); }
+
+void validate_motion(const Motion& motion, const std::string& path) {
+  ObstacleOptions moved;
+  moved.motion = motion;
+  check_values(path, moved);
+}
 
 void validate_options(const Problem& problem, std::size_t levels) {
   check_values("body", problem.body);

@@ -25,6 +25,8 @@ void validate_contact(const Problem& problem);
 
 /// How an obstacle turns, as far as that needs no obstacle; keys are those below `path`.
 void validate_turn(const Turn& turn, const std::string& path = "turn");
+/// The same of how it moves.
+void validate_motion(const Motion& motion, const std::string& path = "motion");
 
 /// What asks for all of an implicit stage's system in a matrix, as "integration.integrator is v_cycle_euler"; empty: nothing.
 std::string needs_matrix(const IntegrationOptions& options);

@@ -17,12 +17,16 @@ namespace {
 
 using namespace keys;
 
-void check_closed(const std::string& option, const TriangleSurface& surface) {
-  if (surface.triangles.empty()) throw InputError(option + " has no triangle");
+void check_numbers(const std::string& option, const TriangleSurface& surface) {
   for (const Point& p : surface.vertices) Vector{length}.check(option + " vertex", p);
   const Count vertex{0, static_cast<int>(surface.vertices.size()) - 1};
   for (const auto& t : surface.triangles)
     for (const int v : t) vertex.check(option + " triangle's vertex", v);
+}
+
+void check_closed(const std::string& option, const TriangleSurface& surface) {
+  if (surface.triangles.empty()) throw InputError(option + " has no triangle");
+  check_numbers(option, surface);
   SurfaceReport edges;
   count_edges(surface, edges);
   if (!edges.closed())
@@ -112,6 +116,7 @@ void validate_cavities(const Problem& problem) {
 
 void validate_contact(const Problem& problem) {
   const auto& obstacles = problem.contact.obstacles;
+  if (problem.body.surface) check_numbers("body.surface", *problem.body.surface);
   if (has_pairs(problem)) check_pairs(problem);
   if (!obstacles.empty() && !problem.body.surface)
     throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <plica/drivers/app/output/write_file.hpp>
+
 #include "unit/app/child.hpp"
 
 namespace plica::app::test {
@@ -207,6 +209,12 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
       << "what the scene says wrong comes first";
   ASSERT_EQ(plica({"report", out}).status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
+  {
+    const FolderLock other(out);
+    const Child second = with({"--force"});
+    EXPECT_EQ(second.status, 2);
+    EXPECT_NE(second.errors.find("another run is writing to the folder"), std::string::npos) << second.errors;
+  }
   EXPECT_EQ(with({"--force"}).status, 0);
   for (const char* file : {"checkpoint.bin", "report.html"})
     EXPECT_FALSE(std::filesystem::exists(folder / "out" / file)) << file;

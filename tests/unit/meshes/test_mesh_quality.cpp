@@ -153,13 +153,33 @@ TEST(BoundaryTriangles, LeaveOutInnerVertices) {
 TetMesh beam() { return read_mesh(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "beam.msh"); }
 
 // Whichever library sorts them
-TEST(CrowdedFace, NamesItsFirstTetrahedra) {
+TEST(OverlapAtAFace, NamesTheFirstOfACrowd) {
   TetMesh mesh;
   constexpr int tets = 20;
   mesh.vertices.assign(3 + tets, Point::Zero());
-  EXPECT_FALSE(crowded_face(mesh));
+  EXPECT_TRUE(overlap_at_a_face(mesh).empty());
   for (int k = 0; k < tets; ++k) mesh.tets.push_back({0, 1, 2, 3 + k});
-  EXPECT_EQ(crowded_face(mesh), (std::array<std::size_t, 3>{0, 1, 2}));
+  EXPECT_EQ(overlap_at_a_face(mesh), (std::vector<std::size_t>{0, 1, 2}));
+}
+
+// A vertex inside a box is moved through its top, and the tetrahedra that this turned inside out are turned back.
+TEST(OverlapAtAFace, NamesTwoOnOneSide) {
+  TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {4, 4, 4});
+  EXPECT_TRUE(overlap_at_a_face(mesh).empty());
+  const auto middle =
+      std::ranges::find_if(mesh.vertices, [](const Point& x) { return (x - Point(.5, .5, .5)).norm() < 1e-9; });
+  (*middle)[2] = 1.2;
+  int turned = 0;
+  for (auto& t : mesh.tets) {
+    const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    if ((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) < 0) std::swap(t[2], t[3]), ++turned;
+  }
+  EXPECT_GT(turned, 0);
+  const auto found = overlap_at_a_face(mesh);
+  ASSERT_EQ(found.size(), 2u);
+  std::set<int> vertices;
+  for (const std::size_t e : found) vertices.insert(mesh.tets[e].begin(), mesh.tets[e].end());
+  EXPECT_EQ(vertices.size(), 5u);
 }
 
 TEST(Reordering, KeepsTheMesh) {

@@ -169,6 +169,9 @@ TEST(Bodies, SayWhereTheyOverlap) {
   EXPECT_NE(said.find("0.01 m inside"), std::string::npos) << said;
   p.contact.bodies = false;
   EXPECT_EQ(refusal([&] { Simulation<Host> s(p); }), "");
+  const Body one = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2});
+  p = {}, p.body = join_bodies({{"one", one}, {"same", one}});
+  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("bodies.same overlaps bodies.one"), std::string::npos);
 }
 
 TEST(Bodies, RefuseWhatCannotTouch) {

@@ -11,6 +11,7 @@
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
+#include "support/refusal.hpp"
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
@@ -299,6 +300,17 @@ TYPED_TEST(MovingObstacles, SampledSphereActsLikeTheSphere) {
             2e-3);  // the triangles are 0.3 mm inside the sphere, 0.2 s of bouncing
   EXPECT_LT(mean(formula)[2], 0.05);
   EXPECT_GT(mean(formula)[2], 0.02);
+}
+
+TEST(Contact, RefusesNumbersOfNoVertex) {
+  Problem p = block_with_surface();
+  p.contact.obstacles = {{SphereOptions{{0.05, 0.05, -0.21}, 0.2}, {}, {}}};
+  p.body.surface->triangles[3][1] = static_cast<int>(p.body.surface->vertices.size());
+  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("body.surface triangle's vertex"), std::string::npos);
+  p = block_with_surface();
+  p.body.levels[0].vertex_sets["base"] = {0, -1};
+  p.body.fixed = {GroupSelection{"base"}};
+  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("group 'base' has vertex -1 of"), std::string::npos);
 }
 
 }  // namespace

@@ -128,6 +128,33 @@ TEST(ThinTools, AddNothingToFlatTools) {
   EXPECT_EQ(points, whole);
 }
 
+// A ball as wide as three edges is pressed in by more than its radius. Points alone are pushed aside until it is between them.
+TEST(ThinTools, BluntOnesStayOutsideToo) {
+  Problem p = block();
+  p.body.material.poisson_ratio = 0.49;
+  constexpr double radius = 1.5 * edge;
+  const ShapeOptions ball = SphereOptions{{0.041, 0.042, top + radius}, radius};
+  const auto force = [&](double way, const std::string& rule) {
+    return -pushed(p, lowered(ball, way, 0.2), 0.25, rule)[2];
+  };
+  const double half = force(0.8 * radius, "auto"), whole = force(1.6 * radius, "auto");
+  EXPECT_GT(half, 0.5);
+  EXPECT_GT(whole, 2 * half);
+  EXPECT_LT(force(1.6 * radius, "never"), half);
+}
+
+// What a tool holds keeps its depth: the faces around are not pushed out either.
+TEST(ThinTools, LeaveFacesThatTheyHold) {
+  Problem p = block();
+  p.body.damping.mass = 0;
+  ObstacleOptions jaw{BlockOptions{{0.09, 0.04, 0.02}, {0.022, 0.2, 0.2}, {0, 0, 0}}, {}, {}};
+  jaw.grasp = GraspOptions{.from = {0}};
+  p.contact.obstacles = {jaw};  // a tenth of an edge deep in the block's side
+  Simulation<Host> simulation(p);
+  advance(simulation, 50);
+  for (const Point& v : simulation.velocities()) EXPECT_LT(v.norm(), 1e-9);
+}
+
 /// The same surface of triangles cut in four, `times` over.
 TriangleSurface cut(TriangleSurface surface, int times) {
   for (; times > 0; --times) {

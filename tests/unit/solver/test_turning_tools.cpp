@@ -320,6 +320,11 @@ TEST(TurningTools, AreRefusedWhereTheyCannotBe) {
   EXPECT_EQ(heavy.obstacle_displacement(0), Point(0, 0, 0));
   Simulation<Host> s(below(steady));
   EXPECT_NE(refusal([&] { s.set_obstacle_turn(0, Turn{.axis = {0, 0, 0}}); }).find("turn.axis"), std::string::npos);
+  EXPECT_NE(refusal([&] { s.set_obstacle_motion(0, PathMotion{}); }).find("motion.path"), std::string::npos);
+  EXPECT_NE(refusal([&] { s.set_obstacle_motion(0, SteadyMotion{Point(NAN, 0, 0)}); }).find("motion.velocity"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { s.set_time(NAN); }).find("set_time"), std::string::npos);
+  EXPECT_NE(refusal([&] { s.end_at(NAN); }).find("end_at"), std::string::npos);
   EXPECT_NE(refusal([&] { s.move_obstacle(0, {NAN, 0, 0}, {0, 0, 1}); }).find("displacement"), std::string::npos);
   EXPECT_NE(refusal([&] { s.move_obstacle(0, {0, 0, 0}, {0, 0, NAN}); }).find("rotation"), std::string::npos);
 }
