@@ -116,8 +116,12 @@ struct TouchLaw {
     return points.difference(surface, x, row, p, bounding);
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(points.normal, r); }
+  /// Whether the force is that of the work between two depths; see ContactByWork. A face's deepest place is another one in every step: with
+  /// the mean of two depths, or with their work, it would gain energy by that. It goes by the depth after the step, which loses some.
+  KOKKOS_INLINE_FUNCTION bool goes_by_work(int r) const { return by_work && !points.is_on_face(r); }
+  /// What is outside comes in within the step.
   KOKKOS_INLINE_FUNCTION Real looks_ahead(int r) const {
-    return points.depth(r) > 0 ? ahead : Kokkos::max(ahead, entry);
+    return points.depth(r) > 0 && !points.is_on_face(r) ? ahead : Kokkos::max(ahead, entry);
   }
   /// What an acceleration adds to the position that the law goes by [s^2].
   KOKKOS_INLINE_FUNCTION Real weight(int r) const { return Real(0.5) * h * (by_work ? h : h + looks_ahead(r)); }
@@ -178,7 +182,7 @@ struct StartTouching {
       } else if (near) {
         const PenaltyLaw<Real> of = points.law_of(row, p);
         const Real depth = law.depth(r, e);
-        if (law.by_work ? law.work(of, r).force(depth) > 0 : depth > 0 && law.pressure(of, r, e) > 0) {
+        if (law.goes_by_work(r) ? law.work(of, r).force(depth) > 0 : depth > 0 && law.pressure(of, r, e) > 0) {
           unit = law.isotropic ? Vec3<Real>{Real(1), Real(0), Real(0)} : law.normal(r);
           count += 1;
         }
@@ -228,7 +232,7 @@ struct SweepTouching {
     const Vec3<Real> N = law.normal(r);
     const Real rho = law.points.mobility(r), h = law.h, before = dot(force, N);
     Real pressure = 0;
-    if (law.by_work) {
+    if (law.goes_by_work(r)) {
       const Real g = law.weight(r) * rho;
       pressure = law.work(of, r).solve(law.depth(r, e) + g * before, g);
     } else {

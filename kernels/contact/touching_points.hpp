@@ -200,6 +200,7 @@ struct TouchingPoints {
   KOKKOS_INLINE_FUNCTION int record(int row, int site) const {
     return site < points ? row * points + site : rows() * points + faces.site(row, site - points);
   }
+  KOKKOS_INLINE_FUNCTION bool is_on_face(int r) const { return r >= rows() * points; }
   KOKKOS_INLINE_FUNCTION const PenaltyLaw<Real>& law_of(int row, int site) const {
     return law(Kokkos::min(row, obstacles), site < points ? site : faces.corner(3 * (site - points)));
   }
