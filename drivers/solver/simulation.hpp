@@ -252,14 +252,14 @@ class Simulation {
   /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts it to the others.
   void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
 
-  /// From now on it is this time [s]: obstacles, loads and given motions are where they are then. The state stays.
+  /// From now on it is this time [s], which is finite: obstacles, loads and given motions are where they are then. The state stays.
   void set_time(double time);
 
   /// Everything to continue from here: all levels' states and histories, time, energy budget, counters. Waits. To be called
   /// after a step that passed check(); what a caller's own forces remember is the caller's.
   SavedState save() const;
   /// Continues as the saved simulation would have: the same bits, given the same problem, precision and back end. InputError
-  /// for a state of another simulation or a damaged one, and then nothing has changed.
+  /// for a state of other fields, sizes, precision or macro step, and then nothing has changed. Its numbers are not looked at.
   void restore(const SavedState& saved);
 
   /// Stress and volume of a level's elements, computed on the device; waits.

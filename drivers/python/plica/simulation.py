@@ -349,7 +349,7 @@ class Simulation:
         return self._open().save()
 
     def restore(self, saved: bytes) -> None:
-        """Goes back to what save() has returned. InputError for a state of another simulation."""
+        """Goes back to what save() has returned. InputError for a state of other sizes, precision or macro step."""
         self._open().restore(saved)
 
     # -- life
