@@ -177,12 +177,12 @@ template <class B>
 ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine& machine, double set_up_time,
                     const RunArguments& arguments, Checkpoint checkpoint, InterruptWatch& watch) {
   const std::filesystem::path folder = folder_of(arguments);
-  steps_to_cover(scene.duration, simulation.macro_step());  // too many are refused before there is a folder
+  const long steps = steps_to_cover(scene.duration, simulation.macro_step());  // refused before there is a folder
   make_folder(folder);
   const FolderLock alone(folder);
   take_over(checkpoint, machine);
   const RunEnd start = start_of(simulation, checkpoint, folder);
-  if (start.macro_steps > steps_to_cover(scene.duration, simulation.macro_step()))
+  if (start.macro_steps > steps)
     throw InputError(fmt::format("the run is at {} already, beyond a duration of {}", in_units(start.time, "s"),
                                  in_units(scene.duration, "s")));
   auto lock = watch.hold();

@@ -2,10 +2,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <plica/drivers/solver/set_up/vertex_shares.hpp>
 #include <span>
 #include <utility>
 
@@ -32,10 +30,11 @@ struct Domain {
 /// The domains of a mesh, those of region 0 first, in each region in the order of the vertices.
 class Domains {
  public:
-  explicit Domains(const TetMesh& mesh) : mesh_(mesh), corners_(mesh.tets.size()) {
+  explicit Domains(const TetMesh& mesh) : mesh_(mesh), corners_(4 * mesh.tets.size()) {
     find_corners();
+    const Grouping corners(corners_, all.size());
     for_row_ranges(all.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t d = begin; d < end; ++d) measure(static_cast<int>(d));
+      for (std::size_t d = begin; d < end; ++d) measure(all[d], corners.of(d));
     });
   }
 
@@ -43,29 +42,12 @@ class Domains {
 
  private:
   const TetMesh& mesh_;
-  std::vector<std::array<int, 4>> corners_;        ///< per tetrahedron its domains
-  std::vector<int> first_tet_{0}, tet_of_domain_;  ///< by rows, ascending
-
-  int region_of(int tet) const { return mesh_.region.empty() ? 0 : mesh_.region[index_of(tet)]; }
+  std::vector<int> corners_;  ///< [4 tetrahedra] the domains of their corners
 
   void find_corners() {
-    std::vector<int> tets(mesh_.tets.size());
-    std::iota(tets.begin(), tets.end(), 0);
-    std::ranges::stable_sort(tets, {}, [&](int e) { return region_of(e); });
+    const Grouping regions = tets_by_region(mesh_);
     std::vector<int> domain_of(mesh_.vertices.size(), -1);
-    for (auto first = tets.begin(); first != tets.end();) {
-      const int region = region_of(*first);
-      const auto last = std::find_if(first, tets.end(), [&](int e) { return region_of(e) != region; });
-      add_region(region, {first, last}, domain_of);
-      first = last;
-    }
-    tet_of_domain_.resize(4 * mesh_.tets.size());
-    for (const auto& corners : corners_)
-      for (const int d : corners) ++first_tet_[index_of(d) + 1];
-    std::partial_sum(first_tet_.begin(), first_tet_.end(), first_tet_.begin());
-    std::vector<int> next = first_tet_;
-    for (std::size_t e = 0; e < corners_.size(); ++e)
-      for (const int d : corners_[e]) tet_of_domain_[index_of(next[index_of(d)]++)] = static_cast<int>(e);
+    for (std::size_t r = 0; r < regions.groups(); ++r) add_region(static_cast<int>(r), regions.of(r), domain_of);
   }
 
   /// @param domain_of  per vertex; -1 before and after
@@ -80,15 +62,13 @@ class Domains {
       all.push_back({v, region, 0, {}});
     }
     for (const int e : tets)
-      for (std::size_t k = 0; k < 4; ++k) corners_[index_of(e)][k] = domain_of[index_of(mesh_.tets[index_of(e)][k])];
+      for (std::size_t k = 0; k < 4; ++k)
+        corners_[4 * index_of(e) + k] = domain_of[index_of(mesh_.tets[index_of(e)][k])];
     for (const int v : vertices) domain_of[index_of(v)] = -1;
-    first_tet_.resize(all.size() + 1, 0);
   }
 
-  void measure(int d) {
-    Domain& domain = all[index_of(d)];
-    for (int i = first_tet_[index_of(d)]; i < first_tet_[index_of(d) + 1]; ++i)
-      add_tet(domain, d, index_of(tet_of_domain_[index_of(i)]));
+  void measure(Domain& domain, std::span<const int> corners) const {
+    for (const int corner : corners) add_corner(domain, index_of(corner) / 4, index_of(corner) % 4);
     std::ranges::sort(domain.pairs, {}, &Pair::neighbour);
     for (Pair& p : domain.pairs)
       if (p.surface.norm() <= 1e-9 * p.size) p.surface.setZero();  // an edge inside the region
@@ -100,7 +80,8 @@ class Domains {
     return d.pairs.emplace_back(Pair{.neighbour = neighbour});
   }
 
-  void add_tet(Domain& domain, int d, std::size_t e) const {
+  /// Corner a of tetrahedron e.
+  void add_corner(Domain& domain, std::size_t e, std::size_t a) const {
     const auto& t = mesh_.tets[e];
     Eigen::Matrix3d edges;
     for (int c = 0; c < 3; ++c)
@@ -110,11 +91,10 @@ class Domains {
     std::array<Point, 4> g;
     for (int c = 0; c < 3; ++c) g[index_of(c + 1)] = inverse.row(c).transpose();
     g[0] = -(g[1] + g[2] + g[3]);
-    const auto a = static_cast<std::size_t>(std::ranges::find(corners_[e], d) - corners_[e].begin());
     domain.volume += volume / 4;
     for (std::size_t b = 0; b < 4; ++b) {
       if (a == b) continue;
-      Pair& p = pair(domain, corners_[e][b]);
+      Pair& p = pair(domain, corners_[4 * e + b]);
       p.gradient += volume / 4 * g[b], p.surface += volume / 4 * (g[a] + g[b]);
       p.coupling += volume * g[a].dot(g[b]), p.smoothing += volume / 16;
       p.size += volume / 4 * (g[a].norm() + g[b].norm());
@@ -233,7 +213,7 @@ class SlicedRows {
 
   /// What there is one of per slot or slice.
   void add_slots(Rows& rows, std::size_t vertices) const {
-    std::vector<int> region, vertex, first(vertices + 1, 0), row(domains_.size());
+    std::vector<int> region, vertex;
     std::vector<Real> volume, inverse;
     for (std::size_t s = 0; s < order_.size(); ++s) {
       const Domain& d = domain(s);
@@ -241,19 +221,12 @@ class SlicedRows {
       vertex.push_back(d.vertex);
       volume.push_back(static_cast<Real>(d.volume));
       inverse.push_back(d.vertex >= 0 ? static_cast<Real>(1 / d.volume) : Real(0));
-      if (d.vertex >= 0) ++first[index_of(d.vertex) + 1];
     }
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<int> next = first;
-    for (std::size_t s = 0; s < order_.size(); ++s)
-      if (vertex[s] >= 0) row[index_of(next[index_of(vertex[s])]++)] = static_cast<int>(s);
     rows.region = to_device<Indices<B>>("rows.region", region);
     rows.vertex = to_device<Indices<B>>("rows.vertex", vertex);
     rows.volume = to_device<Scalars<B>>("rows.volume", volume);
     rows.inverse_volume = to_device<Scalars<B>>("rows.inverse_volume", inverse);
-    rows.shares.rows = rows.slots();
-    rows.shares.first = to_device<Indices<B>>("shares.first", first);
-    rows.shares.row = to_device<Indices<B>>("shares.row", row);
+    rows.shares = vertex_shares<B>(vertex, vertices);
   }
 };
 

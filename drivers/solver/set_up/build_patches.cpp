@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <numeric>
 #include <plica/drivers/solver/set_up/build_patches.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <plica/drivers/solver/set_up/vertex_shares.hpp>
+#include <span>
 #include <utility>
 
 namespace plica {
@@ -20,30 +20,30 @@ class Bisection {
     centroid_.reserve(mesh.tets.size());
     for (const auto& t : mesh.tets) {
       Point sum = Point::Zero();
-      for (int v : t) sum += mesh.vertices[static_cast<std::size_t>(v)];
+      for (const int v : t) sum += mesh.vertices[index_of(v)];
       centroid_.push_back(sum / 4);
     }
   }
 
-  void split(std::vector<int>::iterator first, std::vector<int>::iterator last) {
-    const auto size = last - first;
+  void split(std::span<int> tets) {
+    const auto size = static_cast<std::ptrdiff_t>(tets.size());
     if (size == 0) return;
-    if (size <= elements_ && (size == 1 || count_vertices(first, last) <= vertices_)) {
-      std::sort(first, last);
-      clusters.emplace_back(first, last);
+    if (size <= elements_ && (size == 1 || count_vertices(tets) <= vertices_)) {
+      std::ranges::sort(tets);
+      clusters.emplace_back(tets.begin(), tets.end());
       return;
     }
-    Box box{centroid(*first), centroid(*first)};
-    for (auto e = first; e != last; ++e) box = {box.min.cwiseMin(centroid(*e)), box.max.cwiseMax(centroid(*e))};
+    Box box{centroid(tets.front()), centroid(tets.front())};
+    for (const int e : tets) box = {box.min.cwiseMin(centroid(e)), box.max.cwiseMax(centroid(e))};
     int axis = 0;
     (box.max - box.min).maxCoeff(&axis);
     // whole groups on either side, so that most come out full
     const auto groups = std::max<std::ptrdiff_t>(2, (size + elements_ - 1) / elements_);
-    const auto middle = first + size * (groups / 2) / groups;
-    std::nth_element(first, middle, last,
+    const auto middle = static_cast<std::size_t>(size * (groups / 2) / groups);
+    std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(middle), tets.end(),
                      [&](int a, int b) { return std::pair(centroid(a)[axis], a) < std::pair(centroid(b)[axis], b); });
-    split(first, middle);
-    split(middle, last);
+    split(tets.first(middle));
+    split(tets.subspan(middle));
   }
 
   std::vector<std::vector<int>> clusters;
@@ -56,14 +56,13 @@ class Bisection {
   std::vector<Point> centroid_;
   int stamp_ = 0;
 
-  const Point& centroid(int e) const { return centroid_[static_cast<std::size_t>(e)]; }
+  const Point& centroid(int e) const { return centroid_[index_of(e)]; }
 
-  int count_vertices(std::vector<int>::iterator first, std::vector<int>::iterator last) {
+  int count_vertices(std::span<const int> tets) {
     int count = 0;
     ++stamp_;
-    for (auto e = first; e != last; ++e)
-      for (int v : mesh_.tets[static_cast<std::size_t>(*e)])
-        count += std::exchange(seen_[static_cast<std::size_t>(v)], stamp_) != stamp_ ? 1 : 0;
+    for (const int e : tets)
+      for (const int v : mesh_.tets[index_of(e)]) count += std::exchange(seen_[index_of(v)], stamp_) != stamp_ ? 1 : 0;
     return count;
   }
 };
@@ -71,16 +70,9 @@ class Bisection {
 }  // namespace
 
 std::vector<std::vector<int>> element_clusters(const TetMesh& mesh, int elements, int vertices) {
-  std::vector<int> order(mesh.tets.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto region = [&](int e) { return mesh.region.empty() ? 0 : mesh.region[static_cast<std::size_t>(e)]; };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return region(a) < region(b); });
+  Grouping regions = tets_by_region(mesh);
   Bisection bisection(mesh, elements, vertices);
-  for (auto first = order.begin(); first != order.end();) {
-    const auto last = std::find_if(first, order.end(), [&](int e) { return region(e) != region(*first); });
-    bisection.split(first, last);
-    first = last;
-  }
+  for (std::size_t r = 0; r < regions.groups(); ++r) bisection.split(regions.of(r));
   return std::move(bisection.clusters);
 }
 
@@ -131,15 +123,17 @@ class PatchBuilder {
     });
     patches.corner = corner.upload(), patches.shape = shape.upload(), patches.element = element.upload();
     patches.summed = summed.upload(), patches.first_slot = first_slot.upload(), patches.slot = slot.upload();
-    add_shares(patches.shares);
+    patches.shares = vertex_shares<B>(vertex_, mesh_.vertices.size());
     return patches;
   }
 
-  /// What a patch has of its region: some numbers each.
-  Scalars<B> of_regions(const std::string& name, const std::vector<std::vector<double>>& values) const {
+  /// What patches have of their regions: some numbers each.
+  template <class Values>
+  Scalars<B> of_regions(const std::string& name, const Values& values) const {
     std::vector<Real> all;
     for (const std::vector<int>& cluster : clusters_)
-      for (const double value : values[index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(cluster.front())])])
+      for (const double value : std::span<const double>(
+               values(index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(cluster.front())]))))
         all.push_back(static_cast<Real>(value));
     return to_device<Scalars<B>>(name, all);
   }
@@ -218,17 +212,6 @@ class PatchBuilder {
       to.first_slot[sum] = static_cast<int>(slot);
     }
   }
-
-  void add_shares(VertexShares<B>& shares) const {
-    std::vector<int> first(mesh_.vertices.size() + 1, 0), row(vertex_.size());
-    for (const int v : vertex_) ++first[index_of(v) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<int> next = first;
-    for (std::size_t i = 0; i < vertex_.size(); ++i) row[index_of(next[index_of(vertex_[i])]++)] = static_cast<int>(i);
-    shares.rows = static_cast<int>(vertex_.size());
-    shares.first = to_device<Indices<B>>("shares.first", first);
-    shares.row = to_device<Indices<B>>("shares.row", row);
-  }
 };
 
 }  // namespace
@@ -239,10 +222,9 @@ Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<doub
   const auto clusters = element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
   const PatchBuilder<B> builder(mesh, clusters);
   Patches<B> patches = builder.on_device();
-  patches.constants = builder.of_regions("patches.constants", constants);
-  std::vector<std::vector<double>> damping_of;
-  for (const double value : damping) damping_of.push_back({value});
-  if (!damping.empty()) patches.damping = builder.of_regions("patches.damping", damping_of);
+  patches.constants = builder.of_regions("patches.constants", [&](std::size_t r) { return std::span(constants[r]); });
+  if (!damping.empty())
+    patches.damping = builder.of_regions("patches.damping", [&](std::size_t r) { return std::span(&damping[r], 1); });
   return patches;
 }
 

@@ -244,8 +244,9 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
   if (options.sizes.empty()) return spaces;
   const EdgeGraph graph = edge_graph(mesh);
   const std::vector<int> order = farthest_points(graph, options.sizes.front(), constrained);
-  std::vector<int> rows(mesh.vertices.size());
-  std::iota(rows.begin(), rows.end(), 0);
+  std::vector<int> all(mesh.vertices.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> rows = all;
   if (options.slivers)
     if (auto slivers = slivers_of(mesh, constrained, mass, K)) {
       rows = slivers->points;
@@ -261,11 +262,11 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     }
   });
   for (std::size_t i = 0; i < count; ++i) {
-    // each from the points above, along the edges of their graph
-    const RowMatrix P =
-        i == 0 ? moving_least_squares(graph, rows, points[0], graphs[0].spacing, options.reach)
-               : moving_least_squares(graphs[i - 1].graph, places_of(rows, points[i - 1]),
-                                      places_of(points[i], points[i - 1]), graphs[i].spacing, options.reach);
+    // from the points above, along the edges of their graph
+    const EdgeGraph& edges = i == 0 ? graph : graphs[i - 1].graph;
+    const std::vector<int>& above = i == 0 ? all : points[i - 1];
+    const RowMatrix P = moving_least_squares(edges, places_of(rows, above), places_of(points[i], above),
+                                             graphs[i].spacing, options.reach);
     rows = points[i];
     spaces.push_back({without_constrained(P, constrained, rows), rows, graphs[i].spacing});
   }

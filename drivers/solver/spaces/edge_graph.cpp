@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <plica/drivers/solver/spaces/edge_graph.hpp>
-#include <plica/drivers/solver/spaces/row_ranges.hpp>
+#include <plica/drivers/solver/spaces/grouping.hpp>
 #include <plica/meshes/mesh_quality.hpp>
 #include <queue>
 
@@ -115,25 +114,11 @@ Nearest nearest_points(const EdgeGraph& graph, const std::vector<int>& points) {
   return all;
 }
 
-/// The vertices of each owner, one after the other.
-struct Owned {
-  std::vector<int> first, vertex;
-
-  Owned(const std::vector<int>& owner, std::size_t owners) : first(owners + 1, 0), vertex(owner.size()) {
-    for (const int j : owner)
-      if (j >= 0) ++first[index_of(j) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<int> next = first;
-    for (std::size_t v = 0; v < owner.size(); ++v)
-      if (owner[v] >= 0) vertex[index_of(next[index_of(owner[v])]++)] = static_cast<int>(v);
-  }
-};
-
 }  // namespace
 
 PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
   const Nearest nearest = nearest_points(graph, points);
-  const Owned owned(nearest.owner, points.size());
+  const Grouping owned(nearest.owner, points.size());
   PointGraph result;
   EdgeGraph& coarse = result.graph;
   std::vector<double> way(points.size(), unreached);  // from the present point to another one, where they meet
@@ -142,8 +127,7 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
   double sum = 0;
   for (std::size_t a = 0; a < points.size(); ++a) {
     met.clear();
-    for (int i = owned.first[a]; i < owned.first[a + 1]; ++i) {
-      const int v = owned.vertex[index_of(i)];
+    for (const int v : owned.of(a))
       for (int k = graph.first[index_of(v)]; k < graph.first[index_of(v) + 1]; ++k) {
         const int w = graph.neighbour[index_of(k)], b = nearest.owner[index_of(w)];
         if (b == static_cast<int>(a)) continue;
@@ -151,7 +135,6 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
         way[index_of(b)] = std::min(way[index_of(b)], nearest.distance[index_of(v)] + nearest.distance[index_of(w)] +
                                                           graph.length[index_of(k)]);
       }
-    }
     std::ranges::sort(met);
     double next = unreached;
     for (const int b : met) {
