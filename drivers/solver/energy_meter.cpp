@@ -37,7 +37,8 @@ MotionReport EnergyMeter<B>::motion(const Point& drift) const {
       hierarchy_.exec(), "plica::motion_energies", level.model.vertices,
       Term{level.model.mass, level.state, gravity_, inverse_edge_, {drift[0], drift[1], drift[2]}}, blocks_, result_);
   const auto sums = read();
-  return {{sums[0], 0, sums[1], 0}, Point(sums[2], sums[3], sums[4]) / mass_, std::sqrt(sums[5])};
+  const Point mean = Point(sums[2], sums[3], sums[4]) / mass_;
+  return {{sums[0], 0, sums[1], 0}, mean, sums[0] - 0.5 * mass_ * mean.squaredNorm(), std::sqrt(sums[5])};
 }
 
 template <class B>

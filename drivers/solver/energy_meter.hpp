@@ -122,6 +122,7 @@ class ObstacleWork {
 struct MotionReport {
   Energies energies;            ///< kinetic and potential alone
   Point drift = Point::Zero();  ///< mean velocity [m/s]
+  double about_mean = 0;        ///< kinetic energy of the motion about that [J]
   double edges_per_second = 0;  ///< the largest speed against a given drift, over the edge there [1/s]
 };
 

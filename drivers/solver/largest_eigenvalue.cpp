@@ -10,6 +10,24 @@ namespace plica {
 
 namespace {
 
+/// y = K x; returns x.y.
+template <class B>
+double multiply(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vectors<B>& x, const Vectors<B>& y,
+                const BlockSums<B>& blocks, const Doubles<B>& result) {
+  K.elasticity.tangent(exec, K.level, K.u, x, K.over);
+  reduce<B, 1>(exec, "plica::lanczos_stiffness", K.level.model.vertices,
+               StiffnessProduct<B>{K.level.model, K.level.partial, x, y}, blocks, result);
+  return host_values(exec, result)[0];
+}
+
+/// y = M^-1 x
+template <class B>
+void multiply_by_inverse_mass(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& x,
+                              const Vectors<B>& y) {
+  update_vertices<B>(exec, "plica::lanczos_inverse_mass", level.model.vertices,
+                     MultiplyByInverseMass<B>{level.model.inverse_mass, x, y});
+}
+
 /// For P and Q, which are K and A, or A and K. Its vectors are not made 1 long: `scale` times v is, in the product of P.
 template <class B>
 class Lanczos {
@@ -70,12 +88,7 @@ class Lanczos {
     return {top.bound(), square < 0};
   }
 
-  double stiffness(const Vectors<B>& x, const Vectors<B>& y) {
-    K_.elasticity.tangent(exec_, K_.level, K_.u, x, K_.over);
-    reduce<B, 1>(exec_, "plica::lanczos_stiffness", n_, StiffnessProduct<B>{K_.level.model, K_.level.partial, x, y},
-                 blocks_, result_);
-    return host_values(exec_, result_)[0];
-  }
+  double stiffness(const Vectors<B>& x, const Vectors<B>& y) { return multiply(exec_, K_, x, y, blocks_, result_); }
 
   double map(const Vectors<B>& x, const Vectors<B>& y) {
     A_(x, y);
@@ -95,16 +108,31 @@ double largest_eigenvalue(const typename B::Exec& exec, const VectorMap<B>& A, c
 template <class B>
 double largest_eigenvalue(const typename B::Exec& exec, const StiffnessAt<B>& K) {
   const VectorMap<B> A = [&](const Vectors<B>& x, const Vectors<B>& y) {
-    update_vertices<B>(exec, "plica::lanczos_inverse_mass", K.level.model.vertices,
-                       MultiplyByInverseMass<B>{K.level.model.inverse_mass, x, y});
+    multiply_by_inverse_mass(exec, K.level, x, y);
   };
   return largest_eigenvalue<B>(exec, A, K, 1e-3);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                         \
-  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const VectorMap<Backend<Real, Exec>>&, \
-                                                          const StiffnessAt<Backend<Real, Exec>>&, double);   \
-  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const StiffnessAt<Backend<Real, Exec>>&);
+template <class B>
+double excited_eigenvalue(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vectors<B>& x) {
+  const int n = K.level.model.vertices;
+  const auto vectors = [&](const char* name) { return zeros<Vectors<B>>(name, static_cast<std::size_t>(n)); };
+  const Vectors<B> y = vectors("plica::excited.Kx"), w = vectors("plica::excited.w"), z = vectors("plica::excited.Kw");
+  const BlockSums<B> blocks(n);
+  const auto result = zeros<Doubles<B>>("plica::excited.result", 1);
+  multiply(exec, K, x, y, blocks, result);
+  multiply_by_inverse_mass(exec, K.level, y, w);
+  dot<B>(exec, "plica::excited_mass", w, y, blocks, result);  // w.M w
+  const double mass = host_values(exec, result)[0];
+  return mass > 0 ? multiply(exec, K, w, z, blocks, result) / mass : 0.0;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                            \
+  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const VectorMap<Backend<Real, Exec>>&,    \
+                                                          const StiffnessAt<Backend<Real, Exec>>&, double);      \
+  template double largest_eigenvalue<Backend<Real, Exec>>(const Exec&, const StiffnessAt<Backend<Real, Exec>>&); \
+  template double excited_eigenvalue<Backend<Real, Exec>>(const Exec&, const StiffnessAt<Backend<Real, Exec>>&,  \
+                                                          const Vectors<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

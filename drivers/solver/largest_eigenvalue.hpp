@@ -30,4 +30,8 @@ double largest_eigenvalue(const typename B::Exec& exec, const VectorMap<B>& A, c
 template <class B>
 double largest_eigenvalue(const typename B::Exec& exec, const StiffnessAt<B>& K);
 
+/// The Rayleigh quotient of M^-1 K x [1/s^2]: never above w_max^2, and that where x has even a little of the fastest motion. Waits.
+template <class B>
+double excited_eigenvalue(const typename B::Exec& exec, const StiffnessAt<B>& K, const Vectors<B>& x);
+
 }  // namespace plica

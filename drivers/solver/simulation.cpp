@@ -162,10 +162,10 @@ std::optional<Diagnosis> Simulation<B>::check() {
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
-  if (built.stepper->lost_stability(hierarchy())) return failure("stability");
   if (budget_opens) open_budget();
   const MotionReport now = meter.motion(drift);
   const LevelReport& finest = built.reports.front();
+  if (built.stepper->lost_stability(hierarchy(), now.about_mean)) return failure("stability");
   const double substep = finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
   if (auto bad = find_failure(now, now.edges_per_second * substep * part)) return bad;
   drift = now.drift;
@@ -222,8 +222,7 @@ template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   Inside& s = *inside_;
   std::optional<Diagnosis> still = bad;
-  const Stepper<B>& stepper = *s.built.stepper;
-  if ((stepper.lost_stability(s.hierarchy()) || stepper.repairs(bad)) && repair()) still.reset();
+  if (s.built.stepper->repairs(bad) && repair(bad)) still.reset();
   if (still && s.retries()) still = s.retry(*still);
   if (!still) s.keep_at_times();
   return still;
@@ -232,14 +231,15 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
 /// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before; then by
 /// one that does better still from there. False where the stepper cannot.
 template <class B>
-bool Simulation<B>::repair() {
+bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
+  const bool late = bad.kind == "stability" && s.built.stepper->sees_late();  // the last kept one is no better
   const double there = s.time;
   const auto go_on = [&] {
     while (s.time < there) step();
     return !s.examine();
   };
-  for (int attempt = 0; attempt < most_repairs; ++attempt) {
+  for (int attempt = late ? 2 : 0; attempt < most_repairs; ++attempt) {
     s.go_back(attempt == 0 ? s.kept : *s.older);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
     if (go_on()) return true;

@@ -281,7 +281,7 @@ class Simulation {
   struct Inside;
   std::unique_ptr<Inside> inside_;
 
-  bool repair();
+  bool repair(const Diagnosis& bad);
 };
 
 }  // namespace plica

@@ -50,11 +50,13 @@ class Stepper {
   /// From `time` over `t` [s].
   virtual void step(Hierarchy<B>& hierarchy, double time, double t) = 0;
 
-  /// Whether steps so far have lost stability. Waits.
-  virtual bool lost_stability(const Hierarchy<B>&) const { return false; }
+  /// Whether steps so far have lost stability, after macro steps. Waits. `kinetic`: level 0's energy of motion about its mean [J]
+  virtual bool lost_stability(const Hierarchy<B>&, double /*kinetic*/) { return false; }
+  /// Whether that is seen only when it has been going on for a while.
+  virtual bool sees_late() const { return false; }
   /// Whether repair() can ever help.
   virtual bool can_repair() const { return false; }
-  /// Whether it may where stability is not lost and a check has found this.
+  /// Whether it may where a check has found this.
   virtual bool repairs(const Diagnosis&) const { return false; }
   /// Makes steps of `t` [s] stable again, by shorter ones within them, starting from the present state; false where it cannot.
   virtual bool repair(Hierarchy<B>&, double) { return false; }

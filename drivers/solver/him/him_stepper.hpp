@@ -155,11 +155,11 @@ class HimStepper final : public Stepper<B> {
   }
 
   bool can_repair() const override { return true; }
-  bool lost_stability(const Hierarchy<B>& h) const override { return watched(h.exec()) > 0; }
+  bool lost_stability(const Hierarchy<B>& h, double) override { return watched(h.exec()) > 0; }
 
   /// An impact strains elements by more than a long step can follow. Where stability is lost fast, energy that nobody put in shows it first.
   bool repairs(const Diagnosis& bad) const override {
-    return parts_.contact_force.extent(0) > 0 || bad.kind == "energy";
+    return parts_.contact_force.extent(0) > 0 || bad.kind == "energy" || bad.kind == "stability";
   }
 
   bool repair(Hierarchy<B>& h, double t) override {

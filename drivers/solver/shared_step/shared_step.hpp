@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <plica/drivers/solver/integrators/list.hpp>
+#include <plica/drivers/solver/largest_eigenvalue.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/stepper.hpp>
 
@@ -9,7 +11,8 @@ namespace plica {
 /// What the paper's cycles have in common: the macro step is shared out among the levels, and each integrates its share.
 ///
 /// The limit of an explicit level is that of its state at rest. A body that is pressed or struck stiffens, and has a shorter one. So where the
-/// number of sub-steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, for good.
+/// number of sub-steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, for good. Beyond its limit the fastest
+/// motion grows by a part in every step: where kinetic energy has grown much, lost_stability() asks for the eigenvalue of what moves.
 template <class B>
 class SharedStep : public Stepper<B> {
  public:
@@ -26,7 +29,9 @@ class SharedStep : public Stepper<B> {
       setup.hierarchy[i].share = setup.reports[k].share = steps.share[k];
       setup.hierarchy[i].substeps = setup.reports[k].substeps = steps.substeps[k];
       is_explicit_.push_back(setup.reports[k].explicit_integrator);
+      Integrators::visit(setup.reports[k].integrator, [&](auto kind) { radius_.push_back(kind.limit.radius); });
     }
+    macro_step_ = steps.macro_step;
     const IntegrationOptions& o = setup.problem.integration;
     const bool is_automatic = std::ranges::all_of(o.substeps, [](int n) { return n == 0; });
     shortens_ =
@@ -34,6 +39,20 @@ class SharedStep : public Stepper<B> {
     allocate(setup.hierarchy);
   }
 
+  bool lost_stability(const Hierarchy<B>& h, double kinetic) override {
+    constexpr double much = 16;
+    if (!shortens_) return false;
+    const bool grew = kinetic > much * calm_;
+    calm_ = grew ? kinetic : std::min(calm_, kinetic);
+    for (int i = 0; grew && i < h.count(); ++i) {
+      const SolverLevel<B>& level = h[i];
+      const double most = radius_[static_cast<std::size_t>(i)] * level.substeps * parts() / (level.share * macro_step_);
+      const StiffnessAt<B> K{level, level.elasticity(), level.state.u, most};
+      if (most > 0 && excited_eigenvalue<B>(h.exec(), K, level.state.v) > most * most) return true;
+    }
+    return false;
+  }
+  bool sees_late() const override { return true; }
   bool can_repair() const override { return shortens_; }
   bool repairs(const Diagnosis& bad) const override { return shortens_ && bad.kind != "solver"; }
 
@@ -50,7 +69,7 @@ class SharedStep : public Stepper<B> {
   }
 
   void persist(StateArchive<B>& archive) override {
-    if (shortens_) archive.number(halvings_);
+    if (shortens_) archive.number(halvings_), archive.number(calm_);
   }
 
  protected:
@@ -78,8 +97,11 @@ class SharedStep : public Stepper<B> {
  private:
   static constexpr int most_halvings = 5;
   std::vector<bool> is_explicit_;  ///< of the levels
+  std::vector<double> radius_;     ///< see StabilityLimit; of implicit levels 0
+  double macro_step_ = 0;
   bool shortens_ = false;
   int halvings_ = 0;
+  double calm_ = 0;  ///< what kinetic energy is compared with [J]
 };
 
 }  // namespace plica

@@ -31,7 +31,7 @@ struct HimRun {
   void advance(int steps) {
     for (int n = 0; n < steps; ++n, time += built.macro_step)
       built.stepper->step(*built.hierarchy, time, built.macro_step);
-    ASSERT_FALSE(built.stepper->lost_stability(*built.hierarchy));
+    ASSERT_FALSE(built.stepper->lost_stability(*built.hierarchy, 0));
   }
   std::vector<Point> field(const Vectors<B>& x) { return to_host<B>(built.hierarchy->exec(), x); }
   std::vector<Point> momenta() { return field(dynamic_cast<const HimStepper<B>&>(*built.stepper).momenta()); }

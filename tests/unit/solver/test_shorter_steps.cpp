@@ -4,6 +4,7 @@
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/organs.hpp>
 
 #include "support/backends.hpp"
 #include "support/bodies.hpp"
@@ -43,6 +44,35 @@ TEST(ShorterSteps, AreTakenWhereTheBodyStiffens) {
   while (stops.time() < 0.2 && !stopped) stopped = stops.step_checked().has_value();
   EXPECT_TRUE(stopped);
   EXPECT_FALSE(stops.counters().contains("substep_halvings"));
+}
+
+/// A tube that is blown up slowly, whose wall stiffens beyond the limit at rest; the largest kinetic energy that a caller sees, looking
+/// at every tenth step [J].
+double most_motion(double safety, long& halvings) {
+  Tube tube;
+  tube.radius = 0.004, tube.wall = 0.001, tube.length = 0.03, tube.bend = 0;
+  tube.around = 12, tube.across = 1, tube.along = 8;
+  Problem p = body_of({tube_mesh(tube)}, "neo_hookean");
+  p.body.material.young_modulus = 50e3, p.body.material.poisson_ratio = 0.49;
+  p.body.fixed = {GroupSelection{"inlet"}, GroupSelection{"outlet"}};
+  p.body.loads = {{GroupSelection{"lumen"}, EnclosedVolume{1.7, 100e3}, RampCourse{0.2}}};
+  p.integration.safety = safety;
+  Simulation<Host> simulation(p);
+  double most = 0;
+  for (int n = 0; simulation.time() < 0.22; ++n) {
+    if (const auto bad = simulation.step_checked()) ADD_FAILURE() << bad->text();
+    if (n % 10 == 0) most = std::max(most, simulation.energies().kinetic);
+  }
+  halvings = simulation.counters().at("substep_halvings");
+  return most;
+}
+
+TEST(ShorterSteps, AreTakenBeforeLostStabilityShows) {
+  long cut = 0, none = 0;
+  const double most = most_motion(0.9, cut), steady = most_motion(0.5, none);
+  EXPECT_GE(cut, 1);
+  EXPECT_EQ(none, 0);
+  EXPECT_LT(most, 16 * steady);
 }
 
 TEST(ShorterSteps, GoOnAfterACheckpoint) {
