@@ -60,6 +60,7 @@ class SimulationOf final : public AnySimulation {
     return bad;
   }
   std::vector<Wrench> wrenches() const override { return simulation_.wrenches(); }
+  std::vector<double> contact_depths() const override { return simulation_.contact_depths(); }
   std::vector<ToolState> tools() const override { return simulation_.tools(); }
   std::vector<HeldBy> held() const override { return simulation_.held(); }
   void grasp(int obstacle) override { simulation_.grasp(obstacle); }

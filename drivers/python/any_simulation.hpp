@@ -38,6 +38,7 @@ class AnySimulation {
   std::shared_ptr<Values> live(Field field, int level);
   virtual ElementFields element_fields(int level) const = 0;
   virtual std::vector<Wrench> wrenches() const = 0;
+  virtual std::vector<double> contact_depths() const = 0;
   virtual std::vector<ToolState> tools() const = 0;
   virtual std::vector<HeldBy> held() const = 0;
   /// See Simulation::grasp() and release().

@@ -246,6 +246,7 @@ void bind_simulation(nb::module_& m) {
                all.push_back(nb::make_tuple(w.obstacle, vector_of(w.force), vector_of(w.torque)));
              return all;
            })
+      .def("contact_depths", [](const H& s) { return s->contact_depths(); })
       .def("tools",
            [](const H& s) {
              std::vector<nb::object> all;

@@ -121,6 +121,19 @@ double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, doubl
 }
 
 template <class B>
+std::vector<double> ContactResponse<B>::depths(const Exec& exec, const Level<B>& level, double time) const {
+  const TouchingPoints<B> points = all_points();
+  contact_->find(exec, level, level.state, time, 0, points);
+  std::vector<double> all;
+  for (int o = 0; o < contact_->obstacles(); ++o) {
+    reduce<B, 1, DepthInObstacle<B>, Sums<1, 1>>(exec, "plica::contact_depth", contact_->sites(), {points, o}, blocks_,
+                                                 sums_);
+    all.push_back(host_values(exec, sums_)[0]);
+  }
+  return all;
+}
+
+template <class B>
 void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                    const ImplicitWeights& w, double ahead, const Vectors<B>& f) {
   points_.span = static_cast<Real>(ahead);

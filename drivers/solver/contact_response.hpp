@@ -41,6 +41,8 @@ class ContactResponse {
   const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
   /// Stored in all contact of the level's state [J]. Waits.
   double energy(const Exec& exec, const Level<B>& level, double time) const;
+  /// See Simulation::contact_depths().
+  std::vector<double> depths(const Exec& exec, const Level<B>& level, double time) const;
 
   // Of implicit levels, see kernels/contact/linearised.hpp:
 

@@ -40,31 +40,33 @@ class EnergyBudget {
     if (!looked_) start_ = e.total(), looked_ = true;
     put_in_ = std::max(put_in_, start_ + work - e.potential);
     const double surplus = e.total() - e.contact - start_ - work;
-    if (put_in_ > 0 && surplus > growth_ * put_in_) growth_ = surplus / put_in_, at_ = time;
+    if (surplus > surplus_) surplus_ = surplus, at_ = time;
   }
 
   /// What there is to go on from, and going on from it.
-  std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, growth_, at_}; }
+  std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, surplus_, at_}; }
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 5) return;
-    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]), growth_ = saved[3],
+    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]), surplus_ = saved[3],
     at_ = saved[4];
   }
 
-  double growth() const { return growth_; }  ///< the most that was ever too much, of all that was put in until then
-  double at() const { return at_; }          ///< when [s]
+  /// The most that was ever too much, of all that was ever put in: at a first touch that is next to nothing.
+  double growth() const { return put_in_ > 0 ? surplus_ / put_in_ : 0; }
+  double at() const { return at_; }  ///< when [s]
 
   /// A sentence where that is notable, else nothing.
   std::string warning() const {
-    if (!(growth_ > notable)) return {};
-    return text("energy: at ", number(at_, 4), " s the body had ", number(1 + growth_, 3),
-                " times the energy that was put in: its motion from there on is not to be trusted; expected a shorter "
+    if (!(growth() > notable)) return {};
+    return text("energy: at ", number(at_, 4), " s the body had ", number(surplus_, 3), " J that nobody put in, ",
+                number(growth(), 3),
+                " of all that was put in: its motion from there on is not to be trusted; expected a shorter "
                 "integration.macro_step, integration.retry, or cycle: single");
   }
 
  private:
   bool looked_ = false;
-  double start_ = 0, put_in_, growth_ = 0, at_ = 0;
+  double start_ = 0, put_in_, surplus_ = 0, at_ = 0;
 };
 
 /// The work that moving obstacles have done on a body [J], added up over its macro steps.

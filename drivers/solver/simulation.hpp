@@ -179,9 +179,11 @@ class Simulation {
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
   std::vector<Wrench> wrenches() const;            ///< of obstacles, then bodies, of the last macro step; waits
-  std::vector<ToolState> tools() const;            ///< of obstacles with mass; waits
-  std::vector<HeldBy> held() const;                ///< of obstacles that can hold points; waits
-  std::vector<CavityState> cavities() const;       ///< whose volume is given, of level 0; waits
+  /// How deep the surface is in each obstacle at its deepest place [m]; 0 outside. Points that it holds are left out. Waits.
+  std::vector<double> contact_depths() const;
+  std::vector<ToolState> tools() const;       ///< of obstacles with mass; waits
+  std::vector<HeldBy> held() const;           ///< of obstacles that can hold points; waits
+  std::vector<CavityState> cavities() const;  ///< whose volume is given, of level 0; waits
   /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers each; step() updates it in
   /// place.
   Doubles<B> wrench() const;

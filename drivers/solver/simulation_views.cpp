@@ -213,6 +213,13 @@ std::vector<Wrench> Simulation<B>::wrenches() const {
 }
 
 template <class B>
+std::vector<double> Simulation<B>::contact_depths() const {
+  const SolverLevel<B>& finest = inside_->hierarchy()[0];
+  if (!finest.contact()) return {};
+  return finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time);
+}
+
+template <class B>
 std::map<std::string, double> Simulation<B>::stages() const {
   return inside_->hierarchy().clock.seconds();
 }

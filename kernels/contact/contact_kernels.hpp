@@ -31,6 +31,24 @@ struct SumPointForces {
   }
 };
 
+/// How deep a site is in an obstacle [m]; 0 outside, and of a point that it holds. A face's record has what is beyond its corners.
+template <class B>
+struct DepthInObstacle {
+  TouchingPoints<B> points;
+  int obstacle;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int site) const {
+    const FaceSites<B>& faces = points.faces;
+    const int r = points.record(obstacle, site), t = site - points.points;
+    if (points.held.holds(r) || !(points.depth(r) > 0)) return {};
+    double depth = static_cast<double>(points.depth(r));
+    for (int c = 0; t >= 0 && c < 3; ++c) {
+      const auto of_corner = points.depth(points.record(obstacle, faces.corner(3 * t + c)));
+      if (of_corner > 0) depth += static_cast<double>(faces.weight(faces.site(obstacle, t), c) * of_corner);
+    }
+    return {{depth}};
+  }
+};
+
 /// x = 0
 template <class B>
 struct ZeroVectors {

@@ -4,6 +4,7 @@
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
+#include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/inside_out.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/output/summary.hpp>
@@ -72,12 +73,14 @@ class RunOutput {
         energy_(simulation, scene.problem),
         watches_energy_(EnergyBudget::knows(scene.problem)),
         inside_out_(scene.problem.body.material),
+        depth_(scene.problem.contact, simulation.levels()[0].mean_edge),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
     if (resumed) {
       energy_.restore(checkpoint_.energy);
       work_.restore(checkpoint_.energy.at(5), checkpoint_.energy.at(6) > 0);
       inside_out_.restore(checkpoint_.inside_out);
+      depth_.restore(checkpoint_.depth);
     }
     if (!scene.output.probes.empty())
       probes_.emplace(scene, folder / "probes.csv",
@@ -110,7 +113,7 @@ class RunOutput {
   const RunFiles& files() const { return files_; }
   /// What frames and the rows of history.csv have shown to be wrong, in a sentence each.
   std::vector<std::string> warnings() const {
-    std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning()};
+    std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning(), depth_.warning()};
     std::erase(sentences, "");
     return sentences;
   }
@@ -126,6 +129,7 @@ class RunOutput {
     const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
     if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
     if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
+    if (depth_.looks()) depth_.look(time, simulation_.contact_depths());
     files_.write(now);
     for (const std::string& name : empty_handed(contact_, now, simulation_.macro_step()))
       if (warned_.insert(name).second)
@@ -142,6 +146,7 @@ class RunOutput {
     checkpoint_.energy = energy_.save();
     checkpoint_.energy.insert(checkpoint_.energy.end(), {work_.done(), work_.known() ? 1.0 : 0.0});
     checkpoint_.inside_out = inside_out_.save();
+    checkpoint_.depth = depth_.save();
     checkpoint_.files = files_.mark();
     if (probes_) checkpoint_.files.probe_bytes = probes_->file().size();
     checkpoint_.state = simulation_.save();
@@ -161,6 +166,7 @@ class RunOutput {
   EnergyBudget energy_;
   bool watches_energy_;
   InsideOut inside_out_;
+  ContactDepth depth_;
   ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
   long saved_ = -1;

@@ -46,6 +46,7 @@ Json header_of(const Checkpoint& c) {
           {"stages", c.stages},
           {"energy", c.energy},
           {"inside_out", c.inside_out},
+          {"depth", c.depth},
           {"frame_times", c.files.frame_times},
           {"history_bytes", c.files.history_bytes},
           {"probe_bytes", c.files.probe_bytes}};
@@ -65,6 +66,7 @@ Checkpoint checkpoint_of(const Json& json) {
   json.at("stages").get_to(c.stages);
   json.at("energy").get_to(c.energy);
   c.inside_out = json.value("inside_out", c.inside_out);  // older ones have none
+  c.depth = json.value("depth", c.depth);
   json.at("frame_times").get_to(c.files.frame_times);
   json.at("history_bytes").get_to(c.files.history_bytes);
   json.at("probe_bytes").get_to(c.files.probe_bytes);

@@ -22,6 +22,7 @@ struct Checkpoint {
   FilesMark files;
   std::vector<double> energy;      ///< of EnergyBudget; then the work of obstacles [J], and 1 where that is known
   std::vector<double> inside_out;  ///< of InsideOut
+  std::vector<double> depth;       ///< of ContactDepth
   SavedState state;
 };
 

@@ -246,6 +246,11 @@ class Simulation:
         """What each obstacle does to the body, by its name: the mean over the last macro step."""
         return {name: Wrench(force, torque) for name, force, torque in self._open().wrenches()}
 
+    def contact_depths(self) -> dict[str, float]:
+        """How deep the surface is in each obstacle at its deepest place [m], by its name: 0 outside; points that it holds are
+        left out."""
+        return dict(zip(self.wrenches(), self._open().contact_depths()))
+
     def tools(self) -> dict[str, Tool]:
         """Where each obstacle with mass is now, by its name."""
         return {name: Tool(displacement, velocity) for name, displacement, velocity in self._open().tools()}

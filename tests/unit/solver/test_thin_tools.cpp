@@ -143,6 +143,24 @@ TEST(ThinTools, BluntOnesStayOutsideToo) {
   EXPECT_LT(force(1.6 * radius, "never"), half);
 }
 
+TEST(ThinTools, TellHowDeepTheyAre) {
+  Problem p = block();
+  constexpr double radius = 1.5 * edge;
+  const Point centre(0.041, 0.042, top + radius);
+  p.contact.obstacles = {lowered(SphereOptions{centre, radius}, radius, 0.2),
+                         {SphereOptions{{0, 0, 2}, radius}, {}, {}}};
+  Simulation<Host> s(p);
+  advance(s, static_cast<int>(0.25 / s.macro_step()));
+  double points = 0;
+  for (const Point& x : s.surface_positions())
+    points = std::max(points, radius - (x - centre - s.obstacle_displacement(0)).norm());
+  const std::vector<double> depths = s.contact_depths();
+  EXPECT_GE(depths.at(0), points - 1e-12);  // or a face between them
+  EXPECT_GT(depths.at(0), 0);
+  EXPECT_LT(depths.at(0), 0.1 * edge);
+  EXPECT_EQ(depths.at(1), 0);
+}
+
 // What a tool holds keeps its depth: the faces around are not pushed out either.
 TEST(ThinTools, LeaveFacesThatTheyHold) {
   Problem p = block();
