@@ -7,6 +7,7 @@
 #include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
+#include <plica/drivers/solver/motion_log.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 
@@ -61,6 +62,7 @@ struct Simulation<B>::Inside {
   // the stepper can repair.
   Kept kept;
   std::optional<Kept> older;
+  MotionLog<B> motions;  // of obstacles
 
   long halvings = 0, rejected = 0;  // macro steps and parts of them
 
@@ -69,8 +71,9 @@ struct Simulation<B>::Inside {
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const SolverLevel<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
-  const Contact<B>& contact_with(int obstacle) const;  // InputError where there is none of that number
-  void hold_now(int obstacle, bool closed);            // InputError where it has no grasp
+  const Contact<B>& contact_with(int obstacle) const;               // InputError where there is none of that number
+  void hold_now(int obstacle, bool closed);                         // InputError where it has no grasp
+  void move(int obstacle, const typename MotionLog<B>::Said& how);  // from now on
   bool retries() const { return problem.integration.retry.halvings > 0; }
 
   // Steps

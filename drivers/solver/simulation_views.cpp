@@ -93,21 +93,24 @@ const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
 
 template <class B>
 void Simulation<B>::set_obstacle_motion(int obstacle, const Motion& motion) {
-  const Contact<B>& contact = inside_->contact_with(obstacle);
+  inside_->contact_with(obstacle);  // throws where there is none
   validate_motion(motion);
-  contact.set_motion(obstacle, motion);
-  inside_->budget_known = false;
+  inside_->move(obstacle, motion);
 }
 template <class B>
 void Simulation<B>::set_obstacle_turn(int obstacle, const std::optional<Turn>& turn) {
-  const Contact<B>& contact = inside_->contact_with(obstacle);
+  inside_->contact_with(obstacle);
   const auto number = static_cast<std::size_t>(obstacle);
   if (turn && inside_->problem.contact.obstacles[number].mass)
     throw InputError(obstacle_name(inside_->problem.contact, number) + " has mass, and does not turn; expected " +
                      "contact.obstacles." + std::to_string(obstacle) + " without mass");
   if (turn) validate_turn(*turn);
-  contact.set_turn(obstacle, turn);
-  inside_->budget_known = false;
+  inside_->move(obstacle, turn);
+}
+template <class B>
+void Simulation<B>::Inside::move(int obstacle, const typename MotionLog<B>::Said& how) {
+  motions.say(contact_with(obstacle), time, obstacle, how);
+  budget_known = false;
 }
 
 namespace {

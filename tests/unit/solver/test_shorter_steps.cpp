@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
@@ -73,6 +76,25 @@ TEST(ShorterSteps, AreTakenBeforeLostStabilityShows) {
   EXPECT_GE(cut, 1);
   EXPECT_EQ(none, 0);
   EXPECT_LT(most, 16 * steady);
+}
+
+// Steps that are taken again see obstacles that a caller moves step by step where they were the first time.
+TEST(ShorterSteps, AreTakenAgainWithObstaclesWhereTheyWere) {
+  Problem p = pressed_liver();
+  p.contact.obstacles[0].motion = {};
+  Simulation<Host> s(p);
+  const auto way = [](double time) { return Point(0, 0, -12e-3 * std::sin(4 * std::numbers::pi * time)); };
+  while (s.time() < 0.1) {
+    s.move_obstacle(0, way(s.time() + s.macro_step()));
+    ASSERT_FALSE(s.step_checked());
+  }
+  const double end = s.time();
+  const std::vector<Point> want = s.positions();
+  s.return_to_last_good();
+  ASSERT_LT(s.time(), end);
+  EXPECT_LT((s.obstacle_displacement(0) - way(s.time())).norm(), 1e-12);
+  while (s.time() < end) s.step();
+  EXPECT_TRUE(same_bits(s.positions(), want));
 }
 
 TEST(ShorterSteps, GoOnAfterACheckpoint) {
