@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/model.hpp>
 #include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/contact/touching_points.hpp>
 #include <plica/kernels/exchange.hpp>
@@ -79,11 +80,14 @@ struct ScatterContact {
   TouchingPoints<B> points;
   Vectors<B> f;
   Indices<B> reached = {};  ///< [touched] 0: none on that vertex; empty: not known
+  VertexModel<B> model = {};
+  typename B::Real damped = 0;  ///< what mass damping leaves of it; see ContactStep
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     if (reached.extent(0) > 0 && reached(i) == 0) return;
     const int a = surface.vertex(i);
-    set_vector<B>(f, a, vector_at<B>(f, a) + points.force_on(surface, i));
+    const auto kept = damped > 0 ? 1 / (1 + damped * model.damping(a)) : typename B::Real(1);
+    set_vector<B>(f, a, vector_at<B>(f, a) + kept * points.force_on(surface, i));
   }
 };
 

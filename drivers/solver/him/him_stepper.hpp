@@ -286,8 +286,9 @@ class HimStepper final : public Stepper<B> {
     const TouchingPoints<B>& points = level.response().points();
     const auto respond = [&] {
       where_touching<B>(exec, points.count, "plica::contact_zero", n_, ZeroVectors<B>{parts_.contact_force});
-      where_touching<B>(exec, points.count, "plica::contact_scatter", level.surface.touched,
-                        ScatterContact<B>{level.surface, points, parts_.contact_force});
+      where_touching<B>(
+          exec, points.count, "plica::contact_scatter", level.surface.touched,
+          ScatterContact<B>{level.surface, points, parts_.contact_force, {}, level.model, static_cast<Real>(t / 2)});
       answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
     };
     level.response().resolve(exec, level, level.state, time, {.span = t, .ahead = t / 2}, a_, parts_.contact_answer,

@@ -157,6 +157,9 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   check_values(path, o);
   if (!o.mass && (o.coupling.stiffness > 0 || o.coupling.damping))
     throw InputError(path + ".coupling is of an obstacle with mass; expected " + path + ".mass, or no coupling");
+  if (o.mass && moves(o.motion) && !(o.coupling.stiffness > 0 || o.coupling.damping))
+    throw InputError(path + " has mass and a motion, but nothing that makes it follow; expected " + path +
+                     ".coupling, or no motion: a free tool starts at rest");
   if (o.mass && o.turn)
     throw InputError(path + " has mass and turn; expected one of them: a tool with mass translates only");
   if (!o.grasp) return;

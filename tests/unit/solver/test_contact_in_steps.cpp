@@ -259,6 +259,19 @@ TEST(ContactInSteps, OfHimAddNoEnergyAtAnImpact) {
   }
 }
 
+// Mass damping takes its part of a force by contact as of any other: what rests is borne by its weight, whatever the step.
+TEST(ContactInSteps, WithHimBearsTheWeightOfADampedBody) {
+  Problem p = block(0);
+  p.body.damping.mass = 40;
+  p.gravity = {0, 0, -9.81};
+  p.integration.cycle = "him";
+  p.integration.macro_step = 3e-3;
+  Simulation<Host> simulation(p);
+  advance(simulation, 500);
+  const double weight = 9.81 * simulation.levels()[0].mass;
+  EXPECT_NEAR(simulation.wrenches()[0].force[2], weight, 1e-3 * weight);
+}
+
 TEST(ContactInSteps, EnergyThatNobodyPutInIsNoticed) {
   EnergyBudget budget;
   budget.look(0, {.kinetic = 1});
