@@ -115,7 +115,7 @@ TEST(ToolsWithMass, AreRefusedWhereTheyCannotBe) {
   p.contact.obstacles[0].mass.reset();
   EXPECT_NE(why(p).find("coupling"), std::string::npos) << why(p);
   p.contact.obstacles[0].mass = 0.1, p.contact.obstacles[0].coupling = {};
-  p.contact.obstacles[0].motion = SteadyMotion{{0, 0, -1}};
+  p.contact.obstacles[0].motion = SteadyMotion(Point(0, 0, -1));
   EXPECT_NE(why(p).find("nothing that makes it follow"), std::string::npos) << why(p);
   p = block_and_tool(0.001, 0.02, 1e7);  // 0.1 kg / (0.2 ms)^2 = 2.5e6 N/m
   EXPECT_NE(why(p).find("at most 2.5e+06"), std::string::npos) << why(p);
