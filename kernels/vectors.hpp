@@ -98,6 +98,14 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points
   return start;
 }
 
+/// The same with the weights' absolute values, which are not all positive where the point is outside.
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_parts_at(const Transfer<B>& points, const Vectors<B>& x, int p) {
+  Vec3<typename B::Real> sum;
+  for (int c = 0; c < 4; ++c) sum += Kokkos::abs(points.weight(p, c)) * vector_at<B>(x, points.source(p, c));
+  return sum;
+}
+
 // ---- of whole fields, compiled once in vectors.cpp ----------------------------------------------------------------------
 
 namespace vectors {

@@ -164,9 +164,11 @@ std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
   if (budget_opens) open_budget();
   const MotionReport now = meter.motion(drift);
   const LevelReport& finest = built.reports.front();
-  if (built.stepper->lost_stability(hierarchy(), now.about_mean)) return failure("stability");
+  const bool lost = built.stepper->lost_stability(hierarchy(), now.about_mean), late = built.stepper->sees_late();
+  if (lost && !late) return failure("stability");
   const double substep = finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
   if (auto bad = find_failure(now, now.edges_per_second * substep * part)) return bad;
+  if (lost) return failure("stability");
   drift = now.drift;
   return {};
 }

@@ -82,12 +82,13 @@ struct ScatterContact {
   Indices<B> reached = {};  ///< [touched] 0: none on that vertex; empty: not known
   VertexModel<B> model = {};
   typename B::Real damped = 0;  ///< what mass damping leaves of it; see ContactStep
+  bool bounding = false;        ///< by absolute weights
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     if (reached.extent(0) > 0 && reached(i) == 0) return;
     const int a = surface.vertex(i);
     const auto kept = damped > 0 ? 1 / (1 + damped * model.damping(a)) : typename B::Real(1);
-    set_vector<B>(f, a, vector_at<B>(f, a) + kept * points.force_on(surface, i));
+    set_vector<B>(f, a, vector_at<B>(f, a) + kept * points.force_on(surface, i, bounding));
   }
 };
 

@@ -14,7 +14,8 @@
 //   normal      n = k (d - ahead N.v - h^2/2 N.(e + r)) - c N.(v + h/2 (e + r)), never pulling
 //   tangential  q = -c_t (v + h (e + r)) across N, at most friction times n
 // solved by sweeps of projected Jacobi from 0. Points are coupled by A, the inverse mass: r = W A W^T n. The relaxation of a point
-// is that of rho, the sum of its row of W A W^T over the touching points: exact for an even pressure, and never too much.
+// is that of rho, the sum of its row of W A W^T over the touching points: exact for an even pressure, and never too much. Weights of points
+// outside the mesh are not all positive: rho then takes their absolute values.
 //
 //   points                                    vertices
 //   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
@@ -205,7 +206,7 @@ struct SweepTouching {
       const int r = points.record(row, p);
       const Vec3<Real> force = vector_at<B>(points.force, r);
       if (!(first ? dot(force, force) > 0 : points.mobility(r) > 0)) continue;
-      const Vec3<Real> answer = law.at(law.answer, row, p, first && law.isotropic);
+      const Vec3<Real> answer = law.at(law.answer, row, p, first && (law.isotropic || row < points.obstacles));
       Vec3<Real> e = vector_at<B>(points.smooth, r);
       if (first) {
         constexpr Real smallest = Kokkos::Experimental::norm_min_v<Real>;
@@ -285,7 +286,7 @@ struct AnswerByMass {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     if (!first && reached(i) == 0) return;
     const int a = surface.vertex(i);
-    const Vec3<Real> force = points.force_on(surface, i);
+    const Vec3<Real> force = points.force_on(surface, i, first);
     if (first) reached(i) = force[0] > 0 ? 1 : 0;  // of parts that are all along x
     set_vector<B>(answer, a, (model.inverse_mass(a) * kept<B>(model, a, damped)) * force);
   }

@@ -65,6 +65,13 @@ struct HeldPoints {
   }
 };
 
+/// What a field has at a point, or with `bounding` the sum of its parts' absolute values.
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at_point(const EmbeddedSurface<B>& surface, const Vectors<B>& x,
+                                                             int p, bool bounding) {
+  return bounding ? sum_of_parts_at<B>(surface.embedding, x, p) : value_at<B>(surface.embedding, x, p);
+}
+
 /// Where obstacles touch a surface between its points: on every triangle one site for each obstacle, where the triangle is deepest.
 template <class B>
 struct FaceSites {
@@ -76,12 +83,12 @@ struct FaceSites {
   Vectors<B> weight;           ///< [obstacles * triangles][3] of the corners, at the site
 
   KOKKOS_INLINE_FUNCTION int site(int obstacle, int t) const { return obstacle * triangles + t; }
-  /// What a field has at a site.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int obstacle,
-                                          int t) const {
+  /// What a field has at a site, or with `bounding` the sum of its parts' absolute values.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int obstacle, int t,
+                                          bool bounding = false) const {
     Vec3<Real> sum;
     for (int c = 0; c < 3; ++c)
-      sum += weight(site(obstacle, t), c) * value_at<B>(surface.embedding, x, corner(3 * t + c));
+      sum += weight(site(obstacle, t), c) * value_at_point<B>(surface, x, corner(3 * t + c), bounding);
     return sum;
   }
   /// The part that point q, a corner of t, has of a site.
@@ -135,8 +142,8 @@ struct PairedPoints {
                                                bool bounding) const {
     Vec3<Real> value;
     for (int c = 0; c < 3; ++c)
-      value += part_of(pair, c, bounding) * value_at<B>(surface.embedding, x, other(3 * pair + c));
-    return own_weight(pair) * value_at<B>(surface.embedding, x, pair < points ? pair : pair - points) + value;
+      value += part_of(pair, c, bounding) * value_at_point<B>(surface, x, other(3 * pair + c), bounding);
+    return own_weight(pair) * value_at_point<B>(surface, x, pair < points ? pair : pair - points, bounding) + value;
   }
   KOKKOS_INLINE_FUNCTION Real part_of(int pair, int c, bool bounding) const {
     return bounding ? Kokkos::abs(weight(pair, c)) : weight(pair, c);
@@ -212,9 +219,10 @@ struct TouchingPoints {
     return row < obstacles ? held.law(row, site) : attached.law(attached.attachment(site));
   }
   /// What a field has at a site.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row,
-                                          int site) const {
-    return site < points ? value_at<B>(surface.embedding, x, site) : faces.value(surface, x, row, site - points);
+  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row, int site,
+                                          bool bounding = false) const {
+    return site < points ? value_at_point<B>(surface, x, site, bounding)
+                         : faces.value(surface, x, row, site - points, bounding);
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> place(const EmbeddedSurface<B>& surface, const Vectors<B>& u, int row,
                                           int site) const {
@@ -229,7 +237,8 @@ struct TouchingPoints {
   /// The same against what the site touches, see PairedPoints.
   KOKKOS_INLINE_FUNCTION Vec3<Real> difference(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int row,
                                                int site, bool bounding = false) const {
-    return row < obstacles ? value(surface, x, row, site) : pairs.difference(surface, x, pair(row, site), bounding);
+    return row < obstacles ? value(surface, x, row, site, bounding)
+                           : pairs.difference(surface, x, pair(row, site), bounding);
   }
   /// What vertex a has of that difference.
   KOKKOS_INLINE_FUNCTION Real share(const EmbeddedSurface<B>& surface, int row, int site, int a) const {
@@ -270,11 +279,13 @@ struct TouchingPoints {
       }
     return sum;
   }
-  /// On the i-th touched vertex of the surface, its points in order.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> force_on(const EmbeddedSurface<B>& surface, int i) const {
+  /// On the i-th touched vertex of the surface, its points in order; `bounding`: by absolute weights.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> force_on(const EmbeddedSurface<B>& surface, int i, bool bounding = false) const {
     Vec3<Real> sum;
-    for (int s = surface.first(i); s < surface.first(i + 1); ++s)
-      sum += surface.weight(s) * force_on_point(surface.point(s));
+    for (int s = surface.first(i); s < surface.first(i + 1); ++s) {
+      const Real weight = surface.weight(s);
+      sum += (bounding ? Kokkos::abs(weight) : weight) * force_on_point(surface.point(s));
+    }
     return sum;
   }
 };

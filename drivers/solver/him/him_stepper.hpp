@@ -284,11 +284,16 @@ class HimStepper final : public Stepper<B> {
   void touch(SolverLevel<B>& level, double time, double t) const {
     const auto& exec = level.exec();
     const TouchingPoints<B>& points = level.response().points();
+    ScatterContact<B> scatter{.surface = level.surface,
+                              .points = points,
+                              .f = parts_.contact_force,
+                              .model = level.model,
+                              .damped = static_cast<Real>(t / 2),
+                              .bounding = true};  // the first, of unit forces
     const auto respond = [&] {
       where_touching<B>(exec, points.count, "plica::contact_zero", n_, ZeroVectors<B>{parts_.contact_force});
-      where_touching<B>(
-          exec, points.count, "plica::contact_scatter", level.surface.touched,
-          ScatterContact<B>{level.surface, points, parts_.contact_force, {}, level.model, static_cast<Real>(t / 2)});
+      where_touching<B>(exec, points.count, "plica::contact_scatter", level.surface.touched, scatter);
+      scatter.bounding = false;
       answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
     };
     level.response().resolve(exec, level, level.state, time, {.span = t, .ahead = t / 2}, a_, parts_.contact_answer,

@@ -190,9 +190,11 @@ class HierarchyBuilder {
     built_.hierarchy->levels.emplace_back(std::move(level), built_.hierarchy->clock, static_cast<int>(i));
   }
 
+  /// Points outside continue the tetrahedron next to them, so that they turn with it.
   Embedding embed_surface(std::size_t i) const {
     constexpr double far = 10;  // edges; a coarse mesh may well lie a little inside its skin
-    Embedding embedding = locators_[i]->embed(surface_.vertices, parts_of_points(problem_.body.parts), Outside::clamp);
+    Embedding embedding =
+        locators_[i]->embed(surface_.vertices, parts_of_points(problem_.body.parts), Outside::extrapolate);
     if (embedding.largest_distance_over_edge > far)
       throw InputError("body.surface: " + std::to_string(embedding.misses) + " of its " +
                        std::to_string(surface_.vertices.size()) + " points lie outside level " + std::to_string(i) +
