@@ -49,6 +49,22 @@ template <class B>
 class ContactOn : public testing::Test {};
 TYPED_TEST_SUITE(ContactOn, EachBackend);
 
+// A smooth skin around a coarse mesh lies outside it in most of its points.
+TYPED_TEST(ContactOn, SurfacePointsOutsideTurnWithTheBody) {
+  constexpr double radius = 0.05;
+  Problem p = body_of({ball_mesh({0, 0, 0}, radius, 6)}, "neo_hookean");
+  p.body.surface = sphere_surface({0, 0, 0}, radius, 2);
+  Simulation<TypeParam> simulation(p);
+  std::vector<Point> turn;
+  for (const Point& x : p.body.levels[0].vertices) turn.push_back(Point(-x[1], x[0], x[2]) - x);
+  simulation.set_state(turn, std::vector<Point>(turn.size(), Point::Zero()));
+  const std::vector<Point> x = simulation.surface_positions();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Point& X = p.body.surface->vertices[i];
+    EXPECT_LT((x[i] - Point(-X[1], X[0], X[2])).norm(), round_off<typename TypeParam::Real>(64, radius));
+  }
+}
+
 TYPED_TEST(ContactOn, StiffnessIsYoungsModulusTimesAreaOverEdge) {
   Problem p = cube_over(0);
   p.contact.stiffness_scale = 3, p.contact.damping_scale = 0.5;
