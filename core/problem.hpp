@@ -85,7 +85,8 @@ struct PrescribedMotion {
 };
 
 /// Rayleigh damping: forces -(mass M + stiffness K) v, K the tangent stiffness at the state. A mode of frequency w [rad/s]
-/// decays like exp(-(mass + stiffness w^2) t / 2).
+/// decays like exp(-(mass + stiffness w^2) t / 2). Of a stressed body that turns as a whole K v is not 0: damping by stiffness then
+/// brakes it under tension, and drives it under pressure. It is for bodies that are held.
 struct DampingOptions {
   double mass = 0;       ///< [1/s]
   double stiffness = 0;  ///< [s]

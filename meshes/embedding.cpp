@@ -52,6 +52,14 @@ Weights barycentric(const Point& p, const std::array<Point, 4>& corners) {
   return {1.0 - w1 - w2 - w3, w1, w2, w3};
 }
 
+bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x) {
+  for (int k = 0; k < 3; ++k) {  // most are beside it
+    const auto [least, most] = std::ranges::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
+    if (x[k] < least || x[k] > most) return false;
+  }
+  return std::ranges::all_of(barycentric(x, corners), [](double weight) { return weight >= 0; });
+}
+
 Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners) {
   static constexpr std::array<std::array<std::size_t, 3>, 4> faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   const Weights own = barycentric(p, corners);

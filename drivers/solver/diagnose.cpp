@@ -52,7 +52,7 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
         "a smaller macro_step, or integration.retry.halvings: the critical step is that of the body at rest, and large "
         "strain stiffens it";
   else
-    d.remedy = "a smaller macro_step, or integration.implicit.newton_iterations above 1";
+    d.remedy = "a smaller macro_step, integration.implicit.newton_iterations above 1, or integration.retry.halvings";
   if (d.kind == "inverted")
     d.remedy += "; or let elements be inverted (body.material.allow_inversion) in a material that pushes them back (" +
                 recovering_materials() + ")";

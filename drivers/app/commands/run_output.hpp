@@ -11,6 +11,7 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/material_points.hpp>
+#include <plica/drivers/solver/obstacles_inside.hpp>
 #include <plica/drivers/solver/set_up/initial_state.hpp>
 #include <set>
 
@@ -63,7 +64,7 @@ class RunOutput {
   RunOutput(const Scene& scene, const Simulation<B>& simulation, const std::filesystem::path& folder,
             Checkpoint checkpoint, bool resumed)
       : simulation_(simulation),
-        contact_(scene.problem.contact),
+        problem_(scene.problem),
         folder_(folder),
         checkpoint_(std::move(checkpoint)),
         recorded_(resumed ? checkpoint_.macro_steps : -1),
@@ -129,9 +130,9 @@ class RunOutput {
     const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
     if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
     if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
-    if (depth_.looks()) depth_.look(time, simulation_.contact_depths());
+    if (depth_.looks()) depth_.look(time, simulation_.contact_depths(), obstacles_inside(simulation_, problem_));
     files_.write(now);
-    for (const std::string& name : empty_handed(contact_, now, simulation_.macro_step()))
+    for (const std::string& name : empty_handed(problem_.contact, now, simulation_.macro_step()))
       if (warned_.insert(name).second)
         message(coloured("warning: ", Colour::yellow) + name +
                 " has closed and holds no point; expected the surface to touch it by then, or a longer grasp.reach");
@@ -154,7 +155,7 @@ class RunOutput {
   }
 
   const Simulation<B>& simulation_;
-  const ContactOptions& contact_;
+  const Problem& problem_;
   std::set<std::string> warned_;  // of obstacles that hold nothing
   std::filesystem::path folder_;
   Checkpoint checkpoint_;

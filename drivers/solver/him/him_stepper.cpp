@@ -105,7 +105,7 @@ InertiaFit fit_step(const StepperSetup<B>& setup, HimParts<B>& parts) {
   const bool coarse = parts.inverse_mass->levels() > 1;
   const double usual = setup.contact ? step_with_contact : automatic_step;
   const double asked = given.value_or((coarse ? usual : sigma) * critical);
-  for (double t = asked; t > 0.01 * critical; t /= 2)
+  for (double t = asked; t > 0.01 * std::min(asked, critical); t /= 2)
     if (const auto fit = parts.fitter->fit(t, sigma, u)) {
       if (given && t < asked) refuse_step(asked, t, setup.reports.front().critical_step);
       return *fit;

@@ -90,14 +90,6 @@ std::vector<Point> marks_of(const ObstacleOptions& options) {
   return marks;
 }
 
-bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x) {
-  for (int k = 0; k < 3; ++k) {  // most are beside it
-    const auto [least, most] = std::ranges::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
-    if (x[k] < least || x[k] > most) return false;
-  }
-  return std::ranges::all_of(barycentric(x, corners), [](double weight) { return weight >= 0; });
-}
-
 /// The body where it starts. What is inside it the surface says, which is what contact moves, where that is closed; lattices reach beyond
 /// it. Else the tetrahedra of level 0 do.
 class StartingBody {

@@ -251,6 +251,12 @@ TEST(Him, LosesNoStabilityUnnoticed) {
   EXPECT_GT(simulation.counters().at("inertia_refits"), 0);
 }
 
+TEST(Him, TakesStepsFarBelowTheCriticalOne) {
+  Problem p = him_beam(true);
+  p.integration.macro_step = 1e-3 * Simulation<Host>(p).levels()[0].critical_step;
+  EXPECT_EQ(Simulation<Host>(p).macro_step(), *p.integration.macro_step);
+}
+
 TEST(Him, RefusesWhatItCannotDo) {
   const auto message = [](const auto& change) {
     Problem p = him_beam(true);

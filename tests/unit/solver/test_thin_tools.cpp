@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <plica/core/error.hpp>
+#include <plica/drivers/solver/obstacles_inside.hpp>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/kernels/contact/on_triangle.hpp>
 #include <plica/kernels/contact/shapes.hpp>
@@ -159,6 +160,18 @@ TEST(ThinTools, TellHowDeepTheyAre) {
   EXPECT_GT(depths.at(0), 0);
   EXPECT_LT(depths.at(0), 0.1 * edge);
   EXPECT_EQ(depths.at(1), 0);
+}
+
+TEST(ThinTools, AreSeenWhereTheyCameThroughTheSurface) {
+  Problem p = block();
+  const Point inside(0.041, 0.042, top / 2), outside(0.041, 0.042, 2 * top);
+  p.contact.obstacles = {{SphereOptions{outside, 0.3 * edge}, {}, {}}, {SphereOptions{outside, 0.3 * edge}, {}, {}}};
+  Simulation<Host> s(p);
+  EXPECT_TRUE(obstacles_inside(s, p).empty());
+  s.set_obstacle_motion(1, PathMotion{{{0, inside - outside}}});
+  EXPECT_EQ(obstacles_inside(s, p), std::vector<int>{1});
+  s.set_obstacle_motion(1, PathMotion{{{0, Point(0.041, 0.042, top) - outside}}});
+  EXPECT_TRUE(obstacles_inside(s, p).empty()) << "the surface touches it";
 }
 
 // What a tool holds keeps its depth: the faces around are not pushed out either.
