@@ -78,10 +78,8 @@ void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
 void doubt_damping(const Body& body, std::vector<std::string>& sentences) {
   if (body.damping.stiffness > 0 && body.fixed.empty() && body.prescribed.empty())
     sentences.push_back(
-        "body.damping.stiffness: nothing holds the body, and this damping acts on its turning, too: it brakes a body "
-        "that "
-        "is under tension and drives one that is pressed together; expected viscosity (body.material.prony), "
-        "body.damping.mass, or body.fixed");
+        "body.damping.stiffness: nothing holds the body, and this damping acts on its turning, too: it brakes it under "
+        "tension and drives it under pressure; expected body.material.prony, body.damping.mass, or body.fixed");
 }
 
 }  // namespace
