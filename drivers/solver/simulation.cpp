@@ -94,7 +94,10 @@ void Simulation<B>::step() {
   Inside& s = *inside_;
   s.residual = 0;
   const Kokkos::Timer timer;
+  const bool part = s.reaches_end();  // a short step's mean force wavers: the last whole one's stays
+  if (part) copy_memory(s.hierarchy().exec(), s.wrench, s.wrench_before);
   s.advance(s.time, s.next_span());
+  if (part) copy_memory(s.hierarchy().exec(), s.wrench_before, s.wrench);
   s.arrive();
   if (!s.cores) return;
   if (const auto exec = s.cores->after_step(timer.seconds())) s.hierarchy().clock.set_exec(*exec);

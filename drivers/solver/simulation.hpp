@@ -178,7 +178,8 @@ class Simulation {
   std::optional<HimReport> him() const;            ///< of that cycle
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
-  std::vector<Wrench> wrenches() const;            ///< of obstacles, then bodies, of the last macro step; waits
+  /// Of obstacles, then bodies, of the last macro step; after a step that end_at() made shorter, of the one before. Waits.
+  std::vector<Wrench> wrenches() const;
   /// How deep the surface is in each obstacle at its deepest place [m]; 0 outside. Points that it holds are left out. Waits.
   std::vector<double> contact_depths() const;
   std::vector<ToolState> tools() const;       ///< of obstacles with mass; waits

@@ -39,7 +39,8 @@ struct Simulation<B>::Inside {
   double end = std::numeric_limits<double>::infinity();  // no step goes beyond it
   double residual = 0, worst_residual = 0;
 
-  Doubles<B> wrench;  // of each obstacle, over the last macro step or the part of it that was taken last
+  // Of each obstacle, over the last macro step or the part of it that was taken last; where the run ends within one, over the one before
+  Doubles<B> wrench, wrench_before;
 
   // What checks compare with
   bool linear = false;           // the material is, in any state

@@ -259,6 +259,21 @@ TEST(ContactInSteps, OfHimAddNoEnergyAtAnImpact) {
   }
 }
 
+// A step that is shorter because the run ends with it says nothing of its own of forces.
+TEST(ContactInSteps, ForcesAreThoseOfTheLastWholeStep) {
+  Problem p = block(0);
+  p.body.damping.mass = 5;
+  p.gravity = {0, 0, -9.81};
+  Simulation<Host> simulation(p);
+  simulation.end_at(40.3 * simulation.macro_step());
+  advance(simulation, 40);
+  const Point force = simulation.wrenches()[0].force;
+  simulation.step();
+  EXPECT_NEAR(simulation.time(), 40.3 * simulation.macro_step(), 1e-12);
+  EXPECT_GT(force[2], 0);
+  EXPECT_EQ(simulation.wrenches()[0].force, force);
+}
+
 // Mass damping takes its part of a force by contact as of any other: what rests is borne by its weight, whatever the step.
 TEST(ContactInSteps, WithHimBearsTheWeightOfADampedBody) {
   Problem p = block(0);
