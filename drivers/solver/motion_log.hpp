@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <optional>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/contact.hpp>
@@ -53,6 +54,12 @@ class MotionLog {
     }
     said_.erase(said_.begin(), said_.begin() + static_cast<std::ptrdiff_t>(count));
     next_ -= count;
+  }
+
+  /// Nobody goes back at all. What was not yet said again is forgotten.
+  void forget() {
+    forget_before(std::numeric_limits<double>::infinity());
+    said_.clear(), next_ = 0;
   }
 
  private:

@@ -2,7 +2,6 @@
 // How a simulation goes back: states that are kept, steps that are taken again, states from outside.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/move_obstacles.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
@@ -126,7 +125,7 @@ template <class B>
 void Simulation<B>::Inside::keep_anew() {
   keep(kept);
   if (older) keep(*older);
-  motions.forget_before(std::numeric_limits<double>::infinity());
+  motions.forget();
 }
 
 /// What is about to be changed from outside, or was.

@@ -11,7 +11,7 @@ namespace plica::app {
 /// Looks whether obstacles come visibly deep into the surface, or through it: contact is by penalties, and too soft a one lets a tool sink in.
 class ContactDepth {
  public:
-  static constexpr double visible = 0.25;  ///< of a mean edge
+  static constexpr double visible = 0.5;  ///< of a mean edge
 
   /// @param edge  mean one of the finest level [m]
   ContactDepth(const ContactOptions& contact, double edge) : edge_(edge) {

@@ -95,6 +95,11 @@ TEST(ShorterSteps, AreTakenAgainWithObstaclesWhereTheyWere) {
   EXPECT_LT((s.obstacle_displacement(0) - way(s.time())).norm(), 1e-12);
   while (s.time() < end) s.step();
   EXPECT_TRUE(same_bits(s.positions(), want));
+  s.return_to_last_good();
+  const Point here = s.obstacle_displacement(0);
+  s.set_time(s.time());  // nothing before or after counts any more
+  advance(s, 3);
+  EXPECT_LT((s.obstacle_displacement(0) - here).norm(), 1e-12);
 }
 
 TEST(ShorterSteps, GoOnAfterACheckpoint) {
