@@ -14,6 +14,7 @@ using Weights = std::array<double, 4>;
 /// @param p        [m]
 /// @param corners  of a tetrahedron with positive volume [m]
 Weights barycentric(const Point& p, const std::array<Point, 4>& corners);
+/// Whether x is in a tetrahedron, its faces included.
 bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x);
 
 /// The weights of the point of the tetrahedron that is nearest to `p`, none below zero; those of `p` when it is inside.
