@@ -22,8 +22,8 @@ bool contains_its_origin(const ObstacleOptions& options) {
 }  // namespace
 
 template <class B>
-std::vector<int> obstacles_inside(const Simulation<B>& simulation, const Problem& problem) {
-  const std::vector<double> depths = simulation.contact_depths();
+std::vector<int> obstacles_inside(const Simulation<B>& simulation, const Problem& problem,
+                                  const std::vector<double>& depths) {
   std::vector<int> candidates, inside;
   for (std::size_t o = 0; o < depths.size(); ++o)
     if (depths[o] == 0 && contains_its_origin(problem.contact.obstacles[o])) candidates.push_back(static_cast<int>(o));
@@ -43,8 +43,9 @@ std::vector<int> obstacles_inside(const Simulation<B>& simulation, const Problem
   return inside;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) \
-  template std::vector<int> obstacles_inside(const Simulation<Backend<Real, Exec>>&, const Problem&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                                \
+  template std::vector<int> obstacles_inside(const Simulation<Backend<Real, Exec>>&, const Problem&, \
+                                             const std::vector<double>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

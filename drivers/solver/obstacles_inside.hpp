@@ -9,7 +9,9 @@ namespace plica {
 /// them, so that nothing pushes them out. Not looked at: planes, bowls, sampled surfaces, whose middle says nothing. Waits; copies all
 /// positions of level 0 and goes through its tetrahedra.
 /// @param problem  what the simulation was made of
+/// @param depths   of the simulation, see contact_depths()
 template <class B>
-std::vector<int> obstacles_inside(const Simulation<B>& simulation, const Problem& problem);
+std::vector<int> obstacles_inside(const Simulation<B>& simulation, const Problem& problem,
+                                  const std::vector<double>& depths);
 
 }  // namespace plica

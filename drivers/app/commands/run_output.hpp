@@ -130,7 +130,10 @@ class RunOutput {
     const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
     if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
     if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
-    if (depth_.looks()) depth_.look(time, simulation_.contact_depths(), obstacles_inside(simulation_, problem_));
+    if (depth_.looks()) {
+      const std::vector<double> depths = simulation_.contact_depths();
+      depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths));
+    }
     files_.write(now);
     for (const std::string& name : empty_handed(problem_.contact, now, simulation_.macro_step()))
       if (warned_.insert(name).second)

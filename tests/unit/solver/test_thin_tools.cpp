@@ -167,11 +167,11 @@ TEST(ThinTools, AreSeenWhereTheyCameThroughTheSurface) {
   const Point inside(0.041, 0.042, top / 2), outside(0.041, 0.042, 2 * top);
   p.contact.obstacles = {{SphereOptions{outside, 0.3 * edge}, {}, {}}, {SphereOptions{outside, 0.3 * edge}, {}, {}}};
   Simulation<Host> s(p);
-  EXPECT_TRUE(obstacles_inside(s, p).empty());
+  EXPECT_TRUE(obstacles_inside(s, p, s.contact_depths()).empty());
   s.set_obstacle_motion(1, PathMotion{{{0, inside - outside}}});
-  EXPECT_EQ(obstacles_inside(s, p), std::vector<int>{1});
+  EXPECT_EQ(obstacles_inside(s, p, s.contact_depths()), std::vector<int>{1});
   s.set_obstacle_motion(1, PathMotion{{{0, Point(0.041, 0.042, top) - outside}}});
-  EXPECT_TRUE(obstacles_inside(s, p).empty()) << "the surface touches it";
+  EXPECT_TRUE(obstacles_inside(s, p, s.contact_depths()).empty()) << "the surface touches it";
 }
 
 // What a tool holds keeps its depth: the faces around are not pushed out either.
