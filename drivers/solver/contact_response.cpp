@@ -137,20 +137,42 @@ template <class B>
 void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                    const ImplicitWeights& w, double ahead, const Vectors<B>& f) {
   points_.span = static_cast<Real>(ahead);
+  weights_ = w, ahead_ = ahead;
   find(exec, level, state, time, ahead, all_points());
-  reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(),
-               LineariseTouching<B>{points_, static_cast<Real>(ahead), static_cast<Real>(w.a), static_cast<Real>(w.b)},
-               blocks_, points_.count);
-  sum_up(exec);
+  linearise_records(exec);
   scatter(exec, level, f);
+}
+
+/// Forces and blocks of what was found, or has moved since.
+template <class B>
+void ContactResponse<B>::linearise_records(const Exec& exec) const {
+  const LineariseTouching<B> kernel{points_, static_cast<Real>(ahead_), static_cast<Real>(weights_.a),
+                                    static_cast<Real>(weights_.b)};
+  reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(), kernel, blocks_, points_.count);
+  sum_up(exec);
+}
+
+template <class B>
+void ContactResponse<B>::move_linearised(const Exec& exec, const Level<B>& level, const Vectors<B>& change,
+                                         const Vectors<B>& r) {
+  linearise_records(exec);
+  scatter(exec, level, r, {}, -weights_.b);
+  add_product(exec, level, change, false, r);
+  update_vertices<B>(
+      exec, "plica::contact_move", contact_->sites(),
+      MoveTouching<B>{level.surface, change, points_, static_cast<Real>(ahead_), static_cast<Real>(weights_.ratio())});
+  ahead_ = 0;
+  linearise_records(exec);
+  scatter(exec, level, r, {}, weights_.b);
 }
 
 /// f += W^T of the last forces
 template <class B>
 void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
-                                 const Indices<B>& reached) const {
-  where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched,
-                    ScatterContact<B>{level.surface, points_, f, reached});
+                                 const Indices<B>& reached, double scale) const {
+  ScatterContact<B> kernel{level.surface, points_, f, reached};
+  kernel.scale = static_cast<Real>(scale);
+  where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched, kernel);
 }
 
 template <class B>
@@ -172,9 +194,10 @@ void ContactResponse<B>::add_diagonal(const Exec& exec, const Level<B>& level, b
 }
 
 template <class B>
-void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, const BlockMatrix<B>& A) const {
+void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, double scale,
+                                    const BlockMatrix<B>& A) const {
   where_touching<B>(exec, points_.count, "plica::contact_matrix", level.surface.touched,
-                    AddContactToMatrix<B>{level.surface, points_, A});
+                    AddContactToMatrix<B>{level.surface, points_, static_cast<Real>(scale), A});
 }
 
 template <class B>

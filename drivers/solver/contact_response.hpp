@@ -49,13 +49,16 @@ class ContactResponse {
   /// f += the forces of a stage on a state, linearised about it, with contact `ahead` of it [s]
   void linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ImplicitWeights&,
                  double ahead, const Vectors<B>& f);
+  /// Linearised about where a change of velocity leads to: the same places touch, by the same normals. r, what that change has left of the
+  /// system's right side, then is what is left with contact as it is there.
+  void move_linearised(const Exec& exec, const Level<B>& level, const Vectors<B>& change, const Vectors<B>& r);
   /// q += W^T C W p; `beside`: of what add_matrix() leaves out alone
   void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
                    const Vectors<B>& q) const;
   /// diagonal += its vertex blocks, likewise
   void add_diagonal(const Exec& exec, const Level<B>& level, bool beside, const Blocks<B>& diagonal) const;
-  /// A += W^T C W, of points that touch obstacles
-  void add_matrix(const Exec& exec, const Level<B>& level, const BlockMatrix<B>& A) const;
+  /// A += scale W^T C W, of points that touch obstacles
+  void add_matrix(const Exec& exec, const Level<B>& level, double scale, const BlockMatrix<B>& A) const;
 
   const TouchingPoints<B>& points() const { return points_; }
   std::size_t bytes() const;
@@ -68,6 +71,8 @@ class ContactResponse {
   Vectors<B> smooth_, answer_;  ///< of the vertices, on explicit levels
   Indices<B> reached_;          ///< of the touched ones, by contact in the last step
   Doubles<B> sums_, impulse_;
+  ImplicitWeights weights_;  ///< of the last linearisation
+  double ahead_ = 0;
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
              TouchLaw<B> law, const Respond& respond) const;
@@ -80,7 +85,9 @@ class ContactResponse {
     return points;
   }
   void sum_up(const Exec& exec, bool bounding = false) const;
-  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {}) const;
+  void linearise_records(const Exec& exec) const;
+  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {},
+               double scale = 1) const;
 };
 
 }  // namespace plica

@@ -263,7 +263,7 @@ void SolverLevel<B>::assemble(const State<B>& at, const ImplicitWeights& weights
                               const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const {
   const Exec& exec = clock_->exec();
   elasticity_->blocks(exec, this->model, pairs, at.u, weights, positive, shares, A);
-  if (contact_) response_.add_matrix(exec, *this, A);
+  if (contact_) response_.add_matrix(exec, *this, 1, A);
   if (external_)
     update_vertices<B>(exec, "plica::external_matrix", this->model.vertices,
                        AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});

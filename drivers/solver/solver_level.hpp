@@ -74,6 +74,10 @@ class SolverLevel : public Level<B> {
 
   /// Linearises about a state for an implicit stage: f as above with loads and contact `ahead` of it [s].
   void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead, const Vectors<B>& f);
+  /// See ContactResponse::move_linearised().
+  void move_contact(const Vectors<B>& change, const Vectors<B>& r) {
+    response_.move_linearised(exec(), *this, change, r);
+  }
   /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights. `positive`: see Elasticity::tangent.
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
                const Vectors<B>& q) const;

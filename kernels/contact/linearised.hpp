@@ -67,6 +67,31 @@ struct LineariseTouching {
   }
 };
 
+/// What was found of a record, as it is after a change of velocity, and the change of displacement that goes with it: where it touches
+/// and its normal stay as they are.
+template <class B>
+struct MoveTouching {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> change;
+  TouchingPoints<B> points;
+  Real ahead, ratio;  ///< change of displacement over that of velocity [s]
+
+  KOKKOS_INLINE_FUNCTION void operator()(int site) const {
+    for (int row = 0; row < points.rows_of(site); ++row) {
+      const int r = points.record(row, site);
+      if (!points.near(r)) continue;
+      const Vec3<Real> N = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
+      const Vec3<Real> dv = points.difference(surface, change, row, site), way = ahead * v + ratio * dv;
+      if (points.is_held(row, site))
+        set_vector<B>(points.normal, r, N + way);
+      else
+        points.depth(r) -= dot(N, way);
+      set_vector<B>(points.velocity, r, v + dv);
+    }
+  }
+};
+
 /// The force of each record is its block times what a field has there. `beside`: of those alone that are in no matrix.
 template <class B>
 struct ContactProduct {
@@ -125,13 +150,14 @@ struct AddContactBlocks {
   }
 };
 
-/// A += W^T C W of points that touch obstacles: a row of A per work item, its points in order, the blocks that are stored in it. Vertices of
+/// A += scale W^T C W of points that touch obstacles: a row of A per work item, its points in order, the blocks that are stored in it. Vertices of
 /// one tetrahedron are coupled in A already, unless the row's motion is given.
 template <class B>
 struct AddContactToMatrix {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   TouchingPoints<B> points;
+  Real scale;
   BlockMatrix<B> A;
 
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
@@ -145,7 +171,7 @@ struct AddContactToMatrix {
         int at = first;
         while (at < last && A.column(at) != surface.embedding.source(p, c)) ++at;
         if (at == last || !A.is_stored(a, at)) continue;
-        const Real w = surface.weight(s) * surface.embedding.weight(p, c);
+        const Real w = scale * surface.weight(s) * surface.embedding.weight(p, c);
         add_block<B>(A, at, w, C);
       }
     }

@@ -37,7 +37,10 @@ class StageSolver {
       carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
       last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
     }
-    if (!iterates()) return;
+    if (!iterates()) {
+      if (level.surface.points > 0) more_ = Vectors<B>("plica::stage.more", level.model.vertices);
+      return;
+    }
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
     blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
     result_ = Doubles<B>("plica::stage.result", 4);
@@ -77,6 +80,7 @@ class StageSolver {
     all.insert({{"linear_solves", solves_},
                 {"cg_iterations", iterations_},
                 {"cg_misses", misses_},
+                {"contact_solves", contact_solves_},
                 {"cg_indefinite", indefinite_}});
     if (iterates())
       all.insert({{"newton_iterations", newtons_}, {"newton_misses", unfinished_}, {"line_searches", searches_}});
@@ -84,11 +88,12 @@ class StageSolver {
     return all;
   }
   std::size_t bytes() const {
-    return solver_->bytes() + (iterates() ? 5 : 4) * 3 * sizeof(Real) * change_.extent(0) +
+    return solver_->bytes() + (iterates() ? 5 : 4) * 3 * sizeof(Real) * change_.extent(0) + bytes_of_views(more_) +
            sizeof(Real) * (carrying_.extent(0) + last_carried_.extent(0));
   }
   void persist(StateArchive<B>& archive) {
-    for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
+    for (long* count :
+         {&solves_, &iterations_, &misses_, &indefinite_, &contact_solves_, &newtons_, &unfinished_, &searches_})
       archive.number(*count);
     archive.number(residual_);
     if (carries()) archive.number(updates_), archive.number(fresh_), archive.field("the carried pressures", carried_);
@@ -102,12 +107,13 @@ class StageSolver {
   ImplicitOptions options_;
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
-  Vectors<B> right_side_, change_, dead_;
+  Vectors<B> right_side_, change_, more_, dead_;
   Scalars<B> carrying_, carried_,
       last_carried_;  ///< with room for the pressures, these, and those before the last solve
   BlockSums<B> blocks_;
   Doubles<B> result_;
-  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
+  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, contact_solves_ = 0, newtons_ = 0, unfinished_ = 0,
+       searches_ = 0;
   long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;
 
@@ -177,6 +183,7 @@ class StageSolver {
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     residual_ = std::max(residual_, out.relative_residual);
+    if (level.contact() && !iterates() && !out.indefinite) settle_contact(level);
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     if (carries()) {
       copy(level.exec(), last_carried_, carried_);
@@ -184,6 +191,23 @@ class StageSolver {
       ++updates_;
     }
     return out;
+  }
+
+  /// What touches was decided before the solve. Where the solve has changed that, it is solved again, with contact linearised about where
+  /// the last solve led to and elements as they are.
+  void settle_contact(SolverLevel<B>& level) {
+    Vectors<B> last = change_;
+    for (int i = 1; i < options_.contact_solves; ++i) {
+      std::optional<SolveOutcome> out;
+      level.book("solve", [&] {
+        out = solver_->solve_again(
+            level.exec(), [&] { level.move_contact(last, right_side_); }, right_side_, more_);
+      });
+      if (!out || out->iterations == 0) return;
+      ++contact_solves_, iterations_ += out->iterations, misses_ += out->converged ? 0 : 1;
+      add<B>(level.exec(), "plica::stage_more", 1, more_, change_);
+      last = more_;
+    }
   }
 
   bool newton(SolverLevel<B>& level, double end, const ImplicitWeights& w) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <map>
+#include <optional>
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
@@ -41,6 +43,12 @@ class LinearSolver {
   virtual bool multiply(const Exec&, const Vectors<B>& /*p*/, const Vectors<B>& /*q*/) const { return false; }
   /// x = A^-1 r, zero where motion is given. Overwrites r.
   virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x) = 0;
+  /// x = A^-1 r in the same system, but for contact, which linearise() makes anew, and r with it; by no iterations where that has hardly
+  /// changed. None, and nothing is done, where a solver has no such way.
+  virtual std::optional<SolveOutcome> solve_again(const Exec&, const std::function<void()>& /*linearise*/,
+                                                  const Vectors<B>& /*r*/, const Vectors<B>& /*x*/) {
+    return {};
+  }
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.
   virtual std::size_t bytes() const = 0;

@@ -37,6 +37,16 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
 }
 
 template <class B>
+void StageSystem<B>::change_contact(const Exec& exec, const std::function<void()>& linearise) {
+  if (ready_) forces_->response().add_matrix(exec, *level_, -1, pattern_.matrix);
+  linearise();
+  if (ready_) forces_->response().add_matrix(exec, *level_, 1, pattern_.matrix);
+  if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
+  forces_->diagonal(state_, weights_, positive_, inverse_diagonal_);
+  invert_blocks(exec, inverse_diagonal_);
+}
+
+template <class B>
 void StageSystem<B>::invert_blocks(const Exec& exec, const Blocks<B>& blocks) const {
   update_vertices<B>(exec, "plica::invert_blocks", rows(),
                      InvertBlocks<B>{level_->model, blocks, static_cast<typename B::Real>(weights_.b)});

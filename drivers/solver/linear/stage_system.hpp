@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <plica/drivers/solver/linear/block_pattern.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
 #include <plica/drivers/solver/solver_level.hpp>
@@ -19,6 +20,8 @@ class StageSystem {
   /// A of a level at `state`, where its forces have just been linearised; they stay as they are until the next. Projected elements are assembled,
   /// also where the rest is not.
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
+  /// The same system again, with contact as linearise() makes it anew.
+  void change_contact(const Exec& exec, const std::function<void()>& linearise);
   /// The same system again, with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// q = A p
