@@ -39,9 +39,9 @@ struct DampingTangent {
 template <class B>
 struct DampingRate {
   using Real = typename B::Real;
-  Scalars<B> damping;  ///< [patches] tau [s], or empty
-  Real over = 0;       ///< times this
-  bool counts() const { return over > 0 && damping.extent(0) > 0; }
+  Scalars<B> damping;                                                ///< [patches] tau [s], or empty
+  Real over = 0;                                                     ///< times this
+  bool counts() const { return over > 0 && damping.extent(0) > 0; }  ///< whether there is any
   KOKKOS_INLINE_FUNCTION Real operator()(int patch) const { return over * damping(patch); }
 };
 
