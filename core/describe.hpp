@@ -108,7 +108,7 @@ template <class V, class Options>
 void describe_damping(V& v, Options& o) {
   v("mass", o.mass, Quantity{rate, not_negative}, "proportional to the mass: slows all motion, falling too");
   v("stiffness", o.stiffness, Quantity{duration, not_negative},
-    "proportional to the stiffness: slows fast deformation most");
+    "proportional to the stiffness at rest: slows changes of shape, fast ones most, and no turning");
 }
 template <class V>
 void describe(V& v, DampingOptions& o) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/launch_queue.hpp>
+#include <type_traits>
 
 // Every kernel goes through launch(), every argument that changes from step to step is a Changing. A GPU takes a few microseconds for each
 // launch by itself, and a step has dozens of short ones; so there a step's launches are gathered, and those that come again just as
@@ -27,6 +28,15 @@ void launch(const char* label, const Policy& policy, const Work& work) {
       queue->launch_all();
     }
   Kokkos::parallel_for(label, policy, work);
+}
+
+/// launch(a true or false type) by a condition that is known at run time only.
+template <class Launch>
+void by_case(bool condition, const Launch& launch) {
+  if (condition)
+    launch(std::true_type());
+  else
+    launch(std::false_type());
 }
 
 /// Sends out what waits: before the host waits for a space, or launches there without launch().

@@ -46,7 +46,7 @@ struct NodalRows {
   Scalars<B> fibres;      ///< [slots * 6] axis and sheet of each domain, instead of its region's; empty: none
   Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
   Scalars<B> excess;      ///< [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
-  Scalars<B> damping;     ///< [regions] part of the stiffness that damps [s]; empty: none anywhere
+  Scalars<B> damping;     ///< [regions] by stiffness [s]; empty: none anywhere
   VertexShares<B> shares;
 
   int slots() const { return slices * height; }

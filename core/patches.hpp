@@ -45,7 +45,7 @@ struct Patches {
   Array<Real* [10][lanes]> shape;
   Scalars<B> constants;  ///< [count * n] the n constants of its material: a patch never spans two regions
   Scalars<B> fibres;     ///< [packs * lanes * 6] axis and sheet of each element, instead of its patch's; empty: none
-  Scalars<B> damping;    ///< [count] part of its stiffness that damps [s]; empty: none anywhere
+  Scalars<B> damping;    ///< [count] by stiffness [s]; empty: none anywhere
   Array<std::uint16_t*> summed;  ///< [patch vertices]
   Indices<B> first_slot;         ///< [patch vertices + 1]
   Array<std::uint16_t*> slot;    ///< offset of the x component among the patch's element forces [pack][corner][3][lane]

@@ -84,9 +84,9 @@ struct PrescribedMotion {
   Motion motion;    ///< from where they are at rest
 };
 
-/// Rayleigh damping: forces -(mass M + stiffness K) v, K the tangent stiffness at the state. A mode of frequency w [rad/s]
-/// decays like exp(-(mass + stiffness w^2) t / 2). Of a stressed body that turns as a whole K v is not 0: damping by stiffness then
-/// brakes it under tension, and drives it under pressure. It is for bodies that are held.
+/// Damping by mass, with forces -mass M v, and by stiffness, with a stress against the rate of strain: that of the material at rest,
+/// times `stiffness`, see kernels/elastic/damping_stress.hpp. The second acts on no motion of the whole body. Together they are Rayleigh's
+/// damping near rest: there a mode of frequency w [rad/s] decays like exp(-(mass + stiffness w^2) t / 2).
 struct DampingOptions {
   double mass = 0;       ///< [1/s]
   double stiffness = 0;  ///< [s]

@@ -18,7 +18,7 @@ class Elasticity {
   virtual ~Elasticity() = default;
   /// Of a displacement, and of a velocity where stiffness damps.
   virtual void force(const Exec&, const Level<B>&, const State<B>&, int evaluation) const = 0;
-  /// -K(u) p; an empty u: of the state whose gradients level.nodal keeps. `over`: with the stiffness that damps times this [1/s]; `positive`: of elements whose tangent is projected to positive
+  /// -K(u) p; an empty u: of the state whose gradients level.nodal keeps. `over`: with D(u) p, the damping of damping_stress.hpp, times this [1/s]; `positive`: of elements whose tangent is projected to positive
   /// semi-definite, which only nodal ones have without a matrix.
   virtual void tangent(const Exec&, const Level<B>&, const Vectors<B>& u, const Vectors<B>& p, double over,
                        bool positive = false) const = 0;
@@ -26,7 +26,7 @@ class Elasticity {
   /// nodal elements smooth.
   virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction, double over,
                         bool positive = false) const = 0;
-  /// A = (1 + b c) M + a K(u) as blocks, of linear elements; `positive`: of such whose tangent is projected to positive semi-definite.
+  /// A = (1 + b c) M + a K(u) + b D(u) as blocks, of linear elements; `positive`: of such whose tangent is projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u, const ImplicitWeights&,
                       bool positive, const Blocks9<B>& shares, const BlockMatrix<B>& A) const = 0;
   /// The elements' energy, in the x components.

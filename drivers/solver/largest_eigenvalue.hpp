@@ -6,7 +6,7 @@
 
 namespace plica {
 
-/// A level's stiffness at the state u, K; with D over a step [s] added, D the stiffness that damps.
+/// A level's stiffness at the state u, K; with D over a step [s] added, D its damping: kernels/elastic/damping_stress.hpp.
 template <class B>
 struct StiffnessAt {
   const Level<B>& level;

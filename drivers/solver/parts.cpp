@@ -125,8 +125,9 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   add("gravity", problem.gravity.norm() > 0, "gravity", "zero", 0);
   add("mass damping", damps_by_mass(body), "body.damping.mass", "zero",
       sum([](const L& l) { return bytes(l.model.damping.of_vertex); }));
-  add("stiffness damping", damps_by_stiffness(body), "body.damping.stiffness: a tangent product with every force",
-      "zero", sum([](const L& l) { return bytes(l.model.patches.damping); }));
+  add("stiffness damping", damps_by_stiffness(body),
+      "body.damping.stiffness: a stress of the strain rate with every force", "zero",
+      sum([](const L& l) { return bytes(l.model.patches.damping); }));
   add("viscosity", is_viscous(body), viscous_parts(body), "neither body.material nor a region has prony",
       sum([](const L& l) { return l.viscosity ? l.viscosity->bytes(l) : 0; }));
   add("fixed vertices", !body.fixed.empty(), "body.fixed", "none asked for", 0);

@@ -48,6 +48,14 @@ class LevelProbe {
     return q;
   }
 
+  /// D(u) p: minus what a velocity p adds to the force
+  std::vector<Point> damping(const std::vector<Point>& u, const std::vector<Point>& p, int i = 0) {
+    std::vector<Point> q = force(u, zero(i), 0, i);
+    const std::vector<Point> f = force(u, p, 0, i);
+    for (std::size_t a = 0; a < q.size(); ++a) q[a] -= f[a];
+    return q;
+  }
+
   /// K(u) p with the pressures that follow the body, at the time of the last evaluation, which was at u
   std::vector<Point> tangent(const std::vector<Point>& u, const std::vector<Point>& p) {
     std::vector<Point> q = stiffness(u, p);
@@ -82,16 +90,11 @@ class LevelProbe {
 
   /// K(u) on all degrees of freedom, a column for each.
   Eigen::MatrixXd stiffness_matrix(const std::vector<Point>& u, int i = 0) {
-    const auto n = static_cast<Eigen::Index>(3 * u.size());
-    Eigen::MatrixXd K(n, n);
-    std::vector<Point> p(u.size(), Point::Zero());
-    for (Eigen::Index j = 0; j < n; ++j) {
-      p[static_cast<std::size_t>(j / 3)][j % 3] = 1;
-      const auto column = stiffness(u, p, i);
-      p[static_cast<std::size_t>(j / 3)][j % 3] = 0;
-      for (Eigen::Index r = 0; r < n; ++r) K(r, j) = column[static_cast<std::size_t>(r / 3)][r % 3];
-    }
-    return K;
+    return matrix_of(u.size(), [&](const std::vector<Point>& p) { return stiffness(u, p, i); });
+  }
+  /// D(u) likewise
+  Eigen::MatrixXd damping_matrix(const std::vector<Point>& u, int i = 0) {
+    return matrix_of(u.size(), [&](const std::vector<Point>& p) { return damping(u, p, i); });
   }
 
   /// M^-1/2 A M^-1/2 over the free degrees of freedom: its eigenvalues are the squares of the frequencies [1/s^2].
@@ -109,6 +112,19 @@ class LevelProbe {
   }
 
  private:
+  template <class Product>
+  static Eigen::MatrixXd matrix_of(std::size_t vertices, const Product& product) {
+    const auto n = static_cast<Eigen::Index>(3 * vertices);
+    Eigen::MatrixXd A(n, n);
+    std::vector<Point> p(vertices, Point::Zero());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      p[static_cast<std::size_t>(j / 3)][j % 3] = 1;
+      const auto column = product(p);
+      p[static_cast<std::size_t>(j / 3)][j % 3] = 0;
+      for (Eigen::Index r = 0; r < n; ++r) A(r, j) = column[static_cast<std::size_t>(r / 3)][r % 3];
+    }
+    return A;
+  }
   static State<B> state(const std::vector<Point>& u, const std::vector<Point>& v) {
     State<B> s;
     s.u = device_field<B>(u), s.v = device_field<B>(v);

@@ -6,7 +6,7 @@
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Assembles A = (1 + b c) M + a K(u) + b D(u), D the stiffness that damps, as blocks, see ImplicitWeights.
+// Assembles A = (1 + b c) M + a K(u) + b D(u) as blocks, see ImplicitWeights and damping_stress.hpp.
 //
 //   1. ElasticBlocks, per patch    the six blocks between two corners of each element, into scratch; then, pair by pair of the patch's
 //                                  vertices, their sum, to the matrix, or to `shares` where other patches have the pair as well
@@ -50,7 +50,7 @@ KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const Element
   K[54] = K[55] = T(0);
 }
 
-template <class B, class Material, class Tangent>
+template <class B, class Material, class Tangent, bool Damped>
 struct ElasticBlocks {
   using Real = typename B::Real;
   using Policy = Kokkos::TeamPolicy<typename B::Exec>;
@@ -70,7 +70,7 @@ struct ElasticBlocks {
   Vectors<B> u;
   BlockMatrix<B> A;
   Blocks9<B> shares;
-  TangentScale<B> scale;
+  DampingRate<B> rate;
   Real a;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
@@ -97,9 +97,14 @@ struct ElasticBlocks {
     Mat3<T> G[1];
     load_pack<B, 1>(patches, pack, local, shape, G);
     T K[element_numbers];
-    const Tangent tangent(Mat3<T>::identity() + G[0],
-                          load_constants<Material, T>(patches.constants, patch, patches.fibres, pack * lanes));
-    element_blocks(tangent, shape, T(a * scale(patch)), K);
+    const Mat3<T> F = Mat3<T>::identity() + G[0];
+    const auto c = load_constants<Material, T>(patches.constants, patch, patches.fibres, pack * lanes);
+    element_blocks(Tangent(F, c), shape, T(a), K);
+    if constexpr (Damped) {
+      T D[element_numbers];
+      element_blocks(DampingTangent<Material, T>{F, c}, shape, T(rate(patch)), D);
+      for (int k = 0; k < element_numbers; ++k) K[k] += D[k];
+    }
     for (int k = 0; k < element_numbers; k += 4) {
       const T four[4] = {K[k], K[k + 1], K[k + 2], K[k + 3]};
       store_fours(four, [=](int l) { return blocks + l * element_numbers + k; });
@@ -180,13 +185,15 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
                     const Vectors<B>& u, const ImplicitWeights& weights, const Blocks9<B>& shares,
                     const BlockMatrix<B>& A) {
   using Real = typename B::Real;
-  using Kernel = ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>>;
-  const TangentScale<B> scale{model.patches.damping, static_cast<Real>(weights.b / weights.a)};
-  typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
-  policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
-  policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
-  launch("plica::elastic_blocks", policy,
-         Kernel{model.patches, pairs, u, A, shares, scale, static_cast<Real>(weights.a)});
+  const DampingRate<B> rate{model.patches.damping, static_cast<Real>(weights.b)};
+  by_case(rate.counts(), [&]<bool damped>(std::bool_constant<damped>) {
+    using Kernel = ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>, damped>;
+    typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
+    policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
+    policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
+    launch("plica::elastic_blocks", policy,
+           Kernel{model.patches, pairs, u, A, shares, rate, static_cast<Real>(weights.a)});
+  });
   finish_blocks<B>(exec, model, pairs, weights, shares, A);
 }
 

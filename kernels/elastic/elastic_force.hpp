@@ -2,9 +2,8 @@
 #pragma once
 #include <plica/core/level.hpp>
 #include <plica/core/model.hpp>
-#include <plica/kernels/materials/material.hpp>
+#include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/patch_kernel.hpp>
-#include <type_traits>
 
 namespace plica {
 
@@ -39,7 +38,7 @@ struct ElasticForce {
   }
 };
 
-/// The same with the damping force -damping K(u) v of a patch.
+/// The same with the damping force -D(u) v.
 template <class B, class Material, bool Watched>
 struct DampedElasticForce {
   static constexpr int fields = 2;
@@ -54,7 +53,7 @@ struct DampedElasticForce {
     elastic(displacement, shape, corner, patch, pack);
     Vec3<T> drag[4];
     const auto constants = load_constants<Material, T>(elastic.constants, patch, elastic.fibres, pack * B::lanes);
-    stress_to_corners(T(damping(patch)) * Material::stress_change(F, G[1], constants), shape, drag);
+    stress_to_corners(T(damping(patch)) * DampingTangent<Material, T>{F, constants}(G[1]), shape, drag);
     for (int c = 0; c < 4; ++c) corner[c] += drag[c];
   }
 };
@@ -63,19 +62,15 @@ struct DampedElasticForce {
 template <class B, class Material>
 void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const State<B>& state,
                    const ElementFlags<B>& flags, int evaluation, const Vectors<B>& partial) {
-  const auto launch = [&]<bool Watched>(std::bool_constant<Watched>) {
-    const ElasticForce<B, Material, Watched> elastic{{state.u}, patches.constants, flags, evaluation, patches.fibres};
+  by_case(flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
+    const ElasticForce<B, Material, watched> elastic{{state.u}, patches.constants, flags, evaluation, patches.fibres};
     if (patches.damping.extent(0) > 0)
       launch_patches<B>(exec, "plica::damped_elastic_force", patches,
-                        DampedElasticForce<B, Material, Watched>{{state.u, state.v}, elastic, patches.damping},
+                        DampedElasticForce<B, Material, watched>{{state.u, state.v}, elastic, patches.damping},
                         partial);
     else
       launch_patches<B>(exec, "plica::elastic_force", patches, elastic, partial);
-  };
-  if (flags.evaluation.extent(0) > 0)
-    launch(std::true_type());
-  else
-    launch(std::false_type());
+  });
 }
 
 }  // namespace plica

@@ -7,12 +7,12 @@
 //
 //   d.K_bb d = sum_a V_a G_a:(T_a - beta mu):G_a + beta mu w_bb |d|^2,   a: the neighbours of b, and b itself.
 //
-// Of smoothed pressures, which act beyond neighbours, nothing is in it.
+// Where it damps, T_a has that of damping_stress.hpp beside it. Of smoothed pressures, which act beyond neighbours, nothing is in it.
 namespace plica {
 
 /// Leaves as records, of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a neighbour's c = C_ab makes of a
 /// domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z c_z, c_x c_y, c_x c_z, c_y c_z, over V_a.
-template <class B, class Material, template <class> class Tangent>
+template <class B, class Material, template <class> class Tangent, bool Damped>
 struct NodalDiagonal {
   static constexpr int fields = 1;
   static constexpr bool is_tangent = true;
@@ -24,14 +24,16 @@ struct NodalDiagonal {
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1], const RowsAt<B>& at, int region,
                                          Mat3<T>& Q, Vec3<T>& v) const {
-    const T weight = T(scales.tangent(region, over)) * load_rows<B>(&inverse_volume(at.slot));
-    const Tangent<T> tangent(Mat3<T>::identity() + G[0],
-                             load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot));
+    const T weight = load_rows<B>(&inverse_volume(at.slot));
+    const Mat3<T> F = Mat3<T>::identity() + G[0];
+    const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
+    const Tangent<T> tangent(F, c);
     Mat3<T> dP[3];  // by the column of F that moves
     for (int j = 0; j < 3; ++j) {
       Mat3<T> dF;
       dF[direction][j] = T(1);
       dP[j] = tangent(dF) - T(scales.stabiliser(region)) * dF;
+      if constexpr (Damped) dP[j] = dP[j] + T(over * scales.damping(region)) * DampingTangent<Material, T>{F, c}(dF);
     }
     T number[12];
     for (int row = 0; row < 2; ++row) {
@@ -52,13 +54,11 @@ struct NodalDiagonal {
 /// Column `direction` of the blocks, but for its number in the third place after the diagonal's, which is left 0.
 template <class B>
 struct RowDiagonal {
-  using Real = typename B::Real;
   using T = RowPack<B>;
   NodalRows<B> rows;
   RowScales<B> scales;
   Scalars<B> records;
   Vectors<B> partial;
-  Real over;
   int direction;
 
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int item) const {
@@ -84,7 +84,7 @@ struct RowDiagonal {
     }
     add(sum, [=](int l) { return at.slot + l; });
     const int region = rows.region(at.slice);
-    diagonal -= T(scales.tangent(region, over) * scales.stabiliser(region)) * coupling;
+    diagonal -= T(scales.stabiliser(region)) * coupling;
     for (int l = 0; l < B::lanes; ++l) {
       partial(at.slot + l, direction) = lane(diagonal, l);
       partial(at.slot + l, (direction + 1) % 3) = lane(next, l);
@@ -114,11 +114,13 @@ void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const V
   const auto rate = static_cast<typename B::Real>(over);
   const bool kept = u.extent(0) == 0;
   if (!kept) lay_out<B>(exec, rows, level.nodal, {u});
-  for_rows<B>(exec, "plica::nodal_diagonal", rows,
-              RowStresses<B, NodalDiagonal<B, Material, Tangent>>{
-                  rows, level.nodal, {scales, rows.inverse_volume, rate, direction}, kept});
+  by_case(over > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
+    for_rows<B>(exec, "plica::nodal_diagonal", rows,
+                RowStresses<B, NodalDiagonal<B, Material, Tangent, damped>>{
+                    rows, level.nodal, {scales, rows.inverse_volume, rate, direction}, kept});
+  });
   for_rows<B>(exec, "plica::nodal_own_blocks", rows,
-              RowDiagonal<B>{rows, scales, level.nodal.records, level.partial, rate, direction});
+              RowDiagonal<B>{rows, scales, level.nodal.records, level.partial, direction});
 }
 
 // What is the same for all materials, as in nodal_rows.hpp.

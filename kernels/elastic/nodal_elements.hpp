@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/elastic/nodal_rows.hpp>
 #include <plica/kernels/elastic/stress_memory.hpp>
-#include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/vectors.hpp>
-#include <type_traits>
 
 // Elements with one strain per vertex and region ("nodal"), stabilised:
 //
@@ -20,19 +19,17 @@
 //
 // Smoothed volumes, for lambda beyond 2 mu: Psi has lambda_c = min(lambda, 2 mu), and the rest (`excess`) acts on J~ = S J, a mean over
 // neighbours: + sum_a V_a excess/2 (J~_a - 1)^2, whose stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
+//
+// Damping by stiffness (damping_stress.hpp) acts on the strain rates of the domains, and on that of J~ by tau S [excess S (cof F : Fdot)] cof F.
+// It does not act on the bracket: where strain varies, the rate of F_t - F_a is not 0 for a body that only turns.
 namespace plica {
 
 /// Of the regions; see NodalRows.
 template <class B>
 struct RowScales {
-  using Real = typename B::Real;
   Scalars<B> constants, fibres, stabiliser, damping;
   explicit RowScales(const NodalRows<B>& rows)
       : constants(rows.constants), fibres(rows.fibres), stabiliser(rows.stabiliser), damping(rows.damping) {}
-  /// 1, and the part of the stiffness that damps over a time.
-  KOKKOS_INLINE_FUNCTION Real tangent(int region, Real over) const {
-    return damping.extent(0) > 0 ? 1 + over * damping(region) : Real(1);
-  }
 };
 
 /// Pressures from smoothed volumes, and their changes, in the order of the slots: `stride` numbers each.
@@ -48,7 +45,20 @@ struct RowPressure {
   }
 };
 
-/// Stress of the force: f = -dE/du. Damped: with that of -damping K(u) v.
+/// Stress of damping over its time for a change dF of a domain's F, with that of its pressure.
+template <class B, class Material, bool Smoothed>
+KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> nodal_damping(const Mat3<RowPack<B>>& F, const Mat3<RowPack<B>>& dF,
+                                                      const typename Material::template Constants<RowPack<B>>& c,
+                                                      const RowPressure<B, Smoothed>& pressure, int slot) {
+  using T = RowPack<B>;
+  const Mat3<T> P = DampingTangent<Material, T>{F, c}(dF);
+  if constexpr (Smoothed)
+    return P + pressure.template at<T>(slot, 1) * cofactor(F);
+  else
+    return P;
+}
+
+/// Stress of the force: f = -dE/du. Damped: with that of -D(u) v.
 template <class B, class Material, bool Watched, bool Damped, bool Smoothed>
 struct NodalForce {
   static constexpr int fields = Damped ? 2 : 1;
@@ -66,15 +76,7 @@ struct NodalForce {
     Q = Material::stress(F, c) - b * G[0];
     v = field[0];
     if constexpr (Smoothed) Q = Q + pressure.template at<T>(at.slot, 0) * cofactor(F);
-    if constexpr (Damped) {
-      const T d = T(scales.damping(region));
-      Mat3<T> dP = Material::stress_change(F, G[1], c) - b * G[1];
-      if constexpr (Smoothed)
-        dP = dP + pressure.template at<T>(at.slot, 1) * cofactor(F) +
-             pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
-      Q = Q + d * dP;
-      v += d * field[1];
-    }
+    if constexpr (Damped) Q = Q + T(scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
     if constexpr (Watched) {
       const T J = determinant(F);
       bool upright = true;
@@ -89,8 +91,8 @@ struct NodalForce {
   }
 };
 
-/// Stress of -K(u) p.
-template <class B, class Material, template <class> class Tangent, bool Smoothed>
+/// Stress of -K(u) p. Damped: with that of -D(u) p over a time.
+template <class B, class Material, template <class> class Tangent, bool Damped, bool Smoothed>
 struct NodalTangent {
   static constexpr int fields = 2;  // u, p
   static constexpr bool is_tangent = true;
@@ -101,15 +103,16 @@ struct NodalTangent {
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2], const RowsAt<B>& at,
                                          int region, Mat3<T>& Q, Vec3<T>& v) const {
-    const T scale = T(scales.tangent(region, over)), b = T(scales.stabiliser(region));
+    const T b = T(scales.stabiliser(region));
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    Mat3<T> dP =
-        Tangent<T>(F, load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot))(G[1]) - b * G[1];
+    const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
+    Q = Tangent<T>(F, c)(G[1]) - b * G[1];
+    v = field[1];
     if constexpr (Smoothed)
-      dP = dP + pressure.template at<T>(at.slot, 1) * cofactor(F) +
-           pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
-    Q = scale * dP;
-    v = scale * field[1];
+      Q = Q + pressure.template at<T>(at.slot, 1) * cofactor(F) +
+          pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
+    if constexpr (Damped)
+      Q = Q + T(over * scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
   }
 };
 
@@ -178,15 +181,6 @@ void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, co
   for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, false>{rows, work.records, work.pressure});
 }
 
-/// launch(a true or false type) by a condition that is known at run time only.
-template <class Launch>
-void by_case(bool condition, const Launch& launch) {
-  if (condition)
-    launch(std::true_type());
-  else
-    launch(std::false_type());
-}
-
 /// Damped where the rows are; with empty flags nobody watches for inverted domains.
 template <class B, class Material>
 void nodal_force(const typename B::Exec& exec, const Level<B>& level, const State<B>& state, int evaluation) {
@@ -220,10 +214,12 @@ void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Ve
     lay_out<B>(exec, rows, level.nodal, {u, p});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed) smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
-    launch_rows<B>(exec, "plica::nodal_tangent", level,
-                   NodalTangent<B, Material, Tangent, smoothed>{
-                       RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}},
-                   kept);
+    by_case(over > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
+      launch_rows<B>(exec, "plica::nodal_tangent", level,
+                     NodalTangent<B, Material, Tangent, damped, smoothed>{
+                         RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}},
+                     kept);
+    });
   });
 }
 

@@ -40,10 +40,9 @@ struct Costa : Isochoric<Costa> {
   struct Strains {
     Mat3<T> M[6];
     T E[6];
-    KOKKOS_INLINE_FUNCTION Strains(const Mat3<T>& C, const IsochoricConstants<T>& c) {
+    KOKKOS_INLINE_FUNCTION Strains(const Mat3<T>& G, const IsochoricConstants<T>& c) {
       const Vec3<T> axis[3] = {c.axis[0], c.axis[1], cross(c.axis[0], c.axis[1])};
       constexpr int first[6] = {0, 1, 2, 0, 0, 1}, second[6] = {0, 1, 2, 1, 2, 2};
-      const Mat3<T> G = T(0.5f) * (C - Mat3<T>::identity());
       for (int k = 0; k < 6; ++k) {
         const Mat3<T> A = outer(axis[first[k]], axis[second[k]]);
         M[k] = T(0.5f) * (A + transpose(A));
@@ -56,23 +55,34 @@ struct Costa : Isochoric<Costa> {
       for (int k = 0; k < 6; ++k) Q += times(k) * c.own[1 + k] * E[k] * E[k];
       return Q;
     }
+    /// dQ/dE / 2
+    KOKKOS_INLINE_FUNCTION Mat3<T> slope(const IsochoricConstants<T>& c) const {
+      Mat3<T> G;
+      for (int k = 0; k < 6; ++k) G = G + (times(k) * c.own[1 + k] * E[k]) * M[k];
+      return G;
+    }
   };
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> strain(const Mat3<T>& C) {
+    return T(0.5f) * (C - Mat3<T>::identity());
+  }
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION T isochoric(const Mat3<T>& C, const IsochoricConstants<T>& c) {
-    return T(0.5f) * c.own[0] * Exponential<T>(Strains<T>(C, c).exponent(c)).less_one;
+    return T(0.5f) * c.own[0] * Exponential<T>(Strains<T>(strain(C), c).exponent(c)).less_one;
   }
   template <class T, class To>
   static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c, To& to) {
-    const Strains<T> strains(C, c);
+    const Strains<T> strains(strain(C), c);
     const Exponential<T> e(strains.exponent(c));
-    Mat3<T> G;  // dQ/dE / 2
-    for (int k = 0; k < 6; ++k) {
-      const T b = strains.times(k) * c.own[1 + k];
-      G = G + (b * strains.E[k]) * strains.M[k];
-      to.square(T(0.5f) * c.own[0] * e.first * b, strains.M[k]);
-    }
+    const Mat3<T> G = strains.slope(c);
+    for (int k = 0; k < 6; ++k)
+      to.square(T(0.5f) * c.own[0] * e.first * (strains.times(k) * c.own[1 + k]), strains.M[k]);
     to.stress(c.own[0] * e.first, G), to.square(c.own[0] * e.second, G);
+  }
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e, const IsochoricConstants<T>& c) {
+    return c.own[0] * Strains<T>(e, c).slope(c);
   }
 };
 

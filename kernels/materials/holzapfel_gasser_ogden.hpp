@@ -56,6 +56,13 @@ struct HolzapfelGasserOgden : Isochoric<HolzapfelGasserOgden> {
       to.square(twice * where_positive(E, e.first + T(2) * q * e.second), M);
     }
   }
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e, const IsochoricConstants<T>& c) {
+    Mat3<T> S = (T(2) * c.own[0]) * e;
+    const T fibre = T(4) * c.own[1] * c.own[4] * c.own[4];
+    for (int a = 0; a < 2; ++a) S = S + (fibre * dot(c.axis[a], e * c.axis[a])) * outer(c.axis[a], c.axis[a]);
+    return S;
+  }
 };
 
 }  // namespace plica

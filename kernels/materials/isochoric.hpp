@@ -11,6 +11,7 @@
 //   name, summary, parameters, kernel_constants(p), and of the statements in material.hpp those that differ from below
 //   isochoric(C, c)           W [J/m^3]
 //   respond(C, c, to)         S = 2 dW/dC and dS/dC as a sum, by calls of `to`: see IsochoricStress
+//   shape_at_rest(e, c)       where it has fibres: the stress of a small strain e without a trace, itself up to its trace
 namespace plica {
 
 /// What kernels get of every law: the same for all, so that all can share their kernels.
@@ -219,6 +220,17 @@ struct Isochoric {
   static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF,
                                                       const IsochoricConstants<T>& c) {
     return Tangent<T>(F, c)(dF);
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_at_rest(const Mat3<T>& G, const IsochoricConstants<T>& c) {
+    const T t = trace(G), third = T(1) / T(3);
+    const Mat3<T> S = Law::shape_at_rest(T(0.5f) * (G + transpose(G)) - Mat3<T>::diagonal(third * t), c);
+    return S + Mat3<T>::diagonal(c.bulk * t - third * trace(S));
+  }
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e, const IsochoricConstants<T>& c) {
+    return (c.mu + c.mu) * e;
   }
 };
 

@@ -15,26 +15,21 @@ struct Linear : TwoConstants {
   static constexpr bool allows_inversion = true;
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> hooke(const Mat3<T>& G, const Lame<T>& c) {  // of a gradient G
-    return c.mu * (G + transpose(G)) + Mat3<T>::diagonal(c.lambda * trace(G));
-  }
-
-  template <class T>
   static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const Lame<T>& c) {
     const Mat3<T> G = F - Mat3<T>::identity();
-    return T(0.5f) * inner(G, hooke(G, c));
+    return T(0.5f) * inner(G, stress_at_rest(G, c));
   }
 
   template <class T>
   static KOKKOS_INLINE_FUNCTION Mat3<T> stress(const Mat3<T>& F, const Lame<T>& c) {
-    return hooke(F - Mat3<T>::identity(), c);
+    return stress_at_rest(F - Mat3<T>::identity(), c);
   }
 
   template <class T>
   struct Tangent {
     Lame<T> c;
     KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>&, const Lame<T>& constants) : c(constants) {}
-    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const { return hooke(dF, c); }
+    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const { return stress_at_rest(dF, c); }
     using Corner = Vec3<T>;
     KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& g) const { return g; }
     KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {

@@ -16,6 +16,7 @@
 //                             worked out once. Its corner(g), of a gradient g, and block(p, q) of two such give the matrix
 //                             a -> (dP/dF : (a q^T)) p, symmetric in (p, q) but for a transposition: an element matrix in few operations
 //   stress_change(F, dF, c)   the same for one dF
+//   stress_at_rest(G, c)      dP/dF at rest : G [Pa], symmetric; of a fibre that bears tension only as if it were under tension
 // with constants c of the type Constants<T>, a struct of members of type T and nothing else, as many as it likes. It declares
 //   parameters                std::array of the MaterialParameters that a scene gives
 //   kernel_constants(p)       Constants<double> of their values, in that order; worked out once per region
@@ -40,6 +41,10 @@ struct TwoConstants {
   static Lame<double> kernel_constants(const double* p) { return lame_constants(p[0], p[1]); }
   static Lame<double> small_strains(const Lame<double>& c) { return c; }
   static Lame<double> with_lambda(const Lame<double>& c, double lambda) { return {lambda, c.mu}; }
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_at_rest(const Mat3<T>& G, const Lame<T>& c) {  // Hooke's law
+    return c.mu * (G + transpose(G)) + Mat3<T>::diagonal(c.lambda * trace(G));
+  }
 };
 
 /// A corner for block() where a tangent has no shorter way: dP for e_k g^T.

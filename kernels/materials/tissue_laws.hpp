@@ -37,6 +37,14 @@ struct TissueLaws : Isochoric<TissueLaws> {
                                                                To& to) {
     with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)), [&](auto law) { decltype(law)::respond(C, c, to); });
   }
+  template <class T>
+  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e,
+                                                                        const IsochoricConstants<T>& c) {
+    Mat3<T> S;
+    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)),
+             [&](auto law) { S = decltype(law)::shape_at_rest(e, c); });
+    return S;
+  }
 };
 
 }  // namespace plica

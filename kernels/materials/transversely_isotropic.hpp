@@ -30,6 +30,10 @@ struct TransverselyIsotropic : Isochoric<TransverselyIsotropic> {
     to.stress(c.own[0], Mat3<T>::identity()), to.stress(twice * (inner(M, C) - T(1)), M);
     to.square(twice, M);
   }
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e, const IsochoricConstants<T>& c) {
+    return (T(2) * c.own[0]) * e + (T(4) * c.own[1] * dot(c.axis[0], e * c.axis[0])) * outer(c.axis[0], c.axis[0]);
+  }
 };
 
 }  // namespace plica

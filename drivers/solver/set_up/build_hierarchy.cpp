@@ -41,7 +41,8 @@ DampingLimit damping_limit(const LevelConstants& c) {
   const auto mass = std::minmax_element(c.mass_damping.begin(), c.mass_damping.end());
   if (c.stiffness_damping.empty()) return {*mass.first, *mass.second};
   const auto stiffness = std::minmax_element(c.stiffness_damping.begin(), c.stiffness_damping.end());
-  return {*mass.first, *mass.second, *stiffness.first, *stiffness.second};
+  const double least = c.element == Element::linear ? *stiffness.first : 0;  // what stabilises nodal ones is undamped
+  return {*mass.first, *mass.second, least, *stiffness.second};
 }
 
 /// The set-up in progress: host data that several of its steps need.

@@ -11,7 +11,7 @@ struct NodalConstants {
   std::vector<std::vector<double>> material;  ///< constants of the material
   std::vector<double> stabiliser;             ///< beta mu [Pa]
   std::vector<double> excess;                 ///< of lambda, on smoothed volumes [Pa]; empty: none
-  std::vector<double> damping;                ///< part of the stiffness that damps [s]; empty: none
+  std::vector<double> damping;                ///< by stiffness [s]; empty: none
 };
 
 /// The rows of a mesh at rest, in its vertices' order but for short windows, in which rows of a like length stand together.

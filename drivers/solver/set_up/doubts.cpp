@@ -74,14 +74,6 @@ void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
   }
 }
 
-// K is the tangent at the state: of a stressed body that turns as a whole, K v is not 0
-void doubt_damping(const Body& body, std::vector<std::string>& sentences) {
-  if (body.damping.stiffness > 0 && body.fixed.empty() && body.prescribed.empty())
-    sentences.push_back(
-        "body.damping.stiffness: nothing holds the body, and this damping acts on its turning, too: it brakes it under "
-        "tension and drives it under pressure; expected body.material.prony, body.damping.mass, or body.fixed");
-}
-
 }  // namespace
 
 std::vector<std::string> doubts(const Problem& problem) {
@@ -95,7 +87,6 @@ std::vector<std::string> doubts(const Problem& problem) {
   if (levels.size() > 1) doubt_levels(problem, sentences);
   doubt_elements(problem.body, sentences);
   doubt_tools(problem, sentences);
-  doubt_damping(problem.body, sentences);
   for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);
   if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
     const TetMesh& mesh = levels.front();

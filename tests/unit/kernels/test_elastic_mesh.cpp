@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/study/level_probe.hpp>
+#include <plica/kernels/elastic/damping_stress.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
 #include "support/backends.hpp"
@@ -192,21 +193,26 @@ TEST(ElasticMesh, LumpedMassesAddUpAndGravityIsTheirWeight) {
   EXPECT_NEAR(probe.built.reports[0].mass, want, round_off<double>(100, want));
 }
 
-// dP/dF of every registered material, as it is and projected.
+// dP/dF of every registered material, as it is and projected, and its damping.
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-/// dP/dF in the order of F's entries, row by row.
-template <class Material>
-Matrix9 change_matrix(const Mat3<double>& F) {
+/// In the order of F's entries, row by row.
+template <class Tangent>
+Matrix9 matrix_of(const Tangent& tangent) {
   Matrix9 C;
   for (int j = 0; j < 9; ++j) {
     Mat3<double> dF;
     dF[j / 3][j % 3] = 1;
-    const Mat3<double> dP = Material::stress_change(F, dF, sample_constants<Material>());
+    const Mat3<double> dP = tangent(dF);
     for (int i = 0; i < 9; ++i) C(i, j) = dP[i / 3][i % 3];
   }
   return 0.5 * (C + C.transpose());
+}
+
+template <class Material>
+Matrix9 change_matrix(const Mat3<double>& F) {
+  return matrix_of(typename Material::template Tangent<double>(F, sample_constants<Material>()));
 }
 
 Matrix9 matrix_of(const Mat9<double>& A) {
@@ -245,6 +251,8 @@ TEST(Tangents, BlocksAreTheirContractions) {
       expect_blocks_of(typename M::template Tangent<double>(F, sample_constants<M>()), change_matrix<M>(F));
       const typename PositiveTangent<M>::template Of<double> projected(F, sample_constants<M>());
       expect_blocks_of(projected, matrix_of(projected.C));
+      const DampingTangent<M, double> damping{F, sample_constants<M>()};
+      expect_blocks_of(damping, matrix_of(damping));
     }
   });
 }

@@ -127,6 +127,22 @@ TEST(Materials, AreHookesLawAtRest) {
   expect_hookes_law<ThreeConstants>();
 }
 
+// Fibres of holzapfel_gasser_ogden under the least tension
+TEST(Materials, StressAtRestIsTheirTangentThere) {
+  for_each_material([](auto material) {
+    using M = decltype(material);
+    const auto c = sample_constants<M>();
+    Mat3<double> F = Mat3<double>::identity();
+    if constexpr (requires { c.axis; }) F = F + 1e-8 * (outer(c.axis[0], c.axis[0]) + outer(c.axis[1], c.axis[1]));
+    for (const Mat3<double>& D : directions()) {
+      const Eigen::Matrix3d S = eigen(M::stress_at_rest(D, c)), dP = eigen(M::stress_change(F, D, c));
+      EXPECT_LE((S - dP).norm(), 1e-6 * dP.norm());
+      EXPECT_EQ(S, S.transpose());
+      EXPECT_LE(eigen(M::stress_at_rest(D - transpose(D), c)).norm(), round_off<double>(10, dP.norm()));
+    }
+  });
+}
+
 TEST(Materials, RotationTurnsTheStressWithIt) {
   std::mt19937 random(5);
   for_each_material([&](auto material) {
@@ -284,15 +300,18 @@ TEST(TissueLaws, AreEachLaw) {
       const auto four = load_constants<TissueLaws, T>(at, 0);
       for (const Gradient& g : gradients(true)) {
         const Mat3<double> F = mat3<double>(g.F), D = directions()[0];
-        const Eigen::Matrix3d P = eigen(M::stress(F, one)), dP = eigen(M::stress_change(F, D, one));
+        const Eigen::Matrix3d P = eigen(M::stress(F, one)), dP = eigen(M::stress_change(F, D, one)),
+                              S = eigen(M::stress_at_rest(F, one));
         const Mat3<T> Fs = mat3<T>(g.F), Ps = TissueLaws::stress(Fs, four),
-                      dPs = TissueLaws::stress_change(Fs, mat3<T>(eigen(D)), four);
+                      dPs = TissueLaws::stress_change(Fs, mat3<T>(eigen(D)), four),
+                      Ss = TissueLaws::stress_at_rest(Fs, four);
         const double E = M::energy(F, one);
         EXPECT_NEAR(TissueLaws::energy(Fs, four)[3], E, round_off<double>(5900, std::abs(E))) << g.F;  // 2916 of ogden
         for (int r = 0; r < 3; ++r)
           for (int k = 0; k < 3; ++k) {
             EXPECT_NEAR(Ps[r][k][3], P(r, k), round_off<double>(1e4, P.norm())) << g.F;
             EXPECT_NEAR(dPs[r][k][3], dP(r, k), round_off<double>(1e6, dP.norm())) << g.F;
+            EXPECT_NEAR(Ss[r][k][3], S(r, k), round_off<double>(100, S.norm())) << g.F;
           }
       }
     }
