@@ -279,11 +279,9 @@ void describe(V& v, ImplicitOptions& o) {
   v("max_iterations", o.max_iterations, Count{1}, "a solve that has not converged by then is counted as a miss");
   v("newton_iterations", o.newton_iterations, AutoCount{},
     "per step, at most; 1: linearly implicit; auto: 20 where the integrator conserves energy, else 1");
-  v("contact_solves", o.contact_solves, Count{1},
-    "per linearly implicit step, at most, while a solve changes what touches; 1: that is decided before the step");
+  v("contact_solves", o.contact_solves, Count{1}, "per linearly implicit step, while a solve changes what touches");
   v("newton_tolerance", o.newton_tolerance, Quantity{plain, positive}, "of the residual, relative to the first");
-  v("newton_residual", o.newton_residual, Quantity{force, not_negative},
-    "or, where that is less strict, this residual");
+  v("newton_residual", o.newton_residual, Quantity{force, not_negative}, "or, if that is less strict, this residual");
   v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
   v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");
   v("halvings", o.halvings, Count{1, 20}, "of such a step, at most, with halve; the shortest are accepted");
