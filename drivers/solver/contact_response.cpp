@@ -155,7 +155,7 @@ void ContactResponse<B>::linearise_records(const Exec& exec) const {
 template <class B>
 void ContactResponse<B>::move_linearised(const Exec& exec, const Level<B>& level, const Vectors<B>& change,
                                          const Vectors<B>& r) {
-  linearise_records(exec);
+  linearise_records(exec);  // products have written over the forces
   scatter(exec, level, r, {}, -weights_.b);
   add_product(exec, level, change, false, r);
   update_vertices<B>(

@@ -20,8 +20,7 @@ struct ConjugateGradients {
   static constexpr const char* summary = "preconditioned, with or without a matrix";
   static constexpr int patience = 8;
   static constexpr int most_cycles = 300;
-  static constexpr double settled =
-      0.1;  ///< part of the first right side that contact may change without another solve
+  static constexpr double settled = 0.1;  ///< part of the right side that contact may change unsolved
 
   template <class B>
   class Of final : public LinearSolver<B> {
