@@ -158,8 +158,10 @@ template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
   Inside& s = *inside_;
   const auto bad = s.examine();
-  if (!bad) s.keep_at_times();
-  return bad;
+  if (bad) return bad;
+  s.keep_at_times();
+  s.built.stepper->lengthen(s.hierarchy(), s.built.macro_step, s.steps);
+  return {};
 }
 
 template <class B>

@@ -32,7 +32,8 @@ struct StepperSetup {
 ///   plan     at set-up: the macro step, what each level does in it, work arrays
 ///   start    once, from the state that set-up has made
 ///   step     macro steps
-///   check    lost_stability(), which may be true before the state is bad; repair() makes the next steps stable
+///   check    lost_stability(), which may be true before the state is bad; repair() makes the next steps stable, lengthen() takes
+///            that back
 ///   report   counters(), bytes(); persist() for checkpoints
 template <class B>
 class Stepper {
@@ -60,6 +61,9 @@ class Stepper {
   virtual bool repairs(const Diagnosis&) const { return false; }
   /// Makes steps of `t` [s] stable again, by shorter ones within them, starting from the present state; false where it cannot.
   virtual bool repair(Hierarchy<B>&, double) { return false; }
+  /// Takes back what repair() has cut as far as the present state, which has passed its check, does not need it any more. `steps`: macro
+  /// steps of the run so far. It is tried now and then, see Regaining; waits then.
+  virtual void lengthen(Hierarchy<B>&, double /*t*/, long /*steps*/) {}
   /// Into how many parts repairs have cut the plan's sub-steps.
   virtual int parts() const { return 1; }
 

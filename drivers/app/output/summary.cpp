@@ -220,6 +220,14 @@ static std::string solves_text(std::map<std::string, long> count) {
                             count["newton_misses"]);
 }
 
+// "cut 4 times, as the body stiffened, given back 2 times"; empty: never cut
+static std::string cuts_text(std::map<std::string, long> count) {
+  const long cuts = count["substep_halvings"] + count["inertia_refits"], back = count["substeps_regained"];
+  if (cuts == 0) return "";
+  return fmt::format("cut {} as the body stiffened{}", counted(cuts, "time"),
+                     back > 0 ? fmt::format(", given back {}", counted(back, "time")) : "");
+}
+
 std::string unsolved_text(std::map<std::string, long> count) {
   const bool newton = count["newton_iterations"] > 0;  // makes up for linear systems that are not solved
   const long missed = count[newton ? "newton_misses" : "cg_misses"];
@@ -275,9 +283,7 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"to look at", "plica report " + folder}};
   if (const std::string solves = solves_text(s.counters); !solves.empty())
     rows.insert(rows.begin() + 2, {"solving", solves});
-  if (const auto halvings = s.counters.find("substep_halvings"); halvings != s.counters.end() && halvings->second > 0)
-    rows.insert(rows.begin() + 2,
-                {"sub-steps", fmt::format("cut in {}, as the body stiffened", 1L << halvings->second)});
+  if (const std::string cuts = cuts_text(s.counters); !cuts.empty()) rows.insert(rows.begin() + 2, {"sub-steps", cuts});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }
 

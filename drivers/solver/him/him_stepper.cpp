@@ -14,6 +14,7 @@ namespace {
 
 // Times the critical step of the finest level; over spaces made of it, slivers left out
 constexpr double automatic_step = 8, step_with_contact = 4;
+constexpr double steady_product = 3;  // of t^2 lambda_max(A K): 4 sigma^2 is 2.56 at rest, 3.4 is too much
 
 void expect_small(const TetMesh& coarsest, std::size_t level) {
   const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
@@ -138,11 +139,30 @@ void HimStepper<B>::plan(StepperSetup<B>& setup) {
 template <class B>
 void HimStepper<B>::take(const Hierarchy<B>& h, HimParts<B>&& parts) {
   parts_ = std::move(parts);
+  scales_[0] = parts_.fit.scale;
   n_ = h[0].model.vertices;
   p_ = Vectors<B>("plica::him.p", n_), g_ = Vectors<B>("plica::him.g", n_), a_ = Vectors<B>("plica::him.a", n_);
   f_before_ = Vectors<B>("plica::him.f_before", n_), a_before_ = Vectors<B>("plica::him.a_before", n_);
   blocks_ = BlockSums<B>(n_);
   turned_ = Count("plica::him.turned", 1), sums_ = Count("plica::him.sums", 2), watch_ = Count("plica::him.watch", 3);
+}
+
+template <class B>
+void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
+  if (halvings_ == 0 || !regaining_.due(steps)) return;
+  int fitting = halvings_;
+  for (int next = fitting - 1; next >= 0; --next) {
+    const double step = t / (1 << next), scale = scales_[static_cast<std::size_t>(next)];
+    if (scale == 0) continue;
+    parts_.fitter->use(step, parts_.options.sigma, scale);
+    if (parts_.fitter->product(step, h[0].state.u) > steady_product) break;
+    fitting = next;
+  }
+  const bool longer = fitting < halvings_;
+  regaining_.tried(steps, longer);
+  halvings_ = fitting;
+  parts_.fit = parts_.fitter->use(t / parts(), parts_.options.sigma, scales_[static_cast<std::size_t>(halvings_)]);
+  if (longer) begin(h);
 }
 
 template <class B>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <functional>
 #include <plica/core/level.hpp>
 #include <plica/drivers/solver/him/inertia.hpp>
+#include <plica/drivers/solver/regaining.hpp>
 #include <plica/drivers/solver/stepper.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/him/leapfrog.hpp>
@@ -116,7 +118,8 @@ struct HimParts {
 /// half a step after the forces, so that at t_n and t_n+1 it is that of position Verlet. The energy stays bounded. Of a free body
 /// sum p = sum m v and sum x x p are conserved; sum x x m v oscillates. A start from given velocities takes p = m v and v = A m v.
 /// A state that is set later keeps its v, with p = A^-1 v and the axes of that moment. lost_stability() is true where the body has
-/// stiffened beyond the stable step; repair() fits the inertia to the present state.
+/// stiffened beyond the stable step; repair() cuts the step and fits the inertia to the present state, lengthen() takes the longest of the
+/// earlier fits that hold in it.
 template <class B>
 class HimStepper final : public Stepper<B> {
   using Real = typename B::Real;
@@ -151,7 +154,7 @@ class HimStepper final : public Stepper<B> {
 
   void step(Hierarchy<B>& h, double time, double t) override {
     if (!has_momenta_) find_momenta(h.exec(), h[0]);
-    for (int s = 0; s < substeps_; ++s) one(h, time + s * t / substeps_, t / substeps_);
+    for (int s = 0; s < parts(); ++s) one(h, time + s * t / parts(), t / parts());
   }
 
   bool can_repair() const override { return true; }
@@ -163,37 +166,42 @@ class HimStepper final : public Stepper<B> {
   }
 
   bool repair(Hierarchy<B>& h, double t) override {
-    constexpr int most_substeps = 64;
     ++repairs_;
-    while ((substeps_ *= 2) <= most_substeps)
-      if (const auto fit = parts_.fitter->fit(t / substeps_, parts_.options.sigma, h[0].state.u)) {
+    regaining_.cut();
+    while (++halvings_ <= most_halvings)
+      if (const auto fit = parts_.fitter->fit(t / parts(), parts_.options.sigma, h[0].state.u)) {
         parts_.fit = *fit;
+        scales_[static_cast<std::size_t>(halvings_)] = fit->scale;
         begin(h);
         return true;
       }
     return false;
   }
 
-  int parts() const override { return substeps_; }
+  void lengthen(Hierarchy<B>& h, double t, long steps) override;
+
+  int parts() const override { return 1 << halvings_; }
 
   /// p [kg m/s], 0 where the motion is given.
   const Vectors<B>& momenta() const { return p_; }
 
   std::map<std::string, long> counters() const override {
-    return {{"inertia_refits", repairs_}, {"him_substeps", substeps_}};
+    return {{"inertia_refits", repairs_}, {"him_substeps", parts()}, {"substeps_regained", regaining_.count()}};
   }
 
   std::size_t bytes() const override {
-    return parts_.inverse_mass->bytes() + 5 * g_.span() * sizeof(Real) + (parts_.free ? g_.span() * sizeof(Real) : 0) +
-           2 * parts_.contact_force.span() * sizeof(Real);
+    return parts_.inverse_mass->bytes() + parts_.fitter->bytes() + 5 * g_.span() * sizeof(Real) +
+           (parts_.free ? g_.span() * sizeof(Real) : 0) + 2 * parts_.contact_force.span() * sizeof(Real);
   }
 
   void persist(StateArchive<B>& archive) override {
-    const double macro_step = parts_.fit.step * substeps_;
-    double scale = parts_.fit.scale;
-    archive.number(scale), archive.number(substeps_), archive.number(repairs_);
-    if (scale != parts_.fit.scale || macro_step != parts_.fit.step * substeps_)
-      parts_.fit = parts_.fitter->use(macro_step / substeps_, parts_.options.sigma, scale);
+    const double macro_step = parts_.fit.step * parts();
+    archive.number(halvings_), archive.number(repairs_);
+    for (double& scale : scales_) archive.number(scale);
+    regaining_.persist(archive);
+    const double step = macro_step / parts(), scale = scales_[static_cast<std::size_t>(halvings_)];
+    if (scale != parts_.fit.scale || step != parts_.fit.step)
+      parts_.fit = parts_.fitter->use(step, parts_.options.sigma, scale);
     archive.number(first_), archive.number(has_momenta_);
     archive.field("the momenta", p_);
     archive.field("the axes' share of them", parts_.inverse_mass->axes().share());
@@ -210,9 +218,12 @@ class HimStepper final : public Stepper<B> {
   BlockSums<B> blocks_;
   Doubles<B> turned_, sums_, watch_;
   bool first_ = true;
-  bool has_momenta_ = true;  // else the next step finds them
-  int substeps_ = 1;
+  bool has_momenta_ = true;                // else the next step finds them
+  static constexpr int most_halvings = 6;  // of a step
+  int halvings_ = 0;
+  std::array<double, most_halvings + 1> scales_ = {};  // of the last fit with so many halvings; 0: none
   long repairs_ = 0;
+  Regaining regaining_;
 
   using Count = typename InverseMass<B>::Count;
 

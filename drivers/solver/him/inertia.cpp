@@ -9,7 +9,7 @@ namespace plica {
 
 namespace {
 
-constexpr double rounding = 1e-12, least_scale = 1e-4, parts_tolerance = 1e-2, fit_tolerance = 1e-2;
+constexpr double rounding = 1e-12, least_scale = 1e-4, parts_tolerance = 1e-2;
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
 constexpr int scales = 1 << halvings, most_guesses = 5;
 
@@ -58,8 +58,10 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
   const Kokkos::Profiling::ScopedRegion region("plica: critical steps of the parts of the inertia");
   const auto levels = static_cast<std::size_t>(inverse_mass_.levels());
   const Vectors<B> rest = zeros<Vectors<B>>("plica::him.rest", static_cast<std::size_t>(level.model.vertices));
-  const auto n = modes_ ? static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices) : 0;
-  inverse_mass_.set_answer(Eigen::MatrixXd::Zero(n, n));
+  if (modes_) {
+    const auto n = static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices);
+    inverse_mass_.set_answer(InverseMass<B>::to_device(Eigen::MatrixXd::Zero(n, n)));
+  }
   critical_.push_back(2 / std::sqrt(eigenvalue));
   for (std::size_t i = 1; i + 1 < levels; ++i) {
     std::vector<double> alone(levels, 0.0);
@@ -91,7 +93,17 @@ std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
 
 template <class B>
 void InertiaFitter<B>::set_answer(double t, double sigma) {
-  if (modes_) inverse_mass_.set_answer(modes_->answer(t, kappa_of(sigma)));
+  if (!modes_) return;
+  auto& answer = answers_[{t, sigma}];
+  if (answer.extent(0) == 0) answer = InverseMass<B>::to_device(modes_->answer(t, kappa_of(sigma)));
+  inverse_mass_.set_answer(answer);
+}
+
+template <class B>
+std::size_t InertiaFitter<B>::bytes() const {
+  std::size_t total = 0;
+  for (const auto& [step, answer] : answers_) total += answer.span() * sizeof(float);
+  return total;
 }
 
 template <class B>
@@ -118,15 +130,15 @@ template <class B>
 std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Vectors<B>& u) {
   const Kokkos::Profiling::ScopedRegion region("plica: fitting the inertia");
   set_answer(t, sigma);
-  double product = 0;  // of the last scale that was tried
+  double tried = 0;  // the product of the last scale
   const auto fits = [&](double gamma) {
     inverse_mass_.set_weights(weights_of(alphas(t, gamma)));
-    product = t * t * largest(u, fit_tolerance);
-    return product <= 4 * sigma * sigma;
+    tried = product(t, u);
+    return tried <= 4 * sigma * sigma;
   };
   const auto found = [&](double gamma) {
     InertiaFit fit = weigh(t, sigma, gamma);
-    fit.product = product;
+    fit.product = tried;
     return fit;
   };
   const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
@@ -135,7 +147,7 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
   if (!modes_) return {};
   // the largest of the scales that fits: the product grows with them, from the coarsest level's own
   const double limit = 4 * sigma * sigma;
-  Tried below{0, modes_->largest(t, kappa_of(sigma))}, above{1, product};
+  Tried below{0, modes_->largest(t, kappa_of(sigma))}, above{1, tried};
   int fitting = -1, failing = scales;
   for (int guesses = 0; failing - fitting > 1; ++guesses) {
     const double guess = between(below, above, limit);
@@ -145,12 +157,12 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
     if (guesses == 1 && fitting < 0) next = 0;  // of a body that has stiffened none may fit
     const double gamma = scale_at(next);
     if (fits(gamma))
-      fitting = next, below = {gamma, product};
+      fitting = next, below = {gamma, tried};
     else
-      failing = next, above = {gamma, product};
+      failing = next, above = {gamma, tried};
   }
   if (fitting < 0) return {};
-  product = below.product;
+  tried = below.product;
   return found(below.scale);
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <plica/core/level.hpp>
@@ -33,6 +35,12 @@ class InertiaFitter {
   /// The fit that had this gamma, at whatever state; its product is not known then.
   InertiaFit use(double t, double sigma, double scale);
 
+  /// Device memory of the coarsest level's answers to the steps so far.
+  std::size_t bytes() const;
+
+  /// t^2 lambda_max(A K) at the state u, as the weights are for steps of t [s].
+  double product(double t, const Vectors<B>& u) const { return t * t * largest(u, fit_tolerance); }
+
   /// 2 / sqrt(lambda_max) of each part of the inverse mass alone at rest, finest first, without the coarsest [s].
   const std::vector<double>& critical_steps() const { return critical_; }
 
@@ -43,6 +51,8 @@ class InertiaFitter {
   InverseMass<B>& inverse_mass_;
   std::optional<CoarseModes> modes_;
   std::vector<double> critical_;
+  std::map<std::array<double, 2>, typename InverseMass<B>::Answer> answers_;  // of steps and sigmas so far
+  static constexpr double fit_tolerance = 1e-2;
 
   void set_answer(double t, double sigma);
   InertiaFit weigh(double t, double sigma, double scale);

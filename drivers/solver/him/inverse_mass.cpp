@@ -63,8 +63,7 @@ InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>
 }
 
 template <class B>
-void InverseMass<B>::set_answer(const Eigen::MatrixXd& S) {
-  if (coarser_.empty()) return;
+auto InverseMass<B>::to_device(const Eigen::MatrixXd& S) -> Answer {
   constexpr Eigen::Index block = CoarseFilter<B>::block;
   const Eigen::Index n = S.rows(), blocks = (n + block - 1) / block;
   std::vector<float> values(static_cast<std::size_t>(blocks * n * block), 0.0F);
@@ -72,7 +71,7 @@ void InverseMass<B>::set_answer(const Eigen::MatrixXd& S) {
     for (Eigen::Index j = 0; j < n; ++j)
       values[static_cast<std::size_t>((i / block * n + j) * block + i % block)] =
           static_cast<float>(0.5 * (S(i, j) + S(j, i)));
-  filter_.matrix = to_device<decltype(filter_.matrix)>("him.filter", values);
+  return plica::to_device<Answer>("him.filter", values);
 }
 
 template <class B>
@@ -184,7 +183,7 @@ void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<
 
 template <class B>
 std::size_t InverseMass<B>::bytes() const {
-  std::size_t total = bytes_of_views(filter_.matrix, filter_.turned) + axes_.bytes();
+  std::size_t total = bytes_of_views(filter_.turned) + axes_.bytes();
   for (const MassLevel<B>& level : coarser_)
     total += bytes_of_rows(level.up) + bytes_of_rows(level.down) + bytes_of_rows(level.mass) +
              bytes_of_rows(level.share) + bytes_of_views(level.force, level.acceleration);

@@ -15,6 +15,7 @@ class InverseMass {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
   using Count = Doubles<B>;
+  using Answer = decltype(CoarseFilter<B>::matrix);
 
   /// @param axes  of the coarsest space, where there are any
   InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes);
@@ -22,8 +23,11 @@ class InverseMass {
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// The levels' weights b, finest first; they sum to 1.
   void set_weights(const std::vector<double>& weights) { weights_ = weights; }
-  /// The coarsest level's answer S, see CoarseModes.
-  void set_answer(const Eigen::MatrixXd& S);
+  /// The coarsest level's answer S, see CoarseModes; as the device has it, it can be set again.
+  /// @{
+  static Answer to_device(const Eigen::MatrixXd& S);
+  void set_answer(const Answer& S) { filter_.matrix = S; }
+  /// @}
 
   /// Turns the coarsest level's axes with the finest mesh's state, see TurningAxes.
   void turn(const Exec& exec, const Vectors<B>& u) const;
@@ -39,7 +43,7 @@ class InverseMass {
 
   const CoarseFilter<B>& filter() const { return filter_; }
   const TurningAxes<B>& axes() const { return axes_; }
-  std::size_t bytes() const;
+  std::size_t bytes() const;  ///< without the answer
 
  private:
   int vertices_;

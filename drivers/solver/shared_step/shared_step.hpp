@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/largest_eigenvalue.hpp>
+#include <plica/drivers/solver/regaining.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/drivers/solver/stepper.hpp>
 
@@ -11,8 +12,9 @@ namespace plica {
 /// What the paper's cycles have in common: the macro step is shared out among the levels, and each integrates its share.
 ///
 /// The limit of an explicit level is that of its state at rest. A body that is pressed or struck stiffens, and has a shorter one. So where the
-/// number of sub-steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, for good. Beyond its limit the fastest
-/// motion grows by a part in every step: where kinetic energy has grown much, lost_stability() asks for the eigenvalue of what moves.
+/// number of sub-steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, and lengthen() doubles them again where
+/// the largest eigenvalue allows it. Beyond its limit the fastest motion grows by a part in every step: where kinetic energy has grown
+/// much, lost_stability() asks for the eigenvalue of what moves.
 template <class B>
 class SharedStep : public Stepper<B> {
  public:
@@ -33,6 +35,7 @@ class SharedStep : public Stepper<B> {
     }
     macro_step_ = steps.macro_step;
     const IntegrationOptions& o = setup.problem.integration;
+    safety_ = o.safety;
     const bool is_automatic = std::ranges::all_of(o.substeps, [](int n) { return n == 0; });
     shortens_ =
         is_automatic && !o.allow_unstable && o.retry.halvings == 0 && std::ranges::count(is_explicit_, true) > 0;
@@ -46,9 +49,9 @@ class SharedStep : public Stepper<B> {
     calm_ = grew ? kinetic : std::min(calm_, kinetic);
     for (int i = 0; grew && i < h.count(); ++i) {
       const SolverLevel<B>& level = h[i];
-      const double most = radius_[static_cast<std::size_t>(i)] * level.substeps * parts() / (level.share * macro_step_);
-      const StiffnessAt<B> K{level, level.elasticity(), level.state.u, most};
-      if (most > 0 && excited_eigenvalue<B>(h.exec(), K, level.state.v) > most * most) return true;
+      const double most = most_at(h, i, halvings_);
+      if (most > 0 && excited_eigenvalue<B>(h.exec(), stiffness_at(level, most), level.state.v) > most * most)
+        return true;
     }
     return false;
   }
@@ -58,18 +61,27 @@ class SharedStep : public Stepper<B> {
 
   bool repair(Hierarchy<B>&, double) override {
     if (halvings_ == most_halvings) return false;
-    ++halvings_;
+    ++halvings_, ++cuts_;
+    regaining_.cut();
     return true;
+  }
+  void lengthen(Hierarchy<B>& h, double, long steps) override {
+    if (halvings_ == 0 || !regaining_.due(steps)) return;
+    const int before = halvings_;
+    while (halvings_ > 0 && is_stable(h, halvings_ - 1)) --halvings_;
+    regaining_.tried(steps, halvings_ < before);
   }
   int parts() const override { return 1 << halvings_; }
 
   std::map<std::string, long> counters() const override {
     if (!shortens_) return {};
-    return {{"substep_halvings", halvings_}};
+    return {{"substep_halvings", cuts_}, {"substeps_regained", regaining_.count()}};
   }
 
   void persist(StateArchive<B>& archive) override {
-    if (shortens_) archive.number(halvings_), archive.number(calm_);
+    if (!shortens_) return;
+    archive.number(halvings_), archive.number(cuts_), archive.number(calm_);
+    regaining_.persist(archive);
   }
 
  protected:
@@ -99,9 +111,31 @@ class SharedStep : public Stepper<B> {
   std::vector<bool> is_explicit_;  ///< of the levels
   std::vector<double> radius_;     ///< see StabilityLimit; of implicit levels 0
   double macro_step_ = 0;
+  double safety_ = 0;
   bool shortens_ = false;
   int halvings_ = 0;
+  long cuts_ = 0;
+  Regaining regaining_;
   double calm_ = 0;  ///< what kinetic energy is compared with [J]
+
+  /// The largest angular frequency that level i's sub-steps bear with so many halvings [1/s]; 0: no limit.
+  double most_at(const Hierarchy<B>& h, int i, int halvings) const {
+    const SolverLevel<B>& level = h[i];
+    return radius_[static_cast<std::size_t>(i)] * level.substeps * (1 << halvings) / (level.share * macro_step_);
+  }
+
+  static StiffnessAt<B> stiffness_at(const SolverLevel<B>& level, double over) {
+    return {level, level.elasticity(), level.state.u, over};
+  }
+
+  /// Whether all levels are below their limits as they are, with half the room that sub-steps have at rest.
+  bool is_stable(const Hierarchy<B>& h, int halvings) const {
+    for (int i = 0; i < h.count(); ++i) {
+      const double most = most_at(h, i, halvings), enough = (1 + safety_) / 2 * most;
+      if (most > 0 && largest_eigenvalue<B>(h.exec(), stiffness_at(h[i], most)) > enough * enough) return false;
+    }
+    return true;
+  }
 };
 
 }  // namespace plica

@@ -49,6 +49,38 @@ TEST(ShorterSteps, AreTakenWhereTheBodyStiffens) {
   EXPECT_FALSE(stops.counters().contains("substep_halvings"));
 }
 
+/// Forces that one macro step takes.
+long forces_of_a_step(Simulation<Host>& simulation) {
+  const auto forces = [&] { return simulation.counters().at("force_evaluations"); };
+  const long before = forces();
+  if (const auto bad = simulation.step_checked()) ADD_FAILURE() << bad->text();
+  return forces() - before;
+}
+
+// A cube is pressed to half its length, and comes back.
+TEST(ShorterSteps, AreGivenBackWhereTheBodyIsCalm) {
+  for (const char* cycle : {"single", "him"}) {
+    Problem p = small_cube("neo_hookean", 6);
+    p.body.damping.mass = 20;
+    p.body.fixed = {left_face()};
+    p.body.prescribed = {
+        {Box{{0.1, -1, -1}, {1, 1, 1}}, PathMotion{{{0, {0, 0, 0}}, {0.2, {-0.05, 0, 0}}, {0.4, {0, 0, 0}}}}}};
+    p.integration.cycle = cycle;
+    Simulation<Host> simulation(p);
+    const long whole = forces_of_a_step(simulation);
+    while (simulation.time() < 0.2) ASSERT_FALSE(simulation.step_checked());
+    const long cut = forces_of_a_step(simulation);
+    Simulation<Host> resumed(p);
+    resumed.restore(simulation.save());
+    for (Simulation<Host>* one : {&simulation, &resumed})
+      while (one->time() < 4) ASSERT_FALSE(one->step_checked());
+    EXPECT_TRUE(same_bits(resumed.positions(), simulation.positions())) << cycle;
+    EXPECT_GE(cut, 2 * whole) << cycle;
+    EXPECT_GE(simulation.counters().at("substeps_regained"), 1) << cycle;
+    EXPECT_EQ(forces_of_a_step(simulation), whole) << cycle;
+  }
+}
+
 /// A tube that is blown up slowly, whose wall stiffens beyond the limit at rest; the largest kinetic energy that a caller sees, looking
 /// at every tenth step [J].
 double most_motion(double safety, long& halvings) {
