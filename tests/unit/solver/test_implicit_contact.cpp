@@ -47,6 +47,16 @@ Problem on_a_plane() {
   return implicit(p);
 }
 
+/// A cube whose lower corners are a little inside a bowl.
+Problem in_a_bowl() {
+  constexpr double radius = 0.2;
+  const double height = radius - std::sqrt((radius + slip) * (radius + slip) - side * side / 2);
+  Problem p;
+  p.body = cube({-side / 2, -side / 2, height}, {3, 3, 3});
+  p.contact.obstacles = {{BowlOptions{{0, 0, radius}, radius}, {}, {}}};
+  return implicit(p);
+}
+
 /// A cube under a plate that holds its top.
 Problem held() {
   Problem p;
@@ -142,6 +152,7 @@ struct ContactCase {
 std::vector<ContactCase> cases() {
   return {{"sticks", on_a_plane(), {1, 1, 1}, false},
           {"slips", on_a_plane(), {1, 1, 0}, false, {3, 4, 0}},
+          {"hollow", in_a_bowl(), {1, 1, 1}, false, {0, 0, 0}},
           {"held", held(), {1, 1, 1}, false},
           {"needles", under_needles(), {0, 0, 1}, true, {0, 0, 0}, 0.5 * slip / h},  // the site is found to 1/1000
           {"pairs", stacked(), {0, 0, 1}, true},
