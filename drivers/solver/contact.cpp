@@ -219,7 +219,8 @@ template <class B>
 TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   const std::size_t n = static_cast<std::size_t>(points_);
   TouchingPoints<B> points;
-  points.points = points_, points.obstacles = obstacles(), points.reach = static_cast<Real>(reach_);
+  points.points = points_, points.obstacles = obstacles();
+  points.reach = points.edge = static_cast<Real>(reach_);
   points.law = laws_;
   points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
   if (pairs_.triangles > 0) {
@@ -243,6 +244,8 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   points.mobility = zeros<Scalars<B>>("plica::contact.mobility", records);
   points.count = zeros<Doubles<B>>("plica::contact.count", 1);
   if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", records);
+  if (implicit && !std::ranges::all_of(obstacles_, [](const auto& obstacle) { return obstacle->convex(); }))
+    points.concavity = zeros<Blocks<B>>("plica::contact.concavity", records);
   return points;
 }
 

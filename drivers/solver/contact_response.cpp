@@ -139,40 +139,32 @@ void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, cons
   points_.span = static_cast<Real>(ahead);
   weights_ = w, ahead_ = ahead;
   find(exec, level, state, time, ahead, all_points());
-  linearise_records(exec);
+  reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(), last_law(), blocks_, points_.count);
+  sum_up(exec);
   scatter(exec, level, f);
 }
 
-/// Forces and blocks of what was found, or has moved since.
 template <class B>
-void ContactResponse<B>::linearise_records(const Exec& exec) const {
-  const LineariseTouching<B> kernel{points_, static_cast<Real>(ahead_), static_cast<Real>(weights_.a),
-                                    static_cast<Real>(weights_.b)};
-  reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(), kernel, blocks_, points_.count);
-  sum_up(exec);
+LineariseTouching<B> ContactResponse<B>::last_law() const {
+  return {points_, static_cast<Real>(ahead_), static_cast<Real>(weights_.a), static_cast<Real>(weights_.b)};
 }
 
 template <class B>
 void ContactResponse<B>::move_linearised(const Exec& exec, const Level<B>& level, const Vectors<B>& change,
                                          const Vectors<B>& r) {
-  linearise_records(exec);  // products have written over the forces
-  scatter(exec, level, r, {}, -weights_.b);
-  add_product(exec, level, change, false, r);
-  update_vertices<B>(
-      exec, "plica::contact_move", contact_->sites(),
-      MoveTouching<B>{level.surface, change, points_, static_cast<Real>(ahead_), static_cast<Real>(weights_.ratio())});
+  reduce<B, 1>(exec, "plica::contact_move", contact_->sites(), MoveTouching<B>{level.surface, change, last_law()},
+               blocks_, points_.count);
   ahead_ = 0;
-  linearise_records(exec);
-  scatter(exec, level, r, {}, weights_.b);
+  sum_up(exec);
+  scatter(exec, level, r);
 }
 
 /// f += W^T of the last forces
 template <class B>
 void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
-                                 const Indices<B>& reached, double scale) const {
-  ScatterContact<B> kernel{level.surface, points_, f, reached};
-  kernel.scale = static_cast<Real>(scale);
-  where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched, kernel);
+                                 const Indices<B>& reached) const {
+  where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched,
+                    ScatterContact<B>{level.surface, points_, f, reached});
 }
 
 template <class B>
@@ -203,7 +195,7 @@ void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, dou
 template <class B>
 std::size_t ContactResponse<B>::bytes() const {
   const std::size_t reals = 4 * points_.normal.span() + points_.faces.weight.span() + 2 * points_.depth.span() +
-                            points_.block.span() + smooth_.span() + answer_.span();
+                            points_.block.span() + points_.concavity.span() + smooth_.span() + answer_.span();
   return reals * sizeof(Real) + (search_ ? search_->bytes() : 0);
 }
 

@@ -13,6 +13,8 @@ template <class B>
 class PairSearch;
 template <class B>
 struct TouchLaw;
+template <class B>
+struct LineariseTouching;
 
 /// Contact of one level in steps that take it implicitly: the forces on its surface points, and what obstacles do to it. Kernels
 /// alone, which the device leaves out where nothing touches.
@@ -85,9 +87,8 @@ class ContactResponse {
     return points;
   }
   void sum_up(const Exec& exec, bool bounding = false) const;
-  void linearise_records(const Exec& exec) const;
-  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {},
-               double scale = 1) const;
+  LineariseTouching<B> last_law() const;
+  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {}) const;
 };
 
 }  // namespace plica

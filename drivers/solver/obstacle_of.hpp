@@ -86,6 +86,7 @@ class ObstacleOf final : public Obstacle<B> {
                                    span, m, k, options_.coupling.damping.value_or(2 * std::sqrt(k * m))});
   }
   double radius() const override { return radius_; }
+  bool convex() const override { return Shape::convex; }
   std::size_t bytes() const override { return storage_.span() * sizeof(Real); }
 };
 

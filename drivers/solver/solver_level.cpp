@@ -254,7 +254,6 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
     update_vertices<B>(exec, "plica::diagonal_column", this->model.vertices,
                        DiagonalColumn<B>{this->model, this->partial, blocks, a, b, direction});
   }
-  if (contact_) response_.add_diagonal(exec, *this, false, blocks);
   if (external_) add<B>(exec, "plica::external_diagonal", a, external_stiffness_, blocks);
 }
 

@@ -85,7 +85,7 @@ class SolverLevel : public Level<B> {
   void add_product_beside_matrix(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
                                  bool positive, const Vectors<B>& q) const;
   bool is_all_in_matrix() const { return this->followers.empty() && !(contact_ && contact_->couples()); }
-  /// A's vertex blocks, [vertices][6] xx yy zz xy xz yz; see Elasticity::diagonal.
+  /// A's vertex blocks but for contact's, [vertices][6] xx yy zz xy xz yz; see Elasticity::diagonal.
   void diagonal(const State<B>& state, const ImplicitWeights& weights, bool positive, const Blocks<B>& blocks) const;
   /// A itself, in blocks, with nodal elements that of linear ones; `positive`: of elements whose tangents are projected to positive
   /// semi-definite ones.

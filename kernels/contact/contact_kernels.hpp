@@ -83,12 +83,11 @@ struct ScatterContact {
   VertexModel<B> model = {};
   typename B::Real damped = 0;  ///< what mass damping leaves of it; see ContactStep
   bool bounding = false;        ///< by absolute weights
-  typename B::Real scale = 1;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     if (reached.extent(0) > 0 && reached(i) == 0) return;
     const int a = surface.vertex(i);
-    const auto kept = damped > 0 ? scale / (1 + damped * model.damping(a)) : scale;
+    const auto kept = damped > 0 ? 1 / (1 + damped * model.damping(a)) : typename B::Real(1);
     set_vector<B>(f, a, vector_at<B>(f, a) + kept * points.force_on(surface, i, bounding));
   }
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/kernels/contact/concavity.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/on_triangle.hpp>
 
@@ -43,13 +44,19 @@ struct FindOnFaces {
     const Real enough = Kokkos::max(-faces.reach, deepest + as_deep * size);  // less is not looked at
     if (!(deepest + from_corner * size > enough) || !(most(x) > enough)) return;
     const Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
-    const Gap<Real> gap = shape(w[0] * x[0] + w[1] * x[1] + w[2] * x[2]);
+    const Vec3<Real> deepest_place = w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
+    const Gap<Real> gap = shape(deepest_place);
     if (!(-gap.distance > enough)) return;
     points.depth(r) = -gap.distance;
     for (int c = 0; c < 3; ++c) points.depth(r) -= w[c] * Kokkos::max(depth[c], Real(0));
     points.mobility(r) = 1;
     set_vector<B>(faces.weight, faces.site(obstacle, t), w);
     set_vector<B>(points.normal, r, place.outward(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))));
+    if constexpr (!Shape::convex)
+      if (points.concavity.extent(0) > 0)
+        set_block<B>(points.concavity, r,
+                     place.is_turning() ? SymMat3<Real>{}
+                                        : concavity<B>(shape, place, deepest_place, gap.normal, points.edge / 4));
     const Vec3<Real> at = points.place(surface, state.u, obstacle, points.points + t);
     set_vector<B>(points.velocity, r, faces.value(surface, state.v, obstacle, t) - place.velocity(at));
   }

@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/core/transfer.hpp>
+#include <plica/kernels/contact/concavity.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/gap.hpp>
 #include <plica/kernels/contact/penalty.hpp>
@@ -48,11 +49,19 @@ struct FindTouching {
     const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
     const Vec3<Real> speed = value_at<B>(surface.embedding, state.v, p) - place.velocity(x);
     Gap<Real> gap = gap_along(shape, place.local(x), place.inward(points.span * speed), points.reach);
+    const Vec3<Real> local_normal = gap.normal;
     gap.normal = place.outward(gap.normal);
     watch.look(p, gap.distance);
     const int r = first + p;
     const bool near = gap.distance < points.reach || gap.distance + points.span * dot(gap.normal, speed) < 0;
     points.depth(r) = -gap.distance, points.mobility(r) = near ? Real(1) : Real(0);
+    if constexpr (!Shape::convex)
+      if (points.concavity.extent(0) > 0) {
+        const bool bends = gap.distance + points.span * dot(gap.normal, speed) < points.edge && !place.is_turning();
+        set_block<B>(
+            points.concavity, r,
+            bends ? concavity<B>(shape, place, place.local(x), local_normal, points.edge / 4) : SymMat3<Real>{});
+      }
     if (!near) return;
     set_vector<B>(points.normal, r, gap.normal);
     set_vector<B>(points.velocity, r, speed);

@@ -18,12 +18,16 @@ KOKKOS_INLINE_FUNCTION void add_scaled(SymMat3<Real>& sum, Real scale, const Sym
   for (int k = 0; k < 6; ++k) sum[k] += scale * block[k];
 }
 
-/// Force [N] of each record that was found, and its block (a k + b d) n n + b drag (1 - n n - slip slip) [kg], of a held point
-/// (a k + b d) 1; see ImplicitWeights. The coupling of friction to the normal force is left out of it, which keeps it symmetric.
-/// Counts what touches.
+/// Force [N] of each record that was found, and its block (a k + b d) n n + a p G + b drag (1 - n n - slip slip) [kg], of a held point
+/// (a k + b d) 1; see ImplicitWeights. p G is how the normal force p turns in a hollow, see concavity(). The coupling of friction to the
+/// normal force is left out of it, which keeps it symmetric. Counts what touches.
 template <class B>
 struct LineariseTouching {
   using Real = typename B::Real;
+  struct Answer {
+    Vec3<Real> force;
+    SymMat3<Real> block;
+  };
   TouchingPoints<B> points;
   Real ahead, a, b;
 
@@ -31,64 +35,101 @@ struct LineariseTouching {
     double count = 0;
     for (int row = 0; row < points.rows_of(site); ++row) {
       const int r = points.record(row, site);
-      Vec3<Real> force;
-      SymMat3<Real> block;
-      if (!points.near(r)) {
-      } else if (points.is_held(row, site)) {
-        hold(points.spring_of(row, site), r, force, block);
-      } else {
-        push(points.law_of(row, site), r, force, block);
-      }
-      set_vector<B>(points.force, r, force);
-      set_block<B>(points.block, r, block);
+      Answer answer;
+      if (points.near(r)) answer = at(row, site, ahead);
+      set_vector<B>(points.force, r, answer.force);
+      set_block<B>(points.block, r, answer.block);
       count += points.is_stiff(r) ? 1 : 0;
     }
     return {{count}};
   }
 
-  KOKKOS_INLINE_FUNCTION void hold(const PenaltyLaw<Real>& law, int r, Vec3<Real>& force, SymMat3<Real>& block) const {
-    const Vec3<Real> stretch = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
-    force = -law.stiffness * (stretch + ahead * v) - law.damping * v;
-    for (int k = 0; k < 3; ++k) block[k] = a * law.stiffness + b * law.damping;
+  /// Of a record that is near, `later` than what was found [s].
+  KOKKOS_INLINE_FUNCTION Answer at(int row, int site, Real later) const {
+    const int r = points.record(row, site);
+    return points.is_held(row, site) ? hold(points.spring_of(row, site), r, later)
+                                     : push(points.law_of(row, site), r, later);
+  }
+  /// A record's normal, turned.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> turned(int r, const Vec3<Real>& turn) const {
+    const Vec3<Real> N = vector_at<B>(points.normal, r);
+    if (points.concavity.extent(0) == 0) return N;
+    const Vec3<Real> there = N + turn;
+    return (1 / Kokkos::sqrt(dot(there, there))) * there;
   }
 
-  KOKKOS_INLINE_FUNCTION void push(const PenaltyLaw<Real>& law, int r, Vec3<Real>& force, SymMat3<Real>& block) const {
-    const Gap<Real> gap{-points.depth(r), vector_at<B>(points.normal, r)};
-    const PointContact<Real> c = penalty_contact(law, gap, vector_at<B>(points.velocity, r), ahead);
-    if (!c.active) return;
-    force = c.force;
+ private:
+  KOKKOS_INLINE_FUNCTION Answer hold(const PenaltyLaw<Real>& law, int r, Real later) const {
+    Answer answer;
+    const Vec3<Real> stretch = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
+    answer.force = -law.stiffness * (stretch + later * v) - law.damping * v;
+    for (int k = 0; k < 3; ++k) answer.block[k] = a * law.stiffness + b * law.damping;
+    return answer;
+  }
+
+  KOKKOS_INLINE_FUNCTION Answer push(const PenaltyLaw<Real>& law, int r, Real later) const {
+    Answer answer;
+    const Vec3<Real> v = vector_at<B>(points.velocity, r), turn = points.turn(r, later * v);
+    const Gap<Real> gap{-points.depth(r) - Real(0.5) * later * dot(v, turn), turned(r, turn)};
+    const PointContact<Real> c = penalty_contact(law, gap, v, later);
+    if (!c.active) return answer;
+    answer.force = c.force;
+    if (points.concavity.extent(0) > 0) add_scaled(answer.block, a * c.pressure, block_at<B>(points.concavity, r));
     const Real along = a * law.stiffness + b * law.damping, across = b * c.drag;
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
     for (int k = 0; k < 6; ++k) {
       const int i = row[k], j = column[k];
       const Real nn = c.normal[i] * c.normal[j], ss = c.slip[i] * c.slip[j];
-      block[k] = along * nn + across * ((i == j ? Real(1) : Real(0)) - nn - ss);
+      answer.block[k] += along * nn + across * ((i == j ? Real(1) : Real(0)) - nn - ss);
     }
+    return answer;
   }
 };
 
-/// What was found of a record, as it is after a change of velocity, and the change of displacement that goes with it: where it touches
-/// and its normal stay as they are.
+/// Takes each record to where a change of velocity dv leads it, with the change of displacement that goes with dv: where it touches stays as
+/// it is, its normal turns as the system has it. With its last force F and block C, and those that it has there, its force becomes
+/// b (F' - F) + C dv: what the system's right side gets beside what was solved [kg m/s]. Counts what touches before or after.
 template <class B>
 struct MoveTouching {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   Vectors<B> change;
-  TouchingPoints<B> points;
-  Real ahead, ratio;  ///< change of displacement over that of velocity [s]
+  LineariseTouching<B> law;  ///< `ahead`: where the last forces were taken [s]
 
-  KOKKOS_INLINE_FUNCTION void operator()(int site) const {
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int site) const {
+    const TouchingPoints<B>& points = law.points;
+    double count = 0;
     for (int row = 0; row < points.rows_of(site); ++row) {
       const int r = points.record(row, site);
-      if (!points.near(r)) continue;
-      const Vec3<Real> N = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
-      const Vec3<Real> dv = points.difference(surface, change, row, site), way = ahead * v + ratio * dv;
-      if (points.is_held(row, site))
-        set_vector<B>(points.normal, r, N + way);
-      else
-        points.depth(r) -= dot(N, way);
-      set_vector<B>(points.velocity, r, v + dv);
+      Vec3<Real> more;
+      if (points.near(r)) {
+        const Vec3<Real> dv = points.difference(surface, change, row, site);
+        const bool touched = points.is_stiff(r);
+        more = block_at<B>(points.block, r) * dv - law.b * law.at(row, site, law.ahead).force;
+        move(row, site, dv);
+        const auto there = law.at(row, site, Real(0));
+        more += law.b * there.force;
+        set_block<B>(points.block, r, there.block);
+        count += touched || points.is_stiff(r) ? 1 : 0;
+      }
+      set_vector<B>(points.force, r, more);
     }
+    return {{count}};
+  }
+
+  KOKKOS_INLINE_FUNCTION void move(int row, int site, const Vec3<Real>& dv) const {
+    const TouchingPoints<B>& points = law.points;
+    const int r = points.record(row, site);
+    const Vec3<Real> N = vector_at<B>(points.normal, r), v = vector_at<B>(points.velocity, r);
+    const Vec3<Real> way = law.ahead * v + (law.a / law.b) * dv;
+    if (points.is_held(row, site)) {
+      set_vector<B>(points.normal, r, N + way);
+    } else {
+      const Vec3<Real> turn = points.turn(r, way);
+      points.depth(r) -= dot(N + Real(0.5) * turn, way);
+      set_vector<B>(points.normal, r, law.turned(r, turn));
+    }
+    set_vector<B>(points.velocity, r, v + dv);
   }
 };
 

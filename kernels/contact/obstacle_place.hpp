@@ -61,6 +61,9 @@ struct ObstaclePlace {
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(const Vec3<Real>& d) const {
     return pose->turn.turned ? rounded(pose->turn.rotation * exact(d)) : d;
   }
+  KOKKOS_INLINE_FUNCTION bool is_turning() const {
+    return pose->turn.turned && dot(pose->turn.rate, pose->turn.rate) > 0;
+  }
   /// Of what the obstacle has at x [m/s].
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
     if (tools.extent(0) > 0) return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});

@@ -20,8 +20,9 @@ struct PointContact {
   Vec3<Real> force;  ///< [N]
   bool active = false;
   Vec3<Real> normal;
-  Real drag = 0;    ///< tangential force over sliding speed [N s/m]
-  Vec3<Real> slip;  ///< unit sliding direction where the point slips, else 0
+  Real pressure = 0;  ///< along it [N]
+  Real drag = 0;      ///< tangential force over sliding speed [N s/m]
+  Vec3<Real> slip;    ///< unit sliding direction where the point slips, else 0
 };
 
 /// Penalty with damping, never pulling: n = k p - d v.n >= 0 with the penetration p = -(distance + ahead * v.n); friction
@@ -36,6 +37,7 @@ KOKKOS_INLINE_FUNCTION PointContact<Real> penalty_contact(const PenaltyLaw<Real>
   if (!(penetration > 0) || !(pressure > 0)) return c;
   c.active = true;
   c.normal = gap.normal;
+  c.pressure = pressure;
   c.force = pressure * gap.normal;
   const Vec3<Real> vt = v - vn * gap.normal;
   const Real speed = sqrt(dot(vt, vt)), cap = law.friction * pressure;

@@ -186,6 +186,7 @@ struct TouchingPoints {
   int points = 0, obstacles = 0;
   Real reach = 0;  ///< a point further than that outside an obstacle is not looked at, but where it is fast [m]
   Real span = 0;   ///< of the step [s]
+  Real edge = 0;   ///< mean, of the surface [m]
   PointLaws<B> law;
   PairedPoints<B> pairs;       ///< empty where the surface does not touch itself
   FaceSites<B> faces;          ///< empty where no obstacle is thin
@@ -198,7 +199,9 @@ struct TouchingPoints {
   Scalars<B> mobility;  ///< rho [1/kg]; before the first sweep, 1: it is near; 0: it does not touch
   Vectors<B> force;     ///< on the point [N]
   Blocks<B> block;      ///< [records][6] kg, on implicit levels only, see LineariseTouching
-  Doubles<B> count;     ///< [1] records that touch
+  Blocks<B>
+      concavity;  ///< [records][6] G [1/m], on implicit levels with obstacles that are not convex only; see concavity()
+  Doubles<B> count;  ///< [1] records that touch
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs.triangles > 0 ? 2 : 0); }
   KOKKOS_INLINE_FUNCTION int sites() const { return points + faces.triangles; }
@@ -261,6 +264,10 @@ struct TouchingPoints {
   /// It couples the vertices of one tetrahedron alone.
   KOKKOS_INLINE_FUNCTION bool is_of_one(int row, int site) const { return site < points && row < obstacles; }
   static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
+  /// How its normal turns where it moves so.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> turn(int r, const Vec3<Real>& way) const {
+    return concavity.extent(0) == 0 ? Vec3<Real>{} : Real(-1) * (block_at<B>(concavity, r) * way);
+  }
   KOKKOS_INLINE_FUNCTION bool near(int r) const { return mobility(r) > 0; }
   /// It is in the linear system.
   KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const { return block(r, 0) + block(r, 1) + block(r, 2) > 0; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <plica/drivers/solver/linear/stage_system.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
-#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
 #include <plica/kernels/vectors.hpp>
 
@@ -13,7 +12,11 @@ StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
       assembled_(assembled),
       inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
       level_(&level) {
-  if (by_matrix()) pattern();
+  if (by_matrix())
+    pattern();
+  else
+    without_contact_ =
+        zeros<Blocks<B>>("plica::linear.without_contact", static_cast<std::size_t>(level.surface.touched));
 }
 
 template <class B>
@@ -33,29 +36,51 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
   level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
   if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
   level.diagonal(state, weights, positive, inverse_diagonal_);
+  if (level.contact())
+    update_vertices<B>(exec, "plica::keep_blocks", level.surface.touched,
+                       KeepBlocks<B>{level.surface.vertex, inverse_diagonal_, without_contact_, false});
+  add_contact_blocks(exec, false, inverse_diagonal_);
   invert_blocks(exec, inverse_diagonal_);
 }
 
 template <class B>
 void StageSystem<B>::change_contact(const Exec& exec, const std::function<void()>& linearise) {
-  if (ready_) forces_->response().add_matrix(exec, *level_, -1, pattern_.matrix);
+  const ContactResponse<B>& contact = forces_->response();
+  const EmbeddedSurface<B>& surface = level_->surface;
+  const auto at_touched = [&]<class Kernel>(const char* label, const Kernel& kernel) {
+    where_touching<B>(exec, contact.points().count, label, surface.touched, kernel);
+  };
+  if (ready_) contact.add_matrix(exec, *level_, -1, pattern_.matrix);
   linearise();
-  if (ready_) forces_->response().add_matrix(exec, *level_, 1, pattern_.matrix);
-  if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
-  forces_->diagonal(state_, weights_, positive_, inverse_diagonal_);
-  invert_blocks(exec, inverse_diagonal_);
+  if (ready_) contact.add_matrix(exec, *level_, 1, pattern_.matrix);
+  if (by_matrix())
+    at_touched("plica::take_diagonal",
+               AtTouched<B, TakeDiagonal<B>>{surface.vertex, {pattern_.matrix, inverse_diagonal_}});
+  else
+    at_touched("plica::put_blocks", KeepBlocks<B>{surface.vertex, inverse_diagonal_, without_contact_, true});
+  add_contact_blocks(exec, by_matrix(), inverse_diagonal_);
+  at_touched("plica::invert_blocks", AtTouched<B, InvertBlocks<B>>{surface.vertex, inverting(inverse_diagonal_)});
+}
+
+template <class B>
+void StageSystem<B>::add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const {
+  if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, beside, blocks);
+}
+
+template <class B>
+InvertBlocks<B> StageSystem<B>::inverting(const Blocks<B>& blocks) const {
+  return {level_->model, blocks, static_cast<typename B::Real>(weights_.b)};
 }
 
 template <class B>
 void StageSystem<B>::invert_blocks(const Exec& exec, const Blocks<B>& blocks) const {
-  update_vertices<B>(exec, "plica::invert_blocks", rows(),
-                     InvertBlocks<B>{level_->model, blocks, static_cast<typename B::Real>(weights_.b)});
+  update_vertices<B>(exec, "plica::invert_blocks", rows(), inverting(blocks));
 }
 
 template <class B>
 void StageSystem<B>::invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks) {
   update_vertices<B>(exec, "plica::take_diagonal", rows(), TakeDiagonal<B>{matrix(exec), blocks});
-  if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, true, blocks);
+  add_contact_blocks(exec, true, blocks);
   invert_blocks(exec, blocks);
 }
 
@@ -104,9 +129,9 @@ template <class B>
 std::size_t StageSystem<B>::bytes() const {
   const BlockMatrix<B>& A = pattern_.matrix;
   const PatchPairs<B>& P = pattern_.pairs;
-  return bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column, A.diagonal, A.place, A.value,
-                        P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.place, P.first_share,
-                        P.shared_place);
+  return bytes_of_views(inverse_diagonal_, blocks_of_matrix_, without_contact_, shares_, A.first, A.column, A.diagonal,
+                        A.place, A.value, P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.place,
+                        P.first_share, P.shared_place);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;

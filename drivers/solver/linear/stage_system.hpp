@@ -4,6 +4,7 @@
 #include <plica/drivers/solver/linear/block_pattern.hpp>
 #include <plica/drivers/solver/linear/multigrid.hpp>
 #include <plica/drivers/solver/solver_level.hpp>
+#include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/linear/krylov.hpp>
 
 namespace plica {
@@ -20,7 +21,7 @@ class StageSystem {
   /// A of a level at `state`, where its forces have just been linearised; they stay as they are until the next. Projected elements are assembled,
   /// also where the rest is not.
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
-  /// The same system again, with contact as linearise() makes it anew.
+  /// The same system again, with contact as linearise() makes it anew. Costs no more than contact does.
   void change_contact(const Exec& exec, const std::function<void()>& linearise);
   /// The same system again, with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
@@ -49,14 +50,17 @@ class StageSystem {
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
   Blocks<B> inverse_diagonal_, blocks_of_matrix_;  ///< inverses; the latter with nodal elements only
+  Blocks<B> without_contact_;  ///< [touched][6] of vertex blocks that are not of the matrix, before contact
   const Level<B>* level_ = nullptr;
   const SolverLevel<B>* forces_ = nullptr;
   State<B> state_;
   ImplicitWeights weights_;
   bool positive_ = false;
 
+  InvertBlocks<B> inverting(const Blocks<B>& blocks) const;
   void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
   void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
+  void add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const;
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
 };
 
