@@ -102,7 +102,7 @@ def draw_stages(axes, summary):
 def head_lines(summary):
     if not summary:
         return "a run without summary.json: it was killed, or goes on", ""
-    levels = " + ".join(str(level["tets"]) for level in summary["levels"])
+    levels = " + ".join(str(level["tets"]) for level in summary["levels"] if level["tets"])  # spaces have none
     wall = summary["wall_time"]
     speed = f" ({summary['simulated_time'] / wall:.2g} x real time)" if wall > 0 else ""
     first = f"{summary['name']}: {summary['status']}"

@@ -18,7 +18,8 @@ function show_head() {
   status.className = /completed$/.test(report.status) ? "" : "bad";
   if (s) {
     const speed = s.wall_time > 0 ? ` (${short(s.simulated_time / s.wall_time)} × real time)` : "";
-    by_id("subtitle").textContent = `${s.levels.map((level) => level.tets).join(" + ")} tetrahedra, cycle ${s.cycle}, macro step ` +
+    const tets = s.levels.map((level) => level.tets).filter((count) => count > 0).join(" + ");  // spaces have none
+    by_id("subtitle").textContent = `${tets} tetrahedra, cycle ${s.cycle}, macro step ` +
       `${with_unit(s.macro_step, "s")}; ${with_unit(s.simulated_time, "s")} in ${with_unit(s.wall_time, "s")}${speed}, ${s.precision} on ` +
       `${s.backend}, ${s.threads} thread${s.threads === 1 ? "" : "s"}`;
   }

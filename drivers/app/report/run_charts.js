@@ -66,7 +66,7 @@ function show_facts() {
   const heads = ["level", "vertices", "tetrahedra", "elements", "critical step", "share", "sub-steps", "integrator"];
   const table = element("table", {}, element("tr", {}, ...heads.map((head) => element("th", {}, head))));
   s.levels.forEach((level, i) => {
-    const cells = [i, level.vertices, level.tets, level.element, level.critical_step > 0 ? with_unit(level.critical_step, "s") : "–", short(level.share),
+    const cells = [i, level.vertices, level.tets || "–", level.element, level.critical_step > 0 ? with_unit(level.critical_step, "s") : "–", short(level.share),
       level.substeps, level.integrator];
     table.append(element("tr", {}, ...cells.map((cell) => element("td", {}, String(cell ?? "–")))));
   });
