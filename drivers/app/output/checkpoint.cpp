@@ -65,8 +65,8 @@ Checkpoint checkpoint_of(const Json& json) {
   json.at("wall_time").get_to(c.wall_time);
   json.at("stages").get_to(c.stages);
   json.at("energy").get_to(c.energy);
-  c.inside_out = json.value("inside_out", c.inside_out);  // older ones have none
-  c.depth = json.value("depth", c.depth);
+  json.at("inside_out").get_to(c.inside_out);
+  json.at("depth").get_to(c.depth);
   json.at("frame_times").get_to(c.files.frame_times);
   json.at("history_bytes").get_to(c.files.history_bytes);
   json.at("probe_bytes").get_to(c.files.probe_bytes);
