@@ -14,7 +14,8 @@ namespace {
 
 // Times the critical step of the finest level; over spaces made of it, slivers left out
 constexpr double automatic_step = 8, step_with_contact = 4;
-constexpr double steady_product = 3;  // of t^2 lambda_max(A K): 4 sigma^2 is 2.56 at rest, 3.4 is too much
+/// The largest t^2 lambda_max(A K) of steps that are given back: half way from that at rest to where WatchSpectrum reports it.
+double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
 void expect_small(const TetMesh& coarsest, std::size_t level) {
   const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
@@ -139,7 +140,7 @@ void HimStepper<B>::plan(StepperSetup<B>& setup) {
 template <class B>
 void HimStepper<B>::take(const Hierarchy<B>& h, HimParts<B>&& parts) {
   parts_ = std::move(parts);
-  scales_[0] = parts_.fit.scale;
+  scale_at(0) = parts_.fit.scale;
   n_ = h[0].model.vertices;
   p_ = Vectors<B>("plica::him.p", n_), g_ = Vectors<B>("plica::him.g", n_), a_ = Vectors<B>("plica::him.a", n_);
   f_before_ = Vectors<B>("plica::him.f_before", n_), a_before_ = Vectors<B>("plica::him.a_before", n_);
@@ -148,20 +149,36 @@ void HimStepper<B>::take(const Hierarchy<B>& h, HimParts<B>&& parts) {
 }
 
 template <class B>
+bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
+  ++repairs_;
+  regaining_.cut();
+  for (int next = halvings_ + 1; next <= most_halvings; ++next)
+    if (const auto fit = parts_.fitter->fit(t / (1 << next), parts_.options.sigma, h[0].state.u)) {
+      parts_.fit = *fit;
+      halvings_ = next, scale_at(next) = fit->scale;
+      begin(h);
+      return true;
+    }
+  use(t);
+  return false;
+}
+
+template <class B>
 void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
   if (halvings_ == 0 || !regaining_.due(steps)) return;
+  const double sigma = parts_.options.sigma;
   int fitting = halvings_;
   for (int next = fitting - 1; next >= 0; --next) {
-    const double step = t / (1 << next), scale = scales_[static_cast<std::size_t>(next)];
-    if (scale == 0) continue;
-    parts_.fitter->use(step, parts_.options.sigma, scale);
-    if (parts_.fitter->product(step, h[0].state.u) > steady_product) break;
+    if (scale_at(next) == 0) continue;
+    const double step = t / (1 << next);
+    parts_.fitter->use(step, sigma, scale_at(next));
+    if (parts_.fitter->product(step, h[0].state.u) > steady_product(sigma)) break;
     fitting = next;
   }
   const bool longer = fitting < halvings_;
   regaining_.tried(steps, longer);
   halvings_ = fitting;
-  parts_.fit = parts_.fitter->use(t / parts(), parts_.options.sigma, scales_[static_cast<std::size_t>(halvings_)]);
+  use(t);
   if (longer) begin(h);
 }
 

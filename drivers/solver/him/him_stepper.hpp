@@ -165,19 +165,7 @@ class HimStepper final : public Stepper<B> {
     return parts_.contact_force.extent(0) > 0 || bad.kind == "energy" || bad.kind == "stability";
   }
 
-  bool repair(Hierarchy<B>& h, double t) override {
-    ++repairs_;
-    regaining_.cut();
-    while (++halvings_ <= most_halvings)
-      if (const auto fit = parts_.fitter->fit(t / parts(), parts_.options.sigma, h[0].state.u)) {
-        parts_.fit = *fit;
-        scales_[static_cast<std::size_t>(halvings_)] = fit->scale;
-        begin(h);
-        return true;
-      }
-    return false;
-  }
-
+  bool repair(Hierarchy<B>& h, double t) override;
   void lengthen(Hierarchy<B>& h, double t, long steps) override;
 
   int parts() const override { return 1 << halvings_; }
@@ -199,9 +187,7 @@ class HimStepper final : public Stepper<B> {
     archive.number(halvings_), archive.number(repairs_);
     for (double& scale : scales_) archive.number(scale);
     regaining_.persist(archive);
-    const double step = macro_step / parts(), scale = scales_[static_cast<std::size_t>(halvings_)];
-    if (scale != parts_.fit.scale || step != parts_.fit.step)
-      parts_.fit = parts_.fitter->use(step, parts_.options.sigma, scale);
+    if (macro_step / parts() != parts_.fit.step || scale_at(halvings_) != parts_.fit.scale) use(macro_step);
     archive.number(first_), archive.number(has_momenta_);
     archive.field("the momenta", p_);
     archive.field("the axes' share of them", parts_.inverse_mass->axes().share());
@@ -232,6 +218,12 @@ class HimStepper final : public Stepper<B> {
     const auto A = [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, level.model, p, v); };
     momentum_of<B>(exec, level.model, A, level.state.v, p_);
     has_momenta_ = true;
+  }
+
+  double& scale_at(int halvings) { return scales_[static_cast<std::size_t>(halvings)]; }
+  /// The fit that there was with these halvings.
+  void use(double macro_step) {
+    parts_.fit = parts_.fitter->use(macro_step / parts(), parts_.options.sigma, scale_at(halvings_));
   }
 
   /// The parts, and work arrays that go with them.
