@@ -36,6 +36,7 @@ class Obstacle {
   virtual void move(const Exec&, const Doubles<B>& wrench, int number, double end, double span) const = 0;
   /// Of the largest ball in it [m].
   virtual double radius() const = 0;
+  /// Whether it has no hollows.
   virtual bool convex() const = 0;
   /// Device memory of its own.
   virtual std::size_t bytes() const = 0;

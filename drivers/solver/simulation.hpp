@@ -153,7 +153,8 @@ class Simulation {
   /// than was put in, a vertex that leaves the body by more than its edge in one explicit sub-step, a surface point deeper in
   /// an obstacle than the body is large, a solver that gave up, a stepper that has lost its stability. Waits. Examines the state
   /// there is: with integration.retry also level 0's elements (one or two passes more). Cheap enough to be called after
-  /// every macro step; states that pass are kept from time to time.
+  /// every macro step; states that pass are kept from time to time. After one that passes, sub-steps that recover() has cut may be given
+  /// back: every hundred macro steps at most it looks whether longer ones are stable, which takes as long as some ten steps.
   std::optional<Diagnosis> check();
 
   /// Repairs a state that did not pass check(), where that is possible: goes back to the last state that was kept and steps again

@@ -117,6 +117,7 @@ struct MoveTouching {
     return {{count}};
   }
 
+ private:
   KOKKOS_INLINE_FUNCTION void move(int row, int site, const Vec3<Real>& dv) const {
     const TouchingPoints<B>& points = law.points;
     const int r = points.record(row, site);

@@ -189,7 +189,7 @@ void expect_blocks(Linearised& it, const StageSystem<Host>& system) {
       SymMat3<double> block;
       ASSERT_TRUE(invert_positive(block_at<Host>(system.inverse_diagonal(), static_cast<int>(a)), block));
       for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(block[SymMat3<double>::place(3 * i + k)], column[i], 1e-10 * column.norm()) << a;
+        EXPECT_NEAR(block[SymMat3<double>::place(3 * i + k)], column[i], 1e-12 * column.norm()) << a;
     }
 }
 
