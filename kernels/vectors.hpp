@@ -34,6 +34,20 @@ void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const
   update_vertices<B>(exec, label, n, WhereTouching<B, Work>{count.data(), work});
 }
 
+/// The terms of a sum that is 0 where the count is.
+template <class B, class Term>
+struct TermWhereTouching {
+  const double* count;
+  Term term;
+  KOKKOS_INLINE_FUNCTION auto operator()(int i) const { return !count || *count > 0 ? term(i) : decltype(term(i)){}; }
+};
+
+template <class B, int N, class Term>
+void sum_where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label, int n,
+                        const Term& term, const BlockSums<B>& blocks, const Doubles<B>& result) {
+  reduce<B, N>(exec, label, n, TermWhereTouching<B, Term>{count.data(), term}, blocks, result);
+}
+
 // ---- of one vertex, point or block --------------------------------------------------------------------------------------
 
 // By the stride that all of them have; a view's own index takes a multiplication.

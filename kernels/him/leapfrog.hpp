@@ -43,25 +43,53 @@ struct RigidMotion {
   }
 };
 
+/// Contact's forces on the vertices: 0 where nothing touches, and without obstacles, where the arrays are empty.
+template <class B>
+struct ContactForces {
+  Vectors<B> force;
+  Doubles<B> touching;  ///< how many places, on the device
+  KOKKOS_INLINE_FUNCTION bool any() const { return force.extent(0) > 0 && touching(0) > 0; }
+  KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> operator()(int a) const {
+    return any() ? vector_at<B>(force, a) : Vec3<typename B::Real>{};
+  }
+};
+
 /// p = ((1 - t d / 2) p + t f - c (p - m v)) / (1 + t d / 2), d the mass damping; of p - m v without its rigid part, where the body is free:
-/// that changes neither sum p nor sum x x p.
+/// that changes neither sum p nor sum x x p. Contact's forces of the last step are among f: what the axes' force is found for
+/// should be the momenta at the end of the step, see TakeExpectedContact.
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
   VertexModel<B> model;
   Vectors<B> f, v, p;
-  RigidMotion<B> rigid;  ///< of p - m v
+  ContactForces<B> contact;  ///< of the last step
+  RigidMotion<B> rigid;      ///< of p - m v
   Loss<B> loss;
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
     const Real c = static_cast<Real>(loss()), m = model.mass(a), half_damping = t * model.damping(a) / 2,
                kept = 1 / (1 + half_damping);
-    const Vec3<Real> whole = rigid(a);
+    const Vec3<Real> whole = rigid(a), touch = contact(a);
     for (int k = 0; k < 3; ++k) {
       const Real slowed = p(a, k) - m * v(a, k) - m * whole[k];
-      p(a, k) = kept * ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed);
+      p(a, k) = kept * ((1 - half_damping) * p(a, k) + t * f(a, k) - c * slowed) + t * touch[k];
     }
+  }
+};
+
+/// Momenta and accelerations without the contact that was expected.
+template <class B>
+struct TakeExpectedContact {
+  using Real = typename B::Real;
+  Scalars<B> inverse_mass;
+  Vectors<B> force, answer;  ///< of it
+  Vectors<B> p, a;
+  Real t;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    if (!(inverse_mass(i) > 0)) return;
+    set_vector<B>(p, i, vector_at<B>(p, i) - t * vector_at<B>(force, i));
+    set_vector<B>(a, i, vector_at<B>(a, i) - vector_at<B>(answer, i));
   }
 };
 
@@ -73,17 +101,17 @@ struct KickAndDrift {
   Scalars<B> inverse_mass;
   State<B> state;
   Vectors<B> p, f, a, f_before, a_before;
-  Vectors<B> contact, contact_force;  ///< its accelerations and forces, empty without obstacles
-  Doubles<B> touching;
+  ContactForces<B> contact;
+  Vectors<B> contact_answer;  ///< the accelerations by them
   Real t;
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     if (!(inverse_mass(i) > 0)) return {};
-    const bool touches = contact.extent(0) > 0 && touching(0) > 0;
+    const bool touches = contact.any();
     const Vec3<Real> v = vector_at<B>(state.v, i), force = vector_at<B>(f, i), answer = vector_at<B>(a, i),
                      df = force - vector_at<B>(f_before, i), da = answer - vector_at<B>(a_before, i),
                      u = vector_at<B>(state.u, i);
-    const Vec3<Real> kicked = v + t * (touches ? answer + vector_at<B>(contact, i) : answer);
-    if (touches) set_vector<B>(p, i, vector_at<B>(p, i) + t * vector_at<B>(contact_force, i));
+    const Vec3<Real> kicked = v + t * (touches ? answer + vector_at<B>(contact_answer, i) : answer);
+    if (touches) set_vector<B>(p, i, vector_at<B>(p, i) + t * contact(i));
     set_vector<B>(f_before, i, force), set_vector<B>(a_before, i, answer);
     set_vector<B>(state.v, i, kicked), set_vector<B>(state.u, i, u + Real(0.5) * t * kicked);
     double answered = 0, work = 0;

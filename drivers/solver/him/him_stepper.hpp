@@ -25,16 +25,19 @@ class FreeMotion {
         total_(zeros<Doubles<B>>("plica::free.total", 4)),
         frame_("plica::free.frame") {}
 
-  /// Notes the sum of the momenta p; `rest`: what is not translation.
-  void take_translation(const Exec& exec, const Model<B>& model, const Vectors<B>& p, const Vectors<B>& rest) const {
-    reduce<B, 4>(exec, "plica::free_total", model.vertices, SumOfMomenta<B>{model.mass, p}, blocks_, total_);
-    update_vertices<B>(exec, "plica::free_take", model.vertices, TakeTranslation<B>{model.mass, p, rest, total_});
+  /// Notes the sum of the momenta p; `rest`: what is not translation. With a count only where that is above 0.
+  void take_translation(const Exec& exec, const Model<B>& model, const Vectors<B>& p, const Vectors<B>& rest,
+                        const Doubles<B>& count) const {
+    sum_where_touching<B, 4>(exec, count, "plica::free_total", model.vertices, SumOfMomenta<B>{model.mass, p}, blocks_,
+                             total_);
+    where_touching<B>(exec, count, "plica::free_take", model.vertices, TakeTranslation<B>{model.mass, p, rest, total_});
   }
 
-  /// Makes it the sum of m v.
-  void put_translation(const Exec& exec, const Model<B>& model, const Vectors<B>& v) const {
-    reduce<B, 4>(exec, "plica::free_total", model.vertices, SumOfMotion<B>{model.mass, v}, blocks_, sums_);
-    update_vertices<B>(exec, "plica::free_put", model.vertices, PutTranslation<B>{v, total_, sums_});
+  /// Makes it the sum of m v; likewise.
+  void put_translation(const Exec& exec, const Model<B>& model, const Vectors<B>& v, const Doubles<B>& count) const {
+    sum_where_touching<B, 4>(exec, count, "plica::free_total", model.vertices, SumOfMotion<B>{model.mass, v}, blocks_,
+                             sums_);
+    where_touching<B>(exec, count, "plica::free_put", model.vertices, PutTranslation<B>{v, total_, sums_});
   }
 
   /// The rigid part of p - m v at a state.
@@ -195,12 +198,15 @@ class HimStepper final : public Stepper<B> {
     archive.field("the last answer", a_before_);
     archive.field("the coarsest axes", parts_.inverse_mass->filter().rotation);
     archive.field("how far they turned", turned_);
+    archive.field("the last contact", contact_.force);
+    archive.field("how much touched", contact_.touching);
   }
 
  private:
   HimParts<B> parts_;
   int n_ = 0;
   Vectors<B> p_, g_, a_, f_before_, a_before_;
+  ContactForces<B> contact_;  ///< of the last step
   BlockSums<B> blocks_;
   Doubles<B> turned_, sums_, watch_;
   bool first_ = true;
@@ -240,13 +246,14 @@ class HimStepper final : public Stepper<B> {
     first_ = true;
     fill(exec, watch_, 0.0), fill(exec, turned_, 0.0);
     fill(exec, parts_.inverse_mass->axes().share(), Real(0));
+    fill(exec, contact_.force, Real(0));
   }
 
   /// v = A p; with a count only where that is above 0.
   void answer(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& p, const Vectors<B>& v,
               const Count& count = {}) const {
-    parts_.inverse_mass->apply(exec, without_translation(exec, model, p), v, count);
-    if (parts_.free) parts_.free->put_translation(exec, model, v);
+    parts_.inverse_mass->apply(exec, without_translation(exec, model, p, count), v, count);
+    if (parts_.free) parts_.free->put_translation(exec, model, v, count);
   }
 
   /// The push that kick() found, and the mean acceleration a = (A p - v) / t.
@@ -258,10 +265,10 @@ class HimStepper final : public Stepper<B> {
   }
 
   /// Momenta as the levels get to see them, in g_ where that differs.
-  const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model,
-                                        const Vectors<B>& p) const {
+  const Vectors<B>& without_translation(const typename B::Exec& exec, const Model<B>& model, const Vectors<B>& p,
+                                        const Count& count) const {
     if (!parts_.free) return p;
-    parts_.free->take_translation(exec, model, p, g_);
+    parts_.free->take_translation(exec, model, p, g_, count);
     return g_;
   }
 
@@ -271,6 +278,7 @@ class HimStepper final : public Stepper<B> {
                          .f = level.f,
                          .v = level.state.v,
                          .p = p_,
+                         .contact = contact_,
                          .rigid = {},
                          .loss = {turned_, parts_.options.dissipation.value_or(-1)},
                          .t = static_cast<Real>(t)};
@@ -299,6 +307,10 @@ class HimStepper final : public Stepper<B> {
       scatter.bounding = false;
       answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
     };
+    answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
+    where_touching<B>(exec, points.count, "plica::contact_expected", n_,
+                      TakeExpectedContact<B>{level.model.inverse_mass, parts_.contact_force, parts_.contact_answer, p_,
+                                             a_, static_cast<Real>(t)});
     level.response().resolve(exec, level, level.state, time, {.span = t, .ahead = t / 2}, a_, parts_.contact_answer,
                              respond);
     respond();
@@ -324,9 +336,8 @@ class HimStepper final : public Stepper<B> {
                                  .a = a_,
                                  .f_before = f_before_,
                                  .a_before = a_before_,
-                                 .contact = parts_.contact_answer,
-                                 .contact_force = parts_.contact_force,
-                                 .touching = level.response().points().count,
+                                 .contact = contact_,
+                                 .contact_answer = parts_.contact_answer,
                                  .t = static_cast<Real>(t)};
     const TurningAxes<B>& axes = parts_.inverse_mass->axes();
     reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_,

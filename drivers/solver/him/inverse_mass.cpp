@@ -178,7 +178,7 @@ void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<
     where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices), answer_of_coarsest());
   }
   go_up(exec, count);
-  update_vertices<B>(exec, "plica::him_up", vertices_, answer_of_finest(f, a));
+  where_touching<B>(exec, count, "plica::him_up", vertices_, answer_of_finest(f, a));
 }
 
 template <class B>
