@@ -246,7 +246,7 @@ struct AttachmentOptions {
 };
 
 /// Penalty contact of the embedded surface's vertices with obstacles and with the surface's triangles, see
-/// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (E A / h where a level is implicit)
+/// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (4 E A / h where a level is implicit)
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
   /// Compiled in problem.cpp alone.

@@ -15,10 +15,10 @@ namespace plica {
 
 namespace {
 
-// Of contact that is implicit in an explicit step, over the layer of elements under the surface: what keeps a body visibly outside.
-// The linear systems of implicit levels take that of the layer itself, and then the other levels as well: what one level leaves
-// inside an obstacle, the next must not throw out.
-constexpr double most_stiffening = 64;
+// Over the layer of elements under the surface. Of contact that is implicit in an explicit step: what keeps a body visibly outside.
+// The linear systems of implicit levels take less, and then the other levels as well: what one level leaves inside an obstacle, the
+// next must not throw out.
+constexpr double most_stiffening = 64, stiffening_in_systems = 4;
 
 // In mean edges of the surface, the radius from which on an obstacle is left to the points. A tool that is pressed in by its radius
 // spreads the points under it and comes between them, however fine the mesh is.
@@ -51,7 +51,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   make_memory(std::ranges::any_of(all, [](const ObstacleOptions& o) { return o.mass.has_value(); }));
   for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles()));
   choose_held(surface.held);
-  make_laws(options, surface, stiff ? most_stiffening : 1);
+  make_laws(options, surface, stiff);
   choose_whole(options.whole_surface, surface.surface);
   if (pairs || whole() > 0) connect(surface.surface, pairs);
   if (!pairs) return;
@@ -96,7 +96,7 @@ int Contact<B>::whole() const {
 
 /// A row of laws for every obstacle and one for pairs; in it one for every body.
 template <class B>
-void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of, double stiffening) {
+void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of, bool stiff) {
   std::vector<double> area(of.parts.size(), 0), points(of.parts.size(), 0);
   const auto part = [&](int p) {
     return of.body.empty() ? 0u : static_cast<std::size_t>(of.body[static_cast<std::size_t>(p)]);
@@ -120,10 +120,11 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
                                 static_cast<Real>(friction ? options.tangential_damping_scale * critical(k) : 0),
                                 static_cast<Real>(friction.value_or(0))};
       };
-      laws.push_back(law(stiffening * soft));
-      const double spring = grasp && grasp->stiffness ? *grasp->stiffness : stiffening * soft;
-      held_laws.push_back(law(spring));
-      if (laws.size() == 1) stiffness_ = stiffening * soft, damping_ = options.damping_scale * critical(stiffness_);
+      const double pushing = (stiff ? most_stiffening : stiffening_in_systems) * soft,
+                   holding = (stiff ? most_stiffening : 1) * soft;
+      laws.push_back(law(pushing));
+      held_laws.push_back(law(grasp && grasp->stiffness ? *grasp->stiffness : holding));
+      if (laws.size() == 1) stiffness_ = pushing, damping_ = options.damping_scale * critical(stiffness_);
     }
   };
   for (const ObstacleOptions& o : options.obstacles) add_row(o.friction, o.grasp);
@@ -234,6 +235,7 @@ TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
   const auto faces = static_cast<std::size_t>(points.obstacles) * static_cast<std::size_t>(faces_.triangles);
   if (pairs_.triangles > 0 || faces > 0) points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);
   points.faces.weight = zeros<Vectors<B>>("plica::contact.face_weight", faces);
+  if (implicit) points.faces.kept = zeros<Vectors<B>>("plica::contact.face_kept", faces);
   const std::size_t records = n * static_cast<std::size_t>(points.rows()) + faces;
   points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
   points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);

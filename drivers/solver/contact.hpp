@@ -137,7 +137,7 @@ class Contact {
   PairedPoints<B> pairs_;  ///< what levels share of them
   PairLimits<Real> limits_;
 
-  void make_laws(const ContactOptions& options, const TouchingSurface& surface, double stiffening);
+  void make_laws(const ContactOptions& options, const TouchingSurface& surface, bool stiff);
   void attach(const ContactOptions& options, const TouchingSurface& surface,
               const std::vector<PenaltyLaw<Real>>& pair_laws);
   void make_memory(bool tools);  ///< `tools`: some have mass

@@ -194,8 +194,9 @@ void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, dou
 
 template <class B>
 std::size_t ContactResponse<B>::bytes() const {
-  const std::size_t reals = 4 * points_.normal.span() + points_.faces.weight.span() + 2 * points_.depth.span() +
-                            points_.block.span() + points_.concavity.span() + smooth_.span() + answer_.span();
+  const std::size_t reals = 4 * points_.normal.span() + points_.faces.weight.span() + points_.faces.kept.span() +
+                            2 * points_.depth.span() + points_.block.span() + points_.concavity.span() +
+                            smooth_.span() + answer_.span();
   return reals * sizeof(Real) + (search_ ? search_->bytes() : 0);
 }
 

@@ -6,6 +6,7 @@
 #include <plica/core/implicit_weights.hpp>
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/solver/contact.hpp>
+#include <plica/drivers/solver/state_archive.hpp>
 
 namespace plica {
 
@@ -64,6 +65,13 @@ class ContactResponse {
 
   const TouchingPoints<B>& points() const { return points_; }
   std::size_t bytes() const;
+  /// What a step takes from the last: forgotten, or saved.
+  /// @{
+  void forget(const Exec& exec) const { fill(exec, points_.faces.kept, Real(0)); }
+  void persist(StateArchive<B>& archive, const std::string& name) {
+    archive.field(name + "places on faces", points_.faces.kept);
+  }
+  /// @}
 
  private:
   std::shared_ptr<const Contact<B>> contact_;

@@ -23,7 +23,7 @@ struct Hierarchy {
   }
   /// States were replaced: nothing that was carried from the steps before belongs to them.
   void forget() {
-    for (SolverLevel<B>& level : levels) level.integrator->forget();
+    for (SolverLevel<B>& level : levels) level.forget();
   }
   void clear_flags() {
     for (SolverLevel<B>& level : levels) level.flags.clear(exec());

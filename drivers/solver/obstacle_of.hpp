@@ -59,7 +59,7 @@ class ObstacleOf final : public Obstacle<B> {
                      int number, const TouchingPoints<B>& points) const override {
     update_vertices<B>(exec, "plica::contact_faces", points.faces.triangles,
                        FindOnFaces<B, Shape>{surface, s, shape_, place(time, ahead), number, points,
-                                             std::numeric_limits<Real>::lowest()});
+                                             std::numeric_limits<Real>::lowest(), static_cast<Real>(ahead)});
   }
   void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
               const PointLaws<B>& law, const HeldPoints<B>& held, const BlockSums<B>& blocks,

@@ -269,11 +269,18 @@ void SolverLevel<B>::assemble(const State<B>& at, const ImplicitWeights& weights
 }
 
 template <class B>
+void SolverLevel<B>::forget() {
+  if (contact_) response_.forget(exec());
+  integrator->forget();
+}
+
+template <class B>
 void SolverLevel<B>::persist(StateArchive<B>& archive, const std::string& name) {
   archive.state(name + "state", this->state);
   archive.state(name + "start", this->start);
   archive.state(name + "previous", this->previous);
   archive.number(evaluations_);
+  if (contact_) response_.persist(archive, name);
   if (viscosity) viscosity->persist(archive, *this, name);
   integrator->persist(archive);
 }

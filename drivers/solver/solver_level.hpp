@@ -113,6 +113,8 @@ class SolverLevel : public Level<B> {
   /// A constant force [N] that is part of every evaluation from now on; an empty one ends that.
   void set_correction(const Vectors<B>& force) { correction_ = force; }
   void add_correction(const Vectors<B>& f) const;
+  /// What it carries from one macro step to the next, where the state was set.
+  void forget();
   /// Names what it carries from one macro step to the next, its integrator's included; `name`: "level 0's ".
   void persist(StateArchive<B>& archive, const std::string& name);
   /// Evaluations are numbered from 1 in each macro step, for the element flags; impulses are counted anew.

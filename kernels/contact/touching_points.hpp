@@ -81,6 +81,7 @@ struct FaceSites {
   Indices<B> corner;           ///< [triangles * 3] points, counter-clockwise seen from outside
   Indices<B> first, triangle;  ///< [points + 1] into the triangles around each point
   Vectors<B> weight;           ///< [obstacles * triangles][3] of the corners, at the site
+  Vectors<B> kept;  ///< those of the last implicit step, 0 without a site; empty: sites are where they are deepest
 
   KOKKOS_INLINE_FUNCTION int site(int obstacle, int t) const { return obstacle * triangles + t; }
   /// What a field has at a site, or with `bounding` the sum of its parts' absolute values.

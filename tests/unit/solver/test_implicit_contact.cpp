@@ -214,7 +214,7 @@ TEST(ImplicitContact, HasOneSystem) {
     const auto change = device_field<Host>(random_field(it.probe.vertices(), 2 * slip / h, 3));
     const Vectors<Host> r("test.r", direction.size());
     assembled.change_contact({}, [&] { by_products.change_contact({}, [&] { it.level().move_contact(change, r); }); });
-    if (largest_difference(expect_one(), before) > 1e-3 * largest(before)) ++changed;
+    if (largest_difference(expect_one(), before) > 2e-4 * largest(before)) ++changed;
   }
   EXPECT_GE(changed, 5);  // of what is not held
 }
@@ -256,7 +256,7 @@ TEST(ImplicitContact, TurnsCollidingBodies) {
       EXPECT_LE(e.total(), 1.02 * energy);
       contact = std::max(contact, e.contact);
     }
-    EXPECT_GT(contact, 0.03 * energy);
+    EXPECT_GT(contact, 0.02 * energy);
     EXPECT_LE((momentum(s, mass) - before).norm(), 1e-8 * size);
     Point of_left = Point::Zero();
     for (std::size_t a = 0; a < 64; ++a) of_left += mass[a] * s.velocities()[a];
@@ -305,7 +305,7 @@ TEST(ImplicitContact, IsSolvedAgainWhereASolveChangesWhatTouches) {
     of_several = std::max(of_several, std::abs(again[i] - newton[i]));
   }
   EXPECT_GT(of_one, 1.5e-3);
-  EXPECT_LT(of_several, 0.25 * of_one);
+  EXPECT_LT(of_several, 0.3 * of_one);
 }
 
 // A held cube, and one that is attached to another, pull by their weight.

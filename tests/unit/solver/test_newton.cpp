@@ -105,6 +105,7 @@ Problem falling_liver(const std::string& unfinished) {
   const double lowest = bounding_box(p.body.levels[0].vertices).min[2];
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   p.contact.obstacles.push_back({PlaneOptions{{0, 0, lowest - 0.02}, {0, 0, 1}}, {}, {}});
+  p.contact.stiffness_scale = 0.25;
   p.gravity = {0, 0, -9.81};
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.02;
   p.integration.implicit.newton_iterations = 10, p.integration.implicit.unfinished = unfinished;
