@@ -211,10 +211,10 @@ TEST(ImplicitContact, HasOneSystem) {
     };
     for (auto* system : {&by_products, &assembled}) system->prepare(it.level(), it.state(), it.weights, false);
     const auto before = expect_one();
-    const auto change = device_field<Host>(random_field(it.probe.vertices(), 2 * slip / h, 3));
+    const auto change = device_field<Host>(random_field(it.probe.vertices(), 4 * slip / h, 3));
     const Vectors<Host> r("test.r", direction.size());
     assembled.change_contact({}, [&] { by_products.change_contact({}, [&] { it.level().move_contact(change, r); }); });
-    if (largest_difference(expect_one(), before) > 2e-4 * largest(before)) ++changed;
+    if (largest_difference(expect_one(), before) > 1e-3 * largest(before)) ++changed;
   }
   EXPECT_GE(changed, 5);  // of what is not held
 }
