@@ -101,7 +101,7 @@ TEST(ThinTools, DoNotPassBetweenPoints) {
 }
 
 // A ball of one and a half edges, pressed in by an edge by implicit steps of many critical ones: the force comes to rest, at the same value by
-// any step, and is near that of explicit steps. With places on faces that are the deepest ones in every step it never rests.
+// any step, and is near that of explicit steps.
 TEST(ThinTools, PushSteadilyInLongSteps) {
   Problem p = block();
   p.body.material.poisson_ratio = 0.45;
