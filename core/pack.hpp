@@ -105,6 +105,22 @@ KOKKOS_INLINE_FUNCTION void set_lane(Pack<T, N>& a, int i, T value) {
   a.set(i, value);
 }
 
+/// As many numbers as it has lanes, which lie together; they may be of another precision.
+template <class T, class Number>
+KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
+  constexpr int lanes = LaneOf<T>::count;
+  T to;
+#if defined(__GNUC__) && !defined(__CUDACC__)
+  if constexpr (lanes > 1) {
+    typedef Number Together __attribute__((vector_size(lanes * sizeof(Number)), may_alias, aligned(alignof(Number))));
+    to.v = __builtin_convertvector(*reinterpret_cast<const Together*>(from), typename T::Lanes);
+    return to;
+  }
+#endif
+  for (int l = 0; l < lanes; ++l) set_lane(to, l, static_cast<typename LaneOf<T>::type>(from[l]));
+  return to;
+}
+
 /// Number k of `count` at a slot: the same numbers of a pack's elements stand side by side.
 template <class B>
 KOKKOS_INLINE_FUNCTION int packed(int slot, int k, int count) {

@@ -21,7 +21,7 @@ template <class B>
 struct Restriction {
   int rows = 0;        ///< coarse vertices, one row each
   Indices<B> first;    ///< [rows + 1] into the others
-  Indices<B> source;   ///< a finer vertex
+  Indices<B> source;   ///< a finer vertex, ascending in a row
   Scalars<B> weight;   ///< of its force; 0 where it is only averaged
   Scalars<B> average;  ///< of its state; each row sums to 1
 };

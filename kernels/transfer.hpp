@@ -48,19 +48,9 @@ struct MapFields {
 
   KOKKOS_INLINE_FUNCTION Mapped<Real> at(const Vectors<B>& x, const Vectors<B>& x0, const Vectors<B>& b,
                                          int row) const {
-    const int a = transfer.target(row);
-    Mapped<Real> m;
-    for (int k = 0; k < 3; ++k) {
-      Real end = 0, change = 0;
-      for (int c = 0; c < 4; ++c) {
-        const int s = transfer.source(row, c);
-        const Real w = transfer.weight(row, c), value = x(s, k);
-        end += w * value;
-        if constexpr (Rule::needs_variation) change += w * (value - x0(s, k));
-      }
-      m.state[k] = end;
-      if constexpr (Rule::needs_variation) m.variation[k] = b(a, k) + change;
-    }
+    Mapped<Real> m{value_at<B>(transfer, x, row), {}};
+    if constexpr (Rule::needs_variation)
+      m.variation = value_at<B>(transfer, Difference<B>{x, x0}, row, vector_at<B>(b, transfer.target(row)));
     return m;
   }
 
@@ -70,10 +60,8 @@ struct MapFields {
     Real bound = 0;
     if constexpr (Rule::needs_state && Rule::needs_variation) bound = limit(a);
     const bool state = Rule::take_state(u, bound);
-    for (int k = 0; k < 3; ++k) {
-      to.u(a, k) = state ? u.state[k] : u.variation[k];
-      to.v(a, k) = state ? v.state[k] : v.variation[k];
-    }
+    set_vector<B>(to.u, a, state ? u.state : u.variation);
+    set_vector<B>(to.v, a, state ? v.state : v.variation);
   }
 };
 
@@ -95,15 +83,13 @@ struct RestrictState {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(inverse_mass(a) > 0)) return;
-    Vec3<Real> u, v;
-    for (int s = restriction.first(a); s < restriction.first(a + 1); ++s) {
-      const int b = restriction.source(s);
-      for (int k = 0; k < 3; ++k) {
-        u[k] += restriction.average(s) * fine.u(b, k);
-        v[k] += restriction.average(s) * fine.v(b, k);
-      }
-    }
-    for (int k = 0; k < 3; ++k) coarse.u(a, k) = u[k], coarse.v(a, k) = v[k];
+    const auto mean = [&](const Vectors<B>& x) {
+      return weighted_sum<B>(
+          x, restriction.first(a), restriction.first(a + 1), [&](int s) { return restriction.source(s); },
+          [&](int s) { return restriction.average(s); });
+    };
+    set_vector<B>(coarse.u, a, mean(fine.u));
+    set_vector<B>(coarse.v, a, mean(fine.v));
   }
 };
 

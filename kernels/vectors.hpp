@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/matrices.hpp>
 #include <plica/core/model.hpp>
+#include <plica/core/pack.hpp>
 #include <plica/core/small.hpp>
 #include <plica/core/transfer.hpp>
 #include <plica/kernels/reduce.hpp>
@@ -100,16 +101,49 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B
   return start;
 }
 
-/// start + the value of a field at point p, which lies in a tetrahedron: the sum of weight * x over its four vertices.
+/// x - x0, which is stored nowhere. For within a kernel: a copy of a view costs more than reading it.
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points, const Vectors<B>& x, int p,
-                                                       Vec3<typename B::Real> start = {}) {
-  for (int c = 0; c < 4; ++c) {
-    const int a = points.source(p, c);
-    const typename B::Real w = points.weight(p, c);
-    for (int k = 0; k < 3; ++k) start[k] += w * x(a, k);
+struct Difference {
+  const Vectors<B>&x, &x0;
+};
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Difference<B>& d, int a) {
+  return vector_at<B>(d.x, a) - vector_at<B>(d.x0, a);
+}
+
+/// A vector and the number behind it, the next vector's first: a CPU reads four numbers at once.
+template <class B>
+KOKKOS_INLINE_FUNCTION Pack<typename B::Real, 4> four_at(const Vectors<B>& x, int a) {
+  return load_lanes<Pack<typename B::Real, 4>>(x.data() + 3 * static_cast<std::ptrdiff_t>(a));
+}
+template <class B>
+KOKKOS_INLINE_FUNCTION Pack<typename B::Real, 4> four_at(const Difference<B>& d, int a) {
+  return four_at<B>(d.x, a) - four_at<B>(d.x0, a);
+}
+
+/// Sum of weight(s) * x at vertex(s), over s from first to before last, x Vectors or a Difference. The greatest vertex is the last: behind it
+/// there may be nothing to read.
+template <class B, class Field, class Vertex, class Weight>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> weighted_sum(const Field& x, int first, int last, const Vertex& vertex,
+                                                           const Weight& weight) {
+  using Four = Pack<typename B::Real, 4>;
+  Vec3<typename B::Real> sum;
+  int s = first;
+  if constexpr (B::for_cpu) {
+    Four fours;
+    for (; s + 1 < last; ++s) fours += Four(weight(s)) * four_at<B>(x, vertex(s));
+    sum = {fours[0], fours[1], fours[2]};
   }
-  return start;
+  for (; s < last; ++s) sum += weight(s) * vector_at<B>(x, vertex(s));
+  return sum;
+}
+
+/// start + the value of a field at point p, which lies in a tetrahedron: the sum of weight * x over its four vertices.
+template <class B, class Field>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points, const Field& x, int p,
+                                                       const Vec3<typename B::Real>& start = {}) {
+  return start + weighted_sum<B>(
+                     x, 0, 4, [&](int c) { return points.source(p, c); }, [&](int c) { return points.weight(p, c); });
 }
 
 /// The same with the weights' absolute values, which are not all positive where the point is outside.

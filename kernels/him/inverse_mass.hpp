@@ -94,22 +94,6 @@ constexpr int groups_of(int vertices) {
   return (vertices + group_size<B> - 1) / group_size<B>;
 }
 
-/// `lanes` numbers that lie together.
-template <class T, class Number>
-KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
-  constexpr int lanes = LaneOf<T>::count;
-  T to;
-#if defined(__GNUC__) && !defined(__CUDACC__)
-  if constexpr (lanes > 1) {
-    typedef Number Numbers __attribute__((vector_size(lanes * sizeof(Number)), may_alias, aligned(alignof(Number))));
-    to.v = __builtin_convertvector(*reinterpret_cast<const Numbers*>(from), typename T::Lanes);
-    return to;
-  }
-#endif
-  for (int l = 0; l < lanes; ++l) set_lane(to, l, static_cast<typename LaneOf<T>::type>(from[l]));
-  return to;
-}
-
 /// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie together, [columns][block], an item has `rows`.
 template <class B, int rows, int values, int block, class Number>
 KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int columns, const typename B::Real* x,

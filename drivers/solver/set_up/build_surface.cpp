@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <map>
 #include <plica/drivers/solver/set_up/build_surface.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
@@ -18,6 +19,10 @@ Transfer<B> build_transfer(const std::string& name, const Embedding& embedding, 
     source.push_back(embedding.vertices[i]);
     weight.push_back(
         {static_cast<Real>(w[0]), static_cast<Real>(w[1]), static_cast<Real>(w[2]), static_cast<Real>(w[3])});
+    std::array<int, 4>& four = source.back();
+    const auto greatest = static_cast<std::size_t>(std::max_element(four.begin(), four.end()) - four.begin());
+    std::swap(four[greatest], four[3]);
+    std::swap(weight.back()[greatest], weight.back()[3]);
   }
   Transfer<B> t;
   t.rows = static_cast<int>(target.size());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <numeric>
 #include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
@@ -58,8 +59,10 @@ Restriction<B> build_restriction(const Embedding& up, const std::vector<double>&
   std::vector<int> first{0}, source;
   std::vector<Real> weight, average;
   for (std::size_t a = 0; a < of.size(); ++a) {
-    if (of[a].empty())
+    if (of[a].empty()) {
       for (std::size_t c = 0; c < 4; ++c) of[a].push_back({down.vertices[a][c], 0, down.weights[a][c]});
+      std::ranges::sort(of[a], {}, &Entry::source);
+    }
     double total = 0;
     for (const Entry& e : of[a]) total += e.average;
     for (const Entry& e : of[a]) {
