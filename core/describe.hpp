@@ -285,8 +285,8 @@ void describe(V& v, ImplicitOptions& o) {
   v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
   v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");
   v("halvings", o.halvings, Count{1, 20}, "of such a step, at most, with halve; the shortest are accepted");
-  v("rho_infinity", o.rho_infinity, Quantity{plain, zero_to_one},
-    "of generalized_alpha: the part of the fastest motion that is left after a step");
+  v("rho_infinity", o.rho_infinity, AutoQuantity{{plain, zero_to_one}},
+    "of generalized_alpha: the part of the fastest motion that is left after a step; auto: 0.8, with contact 0");
 }
 
 template <class V>

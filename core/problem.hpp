@@ -189,9 +189,10 @@ struct ImplicitOptions {
   double newton_residual = 0;           ///< or below this [N]
   std::string tangent = "auto";         ///< of tangents()
   std::string unfinished =
-      "accept";               ///< of newton_outcomes(): what becomes of a step that Newton's method did not solve
-  int halvings = 6;           ///< of a step, at most, with `halve`
-  double rho_infinity = 0.8;  ///< of generalized_alpha: what is left of the fastest modes after a step
+      "accept";      ///< of newton_outcomes(): what becomes of a step that Newton's method did not solve
+  int halvings = 6;  ///< of a step, at most, with `halve`
+  /// Of generalized_alpha: what is left of the fastest modes after a step; none: see rho_infinity().
+  std::optional<double> rho_infinity = {};
 };
 
 /// Of the cycle `him`.

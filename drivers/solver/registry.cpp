@@ -122,6 +122,10 @@ int newton_iterations(const ImplicitOptions& options, std::string_view integrato
   return options.newton_iterations > 0 ? options.newton_iterations : conserves ? enough : 1;
 }
 
+double rho_infinity(const ImplicitOptions& options, bool contact) {
+  return options.rho_infinity.value_or(contact ? 0 : 0.8);
+}
+
 std::vector<Choice> presets() {
   return {
       {"tled",

@@ -31,6 +31,10 @@ bool is_explicit(std::string_view integrator);
 /// where it conserves energy on the linear problem, 20. What one iteration leaves unsolved is energy lost or won in every step.
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator);
 
+/// What of the fastest motion generalized_alpha leaves after a step: by the options, or where they leave it open 0.8, and with contact 0.
+/// Contact sets in and ends within a step, and what is left of that makes its force alternate from step to step, and grow.
+double rho_infinity(const ImplicitOptions& options, bool contact);
+
 /// Whether elements of that material may be inverted: by its options, or where they say nothing by the material.
 bool allows_inversion(const MaterialOptions& material);
 /// Whether inverted elements of that material are pushed back; false for a name it does not know.

@@ -124,7 +124,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
       : ImplicitStep<B>(level, parts),
         start_("generalized_alpha.start", level.model.vertices),
         acceleration_("plica::generalized_alpha.acceleration", level.model.vertices) {
-    const double rho = parts.implicit.rho_infinity;
+    const double rho = parts.implicit.rho_infinity.value();
     mass_ = (2 * rho - 1) / (rho + 1), force_ = rho / (rho + 1);
     gamma_ = 0.5 - mass_ + force_, beta_ = 0.25 * (1 - mass_ + force_) * (1 - mass_ + force_);
   }

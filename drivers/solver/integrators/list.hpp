@@ -120,7 +120,7 @@ struct GeneralizedAlpha {
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
-  static constexpr bool conserves(const ImplicitOptions& options) { return options.rho_infinity == 1; }
+  static constexpr bool conserves(const ImplicitOptions& options) { return options.rho_infinity == 1.0; }
   template <class B>
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };

@@ -306,6 +306,7 @@ class HierarchyBuilder {
                            damping_limit(constants_[i]), eigenvalues_[i], cavity_eigenvalue<B>(level));
       ImplicitOptions implicit = problem_.integration.implicit;
       implicit.newton_iterations = newton_iterations(implicit, report.integrator);
+      implicit.rho_infinity = rho_infinity(implicit, contact_ != nullptr);
       const auto make_solver = [&] {
         std::string solver = implicit.solver;
         if constexpr (requires { Kind::linear_solver; }) solver = Kind::linear_solver;

@@ -74,6 +74,17 @@ void doubt_tools(const Problem& problem, std::vector<std::string>& sentences) {
   }
 }
 
+// Of contact's forces that alternate from step to step
+void doubt_integrator(const Problem& problem, std::vector<std::string>& sentences) {
+  constexpr double most = 0.2;  // above that they may grow
+  const double rho = rho_infinity(problem.integration.implicit, has_contact(problem));
+  if (has_contact(problem) && rho > most && std::ranges::count(problem.integration.integrator, "generalized_alpha") > 0)
+    sentences.push_back("integration.implicit.rho_infinity is " + number(rho, 3) +
+                        ": with generalized_alpha contact's forces may alternate from step to step and grow; expected "
+                        "auto, here 0, or at most " +
+                        number(most, 1));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Problem& problem) {
@@ -87,6 +98,7 @@ std::vector<std::string> doubts(const Problem& problem) {
   if (levels.size() > 1) doubt_levels(problem, sentences);
   doubt_elements(problem.body, sentences);
   doubt_tools(problem, sentences);
+  doubt_integrator(problem, sentences);
   for (const std::string& sentence : starts_in_obstacles(problem)) sentences.push_back(sentence);
   if (const Body& body = problem.body; starts_deformed(body.initial) && !recovers(body.material.model)) {
     const TetMesh& mesh = levels.front();
