@@ -27,7 +27,7 @@ class EnergyBudget {
   template <class B>
   EnergyBudget(const Simulation<B>& simulation, const Problem& problem)
       : EnergyBudget(10 * static_cast<double>(std::numeric_limits<typename B::Real>::epsilon()) *
-                     stiffness_at_rest(problem.body.material) * simulation.levels()[0].mass /
+                     p_wave_modulus(problem.body.material) * simulation.levels()[0].mass /
                      problem.body.material.density) {}
 
   /// Nothing but gravity and obstacles does work, and the elastic energy is all there.
@@ -61,7 +61,7 @@ class EnergyBudget {
     return text("energy: at ", number(at_, 4), " s the body had ", number(surplus_, 3), " J that nobody put in, ",
                 number(growth(), 3),
                 " of all that was put in: its motion from there on is not to be trusted; expected a shorter "
-                "integration.macro_step, integration.retry, or cycle: single");
+                "integration.macro_step, integration.retry, or cycle: single with integrator: symplectic_euler");
   }
 
  private:

@@ -260,6 +260,12 @@ double stiffness_at_rest(const MaterialOptions& material) {
   return c.mu * (3 * c.lambda + 2 * c.mu) / (c.lambda + c.mu);
 }
 
+double p_wave_modulus(const MaterialOptions& material) {
+  const MaterialInfo& info = *find_material(material.model);
+  const Lame<double> c = info.small_strains(parameter_values(info, material, {}));
+  return c.lambda + 2 * c.mu;
+}
+
 const std::vector<MaterialInfo>& material_list() {
   static const std::vector<MaterialInfo> list = [] {
     std::vector<MaterialInfo> all;

@@ -49,6 +49,8 @@ void check_parameters(const MaterialInfo& info, const Body& body);
 
 /// Young's modulus at rest [Pa]: as given, or of small strains where the material has no such parameter.
 double stiffness_at_rest(const MaterialOptions& material);
+/// The P-wave modulus at rest, lambda + 2 mu [Pa]: much more than Young's where the volume hardly changes.
+double p_wave_modulus(const MaterialOptions& material);
 
 /// The material of one of tissues(), with the values of its source. InputError for another name.
 MaterialOptions tissue_material(std::string_view name);
