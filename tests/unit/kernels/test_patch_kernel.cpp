@@ -108,6 +108,9 @@ TYPED_TEST(PatchKernelOn, TransfersAreWeightedSums) {
   embedding.vertices = {{0, 1, 2, 3}, {4, 2, 1, 0}, {3, 3, 4, 1}};
   embedding.weights = {{0.1, 0.2, 0.3, 0.4}, {1, 0, 0, 0}, {0.25, 0.25, 0.75, -0.25}};
   const auto transfer = build_transfer<B>("test", embedding, {});
+  const auto source = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), transfer.source);
+  for (int row = 0; row < 3; ++row)
+    for (int c = 0; c < 3; ++c) EXPECT_LE(source(row, c), source(row, 3)) << "what is last is read by itself";
   const Field u = disorder(5, 1, 1), v = disorder(5, 1, 2);
   const State<B> from(device<B>(u), device<B>(v)), to("test.to", 3);
   map_fields<B, MapState>({}, "test", transfer, from, {}, {}, to, {});

@@ -372,4 +372,18 @@ TEST(ImplicitContact, IsRefusedWhereAMatrixHasNoRoom) {
   EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }), "");
 }
 
+// What the step leaves of fast motion makes contact's force alternate: by itself nothing, a given part is doubted.
+TEST(ImplicitContact, DoubtsFastMotionThatIsLeft) {
+  Problem p = small_cube();
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.contact.obstacles = {{PlaneOptions{{0, 0, -1}, {0, 0, 1}}, {}, {}}};
+  p.integration.integrator = {"generalized_alpha"};
+  EXPECT_TRUE(other_doubts(p).empty());
+  p.integration.implicit.rho_infinity = 0.8;
+  ASSERT_EQ(other_doubts(p).size(), 1);
+  EXPECT_NE(other_doubts(p)[0].find("integration.implicit.rho_infinity is 0.8"), std::string::npos);
+  p.contact.obstacles.clear();
+  EXPECT_TRUE(other_doubts(p).empty());
+}
+
 }  // namespace
