@@ -121,6 +121,12 @@ KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
   return to;
 }
 
+/// The other way round.
+template <class T, class Number>
+KOKKOS_INLINE_FUNCTION void store_lanes(const T& from, Number* to) {
+  for (int l = 0; l < LaneOf<T>::count; ++l) to[l] = static_cast<Number>(lane(from, l));
+}
+
 /// Number k of `count` at a slot: the same numbers of a pack's elements stand side by side.
 template <class B>
 KOKKOS_INLINE_FUNCTION int packed(int slot, int k, int count) {

@@ -5,6 +5,7 @@
 #include <plica/core/patches.hpp>
 #include <plica/core/small.hpp>
 #include <plica/core/transposed.hpp>
+#include <plica/kernels/vectors.hpp>
 
 namespace plica {
 
@@ -28,6 +29,28 @@ KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from, [
 #endif
 }
 
+/// The vectors that a patch's vertices have in some fields, into `local`. A CPU reads four numbers at once, except at the greatest vertex, behind
+/// which there may be nothing to read.
+template <class B, int fields, class Member>
+KOKKOS_INLINE_FUNCTION void load_patch(const Member& team, const Patches<B>& patches, int patch,
+                                       const Vectors<B> (&field)[fields], typename B::Real* local) {
+  const int first = patches.first_vertex(patch), vertices = patches.first_vertex(patch + 1) - first;
+  Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
+    const int a = patches.vertex(first + i);
+    for (int f = 0; f < fields; ++f) {
+      typename B::Real* const to = local + (i * fields + f) * patch_stride<B>;
+      if constexpr (patch_stride<B> == 4)
+        if (i + 1 < vertices) {
+          store_lanes(four_at<B>(field[f], a), to);
+          continue;
+        }
+      const auto x = vector_at<B>(field[f], a);
+      for (int k = 0; k < 3; ++k) to[k] = x[k];
+    }
+  });
+  team.team_barrier();
+}
+
 /// A pack's elements, and the gradients G of the vertex fields in `local`.
 template <class B, int fields, class T>
 KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const typename B::Real* local,
@@ -37,21 +60,19 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
   const Real* const stored = &patches.shape(pack, 0, 0);
   const std::uint16_t* const corner_of = &patches.corner(pack, 0, 0);
   prefetch_pack<lanes>(stored + 3 * 10 * lanes, 10 * lanes), prefetch_pack<lanes>(corner_of + 3 * 4 * lanes, 4 * lanes);
-  const auto load = [&](int k) {
-    T r;
-    for (int l = 0; l < lanes; ++l) set_lane(r, l, stored[k * lanes + l]);
-    return r;
-  };
-  for (int c = 0; c < 3; ++c)
-    for (int k = 0; k < 3; ++k) shape.gradient[c][k] = load(3 * c + k);
-  shape.volume = load(9);
+  // written out: a loop that the compiler does not unroll would keep packs in memory
+  const auto number = [&](int k) { return load_lanes<T>(stored + k * lanes); };
+  const auto vector = [&](int k) { return Vec3<T>{number(k), number(k + 1), number(k + 2)}; };
+  shape.gradient[0] = vector(0), shape.gradient[1] = vector(3), shape.gradient[2] = vector(6);
+  shape.volume = number(9);
   for (int f = 0; f < fields; ++f) {
-    Vec3<T> u[4];
-    for (int c = 0; c < 4; ++c) {
+    const auto corner = [&](int c) {
+      Vec3<T> u;
       const std::uint16_t* const at = corner_of + c * lanes;
-      load_vectors([=](int l) { return local + (at[l] * fields + f) * patch_stride<B>; }, u[c]);
-    }
-    const Vec3<T> d[3] = {u[1] - u[0], u[2] - u[0], u[3] - u[0]};
+      load_vectors([=](int l) { return local + (std::size_t{at[l]} * fields + f) * patch_stride<B>; }, u);
+      return u;
+    };
+    const Vec3<T> u0 = corner(0), d[3] = {corner(1) - u0, corner(2) - u0, corner(3) - u0};
     for (int r = 0; r < 3; ++r)
       G[f][r] = d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
   }
@@ -62,8 +83,9 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
 // first-level cache of a CPU, the shared memory of a GPU. It gathers the displacements of the patch's vertices once. It computes
 // the elements a pack at a time: one element in each lane of a vector register, so that each instruction serves 2 to 16 elements.
 // Each element writes the forces at its four corners to a place of its own, and nobody else writes there. Then each vertex of the
-// patch adds up the places that belong to it, in a stored order. A vertex on the border of patches has such a sum in each of
-// them; a second kernel, gather_forces, adds these up. No two threads ever write to one number, so no atomics are needed.
+// patch adds up the places that belong to it, in a stored order; a CPU does so for four vertices at once. A vertex on the border of
+// patches has such a sum in each of them; a second kernel, gather_forces, adds these up. No two threads ever write to one number, so
+// no atomics are needed.
 //
 //   u [vertices][3]                                      one patch, in scratch
 //     | 1. gather by `vertex`          .--------------------------------------------------------------.
@@ -85,7 +107,7 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
 ///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
 ///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
 /// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
-/// 8 (slots), and per patch vertex 10 + 3 s fields + 3 s.
+/// 8 (slots), and per patch vertex 7 + 3 s fields + 3 s.
 template <class B, class Integrand>
 struct PatchKernel {
   using Real = typename B::Real;
@@ -95,7 +117,8 @@ struct PatchKernel {
   static constexpr int fields = Integrand::fields;
   static constexpr int stride = patch_stride<B>;
   static constexpr bool adds = requires { Integrand::adds; };
-  static constexpr int force_slots = (Patches<B>::capacity + lanes - 1) / lanes * 12 * lanes;
+  static constexpr int at_once = Patches<B>::at_once;
+  static constexpr int force_slots = Patches<B>::nothing + 3 * lanes;
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
     return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * stride * fields) * sizeof(Real);
   }
@@ -111,25 +134,27 @@ struct PatchKernel {
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     Real* const forces = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     Real* const local = forces + force_slots;
+    if constexpr (at_once > 1)
+      for (int k = 0; k < 3; ++k) forces[Patches<B>::nothing + k * lanes] = 0;
 
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
-      const int a = patches.vertex(first_vertex + i);
-      for (int f = 0; f < fields; ++f)
-        for (int k = 0; k < 3; ++k) local[(i * fields + f) * stride + k] = integrand.field[f](a, k);
-    });
-    team.team_barrier();
+    load_patch<B>(team, patches, p, integrand.field, local);
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
                          [&](int q) { element(p, first_pack + q, local, forces + q * 12 * lanes); });
     team.team_barrier();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
-      Real x = 0, y = 0, z = 0;
-      for (int s = patches.first_slot(first_vertex + i); s < patches.first_slot(first_vertex + i + 1); ++s) {
-        const Real* f = forces + patches.slot(s);
-        x += f[0], y += f[lanes], z += f[2 * lanes];
+    const int first_sum = patches.first_sum(p), sums = patches.first_sum(p + 1) - first_sum;
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, sums), [&](int i) {
+      Real x[at_once] = {}, y[at_once] = {}, z[at_once] = {};
+      const int last = patches.first_slot(first_sum + i + 1);
+      for (int s = patches.first_slot(first_sum + i); s < last; s += at_once)
+        for (int j = 0; j < at_once; ++j) {
+          const Real* f = forces + patches.slot(s + j);
+          x[j] += f[0], y[j] += f[lanes], z[j] += f[2 * lanes];
+        }
+      for (int j = 0; j < at_once && i * at_once + j < vertices; ++j) {
+        const int to = first_vertex + patches.summed(first_vertex + i * at_once + j);
+        const Vec3<Real> sum{x[j], y[j], z[j]};
+        set_vector<B>(partial, to, adds ? vector_at<B>(partial, to) + sum : sum);
       }
-      const int to = first_vertex + patches.summed(first_vertex + i);
-      if constexpr (adds) x += partial(to, 0), y += partial(to, 1), z += partial(to, 2);
-      partial(to, 0) = x, partial(to, 1) = y, partial(to, 2) = z;
     });
   }
 
@@ -140,8 +165,7 @@ struct PatchKernel {
     Vec3<T> corner[4];
     integrand(G, shape, corner, patch, pack);
     for (int c = 0; c < 4; ++c)
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < lanes; ++l) forces[(c * 3 + k) * lanes + l] = lane(corner[c][k], l);
+      for (int k = 0; k < 3; ++k) store_lanes(corner[c][k], forces + (c * 3 + k) * lanes);
   }
 };
 

@@ -25,8 +25,8 @@ std::size_t bytes_of(const State<B>& s) {
 }
 template <class B>
 std::size_t bytes_of(const Patches<B>& p) {
-  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.fibres, p.summed, p.first_slot,
-               p.slot, p.shares.first, p.shares.row, p.element);
+  return bytes(p.first_pack, p.first_vertex, p.vertex, p.corner, p.shape, p.constants, p.fibres, p.summed, p.first_sum,
+               p.first_slot, p.slot, p.shares.first, p.shares.row, p.element);
 }
 template <class B>
 std::size_t bytes_of(const NodalRows<B>& r) {

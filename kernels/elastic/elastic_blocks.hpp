@@ -67,7 +67,7 @@ struct ElasticBlocks {
 
   Patches<B> patches;
   PatchPairs<B> pairs;
-  Vectors<B> u;
+  Vectors<B> field[1];
   BlockMatrix<B> A;
   Blocks9<B> shares;
   DampingRate<B> rate;
@@ -75,16 +75,12 @@ struct ElasticBlocks {
 
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int p = league_rank(team);
-    const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     const int first = pairs.first_pair(p), first_shared = pairs.first_shared(p),
               count = pairs.first_pair(p + 1) - first;
     Real* const local = team_scratch<Real>(team, 0, near_bytes() / sizeof(Real));
     Real* const blocks = team_scratch<Real>(team, 1, far_bytes() / sizeof(Real));
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
-      for (int k = 0; k < 3; ++k) local[i * patch_stride<B> + k] = u(patches.vertex(first_vertex + i), k);
-    });
-    team.team_barrier();
+    load_patch<B>(team, patches, p, field, local);
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
                          [&](int q) { element(p, first_pack + q, local, blocks + q * lanes * element_numbers); });
     team.team_barrier();
@@ -192,7 +188,7 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
     policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
     policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
     launch("plica::elastic_blocks", policy,
-           Kernel{model.patches, pairs, u, A, shares, rate, static_cast<Real>(weights.a)});
+           Kernel{model.patches, pairs, {u}, A, shares, rate, static_cast<Real>(weights.a)});
   });
   finish_blocks<B>(exec, model, pairs, weights, shares, A);
 }

@@ -25,9 +25,7 @@ struct ElasticForce {
                       shape, corner);
     if constexpr (Watched) {
       const T J = determinant(F);
-      bool upright = true;
-      for (int l = 0; l < LaneOf<T>::count; ++l) upright = upright && lane(J, l) > 0;
-      if (!upright) raise(J, patch, pack);
+      if (!all_positive(J)) raise(J, patch, pack);
     }
   }
 

@@ -79,9 +79,7 @@ struct NodalForce {
     if constexpr (Damped) Q = Q + T(scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
     if constexpr (Watched) {
       const T J = determinant(F);
-      bool upright = true;
-      for (int l = 0; l < B::lanes; ++l) upright = upright && lane(J, l) > 0;
-      if (!upright) raise(J, at);
+      if (!all_positive(J)) raise(J, at);
     }
   }
 

@@ -35,7 +35,7 @@ struct RememberElements {
   using T = typename PackOf<Real, B::lanes>::type;
   Patches<B> patches;
   StressMemory<B> stress;
-  Vectors<B> u;
+  Vectors<B> field[1];
   Scalars<B> constants;
 
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
@@ -43,12 +43,8 @@ struct RememberElements {
   }
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
     const int p = league_rank(team);
-    const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
     Real* const local = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, vertices), [&](int i) {
-      for (int k = 0; k < 3; ++k) local[i * patch_stride<B> + k] = u(patches.vertex(first_vertex + i), k);
-    });
-    team.team_barrier();
+    load_patch<B>(team, patches, p, field, local);
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, patches.first_pack(p), patches.first_pack(p + 1)),
                          [&](int pack) { element(p, pack, local); });
   }
@@ -69,7 +65,7 @@ void remember_elements(const typename B::Exec& exec, const Level<B>& level, cons
   const Patches<B>& patches = level.model.patches;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
   launch("plica::remember_elements", policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
-         Kernel{patches, level.stress, u, constants});
+         Kernel{patches, level.stress, {u}, constants});
 }
 
 /// Of nodal elements.

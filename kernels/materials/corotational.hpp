@@ -54,21 +54,20 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   const T tiny = T(Kokkos::Experimental::norm_min_v<Real>);
   T s = sqrt(T(3) * n);
   for (int i = 0; i < 24; ++i) {
-    const T slope = T(4) * (s * s * s - n * s - T(2) * J);
-    const T step = (((s * s - T(2) * n) * s - T(8) * J) * s + q) / max(slope, tiny);
+    const T slope = max(T(4) * (s * s * s - n * s - T(2) * J), tiny);
+    const T step = (((s * s - T(2) * n) * s - T(8) * J) * s + q) / slope;
+    const T next =
+        (T(6) * s * s - T(2) * n) * step * step;  // p'' step^2 / 2: over the slope, what the next step would be
     s = s - step;
-    bool converged = true;
-    for (int l = 0; l < LaneOf<T>::count; ++l)
-      converged = converged && lane(step, l) <= lane(s, l) * Kokkos::Experimental::epsilon_v<Real>;
-    if (converged) break;
+    if (all_positive(T(Kokkos::Experimental::epsilon_v<Real>) * s * slope + tiny - next)) break;
   }
   const T turning = s * s * s - n * s - T(2) * J;
   const T scale = T(1) / max(turning, tiny);
   const T a = scale * (s * s + n), b = scale * (s + s), c = scale + scale;
   Mat3<T> R = a * F + b * H - c * (F * (transpose(F) * F));
-  const T unclear = turning - T(Real(2 * least_turning)) * s * n;
-  for (int l = 0; l < LaneOf<T>::count; ++l)
-    if (!(lane(unclear, l) > Real(0))) {
+  const T clear = turning - T(Real(2 * least_turning)) * s * n;
+  for (int l = 0; l < LaneOf<T>::count && !all_positive(clear); ++l)
+    if (!(lane(clear, l) > Real(0))) {
       Mat3<Real> one;
       for (int r = 0; r < 3; ++r)
         for (int k = 0; k < 3; ++k) one[r][k] = lane(F[r][k], l);
@@ -115,9 +114,7 @@ struct Corotational : TwoConstants {
       using Real = typename LaneOf<T>::type;
       const Mat3<T> S = transpose(R) * F, G = Mat3<T>::diagonal(trace(S)) - S, H = cofactor(G);
       const T det = dot(G[0], H[0]), least = T(Real(least_turning)) * trace(S) * inner(F, F);
-      T d = T(1) / max(det, T(Kokkos::Experimental::norm_min_v<Real>));
-      for (int l = 0; l < LaneOf<T>::count; ++l)
-        if (lane(det, l) <= lane(least, l)) set_lane(d, l, Real(0));
+      const T d = where_positive(det - least, T(1) / max(det, T(Kokkos::Experimental::norm_min_v<Real>)));
       turning = d * transpose(H);
       turned = R * turning * transpose(R);
       stretch = c.lambda * (trace(S) - T(3));

@@ -14,9 +14,7 @@ KOKKOS_INLINE_FUNCTION bool is_diagonal(const T (&A)[n][n]) {
     for (int j = 0; j < i; ++j) off += A[i][j] * A[i][j];
   }
   constexpr Real tiny = Kokkos::Experimental::epsilon_v<Real>;
-  for (int l = 0; l < LaneOf<T>::count; ++l)
-    if (lane(off, l) > tiny * tiny * lane(on, l)) return false;
-  return true;
+  return all_positive(T(tiny * tiny) * on + T(Kokkos::Experimental::norm_min_v<Real>) - off);
 }
 
 /// Symmetric A = V diag V^T by cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations, 4th ed., alg. 8.5.3); A becomes diag.
@@ -32,9 +30,7 @@ KOKKOS_INLINE_FUNCTION void diagonalise(T (&A)[n][n], T (&V)[n][n]) {
         // tan t = sign(d) 2 a / (|d| + sqrt(d^2 + 4 a^2)), d = A_qq - A_pp, a = A_pq: the smaller rotation
         const T d = A[q][q] - A[p][p], a2 = T(2) * A[p][q], size = sqrt(d * d + a2 * a2);
         const T magnitude = max(d, -d) + size + tiny;
-        T t = a2 / magnitude;
-        for (int l = 0; l < LaneOf<T>::count; ++l)
-          if (lane(d, l) < 0) set_lane(t, l, -lane(t, l));
+        const T size_of_t = a2 / magnitude, t = size_of_t - T(2) * where_positive(-d, size_of_t);
         const T c = T(1) / sqrt(T(1) + t * t), s = t * c;
         for (int k = 0; k < n; ++k) {
           const T x = A[k][p], y = A[k][q], v = V[k][p], w = V[k][q];

@@ -18,8 +18,7 @@ KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) 
   for (int j = 0; j < 9; ++j) {
     T pivot = A.a[j][j] + shift;
     for (int k = 0; k < j; ++k) pivot -= L[j][k] * L[j][k];
-    for (int l = 0; l < LaneOf<T>::count; ++l)
-      if (!(lane(pivot, l) > 0)) return false;
+    if (!all_positive(pivot)) return false;
     const T root = sqrt(pivot), inverse = T(1) / root;
     for (int i = j + 1; i < 9; ++i) {
       T sum = A.a[i][j];

@@ -83,19 +83,20 @@ template <class B>
 class PatchBuilder {
   using Real = typename B::Real;
   using P = Patches<B>;
-  static constexpr auto W = static_cast<std::size_t>(B::lanes);
+  static constexpr auto W = static_cast<std::size_t>(B::lanes), at_once = static_cast<std::size_t>(P::at_once);
 
  public:
   PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<int>>& clusters) : mesh_(mesh), clusters_(clusters) {
-    std::vector<std::vector<int>> vertices(clusters.size());
+    std::vector<Vertices> of(clusters.size());
     for_row_ranges(clusters.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p) vertices[p] = vertices_of(clusters[p]);
+      for (std::size_t p = begin; p < end; ++p) of[p] = vertices_of(clusters[p]);
     });
     for (std::size_t p = 0; p < clusters.size(); ++p) {
-      vertex_.insert(vertex_.end(), vertices[p].begin(), vertices[p].end());
+      vertex_.insert(vertex_.end(), of[p].vertex.begin(), of[p].vertex.end());
       first_vertex_.push_back(static_cast<int>(vertex_.size()));
       first_pack_.push_back(first_pack_.back() + static_cast<int>((clusters[p].size() + W - 1) / W));
-      first_slot_.push_back(first_slot_.back() + 4 * clusters[p].size());
+      first_sum_.push_back(first_sum_.back() + static_cast<int>(of[p].sums()));
+      first_slot_.push_back(first_slot_.back() + of[p].slots());
     }
   }
 
@@ -107,12 +108,13 @@ class PatchBuilder {
     patches.first_pack = to_device<Indices<B>>("patches.first_pack", first_pack_);
     patches.first_vertex = to_device<Indices<B>>("patches.first_vertex", first_vertex_);
     patches.vertex = to_device<Indices<B>>("patches.vertex", vertex_);
+    patches.first_sum = to_device<Indices<B>>("patches.first_sum", first_sum_);
     const auto packs = index_of(first_pack_.back());
     const HostWritten<B, decltype(P::corner)> corner("patches.corner", packs);
     const HostWritten<B, decltype(P::shape)> shape("patches.shape", packs);
     const HostWritten<B, Indices<B>> element("patches.element", packs * W);
     const HostWritten<B, decltype(P::summed)> summed("patches.summed", vertex_.size());
-    const HostWritten<B, Indices<B>> first_slot("patches.first_slot", vertex_.size() + 1);
+    const HostWritten<B, Indices<B>> first_slot("patches.first_slot", index_of(first_sum_.back()) + 1);
     const HostWritten<B, decltype(P::slot)> slot("patches.slot", first_slot_.back());
     const Elements elements{corner.data(), shape.data(), element.data()};
     const Sums sums{summed.data(), first_slot.data(), slot.data()};
@@ -141,7 +143,7 @@ class PatchBuilder {
  private:
   const TetMesh& mesh_;
   const std::vector<std::vector<int>>& clusters_;
-  std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_;
+  std::vector<int> first_pack_{0}, first_vertex_{0}, vertex_, first_sum_{0};
   std::vector<std::size_t> first_slot_{0};  // of a patch
 
   struct Elements {
@@ -155,13 +157,30 @@ class PatchBuilder {
     std::uint16_t* slot;
   };
 
-  std::vector<int> vertices_of(const std::vector<int>& elements) const {
-    std::vector<int> vertices;
+  struct Vertices {
+    std::vector<int> vertex;
+    std::vector<std::size_t> elements;  // numbers of them, ascending
+
+    std::size_t sums() const { return (vertex.size() + at_once - 1) / at_once; }
+    std::size_t slots() const {  // as many as the last vertex of each sum takes
+      std::size_t count = 0;
+      for (std::size_t i = 1; i <= sums(); ++i) count += at_once * elements[std::min(i * at_once, vertex.size()) - 1];
+      return count;
+    }
+  };
+
+  Vertices vertices_of(const std::vector<int>& elements) const {
+    std::vector<int> corners;
     for (const int e : elements)
-      for (const int v : mesh_.tets[index_of(e)]) vertices.push_back(v);
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return vertices;
+      for (const int v : mesh_.tets[index_of(e)]) corners.push_back(v);
+    std::ranges::sort(corners);
+    Vertices of;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i == 0 || corners[i] != corners[i - 1]) of.vertex.push_back(corners[i]), of.elements.push_back(0);
+      ++of.elements.back();
+    }
+    std::ranges::sort(of.elements);
+    return of;
   }
 
   void add_patch(std::size_t p, std::vector<int>& local, const Elements& to, const Sums& sums) const {
@@ -181,7 +200,7 @@ class PatchBuilder {
       const std::array<double, 10> shape = padding ? std::array<double, 10>{} : shape_of(index_of(e));
       for (std::size_t k = 0; k < 10; ++k) to.shape[(i / W * 10 + k) * W + i % W] = static_cast<Real>(shape[k]);
     }
-    add_sums(slots, v0, first_slot_[p], sums);
+    add_sums(slots, sums.summed + v0, sums.first_slot + first_sum_[p] + 1, sums.slot, first_slot_[p]);
   }
 
   static std::uint16_t slot_of(std::size_t pack, std::size_t corner, std::size_t lane) {
@@ -201,15 +220,19 @@ class PatchBuilder {
     return shape;
   }
 
-  static void add_sums(const std::vector<std::vector<std::uint16_t>>& slots, std::size_t sum, std::size_t slot,
-                       const Sums& to) {
-    std::vector<std::uint16_t> order(slots.size());
+  static void add_sums(const std::vector<std::vector<std::uint16_t>>& slots, std::uint16_t* summed, int* end_of_sum,
+                       std::uint16_t* slot, std::size_t to) {
+    const std::span order(summed, slots.size());
     std::iota(order.begin(), order.end(), std::uint16_t{0});
     std::ranges::stable_sort(order, {}, [&](std::uint16_t i) { return slots[i].size(); });
-    for (const std::uint16_t i : order) {
-      to.summed[sum++] = i;
-      slot = static_cast<std::size_t>(std::ranges::copy(slots[i], to.slot + slot).out - to.slot);
-      to.first_slot[sum] = static_cast<int>(slot);
+    for (std::size_t first = 0; first < order.size(); first += at_once) {
+      const std::span together = order.subspan(first, std::min(at_once, order.size() - first));
+      for (std::size_t s = 0; s < slots[together.back()].size(); ++s)
+        for (std::size_t j = 0; j < at_once; ++j) {
+          const bool has = j < together.size() && s < slots[together[j]].size();
+          slot[to++] = has ? slots[together[j]][s] : std::uint16_t{P::nothing};
+        }
+      *end_of_sum++ = static_cast<int>(to);
     }
   }
 };

@@ -56,21 +56,37 @@ TYPED_TEST(PatchKernelOn, KnowsTheConstantsOfEveryRegion) {
   }
 }
 
-// Every vertex of a patch once, sums of equal length one after the other
+// Every vertex of a patch once, by the number of its elements; every corner of its elements once, and nothing else but `nothing`
 TYPED_TEST(PatchKernelOn, SumsUpByLength) {
-  const Patches<TypeParam> patches = build_patches<TypeParam>(irregular_box(), {as_list(soft)});
-  const auto first_vertex = on_host(patches.first_vertex), first_slot = on_host(patches.first_slot);
-  const auto summed = on_host(patches.summed);
+  using P = Patches<TypeParam>;
+  const P patches = build_patches<TypeParam>(irregular_box(), {as_list(soft)});
+  const auto first_vertex = on_host(patches.first_vertex), first_pack = on_host(patches.first_pack);
+  const auto first_sum = on_host(patches.first_sum), first_slot = on_host(patches.first_slot);
+  const auto summed = on_host(patches.summed), slot = on_host(patches.slot);
+  const auto corner = on_host(patches.corner);
+  const auto element = on_host(patches.element);
   for (int p = 0; p < patches.count; ++p) {
-    std::vector<int> vertices, lengths;
-    for (int i = first_vertex(p); i < first_vertex(p + 1); ++i) {
-      vertices.push_back(summed(i));
-      lengths.push_back(first_slot(i + 1) - first_slot(i));
+    const int vertices = first_vertex(p + 1) - first_vertex(p);
+    ASSERT_EQ(first_sum(p + 1) - first_sum(p), (vertices + P::at_once - 1) / P::at_once);
+    std::vector<std::vector<int>> slots(static_cast<std::size_t>(vertices)), expected = slots;
+    std::vector<std::size_t> lengths;
+    for (int i = 0; i < vertices; ++i) {
+      auto& of = slots[summed(first_vertex(p) + i)];
+      EXPECT_TRUE(of.empty()) << p << " " << i;
+      const int sum = first_sum(p) + i / P::at_once;
+      for (int s = first_slot(sum) + i % P::at_once; s < first_slot(sum + 1); s += P::at_once)
+        if (slot(s) != P::nothing) of.push_back(slot(s));
+      lengths.push_back(of.size());
     }
     EXPECT_TRUE(std::ranges::is_sorted(lengths)) << p;
     EXPECT_LT(lengths.front(), lengths.back()) << p;
-    std::ranges::sort(vertices);
-    for (std::size_t i = 0; i < vertices.size(); ++i) EXPECT_EQ(vertices[i], static_cast<int>(i)) << p;
+    for (int q = first_pack(p); q < first_pack(p + 1); ++q)
+      for (int l = 0; l < P::lanes; ++l)
+        for (int c = 0; c < 4 && element(q * P::lanes + l) >= 0; ++c)
+          expected[corner(q, c, l)].push_back(((q - first_pack(p)) * 4 + c) * 3 * P::lanes + l);
+    for (auto& of : expected) std::ranges::sort(of);
+    for (auto& of : slots) std::ranges::sort(of);
+    EXPECT_EQ(slots, expected) << p;
   }
 }
 
