@@ -48,8 +48,8 @@ template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
   const int n = contact_->sites();
-  law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
-  law.entry = static_cast<Real>(step.entry);
+  law.h = static_cast<Real>(step.span / part_), law.ahead = static_cast<Real>(step.ahead / part_);
+  law.entry = static_cast<Real>(step.entry / part_);
   law.points.span = law.h;
   find(exec, level, state, time, 0, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);

@@ -38,6 +38,10 @@ class ContactResponse {
   void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
                const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) const;
 
+  /// Of which part of a macro step the next ones are: a shorter step takes the forces that a whole one would. Sweeps leave a contact softer
+  /// the longer the step, so that in a short one overlap that was at rest would be pushed out at once.
+  void set_part(double part) { part_ = part; }
+
   /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.
   void forget_impulse(const Exec& exec) const;
   void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
@@ -82,7 +86,7 @@ class ContactResponse {
   Indices<B> reached_;          ///< of the touched ones, by contact in the last step
   Doubles<B> sums_, impulse_;
   ImplicitWeights weights_;  ///< of the last linearisation
-  double ahead_ = 0;
+  double ahead_ = 0, part_ = 1;
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
              TouchLaw<B> law, const Respond& respond) const;

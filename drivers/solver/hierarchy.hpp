@@ -18,8 +18,8 @@ struct Hierarchy {
   SolverLevel<B>& operator[](int i) { return levels[static_cast<std::size_t>(i)]; }
   const SolverLevel<B>& operator[](int i) const { return levels[static_cast<std::size_t>(i)]; }
 
-  void begin_macro_step() {
-    for (SolverLevel<B>& level : levels) level.begin_macro_step();
+  void begin_macro_step(double part) {
+    for (SolverLevel<B>& level : levels) level.begin_macro_step(part);
   }
   /// States were replaced: nothing that was carried from the steps before belongs to them.
   void forget() {

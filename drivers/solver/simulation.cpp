@@ -135,7 +135,7 @@ void Simulation<B>::Inside::advance(double from, double span) {
   const bool apart = !graphs || hierarchy().clock.on || Kokkos::Tools::profileLibraryLoaded();
   const typename LaunchQueue<Exec>::Scope gather(apart ? nullptr : &queue);
   if (const Contact<B>* contact = hierarchy()[0].contact()) motions.go_on(*contact, from);
-  hierarchy().begin_macro_step();
+  hierarchy().begin_macro_step(span / built.macro_step);
   hold_as_asked(hierarchy(), from, span);
   built.stepper->step(hierarchy(), from, span);
   move_obstacles(hierarchy(), wrench, from + span, span);

@@ -14,8 +14,9 @@ namespace plica {
 
 template <class B>
 const SolverLevel<B>& Simulation<B>::Inside::level(int i) {
-  if (i < 0 || i >= hierarchy().count())
-    throw InputError("level " + std::to_string(i) + " of a simulation that has " + std::to_string(hierarchy().count()));
+  if (const int last = hierarchy().count() - 1; i < 0 || i > last)
+    throw InputError("level " + std::to_string(i) + " has no state of its own: the cycle integrates " +
+                     (last > 0 ? "levels 0 to " + std::to_string(last) : "level 0") + " alone");
   return hierarchy()[i];
 }
 

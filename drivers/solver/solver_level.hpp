@@ -117,9 +117,10 @@ class SolverLevel : public Level<B> {
   void forget();
   /// Names what it carries from one macro step to the next, its integrator's included; `name`: "level 0's ".
   void persist(StateArchive<B>& archive, const std::string& name);
-  /// Evaluations are numbered from 1 in each macro step, for the element flags; impulses are counted anew.
-  void begin_macro_step() {
+  /// Evaluations are numbered from 1 in each macro step, for the element flags; impulses are counted anew. `part`: of a whole step.
+  void begin_macro_step(double part = 1) {
     evaluation_ = 0;
+    response_.set_part(part);
     if (contact_) response_.forget_impulse(exec());
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/obstacles_inside.hpp>
@@ -130,6 +131,33 @@ TEST(ThinTools, PushSteadilyInLongSteps) {
     EXPECT_LT(most, 1.05 * want) << integrator << " " << step;
   }
   EXPECT_NEAR(at_rest.back(), at_rest.front(), 0.02 * at_rest.front());
+}
+
+// Sweeps leave contact softer the longer the step. A step that ends early keeps to a whole one's forces: what is at rest in whole steps is
+// not pushed out.
+TEST(ThinTools, PushNoHarderInAStepThatEndsEarly) {
+  Problem p = block();
+  p.body.element = {"nodal"};
+  p.body.material.poisson_ratio = 0.45;
+  p.contact.obstacles = {lowered(SphereOptions{in_face + Point(0, 0, 1.5 * edge), 1.5 * edge}, edge, 0.1)};
+  p.contact.stiffness_scale = 10;
+  Simulation<Host> s(p);
+  const auto fastest = [&] {
+    double most = 0;
+    for (const Point& v : s.velocities()) most = std::max(most, v.norm());
+    return most;
+  };
+  while (s.time() < 0.3) s.step();
+  double whole = 0;
+  for (int n = 0; n < 20; ++n) s.step(), whole = std::max(whole, fastest());
+  for (const double part : {0.5, 0.1, 0.01}) {
+    s.end_at(s.time() + part * s.macro_step());
+    for (int n = 0; n < 4; ++n) {
+      s.step();
+      EXPECT_LT(fastest(), 1.5 * whole) << part << " " << n;
+      s.end_at(std::numeric_limits<double>::infinity());
+    }
+  }
 }
 
 /// Two levels of a block, and a needle that comes down on it.
