@@ -10,6 +10,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/commands/session.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
@@ -200,6 +202,11 @@ void set_forces(const Handle& simulation, const nb::object& callback) {
     const nb::gil_scoped_acquire gil;
     const auto forces = std::make_shared<Values>(f);
     (*held)(level, time, array(Values(x), 3), array(Values(v), 3), array(forces, 3));
+    if (const auto bad = std::ranges::find_if_not(*forces, [](double x) { return std::isfinite(x); });
+        bad != forces->end())
+      throw InputError("forces: level " + std::to_string(level) + ", vertex " +
+                       std::to_string((bad - forces->begin()) / 3) + ": " + std::to_string(*bad) +
+                       "; expected finite numbers [N]");
     f = *forces;
   });
 }
@@ -292,7 +299,9 @@ void bind_simulation(nb::module_& m) {
              return nb::bytes(saved.bytes.data(), saved.bytes.size());
            })
       .def("restore",
-           [](const H& s, const nb::bytes& saved) {
+           [](const H& s, const nb::object& given) {
+             nb::bytes saved;
+             if (!nb::try_cast(given, saved)) throw InputError("restore: expected the bytes that save() has returned");
              const auto* bytes = static_cast<const unsigned char*>(saved.data());
              s->restore({{bytes, bytes + saved.size()}});
            })

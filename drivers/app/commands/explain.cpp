@@ -44,6 +44,16 @@ ExitStatus explain(const SceneArguments& arguments) {
   return ExitStatus::done;
 }
 
+namespace {
+
+std::string used_levels(const Scene& scene, std::size_t used) {
+  const std::string levels = counted(static_cast<long>(used), "level"), &cycle = scene.problem.integration.cycle;
+  const std::size_t given = scene.levels.size();
+  return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given) : levels;
+}
+
+}  // namespace
+
 ExitStatus check(const SceneArguments& arguments) {
   try {
     with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine&, double) {
@@ -55,8 +65,7 @@ ExitStatus check(const SceneArguments& arguments) {
                                 {"warnings", scene.warnings},
                                 {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
       else
-        std::cout << scene.file << ": sound, " << counted(static_cast<long>(simulation.levels().size()), "level")
-                  << "\n";
+        std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size()) << "\n";
     });
   } catch (const InputError& error) {
     if (arguments.json)

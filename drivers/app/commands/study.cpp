@@ -32,6 +32,10 @@ StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const
 StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files, bool quiet,
                       InterruptWatch& interrupts) {
   StudyResult before = files.read();
+  if (before.rows.empty() && files.holds_another())
+    message(coloured("warning: ", Colour::yellow) +
+            fmt::format("{} holds a study of another scene, options, program or machine: this one replaces it",
+                        files.folder().string()));
   if (!quiet && !before.rows.empty())
     message(fmt::format("going on with {}: {} there", files.folder().string(),
                         counted(static_cast<long>(before.rows.size()), "row")));

@@ -27,6 +27,8 @@ class StudyFiles {
   /// The rows in the folder, where they are of the same scene, options, program and machine, and the reference, where it is of
   /// the same problem.
   StudyResult read() const;
+  /// Whether it has the rows of another study.
+  bool holds_another() const;
   /// study.json and study.csv; status: completed | interrupted | unfinished. `stopped`: the case that was interrupted.
   std::vector<MemoryFile> texts(const StudyResult& result, const std::string& status,
                                 const std::string& stopped = {}) const;

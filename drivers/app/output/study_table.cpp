@@ -132,6 +132,13 @@ std::vector<StudyRow> rows_of_study(const std::string& text, const std::string& 
   return {};
 }
 
+bool holds_other_rows(const std::string& text, const std::string& digest) try {
+  const Json json = Json::parse(text);
+  return json.at("digest") != digest && !json.at("rows").empty();
+} catch (const Json::exception&) {
+  return false;
+}
+
 std::string study_csv(const std::vector<StudyRow>& rows) {
   StudyRow columns;
   for (const StudyRow& row : rows)

@@ -23,6 +23,9 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine, const
 /// The rows of such a text; none where its digest is another, or it is none.
 std::vector<StudyRow> rows_of_study(const std::string& json, const std::string& digest);
 
+/// Whether such a text has rows with another digest.
+bool holds_other_rows(const std::string& json, const std::string& digest);
+
 /// study.csv: the rows, the same names as columns; what does not apply is empty.
 std::string study_csv(const std::vector<StudyRow>& rows);
 

@@ -280,7 +280,7 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"set-up", in_units(s.setup_time, "s") + ", peak memory " + in_bytes(s.peak_memory)},
       {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
                             counted(static_cast<long>(s.frames), "frame"), last_good)},
-      {"to look at", "plica report " + folder}};
+      {"to look at", "plica report " + shell_word(folder)}};
   if (const std::string solves = solves_text(s.counters); !solves.empty())
     rows.insert(rows.begin() + 2, {"solving", solves});
   if (const std::string cuts = cuts_text(s.counters); !cuts.empty()) rows.insert(rows.begin() + 2, {"sub-steps", cuts});

@@ -46,6 +46,14 @@ std::string in_units(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-=:,@%";
+  if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::string counted(long count, const std::string& noun) {
   if (count != 1 && noun.ends_with("hedron")) return fmt::format("{} {}a", count, noun.substr(0, noun.size() - 2));
   if (count != 1 && noun.ends_with("vertex")) return fmt::format("{} {}ices", count, noun.substr(0, noun.size() - 2));

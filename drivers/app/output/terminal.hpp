@@ -26,6 +26,9 @@ void message(const std::string& text);
 /// "1.94 ms", "50 kPa", "12 um": three or four digits and a prefix. Units of masses start from kg and keep it.
 std::string in_units(double value, const std::string& unit);
 
+/// As one word of a shell's command line: quoted where it has to be.
+std::string shell_word(const std::string& text);
+
 /// "1 frame", "2 frames".
 std::string counted(long count, const std::string& noun);
 

@@ -71,7 +71,7 @@ function show_facts() {
     table.append(element("tr", {}, ...cells.map((cell) => element("td", {}, String(cell ?? "–")))));
   });
   card(parent, "Levels, finest first").append(element("div", {class: "scroll"}, table));
-  const facts = {scene: s.scene, command: (s.arguments || []).join(" "), "macro steps": `${s.macro_steps} of ${with_unit(s.macro_step, "s")}`,
+  const facts = {scene: s.scene, command: (s.arguments || []).map(shell_word).join(" "), "macro steps": `${s.macro_steps} of ${with_unit(s.macro_step, "s")}`,
     "set-up": with_unit(s.setup_time, "s"), "peak memory": with_unit(s.peak_memory, "B"),
     "written by": `plica ${s.version} (${s.git_revision}), ${s.compiler}`,
     frames: report.frames_there > report.times.length ? `${report.times.length} of the ${report.frames_there} written` : report.times.length};

@@ -35,6 +35,9 @@ function with_unit(number, unit) {
   return short(number * factor) + " " + prefixed;
 }
 
+// As one word of a shell's command line.
+function shell_word(text) { return /^[\w./+=:,@%-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'"; }
+
 function percent(part) { return part === null ? "–" : short(100 * part) + " %"; }
 
 // Round numbers from low to high, about `count` of them.

@@ -313,7 +313,7 @@ class Simulation:
     def to_pyvista(self, level: int = 0):
         """A pyvista.UnstructuredGrid of a level as it is now, with displacement [m], velocity [m/s], von_mises [Pa] and J."""
         pyvista = needed("pyvista", "to_pyvista")
-        mesh = self.scene.mesh(level)
+        mesh = self.scene.mesh(whole("level", level))
         cells = np.hstack([np.full((len(mesh.tets), 1), 4), mesh.tets])
         grid = pyvista.UnstructuredGrid(cells.ravel(), np.full(len(cells), pyvista.CellType.TETRA), self.positions(level).copy())
         grid.point_data["displacement"] = self.positions(level) - (mesh.points + self.scene._scene.placement)
