@@ -37,7 +37,7 @@ for i, (time, image) in enumerate(pictures):
     axes[str(i)].imshow(image)
     axes[str(i)].set_title(f"{time:.2f} s: von Mises stress, 0 to 4 kPa", fontsize=9)
     axes[str(i)].axis("off")
-for name in ("elastic", "contact", "kinetic"):
+for name in ("elastic", "kinetic"):
     axes["energies"].plot(times, [1e3 * getattr(one, name) for one in energies], label=name)
 axes["energies"].set(xlabel="time [s]", ylabel="energy [mJ]")
 axes["energies"].legend()
