@@ -106,8 +106,8 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
 /// patch vertex into `partial`. An integrand has
 ///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
 ///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
-/// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`. Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
-/// 8 (slots), and per patch vertex 7 + 3 s fields + 3 s.
+/// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`. Bytes that must move per element,
+/// s = sizeof(Real): 8 (corners) + 10 s (shape) + 8 (slots), and per patch vertex 7 + 3 s fields + 3 s.
 template <class B, class Integrand>
 struct PatchKernel {
   using Real = typename B::Real;
@@ -134,7 +134,7 @@ struct PatchKernel {
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     Real* const forces = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     Real* const local = forces + force_slots;
-    if constexpr (at_once > 1)
+    if constexpr (at_once > 1)  // what `nothing` points to
       for (int k = 0; k < 3; ++k) forces[Patches<B>::nothing + k * lanes] = 0;
 
     load_patch<B>(team, patches, p, integrand.field, local);

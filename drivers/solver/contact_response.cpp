@@ -73,7 +73,7 @@ template <class B>
 void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                     const ContactStep& step, const Vectors<B>& f) {
   const int touched = level.surface.touched;
-  const Real damped = static_cast<Real>(step.damped);
+  const Real damped = static_cast<Real>(step.damped / part_);
   update_vertices<B>(exec, "plica::contact_smooth", touched,
                      FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
   AnswerByMass<B> answer{level.surface, level.model, points_, answer_, reached_, damped, true};
