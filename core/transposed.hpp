@@ -19,7 +19,7 @@ namespace plica {
 template <class T, int N>
 class Transposed {
  public:
-  static constexpr bool possible = (N == 4 || N == 8 || N == 16) && N * sizeof(T) <= 64;
+  static constexpr bool possible = N == 4 || N == 8 || N == 16;
   using Packed = Pack<T, N>;
 
   /// Lane l of v is the four numbers at row(l).
@@ -59,10 +59,7 @@ class Transposed {
   static constexpr int third = by_pairs ? N / 2 : 2;  ///< the first row of the third of four packs
   typedef T Quarter __attribute__((vector_size(4 * sizeof(T))));
   struct __attribute__((packed, may_alias)) Four {  ///< in memory, wherever it begins
-    union {
-      Quarter v;
-      __int128 whole;  ///< of four floats: put together from such, a pack takes an instruction each
-    };
+    Quarter v;
   };
 
   /// Rows first, first + step, first + 2 step ... side by side.
@@ -70,16 +67,12 @@ class Transposed {
   static Packed gather(int first, const Row& row) {
     const auto four = [&](int j) { return reinterpret_cast<const Four*>(row(first + step * j)); };
     Packed p;
-    if constexpr (N == 4)
-      p.v = four(0)->v;
-    else if constexpr (by_pairs)
-      p.v = __builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7);
-    else
-      [&]<std::size_t... j>(std::index_sequence<j...>) {
-        typedef __int128 Together __attribute__((vector_size(sizeof(Packed))));
-        p.v = reinterpret_cast<typename Packed::Lanes>(Together{four(j)->whole...});
-      }
-    (std::make_index_sequence<N / 4>{});
+    if constexpr (N == 4) p.v = four(0)->v;
+    if constexpr (N == 8) p.v = __builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7);
+    if constexpr (N == 16)
+      p.v = __builtin_shufflevector(__builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7),
+                                    __builtin_shufflevector(four(2)->v, four(3)->v, 0, 1, 2, 3, 4, 5, 6, 7), 0, 1, 2, 3,
+                                    4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     return p;
   }
   template <class Row>
