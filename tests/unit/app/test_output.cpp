@@ -382,6 +382,8 @@ TEST(Text, TablesAlign) {
       << "letters, not bytes";
 }
 
+TEST(Text, WordsOfAShell) { EXPECT_EQ(shell_word("o/p_1") + shell_word("my b's"), "o/p_1'my b'\\''s'"); }
+
 TEST(Text, LinesWrap) { EXPECT_EQ(wrapped("one two three", 10, "  "), "  one two\n  three\n"); }
 
 TEST(Text, ProgressFitsItsTerminal) {

@@ -148,7 +148,9 @@ TEST_F(StudyCommand, RowsHaveTheDocumentedFieldsAndNoOthers) {
 }
 
 TEST_F(StudyCommand, GoesOnWithWhatIsThere) {
-  ASSERT_EQ(study({"--quiet"}).status, 0);
+  const Child one = study({"--quiet"});
+  ASSERT_EQ(one.status, 0);
+  EXPECT_EQ(one.errors.find("replaces"), std::string::npos) << one.errors;
   const Json first = json();
   Json fewer = first;
   fewer["rows"].erase(1);
@@ -163,6 +165,7 @@ TEST_F(StudyCommand, GoesOnWithWhatIsThere) {
   EXPECT_EQ(second["rows"][1]["error"], first["rows"][1]["error"]);
   const Child other = study({"--set", "body.material.young_modulus=2 MPa"});
   EXPECT_EQ(other.errors.find("going on"), std::string::npos) << "with another scene's rows";
+  EXPECT_NE(other.errors.find("this one replaces it"), std::string::npos) << other.errors;
   EXPECT_NE(json()["rows"][0]["error"], first["rows"][0]["error"]);
 }
 

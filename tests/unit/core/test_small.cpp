@@ -95,6 +95,18 @@ TEST(Functions, MaxKeepsNaN) {
   EXPECT_TRUE(std::isnan(max(Pack<double, 2>(nan), Pack<double, 2>(1.0))[1]));
 }
 
+// One lane that is 0, negative or no number is enough, wherever it is
+TEST(Functions, AllPositiveLooksAtEveryLane) {
+  Pack<float, 16> a(1e-30F);
+  EXPECT_TRUE(all_positive(a));
+  for (const float bad : {0.0F, -1e-30F, std::numeric_limits<float>::quiet_NaN()})
+    for (int i = 0; i < 16; ++i) {
+      auto b = a;
+      b.set(i, bad);
+      EXPECT_FALSE(all_positive(b)) << bad << " " << i;
+    }
+}
+
 // Vectors scattered in memory, taken into the lanes of packs and back. Packs may be wider than the registers of the processor.
 
 template <class T, int N>
