@@ -14,6 +14,11 @@ namespace {
 
 constexpr int contact_sweeps = 3;
 
+/// As in a whole macro step, of which this one is a part.
+ContactStep of_whole_step(const ContactStep& step, double part) {
+  return {step.span / part, step.ahead / part, step.entry / part, step.damped / part};
+}
+
 }  // namespace
 
 template <class B>
@@ -48,8 +53,8 @@ template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
   const int n = contact_->sites();
-  law.h = static_cast<Real>(step.span / part_), law.ahead = static_cast<Real>(step.ahead / part_);
-  law.entry = static_cast<Real>(step.entry / part_);
+  law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
+  law.entry = static_cast<Real>(step.entry);
   law.points.span = law.h;
   find(exec, level, state, time, 0, law.points);
   reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
@@ -66,14 +71,16 @@ template <class B>
 void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                  const ContactStep& step, const Vectors<B>& smooth, const Vectors<B>& answer,
                                  const Respond& respond) const {
-  solve(exec, level, state, time, step, {level.surface, all_points(), smooth, answer, 0, 0, 0, true, false}, respond);
+  solve(exec, level, state, time, of_whole_step(step, part_),
+        {level.surface, all_points(), smooth, answer, 0, 0, 0, true, false}, respond);
 }
 
 template <class B>
 void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                                    const ContactStep& step, const Vectors<B>& f) {
+                                    const ContactStep& given, const Vectors<B>& f) {
   const int touched = level.surface.touched;
-  const Real damped = static_cast<Real>(step.damped / part_);
+  const ContactStep step = of_whole_step(given, part_);
+  const Real damped = static_cast<Real>(step.damped);
   update_vertices<B>(exec, "plica::contact_smooth", touched,
                      FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
   AnswerByMass<B> answer{level.surface, level.model, points_, answer_, reached_, damped, true};

@@ -56,8 +56,8 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   for (int i = 0; i < 24; ++i) {
     const T slope = max(T(4) * (s * s * s - n * s - T(2) * J), tiny);
     const T step = (((s * s - T(2) * n) * s - T(8) * J) * s + q) / slope;
-    const T next =
-        (T(6) * s * s - T(2) * n) * step * step;  // p'' step^2 / 2: over the slope, what the next step would be
+    // p'' step^2 / 2: over the slope, what the next step would be
+    const T next = (T(6) * s * s - T(2) * n) * step * step;
     s = s - step;
     if (all_positive(T(Kokkos::Experimental::epsilon_v<Real>) * s * slope + tiny - next)) break;
   }
@@ -66,7 +66,8 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   const T a = scale * (s * s + n), b = scale * (s + s), c = scale + scale;
   Mat3<T> R = a * F + b * H - c * (F * (transpose(F) * F));
   const T clear = turning - T(Real(2 * least_turning)) * s * n;
-  for (int l = 0; l < LaneOf<T>::count && !all_positive(clear); ++l)
+  if (all_positive(clear)) return R;
+  for (int l = 0; l < LaneOf<T>::count; ++l)
     if (!(lane(clear, l) > Real(0))) {
       Mat3<Real> one;
       for (int r = 0; r < 3; ++r)

@@ -34,6 +34,12 @@ void check_its_study(const Scene& scene) {
   }
 }
 
+std::string used_levels(const Scene& scene, std::size_t used) {
+  const std::string levels = counted(static_cast<long>(used), "level"), &cycle = scene.problem.integration.cycle;
+  const std::size_t given = scene.levels.size();
+  return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given) : levels;
+}
+
 }  // namespace
 
 ExitStatus explain(const SceneArguments& arguments) {
@@ -43,16 +49,6 @@ ExitStatus explain(const SceneArguments& arguments) {
   });
   return ExitStatus::done;
 }
-
-namespace {
-
-std::string used_levels(const Scene& scene, std::size_t used) {
-  const std::string levels = counted(static_cast<long>(used), "level"), &cycle = scene.problem.integration.cycle;
-  const std::size_t given = scene.levels.size();
-  return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given) : levels;
-}
-
-}  // namespace
 
 ExitStatus check(const SceneArguments& arguments) {
   try {
