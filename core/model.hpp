@@ -32,7 +32,8 @@ struct Model : VertexModel<B> {
   int tets = 0;
   Patches<B>
       patches;  ///< of linear elements; also where nodal ones of an implicit level are preconditioned by linear ones
-  NodalRows<B> rows;  ///< of nodal elements
+  NodalRows<B> rows;                                       ///< of nodal elements
+  NodalRows<Backend<float, typename B::Exec>> float_rows;  ///< the same for a preconditioner, no pressures smoothed
 };
 
 /// Displacement from rest u [m] and velocity v [m/s], each [vertices][3].

@@ -118,7 +118,8 @@ std::vector<Part> list_parts(const Problem& problem, const BuiltHierarchy<B>& bu
   std::string kinds;
   for (std::size_t i = 0; i < levels; ++i) kinds += std::string(i ? ", " : "") + name_of(element_of(body, i));
   add("elastic elements", true, body.material.model + "; " + kinds, "", sum([](const L& l) {
-        return bytes_of(l.model.patches) + bytes_of(l.model.rows) + bytes_of(l.nodal) + bytes(l.partial);
+        return bytes_of(l.model.patches) + bytes_of(l.model.rows) + bytes_of(l.model.float_rows) + bytes_of(l.nodal) +
+               bytes(l.partial);
       }));
   add("state, mass and force", true, counted(levels, "level"), "",
       sum([](const L& l) { return bytes_of(l.state) + bytes(l.model.mass, l.model.inverse_mass, l.f); }));

@@ -237,10 +237,16 @@ void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const Impl
   update_vertices<B>(exec, "plica::system_product", this->model.vertices,
                      SystemProduct<B>{this->model, p, this->partial, q, a, b});
   add_follower_product(at, p, weights.a, positive, q);
-  if (contact_) response_.add_product(exec, *this, p, false, q);
+  add_product_beside_elements(p, weights, q);
+}
+
+template <class B>
+void SolverLevel<B>::add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights,
+                                                 const Vectors<B>& q) const {
+  if (contact_) response_.add_product(exec(), *this, p, false, q);
   if (external_)
-    update_vertices<B>(exec, "plica::external_product", this->model.vertices,
-                       AddBlockProduct<B>{external_stiffness_, p, q, a});
+    update_vertices<B>(exec(), "plica::external_product", this->model.vertices,
+                       AddBlockProduct<B>{external_stiffness_, p, q, static_cast<typename B::Real>(weights.a)});
 }
 
 template <class B>

@@ -81,6 +81,9 @@ class SolverLevel : public Level<B> {
   /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights. `positive`: see Elasticity::tangent.
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
                const Vectors<B>& q) const;
+  /// q += what contact and a caller's forces add to it
+  void add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights, const Vectors<B>& q) const;
+  bool acts_beside_elements() const { return contact_ || external_; }
   /// q += what of that assemble() leaves out: pressures that follow the body, and contact that couples several tetrahedra.
   void add_product_beside_matrix(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights,
                                  bool positive, const Vectors<B>& q) const;

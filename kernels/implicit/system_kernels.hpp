@@ -22,6 +22,25 @@ struct SystemProduct {
   }
 };
 
+/// The same with what else there is, from fields of another precision, to whatever has a vector for every vertex.
+template <class B, class Other, class To>
+struct SystemProductBeside {
+  using Real = typename B::Real;
+  VertexModel<B> model;
+  Vectors<B> p, partial;
+  Vectors<Other> beside;  ///< empty: nothing
+  To q;
+  Real a, b;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const Real inertia = (1 + b * model.damping(i)) * model.mass(i);
+    Vec3<Real> row = inertia * vector_at<B>(p, i) - a * sum_of_shares<B>(model.shares, partial, i);
+    if (beside.extent(0) > 0)
+      for (int k = 0; k < 3; ++k) row[k] += static_cast<Real>(beside(i, k));
+    set_vector<B>(q, i, row);
+  }
+};
+
 /// Vertex blocks of A: (1 + b c) m on the diagonal, plus a times column `direction` of the stiffness' own block, in the rows of the
 /// diagonal and the next (cyclic).
 template <class B>

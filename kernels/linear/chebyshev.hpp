@@ -18,6 +18,7 @@ struct Chebyshev {
   SlotBlocks<B> inverse_diagonal;
   Doubles<B> largest;
   SlotVectors<B> r, x;
+  SlotVectors<B> product = {};  ///< A d, where A is not stored; empty: by the packed rows
 
   KOKKOS_INLINE_FUNCTION RowPack<B> over_largest(typename B::Real a) const {
     return RowPack<B>(a / static_cast<typename B::Real>(largest(0)));
@@ -55,7 +56,9 @@ struct ChebyshevStep {
     const RowsAt<B> at(item);
     const T t = load_rows<B>(&on.A.scale(at.slot));
     const Vec3<T> direction = (T(1) / t) * fours_at<B>(d, at);
-    const Vec3<T> residual = vectors_at<B>(on.r, at) - t * packed_product<B>(on.A, at, d);
+    const Vec3<T> product =
+        on.product.extent(0) > 0 ? vectors_at<B>(on.product, at) : t * packed_product<B>(on.A, at, d);
+    const Vec3<T> residual = vectors_at<B>(on.r, at) - product;
     const Vec3<T> x = vectors_at<B>(on.x, at) + direction;
     const Vec3<T> ahead =
         T(keep) * direction + on.over_largest(gain) * (blocks_at<B>(on.inverse_diagonal, at) * residual);
@@ -113,15 +116,16 @@ struct PutSlots {
     for (int k = 0; k < 3; ++k) to(a, k) = static_cast<typename Field::value_type>(from(slot, k));
   }
 };
-template <class B>
+template <class B, class From>
 struct TakeSlotBlocks {
   Indices<B> vertex;
-  Blocks<B> from;
+  From from;
   SlotBlocks<B> to;
   KOKKOS_INLINE_FUNCTION void operator()(int slot) const {
     const int a = vertex(slot);
     for (int k = 0; k < 6; ++k)
-      to(slot / slice_height<B>, k, slot % slice_height<B>) = a >= 0 ? from(a, k) : typename B::Real(0);
+      to(slot / slice_height<B>, k, slot % slice_height<B>) =
+          a >= 0 ? static_cast<typename B::Real>(from(a, k)) : typename B::Real(0);
   }
 };
 

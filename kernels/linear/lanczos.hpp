@@ -38,6 +38,19 @@ struct BlockLanczosProduct {
   }
 };
 
+/// w /= beta, where it has been made as A z, and alpha likewise.
+template <class B>
+struct LanczosProduct {
+  Doubles<B> square;
+  Vectors<B> z, w;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    const double scale = square(0) > 0 ? 1 / Kokkos::sqrt(square(0)) : 0.0;
+    const auto row = static_cast<typename B::Real>(scale) * vector_at<B>(w, a);
+    set_vector<B>(w, a, row);
+    return {{scale * static_cast<double>(dot(vector_at<B>(z, a), row))}};
+  }
+};
+
 /// r becomes the next, q_last its q; z = D^-1 r and r.z, which is beta^2.
 template <class B>
 struct BlockLanczosNext {

@@ -13,7 +13,7 @@ namespace plica {
 /// It is fitted again when the stage's weights change, or when solves took `patience` iterations more than its first solve needed for the
 /// same number of digits, which is about what fitting costs. A solve that multigrid does not finish in `most_cycles` iterations, or in which
 /// it turns out not to be positive definite, is finished by the vertex blocks alone; after two such solves in a row it is not used any more
-/// (nodal elements of a material that stiffens exponentially, whose multigrid is that of linear ones). Solves to a residual start from a
+/// (nodal elements of a material that stiffens exponentially, whose coarser levels are those of linear ones). Solves to a residual start from a
 /// guess by the last solutions.
 struct ConjugateGradients {
   static constexpr const char* name = "conjugate_gradients";

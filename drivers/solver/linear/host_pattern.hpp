@@ -14,6 +14,12 @@ struct HostPattern {
   HostPattern() = default;
   /// @param first, column  rows whose columns ascend, their own one always among them
   HostPattern(std::vector<int> first, std::vector<int> column);
+  /// No blocks.
+  static HostPattern empty(int rows) {
+    HostPattern pattern;
+    pattern.first.resize(static_cast<std::size_t>(rows) + 1, 0);
+    return pattern;
+  }
 
   int rows() const { return static_cast<int>(first.size()) - 1; }
   int blocks_of_row(int a) const { return first[static_cast<std::size_t>(a) + 1] - first[static_cast<std::size_t>(a)]; }

@@ -20,6 +20,7 @@ inline constexpr int most_dense_unknowns = 1536;
 struct LinearSolverParts {
   ImplicitOptions options;
   std::vector<RowMatrix> transfers;  ///< from the body's coarser meshes, finest first; for multigrid only
+  std::string material;              ///< its name
 };
 
 /// How a linear solve ended.

@@ -30,9 +30,11 @@ bool invert_on_host(int n, double* A) {
 }  // namespace
 
 template <class B>
-Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree)
+Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree,
+                        const CycleProduct<B>* finest)
     : grids_(transfers.size() + 1),
       degree_(degree),
+      finest_(finest),
       sums_(A.rows),
       scalars_(zeros<Doubles<B>>("plica::multigrid.scalars", 2 * lanczos_steps + 1)) {
   for (auto& x : lanczos_) x = zeros<Vectors<F>>("plica::multigrid.lanczos", A.rows);
@@ -49,7 +51,9 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
     }
     const int n = grid.A.rows;
     const bool coarsest = i > 0 && i + 1 == grids_.size();
-    SlotOrder order = coarsest ? plain_order(n) : slot_order(pattern, PackedRows<F>::height);
+    const HostPattern none = HostPattern::empty(n);
+    const HostPattern& stored = by_products(grid) ? none : pattern;
+    SlotOrder order = coarsest ? plain_order(n) : slot_order(stored, PackedRows<F>::height);
     if (i > 0) {
       const RowMatrix P = by_slots(transfers[i - 1], finer, order);
       grids_[i - 1].up = sparse_rows<F>("multigrid.up", P);
@@ -62,15 +66,19 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
       continue;
     }
     grid.inverse_diagonal = zeros<Blocks<F>>("plica::multigrid.diagonal", n);
-    const PackedRows<F> packed = packed_rows<F>(pattern, order);
-    grid.smoother = {packed, zeros<SlotBlocks<F>>("plica::multigrid.slot_diagonal", packed.slices),
+    const PackedRows<F> packed = packed_rows<F>(stored, order);
+    const auto vectors = [&](const char* label) { return zeros<SlotVectors<F>>(label, packed.slices); };
+    grid.smoother = {packed,
+                     zeros<SlotBlocks<F>>("plica::multigrid.slot_diagonal", packed.slices),
                      zeros<Doubles<F>>("plica::multigrid.largest", 1),
-                     zeros<SlotVectors<F>>("plica::multigrid.r", packed.slices),
-                     zeros<SlotVectors<F>>("plica::multigrid.x", packed.slices)};
+                     vectors("plica::multigrid.r"),
+                     vectors("plica::multigrid.x"),
+                     by_products(grid) ? vectors("plica::multigrid.product") : SlotVectors<F>()};
     grid.d = zeros<Fours<F>>("plica::multigrid.d", packed.slots());
     grid.e = zeros<Fours<F>>("plica::multigrid.e", packed.slots());
     finer = std::move(order);
   }
+  if (finest_) p_ = zeros<Vectors<F>>("plica::multigrid.p", A.rows);
 }
 
 template <class B>
@@ -78,6 +86,7 @@ void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B
   const Grid& finest = grids_.front();
   convert(exec, "plica::multigrid_values", A.value, finest.A.value);
   convert(exec, "plica::multigrid_values", inverse_diagonal, finest.inverse_diagonal);
+  if (finest_) largest_ = largest_eigenvalue(exec, finest);
   refit(exec);
 }
 
@@ -98,10 +107,15 @@ void Multigrid<B>::refit(const Exec& exec) {
 template <class B>
 void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
   const PackedRows<F>& packed = grid.smoother.A;
+  if (by_products(grid)) {
+    fill(exec, packed.scale, 1.0F);
+    return fill(exec, grid.smoother.largest, largest_);
+  }
   update_vertices<F>(exec, "plica::pack_scales", packed.slots(), ScaleOfVertex<F>{grid.A, packed});
   update_vertices<F>(exec, "plica::pack_rows", packed.slots(), PackRow<F>{grid.A, packed});
-  update_vertices<F>(exec, "plica::pack_diagonal", packed.slots(),
-                     TakeSlotBlocks<F>{packed.vertex, grid.inverse_diagonal, grid.smoother.inverse_diagonal});
+  update_vertices<F>(
+      exec, "plica::pack_diagonal", packed.slots(),
+      TakeSlotBlocks<F, Blocks<F>>{packed.vertex, grid.inverse_diagonal, grid.smoother.inverse_diagonal});
   fill(exec, grid.smoother.largest, largest_eigenvalue(exec, grid));
 }
 
@@ -116,7 +130,12 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
   update_vertices<F>(exec, "plica::lanczos_start", n, BlockLanczosStart<F>{r});
   reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums_, square(0));
   for (int k = 0; k < lanczos_steps; ++k) {
-    reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, square(k), z, w}, sums_, alpha(k));
+    if (by_products(grid)) {
+      finest_->apply(exec, z, w);
+      reduce<F, 1>(exec, "plica::lanczos_product", n, LanczosProduct<F>{square(k), z, w}, sums_, alpha(k));
+    } else {
+      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, square(k), z, w}, sums_, alpha(k));
+    }
     reduce<F, 1>(exec, "plica::lanczos_next", n, BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
                  square(k + 1));
   }
@@ -184,6 +203,7 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, co
   Fours<F> d = grid.d, next = grid.e;
   for (int k = first; k <= last; ++k, std::swap(d, next)) {
     const auto gain = static_cast<float>(8 * k + 4) / static_cast<float>(2 * k + 3);
+    if (by_products(grid)) multiply(exec, d);
     update_vertices<F>(exec, "plica::chebyshev", grid.smoother.A.items(),
                        ChebyshevStep<F>{grid.smoother, d, next, k == 0 ? 0.0F : keep_of(k), gain,
                                         k == last ? leaves : Leaves::direction});
@@ -191,9 +211,21 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, co
   return d;
 }
 
+/// A d of the finest level.
+template <class B>
+void Multigrid<B>::multiply(const Exec& exec, const Fours<F>& d) const {
+  const Chebyshev<F>& finest = grids_.front().smoother;
+  update_vertices<F>(exec, "plica::multigrid_out", finest.A.slots(), PutSlots<F, Vectors<F>>{finest.A.vertex, d, p_});
+  finest_->apply(exec, p_, finest.product);
+}
+
 template <class B>
 void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const {
   const Chebyshev<F>& finest = grids_.front().smoother;
+  if (finest_)
+    update_vertices<F>(
+        exec, "plica::pack_diagonal", finest.A.slots(),
+        TakeSlotBlocks<F, Blocks<B>>{finest.A.vertex, finest_->inverse_diagonal(), finest.inverse_diagonal});
   update_vertices<F>(exec, "plica::multigrid_in", finest.A.slots(),
                      TakeSlots<F, Vectors<B>>{finest.A.vertex, r, finest.r});
   update_vertices<F>(exec, "plica::multigrid_out", finest.A.slots(),
@@ -202,6 +234,7 @@ void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>
 
 template <class B>
 void Multigrid<B>::persist(StateArchive<B>& archive) {
+  if (finest_) archive.number(largest_);
   archive.field("the preconditioner's matrix", grids_.front().A.value);
   archive.field("the preconditioner's diagonal", grids_.front().inverse_diagonal);
 }
@@ -209,12 +242,12 @@ void Multigrid<B>::persist(StateArchive<B>& archive) {
 template <class B>
 std::size_t Multigrid<B>::bytes() const {
   std::size_t total = bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_) +
-                      4 * bytes_of_views(lanczos_[0]);
+                      4 * bytes_of_views(lanczos_[0]) + bytes_of_views(p_);
   for (const Grid& grid : grids_) {
     const Chebyshev<F>& on = grid.smoother;
     total +=
         bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word, on.A.scale,
-                       on.inverse_diagonal, on.largest, on.r, on.x, grid.d, grid.e) +
+                       on.inverse_diagonal, on.largest, on.r, on.x, on.product, grid.d, grid.e) +
         bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
         bytes_of_views(grid.map.right.first, grid.map.right.block, grid.map.right.weight, grid.map.left.first,
                        grid.map.left.block, grid.map.left.weight, grid.map.between) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/matrices.hpp>
+#include <plica/drivers/solver/linear/cycle_product.hpp>
 #include <plica/drivers/solver/linear/host_pattern.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
@@ -63,6 +64,9 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 ///                                             \\           /
 ///   level 2                                    restrict  solve
 ///
+/// Where the finest level's matrix is not stored, its polynomial takes that of each moment by products; coarser levels follow from one that is
+/// near it, as it was when the cycle was fitted.
+///
 /// The polynomial carries the residual along, so that it costs no product of its own. It reads copies of the matrices in 16 bits a number, and
 /// all vectors of a cycle are by the slots of these (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the
 /// device; a fit waits once a level.
@@ -75,7 +79,9 @@ class Multigrid final : public Preconditioner<B> {
   /// @param A          its pattern counts
   /// @param transfers  [i]: level i + 1's vertices to level i's, finest first
   /// @param degree     of the polynomials, >= 2
-  Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree);
+  /// @param finest     of the finest level's matrix, where A is only near it; it outlives the cycle
+  Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree,
+            const CycleProduct<B>* finest = nullptr);
 
   void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) override;
   void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const override;
@@ -94,6 +100,9 @@ class Multigrid final : public Preconditioner<B> {
   };
   std::vector<Grid> grids_;
   int degree_;
+  const CycleProduct<B>* finest_;  ///< none: by the matrix that is stored
+  Vectors<F> p_;                   ///< of its products
+  double largest_ = 0;             ///< eigenvalue of D^-1 A on the finest level, since the fit
   DenseInverse<F> coarsest_;
   Vectors<F> coarsest_r_;
   Fours<F> coarsest_x_;
@@ -102,10 +111,12 @@ class Multigrid final : public Preconditioner<B> {
   Doubles<B> scalars_;
 
   bool coarser_than(std::size_t level) const { return level + 1 < grids_.size(); }
+  bool by_products(const Grid& grid) const { return finest_ && &grid == &grids_.front(); }
   void fit_smoother(const Exec& exec, const Grid& grid) const;
   double largest_eigenvalue(const Exec& exec, const Grid& grid) const;
   void invert_coarsest(const Exec& exec) const;
   Fours<F> cycle(const Exec& exec, std::size_t level) const;
+  void multiply(const Exec& exec, const Fours<F>& d) const;
   Fours<F> relax(const Exec& exec, const Grid& grid, int first, int last, Leaves leaves) const;
 };
 

@@ -22,7 +22,8 @@ struct ChebyshevPolynomial {
   static constexpr const char* summary = "a polynomial in the matrix, scaled by the vertex blocks";
   template <class B>
   static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts, StageSystem<B>& system) {
-    return std::make_unique<Multigrid<B>>(system.pattern(), std::vector<RowMatrix>{}, parts.options.polynomial_degree);
+    return std::make_unique<Multigrid<B>>(system.pattern(), std::vector<RowMatrix>{}, parts.options.polynomial_degree,
+                                          system.cycle_product(parts.material));
   }
 };
 
@@ -31,7 +32,8 @@ struct MultigridCycle {
   static constexpr const char* summary = "one V-cycle over the body's meshes; iterations hardly grow with the mesh";
   template <class B>
   static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts, StageSystem<B>& system) {
-    return std::make_unique<Multigrid<B>>(system.pattern(), parts.transfers, parts.options.polynomial_degree);
+    return std::make_unique<Multigrid<B>>(system.pattern(), parts.transfers, parts.options.polynomial_degree,
+                                          system.cycle_product(parts.material));
   }
 };
 

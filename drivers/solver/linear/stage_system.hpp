@@ -10,7 +10,7 @@
 namespace plica {
 
 /// The system A of an implicit stage on one level: its product without a matrix or by an assembled one, and its vertex blocks. With
-/// nodal elements the product is without a matrix; the matrix, to precondition with, is that of linear ones.
+/// nodal elements the product is without a matrix; the matrix, from which coarser levels of a preconditioner follow, is that of linear ones.
 template <class B>
 class StageSystem {
  public:
@@ -38,6 +38,8 @@ class StageSystem {
   const BlockMatrix<B>& matrix(const Exec& exec);
   /// Fits a preconditioner to that matrix.
   void fit(const Exec& exec, Preconditioner<B>& preconditioner);
+  /// Of nodal elements, for a preconditioner; else none.
+  const CycleProduct<B>* cycle_product(std::string_view material);
   /// Its pattern alone; with nodal elements that of linear ones.
   const BlockMatrix<B>& pattern();
   /// Whether a product is by the matrix and nothing else.
@@ -49,7 +51,8 @@ class StageSystem {
   bool nodal_, assembled_, ready_ = false;  ///< the matrix is that of this stage
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
-  Blocks<B> inverse_diagonal_, blocks_of_matrix_;  ///< inverses; the latter with nodal elements only
+  Blocks<B> inverse_diagonal_;
+  std::unique_ptr<CycleProduct<B>> cycle_product_;
   Blocks<B> without_contact_;  ///< [touched][6] of vertex blocks that are not of the matrix, before contact
   const Level<B>* level_ = nullptr;
   const SolverLevel<B>* forces_ = nullptr;
@@ -57,10 +60,9 @@ class StageSystem {
   ImplicitWeights weights_;
   bool positive_ = false;
 
-  InvertBlocks<B> inverting(const Blocks<B>& blocks) const;
-  void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
-  void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
-  void add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const;
+  InvertBlocks<B> inverting() const;
+  void invert_blocks(const Exec& exec) const;
+  void add_contact_blocks(const Exec& exec, bool beside) const;
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
 };
 

@@ -125,6 +125,17 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
 namespace {
 
 template <class B>
+void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants constants, const LevelConstants& c) {
+  using F = Backend<float, typename B::Exec>;
+  constants.excess.clear();
+  model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
+  model.float_rows = build_nodal_rows<F>(placed, constants);
+  if (c.fibres.empty()) return;
+  model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+  model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
+}
+
+template <class B>
 void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, const LevelConstants& c,
                   bool beside_nodal) {
   Model<B>& model = level.model;
@@ -143,8 +154,7 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
-    if (beside_nodal) model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
-    if (beside_nodal && !c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+    if (beside_nodal) add_preconditioning<B>(model, placed, std::move(constants), c);
   }
   level.partial = zeros<Vectors<B>>("plica::work.partial", std::max(model.shares.rows, model.patches.shares.rows));
   if (!allows_inversion(body.material))

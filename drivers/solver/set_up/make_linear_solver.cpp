@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t most_direct = 200;       // vertices up to which a factorisation is faster: cmake/docs/solvers.md
 constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix has paid
 constexpr std::size_t fewest_coarsened = 600;  // vertices
+constexpr std::size_t most_in_coarsest =
+    300;  // vertices of a mesh, above which a space below it is cheaper than its dense inverse
 constexpr double multigrid_reach = 1.3;
 constexpr double long_step = 40;  // critical steps, from which multigrid over spaces pays: cmake/docs/levels.md
 
@@ -35,22 +37,34 @@ RestMesh rest_mesh(const Body& body, std::size_t level) {
   return made;
 }
 
-/// Over the body's coarser meshes, or over spaces made of the level itself where it is the coarsest one.
+/// Over the body's coarser meshes, and over spaces made of the coarsest one where that is large.
 std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
   std::vector<RestMesh> meshes;
   for (std::size_t i = level; i < body.levels.size(); ++i) meshes.push_back(rest_mesh(body, i));
   std::vector<RestLevel> levels;
   for (const RestMesh& one : meshes) levels.push_back({one.mesh, one.constrained});
   SpaceOptions options{.sizes = {}, .reach = multigrid_reach};
-  if (levels.size() == 1) options.sizes = space_sizes(body, meshes.front().constrained, multigrid_sizes);
-  return levels_below(levels, {}, {}, options, false).transfers;
+  const RestMesh& coarsest = meshes.back();
+  std::vector<RowMatrix> transfers;
+  if (levels.size() > 1) {
+    transfers = levels_below(levels, {}, {}, options, false).transfers;
+    if (coarsest.mesh.vertices.size() <= most_in_coarsest) return transfers;
+  }
+  options.sizes = space_sizes(body, coarsest.constrained, multigrid_sizes);
+  if (options.sizes.empty() && unknowns(coarsest.mesh) > static_cast<std::size_t>(most_dense_unknowns))
+    throw InputError("integration.implicit: multigrid makes no space of level " +
+                     std::to_string(body.levels.size() - 1) + ", which has " +
+                     std::to_string(coarsest.mesh.vertices.size()) +
+                     " vertices, but too few that may move; expected block_jacobi or chebyshev, or a coarser mesh");
+  for (RowMatrix& further : levels_below({levels.back()}, {}, {}, options, false).transfers)
+    transfers.push_back(std::move(further));
+  return transfers;
 }
 
 bool has_multigrid(const Body& body, std::size_t level) {
   const TetMesh &fine = body.levels[level], &coarsest = body.levels.back();
   if (level + 1 == body.levels.size()) return fine.vertices.size() >= fewest_coarsened;
-  return unknowns(coarsest) <= static_cast<std::size_t>(most_dense_unknowns) &&
-         coarsest.vertices.size() < fine.vertices.size();
+  return coarsest.vertices.size() < fine.vertices.size();
 }
 
 /// With `asked`, what keeps the meshes from being used is the caller's mistake; else there is no multigrid then.
@@ -68,7 +82,7 @@ void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level
 
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver,
                                       double critical_step) {
-  LinearSolverParts parts{problem.integration.implicit, {}};
+  LinearSolverParts parts{problem.integration.implicit, {}, problem.body.material.model};
   ImplicitOptions& o = parts.options;
   const Body& body = problem.body;
   const bool fixed = o.iterations > 0, multigrid = has_multigrid(body, level);

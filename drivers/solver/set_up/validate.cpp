@@ -169,19 +169,11 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
 
 void check_multigrid(const Body& body, const ImplicitOptions& o) {
   if (o.preconditioner != "multigrid" && o.solver != "v_cycle") return;
-  if (body.levels.size() < 2) {
-    if (has_coarse_levels("auto", body)) return;
-    throw InputError(
-        "integration.implicit.preconditioner is multigrid, or its solver v_cycle, which needs a coarser mesh, but the "
-        "body has one, of too few vertices to make coarse spaces of; expected more of body.levels, or block_jacobi or "
-        "chebyshev");
-  }
-  const std::size_t vertices = body.levels.back().vertices.size();
-  if (3 * vertices > static_cast<std::size_t>(most_dense_unknowns))
-    throw InputError(
-        "integration.implicit.preconditioner is multigrid, which solves its coarsest level by a dense matrix; level " +
-        std::to_string(body.levels.size() - 1) + " has " + std::to_string(vertices) + " vertices, expected at most " +
-        std::to_string(most_dense_unknowns / 3) + ": add a coarser level, of 50 to 200 vertices");
+  if (body.levels.size() > 1 || has_coarse_levels("auto", body)) return;
+  throw InputError(
+      "integration.implicit.preconditioner is multigrid, or its solver v_cycle, which needs a coarser mesh, but the "
+      "body has one, of too few vertices to make coarse spaces of; expected more of body.levels, or block_jacobi or "
+      "chebyshev");
 }
 
 void check_regions(const Body& body) {

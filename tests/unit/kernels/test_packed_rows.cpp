@@ -179,7 +179,8 @@ TEST(Chebyshev, IsThePolynomial) {
     for (int k = 0; k < 3; ++k)
       r[3 * a + k] = std::sin(1.0 + 2 * a + k), right(a, k) = static_cast<float>(r[3 * a + k]);
   }
-  update_vertices<B>(m.exec, "test", m.rows.slots(), TakeSlotBlocks<B>{m.rows.vertex, blocks, on.inverse_diagonal});
+  update_vertices<B>(m.exec, "test", m.rows.slots(),
+                     TakeSlotBlocks<B, Blocks<B>>{m.rows.vertex, blocks, on.inverse_diagonal});
   update_vertices<B>(m.exec, "test", m.rows.slots(), TakeSlots<B, Vectors<B>>{m.rows.vertex, right, on.r});
   const auto d = zeros<Fours<B>>("test.d", at(m.rows.slots())), e = zeros<Fours<B>>("test.e", at(m.rows.slots()));
   update_vertices<B>(m.exec, "test", m.rows.items(), ChebyshevStart<B>{on, d});
