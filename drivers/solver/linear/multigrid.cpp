@@ -11,6 +11,8 @@ namespace plica {
 namespace {
 
 constexpr int lanczos_steps = 15;
+constexpr double drift =
+    1.1;  // of the largest eigenvalue until the next fit, where products are with the matrix of each moment
 
 /// The part of a direction that Chebyshev's next one keeps.
 float keep_of(int k) { return static_cast<float>(2 * k - 1) / static_cast<float>(2 * k + 3); }
@@ -86,7 +88,7 @@ void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B
   const Grid& finest = grids_.front();
   convert(exec, "plica::multigrid_values", A.value, finest.A.value);
   convert(exec, "plica::multigrid_values", inverse_diagonal, finest.inverse_diagonal);
-  if (finest_) largest_ = largest_eigenvalue(exec, finest);
+  if (finest_) largest_ = drift * largest_eigenvalue(exec, finest);
   refit(exec);
 }
 

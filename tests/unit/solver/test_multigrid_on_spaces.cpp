@@ -57,9 +57,9 @@ TEST(Multigrid, SmoothsNodalElementsByTheirOwnTangent) {
   expect_iterations_of_an_organ({"neo_hookean", 5e3, 0.49, 1000}, 28);
 }
 
-// A capsule that is drawn along a slab: contact begins and ends after the cycle was fitted. 32 and more by a matrix from then.
+// A capsule that is drawn along a slab: contact begins and ends after the cycle was fitted. By the matrix of then it takes 154, and 3 systems are not solved.
 TEST(Multigrid, OfNodalElementsKnowsOfContact) {
-  Problem p = body_of({box_mesh({0.12, 0.08, 0.04}, {18, 12, 6})});
+  Problem p = body_of({box_mesh({{0, 0, 0}, {0.12, 0.08, 0.04}}, {18, 12, 6})});
   p.body.element = {"nodal"};
   p.body.material = {"neo_hookean", 10e3, 0.45, 1000};
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
@@ -74,8 +74,8 @@ TEST(Multigrid, OfNodalElementsKnowsOfContact) {
   advance(simulation, 40);
   const auto counts = simulation.counters();
   EXPECT_EQ(counts.at("cg_misses"), 0);
-  EXPECT_LE(counts.at("cg_iterations"), 12 * counts.at("linear_solves"));
-  EXPECT_LE(counts.at("preconditioner_fits"), 3);
+  EXPECT_LE(counts.at("cg_iterations"), 16 * (counts.at("linear_solves") + counts.at("contact_solves")));
+  EXPECT_LE(counts.at("preconditioner_fits"), 4);
 }
 
 // Of nodal elements that stiffen exponentially, whose coarser levels are those of linear ones.
