@@ -17,13 +17,19 @@ struct BlockJacobi {
   }
 };
 
+template <class B>
+std::unique_ptr<Preconditioner<B>> make_cycle(const LinearSolverParts& parts, const std::vector<RowMatrix>& transfers,
+                                              StageSystem<B>& system) {
+  const CycleProduct<B>* const finest = system.cycle_product(parts.material);
+  return std::make_unique<Multigrid<B>>(system.pattern(), transfers, parts.options.polynomial_degree, finest);
+}
+
 struct ChebyshevPolynomial {
   static constexpr const char* name = "chebyshev";
   static constexpr const char* summary = "a polynomial in the matrix, scaled by the vertex blocks";
   template <class B>
   static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts, StageSystem<B>& system) {
-    return std::make_unique<Multigrid<B>>(system.pattern(), std::vector<RowMatrix>{}, parts.options.polynomial_degree,
-                                          system.cycle_product(parts.material));
+    return make_cycle<B>(parts, {}, system);
   }
 };
 
@@ -32,8 +38,7 @@ struct MultigridCycle {
   static constexpr const char* summary = "one V-cycle over the body's meshes; iterations hardly grow with the mesh";
   template <class B>
   static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts, StageSystem<B>& system) {
-    return std::make_unique<Multigrid<B>>(system.pattern(), parts.transfers, parts.options.polynomial_degree,
-                                          system.cycle_product(parts.material));
+    return make_cycle<B>(parts, parts.transfers, system);
   }
 };
 

@@ -24,6 +24,8 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
   if (pattern_.matrix.rows == 0) {
     pattern_ = block_pattern<B>(level_->model);
     shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
+    if (nodal_ && !cycle_product_)
+      blocks_of_matrix_ = zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
   }
   return pattern_.matrix;
 }
@@ -33,18 +35,14 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
                              bool positive) {
   const Exec& exec = level.exec();
   level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
-  if (by_matrix()) {
-    update_vertices<B>(exec, "plica::take_diagonal", rows(), TakeDiagonal<B>{matrix(exec), inverse_diagonal_});
-    add_contact_blocks(exec, true);
-    return invert_blocks(exec);
-  }
+  if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
   if (cycle_product_) cycle_product_->prepare(level, state_, weights, positive);
   level.diagonal(state, weights, positive, inverse_diagonal_);
   if (level.contact())
     update_vertices<B>(exec, "plica::keep_blocks", level.surface.touched,
                        KeepBlocks<B>{level.surface.vertex, inverse_diagonal_, without_contact_, false});
-  add_contact_blocks(exec, false);
-  invert_blocks(exec);
+  add_contact_blocks(exec, false, inverse_diagonal_);
+  invert_blocks(exec, inverse_diagonal_);
 }
 
 template <class B>
@@ -62,28 +60,38 @@ void StageSystem<B>::change_contact(const Exec& exec, const std::function<void()
                AtTouched<B, TakeDiagonal<B>>{surface.vertex, {pattern_.matrix, inverse_diagonal_}});
   else
     at_touched("plica::put_blocks", KeepBlocks<B>{surface.vertex, inverse_diagonal_, without_contact_, true});
-  add_contact_blocks(exec, by_matrix());
-  at_touched("plica::invert_blocks", AtTouched<B, InvertBlocks<B>>{surface.vertex, inverting()});
+  add_contact_blocks(exec, by_matrix(), inverse_diagonal_);
+  at_touched("plica::invert_blocks", AtTouched<B, InvertBlocks<B>>{surface.vertex, inverting(inverse_diagonal_)});
 }
 
 template <class B>
-void StageSystem<B>::add_contact_blocks(const Exec& exec, bool beside) const {
-  if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, beside, inverse_diagonal_);
+void StageSystem<B>::add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const {
+  if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, beside, blocks);
 }
 
 template <class B>
-InvertBlocks<B> StageSystem<B>::inverting() const {
-  return {level_->model, inverse_diagonal_, static_cast<typename B::Real>(weights_.b)};
+InvertBlocks<B> StageSystem<B>::inverting(const Blocks<B>& blocks) const {
+  return {level_->model, blocks, static_cast<typename B::Real>(weights_.b)};
 }
 
 template <class B>
-void StageSystem<B>::invert_blocks(const Exec& exec) const {
-  update_vertices<B>(exec, "plica::invert_blocks", rows(), inverting());
+void StageSystem<B>::invert_blocks(const Exec& exec, const Blocks<B>& blocks) const {
+  update_vertices<B>(exec, "plica::invert_blocks", rows(), inverting(blocks));
+}
+
+template <class B>
+void StageSystem<B>::invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks) {
+  update_vertices<B>(exec, "plica::take_diagonal", rows(), TakeDiagonal<B>{matrix(exec), blocks});
+  add_contact_blocks(exec, true, blocks);
+  invert_blocks(exec, blocks);
 }
 
 template <class B>
 void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
-  preconditioner.fit(exec, matrix(exec), inverse_diagonal_);
+  const BlockMatrix<B>& A = matrix(exec);
+  if (!nodal_ || cycle_product_) return preconditioner.fit(exec, A, inverse_diagonal_);
+  invert_blocks_of_matrix(exec, blocks_of_matrix_);
+  preconditioner.fit(exec, A, blocks_of_matrix_);
 }
 
 template <class B>
@@ -96,7 +104,7 @@ const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
 
 template <class B>
 const CycleProduct<B>* StageSystem<B>::cycle_product(std::string_view material) {
-  if (nodal_ && !cycle_product_)
+  if (level_->model.float_rows.slices > 0 && !cycle_product_)
     cycle_product_ = std::make_unique<CycleProduct<B>>(*level_, material, inverse_diagonal_);
   return cycle_product_.get();
 }
@@ -131,9 +139,9 @@ std::size_t StageSystem<B>::bytes() const {
   const BlockMatrix<B>& A = pattern_.matrix;
   const PatchPairs<B>& P = pattern_.pairs;
   return (cycle_product_ ? cycle_product_->bytes() : 0) +
-         bytes_of_views(inverse_diagonal_, without_contact_, shares_, A.first, A.column, A.diagonal, A.place, A.value,
-                        P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.place, P.first_share,
-                        P.shared_place);
+         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, without_contact_, shares_, A.first, A.column, A.diagonal,
+                        A.place, A.value, P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.place,
+                        P.first_share, P.shared_place);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;

@@ -38,7 +38,7 @@ class StageSystem {
   const BlockMatrix<B>& matrix(const Exec& exec);
   /// Fits a preconditioner to that matrix.
   void fit(const Exec& exec, Preconditioner<B>& preconditioner);
-  /// Of nodal elements, for a preconditioner; else none.
+  /// For a preconditioner of nodal elements whose model has rows in float; else none. Before pattern().
   const CycleProduct<B>* cycle_product(std::string_view material);
   /// Its pattern alone; with nodal elements that of linear ones.
   const BlockMatrix<B>& pattern();
@@ -51,7 +51,7 @@ class StageSystem {
   bool nodal_, assembled_, ready_ = false;  ///< the matrix is that of this stage
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
-  Blocks<B> inverse_diagonal_;
+  Blocks<B> inverse_diagonal_, blocks_of_matrix_;  ///< inverses; the latter of nodal elements without cycle_product_
   std::unique_ptr<CycleProduct<B>> cycle_product_;
   Blocks<B> without_contact_;  ///< [touched][6] of vertex blocks that are not of the matrix, before contact
   const Level<B>* level_ = nullptr;
@@ -60,9 +60,10 @@ class StageSystem {
   ImplicitWeights weights_;
   bool positive_ = false;
 
-  InvertBlocks<B> inverting() const;
-  void invert_blocks(const Exec& exec) const;
-  void add_contact_blocks(const Exec& exec, bool beside) const;
+  InvertBlocks<B> inverting(const Blocks<B>& blocks) const;
+  void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
+  void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
+  void add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const;
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
 };
 

@@ -125,19 +125,21 @@ LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Poin
 namespace {
 
 template <class B>
-void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants constants, const LevelConstants& c) {
+void add_preconditioning(Model<B>& model, const TetMesh& placed, NodalConstants constants, const LevelConstants& c,
+                         BesideNodal beside) {
   using F = Backend<float, typename B::Exec>;
-  constants.excess.clear();
+  if (beside == BesideNodal::nothing) return;
   model.patches = build_patches<B>(placed, constants.material, c.stiffness_damping);
+  if (!c.fibres.empty()) model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
+  if (beside == BesideNodal::matrix) return;
+  constants.excess.clear();
   model.float_rows = build_nodal_rows<F>(placed, constants);
-  if (c.fibres.empty()) return;
-  model.patches.fibres = device_fibres<B>(model.patches, c.fibres);
-  model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
+  if (!c.fibres.empty()) model.float_rows.fibres = device_fibres<F>(model.float_rows, placed, c.fibres);
 }
 
 template <class B>
 void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, const LevelConstants& c,
-                  bool beside_nodal) {
+                  BesideNodal beside) {
   Model<B>& model = level.model;
   if (c.element == Element::linear) {
     model.patches = build_patches<B>(placed, c.material, c.stiffness_damping);
@@ -154,7 +156,7 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
     model.shares = model.rows.shares;
     level.nodal = make_nodal_work<B>(model.rows);
     if (!c.fibres.empty()) model.rows.fibres = device_fibres<B>(model.rows, placed, c.fibres);
-    if (beside_nodal) add_preconditioning<B>(model, placed, std::move(constants), c);
+    add_preconditioning<B>(model, placed, std::move(constants), c, beside);
   }
   level.partial = zeros<Vectors<B>>("plica::work.partial", std::max(model.shares.rows, model.patches.shares.rows));
   if (!allows_inversion(body.material))
@@ -164,13 +166,13 @@ void add_elements(Level<B>& level, const Body& body, const TetMesh& placed, cons
 }  // namespace
 
 template <class B>
-Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c, bool beside_nodal) {
+Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& c, BesideNodal beside) {
   using Real = typename B::Real;
   const std::size_t n = placed.vertices.size();
   Level<B> level;
   level.model.vertices = static_cast<int>(n);
   level.model.tets = static_cast<int>(placed.tets.size());
-  add_elements(level, body, placed, c, beside_nodal);
+  add_elements(level, body, placed, c, beside);
 
   std::vector<Real> mass(n), inverse(n);
   std::vector<Point> velocity(n, Point::Zero()), displacement(n, Point::Zero());
@@ -201,7 +203,7 @@ Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstan
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                               \
   template Level<Backend<Real, Exec>> build_level<Backend<Real, Exec>>(const Body&, const TetMesh&, \
-                                                                       const LevelConstants&, bool);
+                                                                       const LevelConstants&, BesideNodal);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -31,10 +31,12 @@ struct LevelConstants {
 /// selection chooses nothing on this level.
 LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level);
 
-/// Model, state and work arrays of a level. No transfers, no surface. `beside_nodal`: nodal elements have linear ones of the same constants
-/// beside them, which precondition implicit steps.
+/// What nodal elements have beside them to precondition implicit steps: linear ones, of which a matrix is assembled, and rows in float.
+enum class BesideNodal { nothing, matrix, matrix_and_rows };
+
+/// Model, state and work arrays of a level. No transfers, no surface.
 template <class B>
 Level<B> build_level(const Body& body, const TetMesh& placed, const LevelConstants& constants,
-                     bool beside_nodal = false);
+                     BesideNodal beside = BesideNodal::nothing);
 
 }  // namespace plica
