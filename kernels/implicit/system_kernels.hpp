@@ -7,30 +7,15 @@
 // vertices whose motion is given are zero in the preconditioner, which keeps every search direction zero there.
 namespace plica {
 
-/// q = (1 + b c) M p - a * (sum of the copies of -K p)
-template <class B>
+/// q = (1 + b c) M p - a * (sum of the copies of -K p) + what is beside that, in fields of any precision and order.
+template <class B, class Other = B, class To = Vectors<B>>
 struct SystemProduct {
   using Real = typename B::Real;
   VertexModel<B> model;
-  Vectors<B> p, partial, q;
-  Real a, b;
-
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const Vec3<Real> sum = sum_of_shares<B>(model.shares, partial, i);
-    const Real inertia = (1 + b * model.damping(i)) * model.mass(i);
-    for (int k = 0; k < 3; ++k) q(i, k) = inertia * p(i, k) - a * sum[k];
-  }
-};
-
-/// The same with what else there is, from fields of another precision, to whatever has a vector for every vertex.
-template <class B, class Other, class To>
-struct SystemProductBeside {
-  using Real = typename B::Real;
-  VertexModel<B> model;
   Vectors<B> p, partial;
-  Vectors<Other> beside;  ///< empty: nothing
   To q;
   Real a, b;
+  Vectors<Other> beside = {};  ///< empty: nothing
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const Real inertia = (1 + b * model.damping(i)) * model.mass(i);

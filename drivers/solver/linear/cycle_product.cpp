@@ -50,8 +50,8 @@ void CycleProduct<B>::apply(const Exec& exec, const Vectors<F>& p, const To& q) 
     forces_->add_product_beside_elements(p_, weights_, beside_);
   }
   update_vertices<F>(exec, "plica::cycle_product", level_.model.vertices,
-                     SystemProductBeside<F, B, To>{level_.model, p, level_.partial, alone ? Vectors<B>() : beside_, q,
-                                                   static_cast<float>(weights_.a), static_cast<float>(weights_.b)});
+                     SystemProduct<F, B, To>{level_.model, p, level_.partial, q, static_cast<float>(weights_.a),
+                                             static_cast<float>(weights_.b), alone ? Vectors<B>() : beside_});
 }
 
 template <class B>

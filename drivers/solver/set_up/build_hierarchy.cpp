@@ -174,8 +174,8 @@ class HierarchyBuilder {
     report.largest_miss = std::max(down_[i].largest_distance_over_edge, up_[i].largest_distance_over_edge);
   }
 
-  /// By products with the elements' own tangent a cycle has a third of the iterations in thick bodies and two thirds in thin ones, of 2.5
-  /// times the work each; it has fewer still in contact, and where pressures are smoothed.
+  /// By products with the elements' own tangent there are a third of the iterations in thick bodies and two thirds in thin ones, which take
+  /// twice as long each. In contact there are a sixth, and half of them where pressures are smoothed: cmake/docs/solvers.md.
   BesideNodal beside_nodal(std::size_t i) const {
     constexpr double thick = 8;  // elements across
     if (constants_[i].element != Element::nodal || is_explicit(integrator_of(i))) return BesideNodal::nothing;
