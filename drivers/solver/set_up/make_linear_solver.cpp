@@ -16,7 +16,7 @@ constexpr std::size_t most_direct = 200;       // vertices up to which a factori
 constexpr int fewest_assembled = 8;            // iterations from which an assembled matrix has paid
 constexpr std::size_t fewest_coarsened = 600;  // vertices
 constexpr std::size_t most_in_coarsest =
-    300;  // vertices of a mesh, above which a space below it is cheaper than its dense inverse
+    300;  // vertices; a space below a larger mesh costs less than its dense inverse
 constexpr double multigrid_reach = 1.3;
 constexpr double long_step = 40;  // critical steps, from which multigrid over spaces pays: cmake/docs/levels.md
 

@@ -271,6 +271,16 @@ TEST(LinearSolvers, CombinationsWithoutSenseAreRefused) {
   EXPECT_NE(refusal_of(p).find("are assembled"), std::string::npos) << refusal_of(p);
 }
 
+TEST(LinearSolvers, ALargeCoarsestMeshNeedsVerticesThatMayMove) {
+  Problem p = body_of({box_mesh(decimetre, {9, 9, 9}), box_mesh(decimetre, {8, 8, 8})});
+  p.integration.implicit.preconditioner = "multigrid";
+  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "conjugate_gradients")),
+            "conjugate_gradients, multigrid over 3 levels, assembled");
+  p.body.fixed = {HalfSpaceSelection{{0.09, 0, 0}, {1, 0, 0}}};
+  const auto made = [&] { linear_solver_parts(p, 0, true, "conjugate_gradients"); };
+  EXPECT_NE(refusal(made).find("729 vertices, but too few that may move"), std::string::npos) << refusal(made);
+}
+
 TEST(LinearSolvers, AutoChoosesBySizeAndMeshes) {
   Problem p = pressed("linear", 4);
   EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto")), "direct");
