@@ -13,13 +13,14 @@ def lscpu():
 
 
 def name():
-    """Such as epyc-avx512-2core."""
+    """Such as epyc-25-17-avx512-2core, with the processor's family and model."""
     cpu = lscpu()
     model = cpu.get("Model name", "unknown").lower()
     family = re.search(r"epyc|xeon|ryzen|core|neoverse|graviton", model)
     flags = cpu.get("Flags", "").split()
     vectors = "avx512" if "avx512f" in flags else "avx2" if "avx2" in flags else cpu.get("Architecture", "unknown")
-    return f"{family.group() if family else 'cpu'}-{vectors}-{cpu['CPU(s)']}core"
+    kind = "-".join(filter(None, (family.group() if family else "cpu", cpu.get("CPU family"), cpu.get("Model"))))
+    return f"{kind}-{vectors}-{cpu['CPU(s)']}core"
 
 
 def words():
