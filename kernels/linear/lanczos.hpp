@@ -24,31 +24,26 @@ struct BlockLanczosStart {
   }
 };
 
-/// w = A z / beta and alpha = w . z / beta
+/// w /= beta, where w has been made as A z, and alpha = w . z / beta
 template <class B>
-struct BlockLanczosProduct {
-  BlockMatrix<B> A;
+struct LanczosProduct {
   Doubles<B> square;  ///< beta^2
   Vectors<B> z, w;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const { return of(a, vector_at<B>(w, a)); }
+  KOKKOS_INLINE_FUNCTION Sums<1> of(int a, const Vec3<typename B::Real>& product) const {
     const double scale = square(0) > 0 ? 1 / Kokkos::sqrt(square(0)) : 0.0;
-    const auto row = static_cast<typename B::Real>(scale) * block_row_product<B>(A, a, z);
+    const auto row = static_cast<typename B::Real>(scale) * product;
     set_vector<B>(w, a, row);
     return {{scale * static_cast<double>(dot(vector_at<B>(z, a), row))}};
   }
 };
 
-/// w /= beta, where it has been made as A z, and alpha likewise.
+/// The same with the product by a matrix.
 template <class B>
-struct LanczosProduct {
-  Doubles<B> square;
-  Vectors<B> z, w;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
-    const double scale = square(0) > 0 ? 1 / Kokkos::sqrt(square(0)) : 0.0;
-    const auto row = static_cast<typename B::Real>(scale) * vector_at<B>(w, a);
-    set_vector<B>(w, a, row);
-    return {{scale * static_cast<double>(dot(vector_at<B>(z, a), row))}};
-  }
+struct BlockLanczosProduct {
+  BlockMatrix<B> A;
+  LanczosProduct<B> next;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const { return next.of(a, block_row_product<B>(A, a, next.z)); }
 };
 
 /// r becomes the next, q_last its q; z = D^-1 r and r.z, which is beta^2.

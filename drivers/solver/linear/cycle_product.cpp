@@ -30,11 +30,13 @@ CycleProduct<B>::CycleProduct(const Level<B>& level, std::string_view material, 
 template <class B>
 void CycleProduct<B>::prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
                               bool positive) {
-  forces_ = &level, weights_ = weights, positive_ = positive;
   const Exec& exec = level.exec();
   const auto convert_to = [&](const auto& from, const auto& to) { convert(exec, "plica::cycle_values", from, to); };
-  convert_to(level.model.mass, level_.model.mass);
-  convert_to(level.model.damping.of_vertex, level_.model.damping.of_vertex);
+  if (!forces_) {  // what does not change
+    convert_to(level.model.mass, level_.model.mass);
+    convert_to(level.model.damping.of_vertex, level_.model.damping.of_vertex);
+  }
+  forces_ = &level, weights_ = weights, positive_ = positive;
   convert_to(state.u, u_);
   keep_gradients<F>(exec, level_, u_);
 }

@@ -11,8 +11,8 @@ namespace plica {
 namespace {
 
 constexpr int lanczos_steps = 15;
-constexpr double drift =
-    1.1;  // of the largest eigenvalue until the next fit, where products are with the matrix of each moment
+// By how much the largest eigenvalue may grow until the next fit, where products are with the matrix of each moment
+constexpr double drift = 1.1;
 
 /// The part of a direction that Chebyshev's next one keeps.
 float keep_of(int k) { return static_cast<float>(2 * k - 1) / static_cast<float>(2 * k + 3); }
@@ -132,11 +132,12 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
   update_vertices<F>(exec, "plica::lanczos_start", n, BlockLanczosStart<F>{r});
   reduce<F, 1>(exec, "plica::lanczos_size", n, size, sums_, square(0));
   for (int k = 0; k < lanczos_steps; ++k) {
+    const LanczosProduct<F> product{square(k), z, w};
     if (by_products(grid)) {
       finest_->apply(exec, z, w);
-      reduce<F, 1>(exec, "plica::lanczos_product", n, LanczosProduct<F>{square(k), z, w}, sums_, alpha(k));
+      reduce<F, 1>(exec, "plica::lanczos_product", n, product, sums_, alpha(k));
     } else {
-      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, square(k), z, w}, sums_, alpha(k));
+      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, product}, sums_, alpha(k));
     }
     reduce<F, 1>(exec, "plica::lanczos_next", n, BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
                  square(k + 1));

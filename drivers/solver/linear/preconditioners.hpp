@@ -20,8 +20,8 @@ struct BlockJacobi {
 template <class B>
 std::unique_ptr<Preconditioner<B>> make_cycle(const LinearSolverParts& parts, const std::vector<RowMatrix>& transfers,
                                               StageSystem<B>& system) {
-  const CycleProduct<B>* const finest = system.cycle_product(parts.material);
-  return std::make_unique<Multigrid<B>>(system.pattern(), transfers, parts.options.polynomial_degree, finest);
+  return std::make_unique<Multigrid<B>>(system.pattern(), transfers, parts.options.polynomial_degree,
+                                        system.cycle_product(parts.material));
 }
 
 struct ChebyshevPolynomial {

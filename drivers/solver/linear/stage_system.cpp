@@ -24,7 +24,7 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
   if (pattern_.matrix.rows == 0) {
     pattern_ = block_pattern<B>(level_->model);
     shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
-    if (nodal_ && !cycle_product_)
+    if (nodal_ && !has_products())
       blocks_of_matrix_ = zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
   }
   return pattern_.matrix;
@@ -89,7 +89,7 @@ void StageSystem<B>::invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& 
 template <class B>
 void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
   const BlockMatrix<B>& A = matrix(exec);
-  if (!nodal_ || cycle_product_) return preconditioner.fit(exec, A, inverse_diagonal_);
+  if (!nodal_ || has_products()) return preconditioner.fit(exec, A, inverse_diagonal_);
   invert_blocks_of_matrix(exec, blocks_of_matrix_);
   preconditioner.fit(exec, A, blocks_of_matrix_);
 }
@@ -104,7 +104,7 @@ const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
 
 template <class B>
 const CycleProduct<B>* StageSystem<B>::cycle_product(std::string_view material) {
-  if (level_->model.float_rows.slices > 0 && !cycle_product_)
+  if (has_products() && !cycle_product_)
     cycle_product_ = std::make_unique<CycleProduct<B>>(*level_, material, inverse_diagonal_);
   return cycle_product_.get();
 }

@@ -38,7 +38,7 @@ class StageSystem {
   const BlockMatrix<B>& matrix(const Exec& exec);
   /// Fits a preconditioner to that matrix.
   void fit(const Exec& exec, Preconditioner<B>& preconditioner);
-  /// For a preconditioner of nodal elements whose model has rows in float; else none. Before pattern().
+  /// For a preconditioner of nodal elements whose model has rows in float; else none.
   const CycleProduct<B>* cycle_product(std::string_view material);
   /// Its pattern alone; with nodal elements that of linear ones.
   const BlockMatrix<B>& pattern();
@@ -64,6 +64,7 @@ class StageSystem {
   void invert_blocks(const Exec& exec, const Blocks<B>& blocks) const;
   void invert_blocks_of_matrix(const Exec& exec, const Blocks<B>& blocks);
   void add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const;
+  bool has_products() const { return level_->model.float_rows.slices > 0; }
   bool by_matrix() const { return !nodal_ && (assembled_ || positive_); }
 };
 

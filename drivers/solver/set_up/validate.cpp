@@ -169,7 +169,7 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
 
 void check_multigrid(const Body& body, const ImplicitOptions& o) {
   if (o.preconditioner != "multigrid" && o.solver != "v_cycle") return;
-  if (body.levels.size() > 1 || has_coarse_levels("auto", body)) return;
+  if (has_coarse_levels("auto", body)) return;
   throw InputError(
       "integration.implicit.preconditioner is multigrid, or its solver v_cycle, which needs a coarser mesh, but the "
       "body has one, of too few vertices to make coarse spaces of; expected more of body.levels, or block_jacobi or "

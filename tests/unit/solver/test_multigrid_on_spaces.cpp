@@ -39,8 +39,8 @@ void expect_iterations_of_an_organ(const std::string& name, const MaterialOption
   p.gravity = {0, 0, -9.81};
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 10e-3;
-  p.integration.implicit.preconditioner = "multigrid";
   Simulation<Host> simulation(p);
+  EXPECT_NE(simulation.levels().front().linear_solver.find("multigrid"), std::string::npos) << "a long step";
   advance(simulation, 2);
   EXPECT_EQ(simulation.counters().at("cg_misses"), 0);
   EXPECT_LE(simulation.counters().at("cg_iterations"), 2 * at_most) << "nu " << material.poisson_ratio;
@@ -51,10 +51,10 @@ TEST(Multigrid, SmoothsTheSliversOfAnOrgan) {
   expect_iterations_of_an_organ("ventricle", {"st_venant_kirchhoff", 20e3, 0.35, 1000}, 45);
 }
 
-// The liver is thick enough for that: by a polynomial in linear elements' matrix it takes 40 and 83. The thin ventricle has the latter.
+// The liver is thick enough for that: by a polynomial in linear elements' matrix it takes 31 and 63. The thin ventricle has the latter.
 TEST(Multigrid, SmoothsNodalElementsByTheirOwnTangent) {
-  expect_iterations_of_an_organ("liver", {"neo_hookean", 50e3, 0.45, 1000}, 12);
-  expect_iterations_of_an_organ("liver", {"neo_hookean", 50e3, 0.49, 1000}, 25);
+  expect_iterations_of_an_organ("liver", {"neo_hookean", 200e3, 0.45, 1000}, 12);
+  expect_iterations_of_an_organ("liver", {"neo_hookean", 200e3, 0.49, 1000}, 25);
   expect_iterations_of_an_organ("ventricle", {"neo_hookean", 5e3, 0.45, 1000}, 32);
   expect_iterations_of_an_organ("ventricle", {"neo_hookean", 5e3, 0.49, 1000}, 67);
 }
