@@ -322,7 +322,8 @@ class CommandLine {
     command->add_option("SHELL", shell_, "bash or zsh")->required();
   }
 
-  CLI::App app_{"Plica: multigrid in time for deformable tissue", "plica"};
+  CLI::App app_{"Plica: soft-tissue simulation with nonlinear tetrahedral finite elements, contact and surgical tools",
+                "plica"};
   RunArguments arguments_;
   StudyArguments study_;
   StabilityArguments stability_;
