@@ -391,10 +391,12 @@ void describe(V& v, ContactOptions& o) {
   v("whole_surface", o.whole_surface, Name{"rule", whole_surface_rules},
     "which obstacles touch the surface between its points, too");
   v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive},
-    "times the penalty stiffness 64 E A / h, 4 E A / h where a level is implicit");
+    "times the penalty stiffness 64 E A / h");
   v("damping_scale", o.damping_scale, Quantity{plain, not_negative}, "times the damping of the approach");
+  v("friction_stiffness_scale", o.friction_stiffness_scale, Quantity{plain, positive},
+    "times the penalty stiffness: the spring by which friction sticks");
   v("tangential_damping_scale", o.tangential_damping_scale, Quantity{plain, not_negative},
-    "times the damping of slow sliding, where friction is not yet at its cap");
+    "times the damping beside that spring");
 }
 
 }  // namespace plica

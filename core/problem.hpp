@@ -247,7 +247,7 @@ struct AttachmentOptions {
 };
 
 /// Penalty contact of the embedded surface's vertices with obstacles and with the surface's triangles, see
-/// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (4 E A / h where a level is implicit)
+/// cmake/docs/contact.md. The scales multiply, per surface point, the stiffness k = 64 E A / h (of two bodies both layers in series)
 /// and the damping 2 * 0.5 * sqrt(k rho A h), with A the surface's area per point and h the finest level's mean edge.
 struct ContactOptions {
   /// Compiled in problem.cpp alone.
@@ -268,7 +268,8 @@ struct ContactOptions {
   std::string whole_surface = "auto";               ///< of whole_surface_rules()
   double stiffness_scale = 1;                       ///< of the penalty
   double damping_scale = 1;                         ///< of the approach
-  double tangential_damping_scale = 1;              ///< limits the friction force at small sliding speeds
+  double friction_stiffness_scale = 1;              ///< of the spring by which friction sticks, over the penalty's
+  double tangential_damping_scale = 1;              ///< of the damper beside that spring
 };
 
 /// What results call that obstacle.

@@ -9,51 +9,63 @@
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/kernels/contact/implicit_response.hpp>
+#include <plica/kernels/contact/find_on_points.hpp>
 
 namespace plica {
 
 namespace {
 
-// Over the layer of elements under the surface. Of contact that is implicit in an explicit step: what keeps a body visibly outside.
-// The linear systems of implicit levels take less, and then the other levels as well: what one level leaves inside an obstacle, the
-// next must not throw out.
-constexpr double most_stiffening = 64, stiffening_in_systems = 4;
+// Over the layer of elements under the surface: what keeps a body visibly outside.
+constexpr double stiffening = 64;
 
 // In mean edges of the surface, the radius from which on an obstacle is left to the points. A tool that is pressed in by its radius
 // spreads the points under it and comes between them, however fine the mesh is.
 constexpr double wide = 16;
 
-constexpr double pair_reach = 0.5, pair_margin = 0.25, face_reach = 0.25;  // of an edge
+constexpr double pair_reach = 0.5, pair_margin = 0.25;  // of an edge
 
-double mean_surface_edge(const TriangleSurface& surface) {
-  double sum = 0;
+template <class Use>
+void each_side(const TriangleSurface& surface, const Use& use) {
   for (const auto& t : surface.triangles)
     for (std::size_t c = 0; c < 3; ++c) {
       const auto x = [&](std::size_t k) { return surface.vertices[static_cast<std::size_t>(t[k % 3])]; };
-      sum += (x(c + 1) - x(c)).norm();
+      use((x(c + 1) - x(c)).norm());
     }
+}
+
+double mean_surface_edge(const TriangleSurface& surface) {
+  double sum = 0;
+  each_side(surface, [&](double length) { sum += length; });
   return sum / static_cast<double>(3 * surface.triangles.size());
+}
+
+double longest_surface_edge(const TriangleSurface& surface) {
+  double longest = 0;
+  each_side(surface, [&](double length) { longest = std::max(longest, length); });
+  return longest;
 }
 
 }  // namespace
 
 template <class B>
-Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs, bool stiff)
+Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs)
     : points_(static_cast<int>(surface.surface.vertices.size())),
       attached_count_(static_cast<int>(surface.attached.size())),
+      bodies_(static_cast<int>(surface.parts.size())),
+      pairs_(pairs),
       reach_(surface.edge),
       deepest_(surface.size),
       lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
   const DepthWatch<B> watch{lost_, static_cast<Real>(deepest_)};
   const auto& all = options.obstacles;
-  for (const ObstacleOptions& o : all) grasps_.push_back(o.grasp);
+  const double longest = longest_surface_edge(surface.surface);
+  for (const ObstacleOptions& o : all) options_.push_back(o.grasp);
   make_memory(std::ranges::any_of(all, [](const ObstacleOptions& o) { return o.mass.has_value(); }));
-  for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles()));
+  for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles(), longest));
   choose_held(surface.held);
-  make_laws(options, surface, stiff);
+  make_laws(options, surface);
   choose_whole(options.whole_surface, surface.surface);
-  if (pairs || whole() > 0) connect(surface.surface, pairs);
+  if (couples()) connect(surface.surface);
   if (!pairs) return;
   limits_ = {static_cast<Real>(pair_reach * surface.edge), static_cast<Real>(pair_margin * surface.edge),
              static_cast<Real>(surface.edge), options.bodies, options.self};
@@ -61,25 +73,25 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
 
 template <class B>
 void Contact<B>::make_memory(bool tools) {
-  const int count = static_cast<int>(grasps_.size());
-  if (tools) held_.first = ObstaclePlace<B>::numbers * count;
-  if (std::ranges::any_of(grasps_, [](const auto& grasp) { return grasp.has_value(); }))
-    held_.records = count * points_;
-  if (const int size = held_.at(held_.records); size > 0)
-    held_.memory = memory_ = zeros<Doubles<B>>("plica::contact.memory", static_cast<std::size_t>(size));
+  const int count = static_cast<int>(options_.size());
+  if (tools) grasps_.first = ObstaclePlace<B>::numbers * count;
+  if (std::ranges::any_of(options_, [](const auto& grasp) { return grasp.has_value(); }))
+    grasps_.places = count * points_;
+  if (const int size = grasps_.at(grasps_.places); size > 0)
+    grasps_.memory = memory_ = zeros<Doubles<B>>("plica::contact.memory", static_cast<std::size_t>(size));
 }
 
 template <class B>
 void Contact<B>::choose_held(const std::vector<std::vector<int>>& chosen) {
   if (std::ranges::all_of(chosen, [](const auto& points) { return points.empty(); })) return;
-  std::vector<int> left_out(static_cast<std::size_t>(held_.records), 0);
+  std::vector<int> left_out(static_cast<std::size_t>(grasps_.places), 0);
   auto own = left_out.begin();
   for (const auto& points : chosen) {
     if (!points.empty()) std::fill(own, own + points_, 1);
     for (const int p : points) own[p] = 0;
     own += points_;
   }
-  held_.left_out = to_device<Indices<B>>("contact.left_out", left_out);
+  grasps_.left_out = to_device<Indices<B>>("contact.left_out", left_out);
 }
 
 template <class B>
@@ -94,9 +106,13 @@ int Contact<B>::whole() const {
   return static_cast<int>(std::count(whole_.begin(), whole_.end(), true));
 }
 
-/// A row of laws for every obstacle and one for pairs; in it one for every body.
+/// Laws of obstacles and bodies, of what obstacles hold, of pairs of bodies, of attachments. What gives way is the layer of elements under
+/// the surface, with an area A for each point: E A / h. Of two bodies both layers, in series, with the smaller area.
 template <class B>
-void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of, bool stiff) {
+void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of) {
+  struct Layer {
+    double area, edge, modulus, density;
+  };
   std::vector<double> area(of.parts.size(), 0), points(of.parts.size(), 0);
   const auto part = [&](int p) {
     return of.body.empty() ? 0u : static_cast<std::size_t>(of.body[static_cast<std::size_t>(p)]);
@@ -106,65 +122,86 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     const auto x = [&](std::size_t c) { return of.surface.vertices[static_cast<std::size_t>(t[c])]; };
     area[part(t[0])] += 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   }
-  std::vector<PenaltyLaw<Real>> laws, held_laws;
-  const auto add_row = [&](const std::optional<double>& friction, const std::optional<GraspOptions>& grasp) {
-    for (std::size_t b = 0; b < of.parts.size(); ++b) {
-      const MaterialOptions& material = *of.parts[b].material;
-      const double per_point = area[b] / std::max(points[b], 1.0), edge = of.parts[b].edge;
-      const double soft = options.stiffness_scale * stiffness_at_rest(material) * per_point / edge;
-      const auto critical = [&](double k) {
-        return std::sqrt(k * material.density * per_point * edge);
-      };  // 2 * 0.5 sqrt(k m)
-      const auto law = [&](double k) {
-        return PenaltyLaw<Real>{static_cast<Real>(k), static_cast<Real>(options.damping_scale * critical(k)),
-                                static_cast<Real>(friction ? options.tangential_damping_scale * critical(k) : 0),
-                                static_cast<Real>(friction.value_or(0))};
-      };
-      const double pushing = (stiff ? most_stiffening : stiffening_in_systems) * soft,
-                   holding = (stiff ? most_stiffening : 1) * soft;
-      laws.push_back(law(pushing));
-      held_laws.push_back(law(grasp && grasp->stiffness ? *grasp->stiffness : holding));
-      if (laws.size() == 1) stiffness_ = pushing, damping_ = options.damping_scale * critical(stiffness_);
+  std::vector<Layer> layers;
+  for (std::size_t b = 0; b < of.parts.size(); ++b)
+    layers.push_back({area[b] / std::max(points[b], 1.0), of.parts[b].edge, stiffness_at_rest(*of.parts[b].material),
+                      of.parts[b].material->density});
+  const double scale = stiffening * options.stiffness_scale;
+  const auto critical = [](double k, double mass) { return std::sqrt(k * mass); };  // 2 * 0.5 sqrt(k m)
+  const auto law = [&](double k, double mass, const std::optional<double>& friction) {
+    ContactLaw<Real> made;
+    made.stiffness = static_cast<Real>(k);
+    made.damping = static_cast<Real>(options.damping_scale * critical(k, mass));
+    if (friction) {
+      made.shear_stiffness = static_cast<Real>(options.friction_stiffness_scale * k);
+      made.shear_damping = static_cast<Real>(options.tangential_damping_scale *
+                                             critical(options.friction_stiffness_scale * k, mass));
+      made.friction = static_cast<Real>(*friction);
     }
+    return made;
   };
-  for (const ObstacleOptions& o : options.obstacles) add_row(o.friction, o.grasp);
-  add_row(options.friction, {});
-  laws_.body = of.body.empty() ? Indices<B>{} : to_device<Indices<B>>("contact.body", of.body);
-  laws_.bodies = static_cast<int>(of.parts.size());
-  held_.law = laws_;
-  laws_.law = to_device<decltype(laws_.law)>("contact.laws", laws);
-  if (held_.records > 0) held_.law.law = to_device<decltype(laws_.law)>("contact.held_laws", held_laws);
-  if (attached_count_ > 0) attach(options, of, {laws.end() - laws_.bodies, laws.end()});
+  const auto tie = [&](ContactLaw<Real> made, const std::optional<double>& k) {
+    if (k) made.damping *= static_cast<Real>(std::sqrt(*k / static_cast<double>(made.stiffness)));
+    if (k) made.stiffness = static_cast<Real>(*k);
+    made.strength = std::numeric_limits<Real>::infinity();
+    return made;
+  };
+  std::vector<ContactLaw<Real>> laws;
+  const auto of_layer = [&](const Layer& l, const std::optional<double>& friction) {
+    return law(scale * l.modulus * l.area / l.edge, l.density * l.area * l.edge, friction);
+  };
+  for (const ObstacleOptions& o : options.obstacles)
+    for (const Layer& l : layers) laws.push_back(of_layer(l, o.friction));
+  grasps_.first_law = static_cast<int>(laws.size());
+  for (const ObstacleOptions& o : options.obstacles)
+    for (const Layer& l : layers)
+      laws.push_back(tie(of_layer(l, {}), o.grasp ? o.grasp->stiffness : std::nullopt));
+  const std::size_t first_pair = laws.size();
+  for (const Layer& a : layers)
+    for (const Layer& b : layers) {
+      const double least = std::min(a.area, b.area), k = scale * least / (a.edge / a.modulus + b.edge / b.modulus);
+      laws.push_back(law(k, least * std::min(a.density * a.edge, b.density * b.edge), options.friction));
+    }
+  attached_.first_law = static_cast<int>(laws.size());
+  for (std::size_t a = 0; a < options.attachments.size(); ++a) {
+    const auto one = std::ranges::find(of.attached, static_cast<int>(a), &AttachedPoint::attachment);
+    const auto [own, other] =
+        one == of.attached.end()
+            ? std::pair<std::size_t, std::size_t>{0, 0}
+            : std::pair{static_cast<std::size_t>(part(one->point)),
+                        static_cast<std::size_t>(part(
+                            of.surface.triangles[static_cast<std::size_t>(one->triangle)][0]))};
+    laws.push_back(tie(laws[first_pair + own * layers.size() + other], options.attachments[a].stiffness));
+  }
+  const Layer& first = layers.front();
+  stiffness_ = scale * first.modulus * first.area / first.edge;
+  damping_ = options.damping_scale * critical(stiffness_, first.density * first.area * first.edge);
+  body_ = of.body.empty() ? Indices<B>{} : to_device<Indices<B>>("contact.body", of.body);
+  laws_ = to_device<decltype(laws_)>("contact.laws", laws);
+  if (attached_count_ > 0) attach(of);
 }
 
-/// `pair_laws`: one for every body. A spring of another stiffness has its damping in proportion, as a critical one has.
 template <class B>
-void Contact<B>::attach(const ContactOptions& options, const TouchingSurface& of,
-                        const std::vector<PenaltyLaw<Real>>& pair_laws) {
+void Contact<B>::attach(const TouchingSurface& of) {
   const auto n = static_cast<std::size_t>(points_);
-  std::vector<int> attachment(n, AttachedPoints<B>::none), triangle(n, -1);
+  std::vector<int> attachment(n, Attachments<B>::none), triangle(n, -1);
   std::vector<std::array<Real, 3>> weight(n);
-  std::vector<PenaltyLaw<Real>> laws(options.attachments.size());
   for (const AttachedPoint& one : of.attached) {
-    const auto p = static_cast<std::size_t>(one.point), a = static_cast<std::size_t>(one.attachment);
+    const auto p = static_cast<std::size_t>(one.point);
     attachment[p] = one.attachment, triangle[p] = one.triangle;
     for (std::size_t c = 0; c < 3; ++c) weight[p][c] = static_cast<Real>(one.weight[c]);
-    PenaltyLaw<Real>& law = laws[a] = pair_laws[static_cast<std::size_t>(of.body[p])];
-    const Real k = static_cast<Real>(options.attachments[a].stiffness.value_or(static_cast<double>(law.stiffness)));
-    law.damping *= std::sqrt(k / law.stiffness), law.stiffness = k;
   }
   for (const AttachedPoint& one : of.attached)
     for (const int corner : of.surface.triangles[static_cast<std::size_t>(one.triangle)])
-      if (int& number = attachment[static_cast<std::size_t>(corner)]; number < 0) number = AttachedPoints<B>::beside;
+      if (int& number = attachment[static_cast<std::size_t>(corner)]; number < 0) number = Attachments<B>::beside;
   attached_.attachment = to_device<Indices<B>>("contact.attachment", attachment);
   attached_.triangle = to_device<Indices<B>>("contact.attached_to", triangle);
   attached_.weight = to_device<Vectors<B>>("contact.attached_weight", weight);
-  attached_.law = to_device<decltype(attached_.law)>("contact.attached_laws", laws);
 }
 
 /// The surface's triangles, and those around each point: for pairs, for thin obstacles.
 template <class B>
-void Contact<B>::connect(const TriangleSurface& surface, bool pairs) {
+void Contact<B>::connect(const TriangleSurface& surface) {
   std::vector<std::vector<int>> around(surface.vertices.size());
   std::vector<int> corner, first{0}, triangle;
   for (const auto& t : surface.triangles)
@@ -176,15 +213,11 @@ void Contact<B>::connect(const TriangleSurface& surface, bool pairs) {
     triangle.insert(triangle.end(), list.begin(), list.end());
     first.push_back(static_cast<int>(triangle.size()));
   }
-  const int triangles = static_cast<int>(surface.triangles.size());
-  pairs_.points = points_;
-  pairs_.triangles = pairs ? triangles : 0;
-  faces_.triangles = whole() > 0 ? triangles : 0;
-  faces_.reach = static_cast<Real>(face_reach * reach_);
-  faces_.corner = pairs_.corner = to_device<Indices<B>>("contact.corner", corner);
-  faces_.first = pairs_.first = to_device<Indices<B>>("contact.first", first);
-  faces_.triangle = pairs_.triangle = to_device<Indices<B>>("contact.triangle", triangle);
-  if (pairs) connect_edges(surface);
+  mesh_.triangles = static_cast<int>(surface.triangles.size());
+  mesh_.corner = to_device<Indices<B>>("contact.corner", corner);
+  mesh_.first = to_device<Indices<B>>("contact.first", first);
+  mesh_.triangle = to_device<Indices<B>>("contact.triangle", triangle);
+  if (pairs_) connect_edges(surface);
 }
 
 /// Edges in the order of their ends, the end with the lower number first.
@@ -211,69 +244,77 @@ void Contact<B>::connect_edges(const TriangleSurface& surface) {
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
   each_side([&](const Edge& e, std::size_t, int) { side.push_back(e.number); });
-  pairs_.edge = to_device<Indices<B>>("contact.edge", edge);
-  pairs_.first_edge = to_device<Indices<B>>("contact.first_edge", first);
-  pairs_.side = to_device<Indices<B>>("contact.side", side);
+  mesh_.edge = to_device<Indices<B>>("contact.edge", edge);
+  mesh_.first_edge = to_device<Indices<B>>("contact.first_edge", first);
+  mesh_.side = to_device<Indices<B>>("contact.side", side);
 }
 
 template <class B>
-TouchingPoints<B> Contact<B>::make_points(bool implicit) const {
-  const std::size_t n = static_cast<std::size_t>(points_);
-  TouchingPoints<B> points;
-  points.points = points_, points.obstacles = obstacles();
-  points.reach = points.edge = static_cast<Real>(reach_);
-  points.law = laws_;
-  points.pairs = pairs_, points.faces = faces_, points.held = held_, points.attached = attached_;
-  if (pairs_.triangles > 0) {
-    points.pairs.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(n, -1));
-    points.pairs.weight = zeros<Vectors<B>>("plica::contact.weight", 2 * n);
-    points.pairs.other = to_device<Indices<B>>("contact.other", std::vector<int>(6 * n, -1));
-    points.pairs.found = zeros<Doubles<B>>("plica::contact.found", 2);
-    points.pairs.from = zeros<Indices<B>>("plica::contact.from", n + 1);
-    points.pairs.part = zeros<Indices<B>>("plica::contact.part", 6 * n);
+ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, int vertices, bool implicit) const {
+  ContactRecords<B> records;
+  records.points = points_, records.obstacles = obstacles(), records.bodies = bodies_, records.pairs = pairs_;
+  records.faces = whole() > 0 ? mesh_.triangles : 0;
+  records.reach = records.edge = static_cast<Real>(reach_);
+  records.law = laws_, records.body = body_;
+  records.mesh = mesh_, records.grasps = grasps_, records.attached = attached_;
+  const auto slots = static_cast<std::size_t>(records.slots());
+  const auto vectors = [&](const char* name) { return zeros<Vectors<B>>(name, slots); };
+  const auto list = [](const char* name, int most) {
+    return DeviceList<B>{zeros<Indices<B>>(name, static_cast<std::size_t>(most)),
+                         zeros<Doubles<B>>("plica::contact.count", 1), most};
+  };
+  records.list = list("plica::contact.list", records.slots());
+  records.touching = zeros<Doubles<B>>("plica::contact.touching", 1);
+  records.near = zeros<Indices<B>>("plica::contact.near", slots);
+  records.close = zeros<Indices<B>>("plica::contact.close", 1);
+  records.point = zeros<typename ContactRecords<B>::Stencil>("plica::contact.point", slots);
+  records.weight = zeros<typename ContactRecords<B>::Weights>("plica::contact.weight", slots);
+  records.law_of = zeros<Indices<B>>("plica::contact.law_of", slots);
+  records.normal = vectors("plica::contact.normal"), records.way = vectors("plica::contact.way");
+  records.stretch = vectors("plica::contact.stretch"), records.force = vectors("plica::contact.force");
+  records.drift = vectors("plica::contact.drift");
+  records.depth = to_device<Scalars<B>>("contact.depth", std::vector<Real>(slots, -records.nowhere()));
+  if (implicit) {
+    records.cap = zeros<Scalars<B>>("plica::contact.cap", slots);
+    records.block = zeros<Blocks<B>>("plica::contact.block", slots);
+    if (!std::ranges::all_of(obstacles_, [](const auto& obstacle) { return obstacle->convex(); }))
+      records.concavity = zeros<Blocks<B>>("plica::contact.concavity", slots);
   }
-  const auto faces = static_cast<std::size_t>(points.obstacles) * static_cast<std::size_t>(faces_.triangles);
-  if (pairs_.triangles > 0 || faces > 0) points.pairs.sum = zeros<Vectors<B>>("plica::contact.sum", n);
-  points.faces.weight = zeros<Vectors<B>>("plica::contact.face_weight", faces);
-  if (implicit) points.faces.kept = zeros<Vectors<B>>("plica::contact.face_kept", faces);
-  const std::size_t records = n * static_cast<std::size_t>(points.rows()) + faces;
-  points.normal = zeros<Vectors<B>>("plica::contact.normal", records);
-  points.velocity = zeros<Vectors<B>>("plica::contact.velocity", records);
-  points.smooth = zeros<Vectors<B>>("plica::contact.smooth", records);
-  points.force = zeros<Vectors<B>>("plica::contact.force", records);
-  points.depth = to_device<Scalars<B>>(
-      "contact.depth", std::vector<Real>(records, std::numeric_limits<Real>::lowest()));  // what no kernel looks at
-  points.mobility = zeros<Scalars<B>>("plica::contact.mobility", records);
-  points.count = zeros<Doubles<B>>("plica::contact.count", 1);
-  if (implicit) points.block = zeros<Blocks<B>>("plica::contact.block", records);
-  if (implicit && !std::ranges::all_of(obstacles_, [](const auto& obstacle) { return obstacle->convex(); }))
-    points.concavity = zeros<Blocks<B>>("plica::contact.concavity", records);
-  return points;
-}
-
-template <class B>
-void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time, double ahead,
-                      const TouchingPoints<B>& points) const {
-  for (int o = 0; o < obstacles(); ++o)
-    obstacles_[static_cast<std::size_t>(o)]->find(exec, level.surface, s, time, ahead, o, points);
-  for (std::size_t o = 0; o < whole_.size(); ++o)
-    if (whole_[o]) obstacles_[o]->find_on_faces(exec, level.surface, s, time, ahead, static_cast<int>(o), points);
-  for (int o = 0; o < obstacles(); ++o)
-    if (grasp_options(o))
-      update_vertices<B>(exec, "plica::contact_held", points_,
-                         StretchHeld<B>{level.surface, s, place(o, time, ahead), points, o});
-}
-
-template <class B>
-double Contact<B>::energy(const Exec& exec, const Level<B>& level, double time, const BlockSums<B>& blocks) const {
-  const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
-  double total = 0;
-  for (int o = 0; o < obstacles(); ++o) {
-    obstacles_[static_cast<std::size_t>(o)]->energy(exec, level.surface, level.state, time, o, laws_, held_, blocks,
-                                                    result);
-    total += host_values(exec, result)[0];
+  records.response = zeros<Scalars<B>>("plica::contact.response", slots);
+  if (pairs_)
+    records.partner =
+        to_device<Indices<B>>("contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
+  // a record has at most as many entries as its points have vertices
+  std::vector<int> place(static_cast<std::size_t>(vertices), -1);
+  const auto touched = host_values(Exec(), surface.vertex);
+  for (std::size_t i = 0; i < touched.size(); ++i) place[static_cast<std::size_t>(touched[i])] = static_cast<int>(i);
+  std::size_t of_points = 0;
+  std::size_t most = 0;
+  const auto weights = host_values(Exec(), surface.embedding.weight);
+  for (std::size_t p = 0; p < static_cast<std::size_t>(points_); ++p) {
+    std::size_t own = 0;
+    for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0;
+    of_points += own, most = std::max(most, own);
   }
-  return total;
+  const std::size_t entries = static_cast<std::size_t>(records.obstacles) *
+                                  (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
+                              (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(points_) : 0);
+  ContactTranspose<B>& W = records.transpose;
+  W.vertices = list("plica::contact.vertices", surface.touched);
+  W.place = to_device<Indices<B>>("contact.place", place);
+  const auto n = static_cast<std::size_t>(surface.touched);
+  W.filled = zeros<Indices<B>>("plica::contact.filled", n);
+  W.first = zeros<Indices<B>>("plica::contact.first", n), W.last = zeros<Indices<B>>("plica::contact.last", n);
+  W.record = zeros<Indices<B>>("plica::contact.record", entries);
+  W.weight = zeros<Scalars<B>>("plica::contact.entry", entries);
+  return records;
+}
+
+template <class B>
+void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
+                      const ContactRecords<B>& records) const {
+  for (std::size_t o = 0; o < obstacles_.size(); ++o)
+    obstacles_[o]->find(exec, level.surface, s, time, static_cast<int>(o), whole_[o], records);
 }
 
 template <class B>
@@ -283,16 +324,14 @@ void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double e
 
 template <class B>
 void Contact<B>::grasp(const Exec& exec, const Level<B>& level, double time, int obstacle,
-                       const TouchingPoints<B>& points) const {
-  find(exec, level, level.state, time, 0, points);
-  const auto reach = static_cast<Real>(grasp_options(obstacle)->reach);
-  update_vertices<B>(exec, "plica::contact_grasp", points_,
-                     TakeHold<B>{level.surface, level.state.u, place(obstacle, time), points, obstacle, reach});
+                       const ContactRecords<B>& records) const {
+  obstacles_[static_cast<std::size_t>(obstacle)]->grasp(exec, level.surface, level.state, time, obstacle,
+                                                        grasp_options(obstacle)->reach, records);
 }
 
 template <class B>
 void Contact<B>::release(const Exec& exec, int obstacle) const {
-  update_vertices<B>(exec, "plica::contact_release", points_, LetGo<B>{held_, obstacle * points_});
+  update_vertices<B>(exec, "plica::contact_release", points_, LetGo<B>{grasps_, obstacle * points_});
 }
 
 template <class B>
@@ -300,7 +339,7 @@ std::vector<int> Contact<B>::held_by(const Exec& exec, int obstacle) const {
   const std::vector<double> all = host_values(exec, memory_);
   std::vector<int> held;
   for (int p = 0; p < points_; ++p)
-    if (all[static_cast<std::size_t>(held_.at(obstacle * points_ + p) + 3)] > 0) held.push_back(p);
+    if (all[static_cast<std::size_t>(grasps_.at(obstacle * points_ + p) + 3)] > 0) held.push_back(p);
   return held;
 }
 

@@ -5,7 +5,7 @@
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/set_up/attachments.hpp>
 #include <plica/kernels/contact/obstacle_place.hpp>
-#include <plica/kernels/contact/touching_points.hpp>
+#include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <vector>
 
@@ -17,17 +17,13 @@ class Obstacle {
  public:
   using Exec = typename B::Exec;
   virtual ~Obstacle() = default;
-  /// Its gap to every point of a state, where it is now, and the points' velocities against what it will have on average `ahead` of
-  /// now [s]. `number`: which of the obstacles it is.
-  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double ahead, int number,
-                    const TouchingPoints<B>&) const = 0;
-  /// Where it is deepest in each triangle; after find().
-  virtual void find_on_faces(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, double ahead,
-                             int number, const TouchingPoints<B>&) const = 0;
-  /// Energy stored in its penalties by these laws, and in the springs of what it holds [J], into result(0).
-  virtual void energy(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number,
-                      const PointLaws<B>&, const HeldPoints<B>&, const BlockSums<B>&,
-                      const Doubles<B>& result) const = 0;
+  /// Its slots of every point of a state, where it is now, and of the triangles if `faces`; with the way that it goes in the records'
+  /// step. `number`: which of the obstacles it is.
+  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number, bool faces,
+                    const ContactRecords<B>&) const = 0;
+  /// Takes hold of what is no further than `reach` [m] from it.
+  virtual void grasp(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number, double reach,
+                     const ContactRecords<B>&) const = 0;
   virtual ObstaclePlace<B> place(double time, double ahead) const = 0;
   /// From now on it moves so.
   virtual void set_motion(const Motion& motion) = 0;
@@ -42,10 +38,11 @@ class Obstacle {
   virtual std::size_t bytes() const = 0;
 };
 
-/// Launches the kernels of the shape that the options name. `memory`: see Contact::memory(); this is number `number`.
+/// Launches the kernels of the shape that the options name. `memory`: see Contact::memory(); this is number `number`. `longest` edge of
+/// the surface [m].
 template <class B>
 std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
-                                           const Doubles<B>& memory, int number);
+                                           const Doubles<B>& memory, int number, double longest);
 
 /// What contact needs to know of the surface, and of the bodies that it belongs to.
 struct TouchingSurface {
@@ -63,36 +60,33 @@ struct TouchingSurface {
   double size = 0;                      ///< of the whole: a point deeper than that is lost [m]
 };
 
-/// Penalty contact of a level's embedded surface with all obstacles, and with itself.
+/// Contact of the body's surface with all obstacles, and with itself: what all levels share of it.
 template <class B>
 class Contact {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  /// See ContactOptions for the law. `pairs`: the surface touches itself. `stiff`: no level is implicit.
-  Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs, bool stiff);
+  /// See ContactOptions for the law. `pairs`: the surface touches itself.
+  Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs);
 
-  /// Work arrays of one level; blocks on an implicit one only.
-  TouchingPoints<B> make_points(bool implicit) const;
-  /// The gaps of a state, on the whole surface of thin obstacles; `ahead` as of an obstacle's.
-  void find(const Exec&, const Level<B>&, const State<B>&, double time, double ahead, const TouchingPoints<B>&) const;
-  /// Stored in what obstacles do to the points of the level's state [J]. Waits.
-  double energy(const Exec&, const Level<B>&, double time, const BlockSums<B>&) const;
+  /// Records of one level.
+  ContactRecords<B> make_records(const EmbeddedSurface<B>& surface, int vertices, bool implicit) const;
+  /// The slots of obstacles at a state, for the records' step.
+  void find(const Exec&, const Level<B>&, const State<B>&, double time, const ContactRecords<B>&) const;
 
   /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
   int take_lost(const Exec&) const;
   double deepest() const { return deepest_; }  ///< [m]
 
-  double stiffness() const { return stiffness_; }  ///< of a point of the first body, on explicit levels [N/m]
+  double stiffness() const { return stiffness_; }  ///< of a point of the first body [N/m]
   double damping() const { return damping_; }      ///< along the normal, likewise [N s/m]
   int points() const { return points_; }
-  int sites() const { return points_ + faces_.triangles; }
   int whole() const;  ///< obstacles that touch the surface between its points
   /// It couples vertices of several tetrahedra, for which assembled matrices have no room.
-  bool couples() const { return pairs_.triangles > 0 || whole() > 0; }
+  bool couples() const { return pairs_ || whole() > 0; }
   int attached() const { return attached_count_; }  ///< points that are attached to another body
-  const AttachedPoints<B>& attached_points() const { return attached_; }
+  const Attachments<B>& attached_points() const { return attached_; }
   int obstacles() const { return static_cast<int>(obstacles_.size()); }
   ObstaclePlace<B> place(int obstacle, double time, double ahead = 0) const {
     return obstacles_[static_cast<std::size_t>(obstacle)]->place(time, ahead);
@@ -105,13 +99,13 @@ class Contact {
     obstacles_[static_cast<std::size_t>(obstacle)]->set_turn(turn);
   }
   /// What obstacles carry from one step to the next: where those with mass are, see ObstaclePlace, then what they hold, see
-  /// HeldPoints; empty where there is none of it.
+  /// Grasps; empty where there is none of it.
   const Doubles<B>& memory() const { return memory_; }
-  /// The obstacle takes hold of what is near it in a state of level 0, whose work arrays these are.
-  void grasp(const Exec&, const Level<B>&, double time, int obstacle, const TouchingPoints<B>&) const;
+  /// The obstacle takes hold of what is near it in a state of level 0, whose records these are.
+  void grasp(const Exec&, const Level<B>&, double time, int obstacle, const ContactRecords<B>&) const;
   void release(const Exec&, int obstacle) const;
   const std::optional<GraspOptions>& grasp_options(int obstacle) const {
-    return grasps_[static_cast<std::size_t>(obstacle)];
+    return options_[static_cast<std::size_t>(obstacle)];
   }
   /// The points that it holds. Waits.
   std::vector<int> held_by(const Exec&, int obstacle) const;
@@ -119,31 +113,32 @@ class Contact {
   void move_tools(const Exec&, const Doubles<B>& wrench, double end, double span) const;
   std::size_t grid_bytes() const;  ///< of sampled distances
   const PairLimits<Real>& limits() const { return limits_; }
-  int touching_bodies() const { return pairs_.triangles > 0 && laws_.bodies > 1 ? laws_.bodies : 0; }
+  int touching_bodies() const { return pairs_ && bodies_ > 1 ? bodies_ : 0; }
+  bool has_pairs() const { return pairs_; }
   int wrenches() const { return obstacles() + touching_bodies(); }
 
  private:
-  int points_, attached_count_;
-  double stiffness_, damping_, reach_, deepest_;
+  int points_, attached_count_, bodies_;
+  bool pairs_;
+  double stiffness_ = 0, damping_ = 0, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
-  PointLaws<B> laws_;
+  typename ContactRecords<B>::Laws laws_;
+  Indices<B> body_;
   Doubles<B> memory_;
-  HeldPoints<B> held_;
-  AttachedPoints<B> attached_;
-  std::vector<std::optional<GraspOptions>> grasps_;  ///< of obstacles
+  Grasps<B> grasps_;
+  Attachments<B> attached_;
+  std::vector<std::optional<GraspOptions>> options_;  ///< of obstacles that can hold
   std::vector<std::unique_ptr<Obstacle<B>>> obstacles_;
   std::vector<bool> whole_;  ///< of obstacles: they touch the surface between its points
-  FaceSites<B> faces_;
-  PairedPoints<B> pairs_;  ///< what levels share of them
+  SurfaceMesh<B> mesh_;
   PairLimits<Real> limits_;
 
-  void make_laws(const ContactOptions& options, const TouchingSurface& surface, bool stiff);
-  void attach(const ContactOptions& options, const TouchingSurface& surface,
-              const std::vector<PenaltyLaw<Real>>& pair_laws);
+  void make_laws(const ContactOptions& options, const TouchingSurface& surface);
+  void attach(const TouchingSurface& surface);
   void make_memory(bool tools);  ///< `tools`: some have mass
   void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
-  void connect(const TriangleSurface& surface, bool pairs);
+  void connect(const TriangleSurface& surface);
   void connect_edges(const TriangleSurface& surface);
 };
 

@@ -2,10 +2,8 @@
 #include <algorithm>
 #include <plica/drivers/solver/contact_response.hpp>
 #include <plica/drivers/solver/pair_search.hpp>
-#include <plica/kernels/contact/find_on_faces.hpp>
-#include <plica/kernels/contact/find_pairs.hpp>
-#include <plica/kernels/contact/implicit_response.hpp>
-#include <plica/kernels/contact/linearised.hpp>
+#include <plica/kernels/contact/explicit_contact.hpp>
+#include <plica/kernels/contact/implicit_contact.hpp>
 #include <plica/kernels/contact/wrenches.hpp>
 
 namespace plica {
@@ -16,79 +14,97 @@ constexpr int contact_sweeps = 3;
 
 /// As in a whole macro step, of which this one is a part.
 ContactStep of_whole_step(const ContactStep& step, double part) {
-  return {step.span / part, step.ahead / part, step.entry / part, step.damped / part};
+  return {step.span / part, step.ahead / part, step.damped / part, step.ends};
 }
 
 }  // namespace
 
 template <class B>
-ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices, bool implicit)
+ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, const Level<B>& level, bool implicit)
     : contact_(std::move(contact)),
-      points_(contact_->make_points(implicit)),
-      blocks_(std::max(contact_->sites(), 2 * contact_->points())),
-      smooth_(zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(vertices))),
-      answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(vertices))),
-      reached_(zeros<Indices<B>>("plica::contact.reached", static_cast<std::size_t>(vertices))),
+      records_(contact_->make_records(level.surface, level.model.vertices, implicit)),
+      maker_(std::max(records_.slots(), level.surface.touched)),
+      blocks_(std::max(records_.slots(), records_.points)),
+      free_(zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(level.model.vertices))),
+      answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(level.model.vertices))),
       sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
-      impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
-  if (points_.pairs.triangles > 0) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), points_);
+      impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))),
+      last_impulse_(
+          zeros<Doubles<B>>("plica::contact.last_impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
+  if (implicit)
+    product_ = zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
+  records_.long_steps = implicit;
+  if (records_.pairs) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_);
 }
 
+/// The records of a state, listed.
 template <class B>
-void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double ahead,
-                              const TouchingPoints<B>& points) const {
-  contact_->find(exec, level, state, time, ahead, points);
-  if (search_) search_->find(exec, level.surface, state, points, blocks_);
+void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const State<B>& state, double time) {
+  look(exec, level, state, time);
+  found_ = time, fresh_ = false;
+}
+template <class B>
+void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const {
+  contact_->find(exec, level, state, time, records_);
+  if (search_) search_->find(exec, level.surface, state, records_, fresh_, blocks_);
+  list_contacts<B>(exec, level.surface, records_, maker_);
 }
 
-/// Where points get forces of pairs or faces, see SumPointForces.
+/// The records at the level's state; where no step has been taken yet, they are found.
 template <class B>
-void ContactResponse<B>::sum_up(const Exec& exec, bool bounding) const {
-  if (points_.pairs.sum.extent(0) > 0)
-    where_touching<B>(exec, points_.count, "plica::contact_sum", contact_->points(),
-                      SumPointForces<B>{points_, bounding});
+RecordLater<B> ContactResponse<B>::later(const Exec& exec, const Level<B>& level, double time) const {
+  if (fresh_) look(exec, level, level.state, time);
+  const double since = fresh_ ? 0 : std::max(0.0, time - found_);
+  return {level.surface, level.state.v, records_, static_cast<Real>(since), records_.span};
 }
 
 template <class B>
 void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                               const ContactStep& step, TouchLaw<B> law, const Respond& respond) const {
-  const int n = contact_->sites();
-  law.h = static_cast<Real>(step.span), law.ahead = static_cast<Real>(step.ahead);
-  law.entry = static_cast<Real>(step.entry);
-  law.points.span = law.h;
-  find(exec, level, state, time, 0, law.points);
-  reduce<B, 1>(exec, "plica::contact_start", n, StartTouching<B>{law}, blocks_, points_.count);
-  sum_up(exec, law.isotropic);
+                               const ContactStep& given, ExplicitContact<B> contact, const Respond& respond,
+                               const std::function<void()>& free) {
+  const ContactStep step = of_whole_step(given, part_);
+  records_.span = contact.h = static_cast<Real>(step.span);
+  contact.ahead = static_cast<Real>(step.ahead);
+  find(exec, level, state, time);
+  contact.records = records_;
+  free();
+  const DeviceList<B>& list = records_.list;
+  sum_list<B, 1>(exec, list, "plica::contact_start", StartContact<B>{contact}, blocks_, records_.touching);
   for (int sweep = 0; sweep <= contact_sweeps; ++sweep) {  // the first for rho and the forces by e alone
-    if (sweep == 0 || step.span > 0) respond();
-    where_touching<B>(exec, points_.count, "plica::contact_sweep", n, SweepTouching<B>{law, sweep == 0});
-    sum_up(exec);
-    if (!(step.span > 0)) break;
+    respond();
+    over_list<B>(exec, list, "plica::contact_sweep", SweepContact<B>{contact, sweep == 0}, records_.touching);
   }
+  respond();
+  if (given.ends)
+    over_list<B>(exec, list, "plica::contact_stretch", StretchContact<B>{contact, static_cast<Real>(given.span)});
 }
 
 template <class B>
 void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                                 const ContactStep& step, const Vectors<B>& smooth, const Vectors<B>& answer,
-                                 const Respond& respond) const {
-  solve(exec, level, state, time, of_whole_step(step, part_),
-        {level.surface, all_points(), smooth, answer, 0, 0, 0, true, false}, respond);
+                                 const ContactStep& step, const Vectors<B>& free, const Vectors<B>& answer,
+                                 const Respond& respond) {
+  records_.long_steps = true;
+  solve(exec, level, state, time, step, {level.surface, records_, state.v, free, answer, 0, 0, false}, respond, [] {});
 }
 
 template <class B>
 void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                     const ContactStep& given, const Vectors<B>& f) {
-  const int touched = level.surface.touched;
-  const ContactStep step = of_whole_step(given, part_);
-  const Real damped = static_cast<Real>(step.damped);
-  update_vertices<B>(exec, "plica::contact_smooth", touched,
-                     FreeAcceleration<B>{level.surface, level.model, f, state.v, smooth_, damped});
-  AnswerByMass<B> answer{level.surface, level.model, points_, answer_, reached_, damped, true};
-  solve(exec, level, state, time, step, {level.surface, points_, smooth_, answer_, 0, 0, 0, false, true}, [&] {
-    where_touching<B>(exec, points_.count, "plica::contact_answer", touched, answer);
-    answer.first = false;
-  });
-  scatter(exec, level, f, reached_);
+  if (!(given.span > 0)) return;
+  const Real damped = static_cast<Real>(of_whole_step(given, part_).damped);
+  AnswerByMass<B> answer{level.surface, level.model, records_, answer_, damped, Bounding::all};
+  const DeviceList<B>& vertices = records_.transpose.vertices;
+  solve(
+      exec, level, state, time, given, {level.surface, records_, state.v, free_, answer_, 0, 0, true},
+      [&] {
+        over_list<B>(exec, vertices, "plica::contact_answer", answer, records_.touching);
+        answer.bounding = Bounding::none;
+      },
+      [&] {
+        over_list<B>(exec, vertices, "plica::contact_free",
+                     FreeAcceleration<B>{level.surface, records_.transpose, level.model, f, state.v, free_, damped});
+      });
+  scatter(exec, level, f);
 }
 
 template <class B>
@@ -98,113 +114,196 @@ void ContactResponse<B>::forget_impulse(const Exec& exec) const {
 
 template <class B>
 void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                                     double weight) const {
-  for (int o = 0; o < contact_->obstacles(); ++o) {
-    reduce<B, 6>(exec, "plica::contact_wrench", contact_->sites(),
-                 ObstacleWrench<B>{level.surface, state.u, points_, o, contact_->place(o, time)}, blocks_, sums_,
-                 AddImpulse<B>{sums_, impulse_, 6 * o, weight});
-  }
-  for (int b = 0; b < contact_->touching_bodies(); ++b) {
-    reduce<B, 6>(exec, "plica::contact_wrench", level.surface.points, BodyWrench<B>{level.surface, state.u, points_, b},
-                 blocks_, sums_, AddImpulse<B>{sums_, impulse_, 6 * (contact_->obstacles() + b), weight});
-  }
+                                     double weight, double again) const {
+  const auto add = [&](int number, const auto& term) {
+    reduce<B, 6, TermOfList<B, std::decay_t<decltype(term)>>>(
+        exec, "plica::contact_wrench", records_.list.most, {records_.list.count.data(), term}, blocks_, sums_,
+        AddImpulse<B>{sums_, impulse_, last_impulse_, 6 * number, weight, again});
+  };
+  for (int o = 0; o < contact_->obstacles(); ++o)
+    add(o, ObstacleWrench<B>{level.surface, state.u, records_, o, contact_->place(o, time)});
+  for (int b = 0; b < contact_->touching_bodies(); ++b)
+    add(contact_->obstacles() + b, BodyWrench<B>{level.surface, state.u, records_, b});
 }
 
 template <class B>
 double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, double time) const {
-  double total = contact_->energy(exec, level, time, blocks_);
-  if (!contact_->couples()) return total;
-  const auto result = zeros<Doubles<B>>("plica::contact_energy", 1);
-  find(exec, level, level.state, time, 0, all_points());
-  if (search_) {
-    reduce<B, 1>(exec, "plica::pair_energy", 2 * level.surface.points, PairEnergy<B>{points_}, blocks_, result);
-    total += host_values(exec, result)[0];
-  }
-  if (contact_->whole() > 0) {
-    reduce<B, 1>(exec, "plica::face_energy", points_.faces.triangles, FaceEnergy<B>{points_}, blocks_, result);
-    total += host_values(exec, result)[0];
-  }
-  return total;
+  const RecordLater<B> at = later(exec, level, time);
+  sum_list<B, 1>(exec, records_.list, "plica::contact_energy", ContactEnergy<B>{at}, blocks_, sums_);
+  return host_values(exec, sums_)[0];
 }
 
 template <class B>
 std::vector<double> ContactResponse<B>::depths(const Exec& exec, const Level<B>& level, double time) const {
-  const TouchingPoints<B> points = all_points();
-  contact_->find(exec, level, level.state, time, 0, points);
+  const RecordLater<B> at = later(exec, level, time);
   std::vector<double> all;
   for (int o = 0; o < contact_->obstacles(); ++o) {
-    reduce<B, 1, DepthInObstacle<B>, Sums<1, 1>>(exec, "plica::contact_depth", contact_->sites(), {points, o}, blocks_,
-                                                 sums_);
+    sum_list<B, 1, DepthInPartner<B>, Sums<1, 1>>(exec, records_.list, "plica::contact_depth", {at, o}, blocks_, sums_);
     all.push_back(host_values(exec, sums_)[0]);
   }
   return all;
 }
 
 template <class B>
-void ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                                   const ImplicitWeights& w, double ahead, const Vectors<B>& f) {
-  points_.span = static_cast<Real>(ahead);
-  weights_ = w, ahead_ = ahead;
-  find(exec, level, state, time, ahead, all_points());
-  reduce<B, 1>(exec, "plica::contact_linearise", contact_->sites(), last_law(), blocks_, points_.count);
-  sum_up(exec);
-  scatter(exec, level, f);
+void ContactResponse<B>::begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                                     const ContactStage& stage) {
+  stage_ = stage;
+  records_.span = static_cast<Real>(stage.span);
+  find(exec, level, state, time);
+  over_list<B>(exec, records_.list, "plica::contact_begin", BeginContact<B>{level.surface, state.u, records_});
+  found_ = time + stage.span;
 }
 
 template <class B>
-LineariseTouching<B> ContactResponse<B>::last_law() const {
-  return {points_, static_cast<Real>(ahead_), static_cast<Real>(weights_.a), static_cast<Real>(weights_.b)};
+ImplicitContact<B> ContactResponse<B>::at(const Level<B>& level, const State<B>& state, double ahead) const {
+  return {level.surface, state, records_, static_cast<Real>(stage_.span), static_cast<Real>(stage_.scale),
+          static_cast<Real>(ahead)};
 }
 
 template <class B>
-void ContactResponse<B>::move_linearised(const Exec& exec, const Level<B>& level, const Vectors<B>& change,
-                                         const Vectors<B>& r) {
-  reduce<B, 1>(exec, "plica::contact_move", contact_->sites(), MoveTouching<B>{level.surface, change, last_law()},
-               blocks_, points_.count);
-  ahead_ = 0;
-  sum_up(exec);
-  scatter(exec, level, r);
+ContactBalance ContactResponse<B>::read_balance(const Exec& exec) const {
+  const auto sums = host_values(exec, sums_);
+  return {stage_.factor / stage_.scale * sums[0], stage_.factor * sums[1], stage_.factor * sums[2]};
 }
 
-/// f += W^T of the last forces
 template <class B>
-void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
-                                 const Indices<B>& reached) const {
-  where_touching<B>(exec, points_.count, "plica::contact_scatter", level.surface.touched,
-                    ScatterContact<B>{level.surface, points_, f, reached});
+ContactBalance ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& state,
+                                             const ImplicitWeights& w, double ahead, const Vectors<B>& f) {
+  const auto weight = static_cast<Real>(w.a * stage_.factor * stage_.scale);
+  sum_list<B, 3>(exec, records_.list, "plica::contact_linearise",
+                 LineariseContact<B>{at(level, state, ahead), weight, true}, blocks_, sums_);
+  scatter(exec, level, f, stage_.factor);
+  return read_balance(exec);
+}
+
+template <class B>
+ContactBalance ContactResponse<B>::balance(const Exec& exec, const Level<B>& level, const State<B>& state) {
+  sum_list<B, 3>(exec, records_.list, "plica::contact_balance", LineariseContact<B>{at(level, state, 0), 0, false},
+                 blocks_, sums_);
+  return read_balance(exec);
+}
+
+template <class B>
+void ContactResponse<B>::update_caps(const Exec& exec, const Level<B>& level, const State<B>& state) const {
+  over_list<B>(exec, records_.list, "plica::contact_caps", UpdateCaps<B>{at(level, state, 0)});
+}
+
+template <class B>
+void ContactResponse<B>::end_stage(const Exec& exec, const Level<B>& level, const State<B>& state) const {
+  over_list<B>(exec, records_.list, "plica::contact_end", EndContact<B>{at(level, state, 0)});
+}
+
+/// f += factor W^T of the last forces
+template <class B>
+void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, double factor) const {
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_scatter",
+               ScatterContact<B>{.surface = level.surface, .records = records_, .f = f,
+                                 .factor = static_cast<Real>(factor)});
 }
 
 template <class B>
 void ContactResponse<B>::add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
                                      const Vectors<B>& q) const {
   if (beside && !contact_->couples()) return;
-  where_touching<B>(exec, points_.count, "plica::contact_product", contact_->sites(),
-                    ContactProduct<B>{level.surface, p, points_, beside});
-  sum_up(exec);
-  scatter(exec, level, q);
+  over_list<B>(exec, records_.list, "plica::contact_product",
+               ContactProduct<B>{level.surface, p, records_, product_, beside});
+  ContactRecords<B> products = records_;
+  products.force = product_;
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_scatter",
+               ScatterContact<B>{.surface = level.surface, .records = products, .f = q});
 }
 
 template <class B>
 void ContactResponse<B>::add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
                                       const Blocks<B>& diagonal) const {
   if (beside && !contact_->couples()) return;
-  where_touching<B>(exec, points_.count, "plica::contact_diagonal", level.surface.touched,
-                    AddContactBlocks<B>{level.surface, points_, beside, diagonal});
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_diagonal",
+               AddContactBlocks<B>{level.surface, records_, beside, diagonal});
 }
 
 template <class B>
 void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, double scale,
                                     const BlockMatrix<B>& A) const {
-  where_touching<B>(exec, points_.count, "plica::contact_matrix", level.surface.touched,
-                    AddContactToMatrix<B>{level.surface, points_, static_cast<Real>(scale), A});
+  over_list<B>(exec, records_.transpose.vertices, "plica::contact_matrix",
+               AddContactToMatrix<B>{level.surface, records_, static_cast<Real>(scale), A});
 }
 
 template <class B>
 std::size_t ContactResponse<B>::bytes() const {
-  const std::size_t reals = 4 * points_.normal.span() + points_.faces.weight.span() + points_.faces.kept.span() +
-                            2 * points_.depth.span() + points_.block.span() + points_.concavity.span() +
-                            smooth_.span() + answer_.span();
-  return reals * sizeof(Real) + (search_ ? search_->bytes() : 0);
+  const ContactRecords<B>& r = records_;
+  const ContactTranspose<B>& W = r.transpose;
+  const std::size_t reals = r.weight.span() + r.normal.span() + r.way.span() + r.stretch.span() + r.force.span() +
+                            r.drift.span() + r.depth.span() + r.response.span() + r.cap.span() + r.block.span() +
+                            r.concavity.span() + W.weight.span() + product_.span() + free_.span() + answer_.span();
+  const std::size_t ints = r.list.item.span() + r.near.span() + r.point.span() + r.law_of.span() + r.partner.span() +
+                           W.vertices.item.span() + W.place.span() + W.filled.span() + W.first.span() + W.last.span() +
+                           W.record.span();
+  return reals * sizeof(Real) + ints * sizeof(int) + (search_ ? search_->bytes() : 0);
+}
+
+// --- What a step takes from the last ----------------------------------------------------------------------------------------
+
+template <class B>
+template <class Use>
+void ContactResponse<B>::each_carried(const Use& use) const {
+  const ContactRecords<B>& r = records_;
+  const auto flat = [](const auto& x) {
+    using Field = std::decay_t<decltype(x)>;
+    using Flat = std::conditional_t<std::is_same_v<typename Field::non_const_value_type, int>, Indices<B>, Scalars<B>>;
+    return Flat(x.data(), x.span());
+  };
+  use("slots in use", r.near), use("surface points", flat(r.point)), use("laws", r.law_of), use("partners", r.partner);
+  use("weights", flat(r.weight)), use("normals", flat(r.normal)), use("depths", r.depth), use("ways", flat(r.way));
+  use("stretches", flat(r.stretch)), use("forces", flat(r.force));
+}
+
+template <class B>
+void ContactResponse<B>::forget(const Exec& exec) {
+  fill(exec, records_.near, 0), fill(exec, records_.list.count, 0.0), fill(exec, records_.touching, 0.0);
+  fill(exec, records_.transpose.vertices.count, 0.0);
+  if (records_.pairs) fill(exec, records_.partner, -1);
+  fill(exec, last_impulse_, 0.0);
+  fresh_ = true;
+}
+
+template <class B>
+void ContactResponse<B>::persist(StateArchive<B>& archive, const std::string& name) {
+  archive.number(found_), archive.number(fresh_), archive.number(records_.span);
+  each_carried([&](const char* what, const auto& field) { archive.field(name + "contact: " + what, field); });
+  archive.field(name + "contact: the list", records_.list.item);
+  archive.field(name + "contact: its length", records_.list.count);
+  archive.field(name + "contact: how much touches", records_.touching);
+  archive.field(name + "contact: the last impulses", last_impulse_);
+}
+
+template <class B>
+void ContactResponse<B>::keep(const Exec& exec, Kept& to) const {
+  std::size_t i = 0, k = 0;
+  each_carried([&](const char*, const auto& field) {
+    using Field = std::decay_t<decltype(field)>;
+    auto& all = [&]() -> auto& {
+      if constexpr (std::is_same_v<Field, Indices<B>>) return to.indices;
+      else return to.reals;
+    }();
+    std::size_t& at = std::is_same_v<Field, Indices<B>> ? i : k;
+    if (all.size() <= at) all.push_back(zeros<Field>("plica::contact.kept", field.extent(0)));
+    copy(exec, all[at++], field);
+  });
+  to.found = found_, to.fresh = fresh_;
+}
+
+template <class B>
+void ContactResponse<B>::put_back(const Exec& exec, const Level<B>& level, const Kept& from) {
+  std::size_t i = 0, k = 0;
+  each_carried([&](const char*, const auto& field) {
+    using Field = std::decay_t<decltype(field)>;
+    if constexpr (std::is_same_v<Field, Indices<B>>)
+      copy(exec, field, from.indices[i++]);
+    else
+      copy(exec, field, from.reals[k++]);
+  });
+  list_contacts<B>(exec, level.surface, records_, maker_);
+  found_ = from.found, fresh_ = from.fresh;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class ContactResponse<Backend<Real, Exec>>;

@@ -7,15 +7,33 @@
 #include <plica/core/matrices.hpp>
 #include <plica/drivers/solver/contact.hpp>
 #include <plica/drivers/solver/state_archive.hpp>
+#include <plica/kernels/contact/contact_list.hpp>
 
 namespace plica {
 
 template <class B>
 class PairSearch;
 template <class B>
-struct TouchLaw;
+struct RecordLater;
 template <class B>
-struct LineariseTouching;
+struct ExplicitContact;
+template <class B>
+struct ImplicitContact;
+
+/// How an implicit stage takes contact, which acts over the whole step h: in a stage of weights a, b the contact's impulse is h F, and
+/// its way is that to the end of the step.
+struct ContactStage {
+  double span = 0;    ///< h [s]
+  double factor = 1;  ///< of contact's forces in the stage: h / b where they are not carried on
+  double scale = 1;   ///< of ways, from the stage to the end of the step
+};
+
+/// What contact's forces are at a state of an implicit stage.
+struct ContactBalance {
+  double energy = 0;   ///< of the incremental potential, times the stage's factor [J]
+  double lacking = 0;  ///< what friction's caps are away from mu times the normal forces [N]
+  double forces = 0;   ///< sum of their sizes [N]
+};
 
 /// Contact of one level in steps that take it implicitly: the forces on its surface points, and what obstacles do to it. Kernels
 /// alone, which the device leaves out where nothing touches.
@@ -28,37 +46,52 @@ class ContactResponse {
   using Respond = std::function<void()>;
 
   ContactResponse() = default;
-  ContactResponse(std::shared_ptr<const Contact<B>> contact, int vertices, bool implicit);
+  ContactResponse(std::shared_ptr<const Contact<B>> contact, const Level<B>& level, bool implicit);
 
   /// f += contact's forces on a state at `time`, which f are all other forces on; A is the inverse of the lumped masses.
   void add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
                   const Vectors<B>& f);
-  /// The forces on the points, for any other A: `smooth` are the accelerations without contact, respond() makes those by the points'
-  /// last forces, in `answer`.
+  /// The forces of the records, for any other A: `free` are the accelerations without contact, respond() makes those by the records'
+  /// last forces, in `answer`; `bounding`: of unit forces, by absolute weights.
   void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-               const Vectors<B>& smooth, const Vectors<B>& answer, const Respond& respond) const;
+               const Vectors<B>& free, const Vectors<B>& answer, const Respond& respond);
 
   /// Of which part of a macro step the next ones are: a shorter step takes the forces that a whole one would. Sweeps leave a contact softer
   /// the longer the step, so that in a short one overlap that was at rest would be pushed out at once.
   void set_part(double part) { part_ = part; }
 
-  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it.
+  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it, with `again` times what was added last.
   void forget_impulse(const Exec& exec) const;
-  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
+  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight,
+                   double again = 0) const;
   const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
   /// Stored in all contact of the level's state [J]. Waits.
   double energy(const Exec& exec, const Level<B>& level, double time) const;
-  /// See Simulation::contact_depths().
+  /// Of each obstacle, then of pairs; see Simulation::contact_depths(). Waits.
   std::vector<double> depths(const Exec& exec, const Level<B>& level, double time) const;
+  /// Takes hold of what is near an obstacle.
+  void grasp(const Exec& exec, const Level<B>& level, double time, int obstacle) const {
+    contact_->grasp(exec, level, time, obstacle, records_);
+  }
 
-  // Of implicit levels, see kernels/contact/linearised.hpp:
+  // Of implicit levels, see kernels/contact/implicit_contact.hpp:
 
-  /// f += the forces of a stage on a state, linearised about it, with contact `ahead` of it [s]
-  void linearise(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ImplicitWeights&,
-                 double ahead, const Vectors<B>& f);
-  /// Linearised about where a change of velocity leads to: the same places touch, by the same normals. r, what that change has left of the
-  /// system's right side, then is what is left with contact as it is there.
-  void move_linearised(const Exec& exec, const Level<B>& level, const Vectors<B>& change, const Vectors<B>& r);
+  /// Finds the records of a step from a state at `time`.
+  void begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStage&);
+  /// f += the records' forces at a state, `ahead` of it [s], and their blocks for a system of these weights. Waits.
+  ContactBalance linearise(const Exec& exec, const Level<B>& level, const State<B>& state, const ImplicitWeights&,
+                           double ahead, const Vectors<B>& f);
+  /// At a state, with the caps as they are. Waits.
+  ContactBalance balance(const Exec& exec, const Level<B>& level, const State<B>& state);
+  /// Caps become those of the normal forces at a state.
+  void update_caps(const Exec& exec, const Level<B>& level, const State<B>& state) const;
+  /// The step ends in a state: its forces are the last, and what is carried goes on.
+  void end_stage(const Exec& exec, const Level<B>& level, const State<B>& state) const;
+  /// f += W^T of the last forces times the stage's factor
+  void add_last_forces(const Exec& exec, const Level<B>& level, const Vectors<B>& f) const {
+    scatter(exec, level, f, stage_.factor);
+  }
+  const ContactStage& stage() const { return stage_; }
   /// q += W^T C W p; `beside`: of what add_matrix() leaves out alone
   void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
                    const Vectors<B>& q) const;
@@ -67,40 +100,46 @@ class ContactResponse {
   /// A += scale W^T C W, of points that touch obstacles
   void add_matrix(const Exec& exec, const Level<B>& level, double scale, const BlockMatrix<B>& A) const;
 
-  const TouchingPoints<B>& points() const { return points_; }
+  const ContactRecords<B>& records() const { return records_; }
   std::size_t bytes() const;
-  /// What a step takes from the last: forgotten, or saved.
+  /// What a step takes from the last: forgotten, saved, kept and put back.
   /// @{
-  void forget(const Exec& exec) const { fill(exec, points_.faces.kept, Real(0)); }
-  void persist(StateArchive<B>& archive, const std::string& name) {
-    archive.field(name + "places on faces", points_.faces.kept);
-  }
+  void forget(const Exec& exec);
+  void persist(StateArchive<B>& archive, const std::string& name);
+  struct Kept {
+    std::vector<Indices<B>> indices;
+    std::vector<Scalars<B>> reals;
+    double found = 0;
+    bool fresh = true;
+  };
+  void keep(const Exec& exec, Kept& to) const;
+  void put_back(const Exec& exec, const Level<B>& level, const Kept& from);
   /// @}
 
  private:
   std::shared_ptr<const Contact<B>> contact_;
-  TouchingPoints<B> points_;                     ///< `span`: of the last linearisation
+  ContactRecords<B> records_;                    ///< `span`: of the last step
+  Vectors<B> product_;                           ///< [slots][3] on implicit levels
   std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
+  ListMaker<B> maker_;
   BlockSums<B> blocks_;
-  Vectors<B> smooth_, answer_;  ///< of the vertices, on explicit levels
-  Indices<B> reached_;          ///< of the touched ones, by contact in the last step
-  Doubles<B> sums_, impulse_;
-  ImplicitWeights weights_;  ///< of the last linearisation
-  double ahead_ = 0, part_ = 1;
+  Vectors<B> free_, answer_;  ///< of the vertices, on explicit levels
+  Doubles<B> sums_, impulse_, last_impulse_;
+  ContactStage stage_;
+  double part_ = 1, found_ = 0;  ///< found_: the time of the state that the records are of [s]
+  bool fresh_ = true;            ///< nothing is known of a last step
 
   void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-             TouchLaw<B> law, const Respond& respond) const;
-  void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double ahead,
-            const TouchingPoints<B>& points) const;
-  /// They look at obstacles along the nearest normal, however far that is.
-  TouchingPoints<B> all_points() const {
-    TouchingPoints<B> points = points_;
-    points.reach = std::numeric_limits<Real>::max();
-    return points;
-  }
-  void sum_up(const Exec& exec, bool bounding = false) const;
-  LineariseTouching<B> last_law() const;
-  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, const Indices<B>& reached = {}) const;
+             ExplicitContact<B> contact, const Respond& respond, const std::function<void()>& free);
+  void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
+  void look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const;
+  RecordLater<B> later(const Exec& exec, const Level<B>& level, double time) const;
+  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, double factor = 1) const;
+  ImplicitContact<B> at(const Level<B>& level, const State<B>& state, double ahead) const;
+  ContactBalance read_balance(const Exec& exec) const;
+  /// use(name, field) for what is carried from step to step.
+  template <class Use>
+  void each_carried(const Use& use) const;
 };
 
 }  // namespace plica

@@ -25,10 +25,10 @@ template <class B>
 void hold(Hierarchy<B>& hierarchy, int obstacle, double time, bool closed) {
   SolverLevel<B>& level = hierarchy[0];
   if (closed)
-    level.contact()->grasp(hierarchy.exec(), level, time, obstacle, level.response().points());
+    level.response().grasp(hierarchy.exec(), level, time, obstacle);
   else
     level.contact()->release(hierarchy.exec(), obstacle);
-  hierarchy.forget();
+  for (SolverLevel<B>& each : hierarchy.levels) each.integrator->forget();
 }
 
 /// What obstacles are asked to hold and to let go of in a macro step, at its start.

@@ -9,7 +9,7 @@
 #include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/find_on_faces.hpp>
-#include <plica/kernels/contact/implicit_response.hpp>
+#include <plica/kernels/contact/find_on_points.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
@@ -32,10 +32,12 @@ class ObstacleOf final : public Obstacle<B> {
   DepthWatch<B> watch_;
   Doubles<B> tools_;  // the obstacles' memory, with mass only
   int first_;         // its own of them
+  Real longest_;      // edge of the surface [m]
+  static constexpr Real face_reach = Real(0.25);  // of an edge
 
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
-             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number)
+             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number, double longest)
       : shape_(shape),
         storage_(storage),
         origin_{origin[0], origin[1], origin[2]},
@@ -44,28 +46,30 @@ class ObstacleOf final : public Obstacle<B> {
         path_(make_path(options.motion, knots_)),
         watch_(watch),
         tools_(options.mass ? memory : Doubles<B>()),
-        first_(ObstaclePlace<B>::numbers * number) {
+        first_(ObstaclePlace<B>::numbers * number),
+        longest_(static_cast<Real>(longest)) {
     options_.shape.reset();
     set_turn(options.turn);
   }
 
-  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double ahead,
-            int number, const TouchingPoints<B>& points) const override {
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number, bool faces,
+            const ContactRecords<B>& records) const override {
+    const ObstaclePlace<B> at = place(time, static_cast<double>(records.span));
+    const Real reach = face_reach * records.reach;
+    fill(exec, records.close, 0);
+    // a triangle that is stretched no more than FindOnFaces allows for touches nothing if all of its corners are further than that
+    const Real between = reach + FindOnFaces<B, Shape>::stretch * FindOnFaces<B, Shape>::from_corner * longest_;
+    update_vertices<B>(exec, "plica::contact_find", surface.points,
+                       FindOnPoints<B, Shape>{surface, s, shape_, at, watch_, number, between, records});
+    if (faces)
+      update_vertices<B>(exec, "plica::contact_faces", records.faces,
+                         FindOnFaces<B, Shape>{surface, s, shape_, at, number, reach, records});
+  }
+  void grasp(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
+             double reach, const ContactRecords<B>& records) const override {
     update_vertices<B>(
-        exec, "plica::contact_find", surface.points,
-        FindTouching<B, Shape>{surface, s, shape_, place(time, ahead), watch_, points.record(number, 0), points});
-  }
-  void find_on_faces(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, double ahead,
-                     int number, const TouchingPoints<B>& points) const override {
-    update_vertices<B>(exec, "plica::contact_faces", points.faces.triangles,
-                       FindOnFaces<B, Shape>{surface, s, shape_, place(time, ahead), number, points,
-                                             std::numeric_limits<Real>::lowest(), static_cast<Real>(ahead)});
-  }
-  void energy(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
-              const PointLaws<B>& law, const HeldPoints<B>& held, const BlockSums<B>& blocks,
-              const Doubles<B>& result) const override {
-    reduce<B, 1>(exec, "plica::contact_energy", surface.points,
-                 ContactEnergy<B, Shape>{surface, s.u, s.v, shape_, place(time, 0), law, held, number}, blocks, result);
+        exec, "plica::contact_grasp", surface.points,
+        Grasp<B, Shape>{surface, s.u, shape_, place(time, 0), records, number, static_cast<Real>(reach)});
   }
   ObstaclePlace<B> place(double time, double ahead) const override {
     const PathPoint now = path_step(path_, knots_.data(), time, ahead);
@@ -111,7 +115,7 @@ auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& 
 
 template <class B>
 std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
-                                           const Doubles<B>& memory, int number) {
+                                           const Doubles<B>& memory, int number, double longest) {
   std::unique_ptr<Obstacle<B>> obstacle;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     Scalars<B> storage;
@@ -119,7 +123,7 @@ std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const
     const auto made = device_shape<B>(shape, its, storage, radius);
     using Shape = std::decay_t<decltype(made)>;
     obstacle = std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), radius, options,
-                                                      watch, memory, number);
+                                                      watch, memory, number, longest);
   });
   return obstacle;
 }

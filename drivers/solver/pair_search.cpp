@@ -7,9 +7,10 @@
 namespace plica {
 
 template <class B>
-PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B>& points)
-    : blocks_(points.pairs.triangles) {
-  const auto n = static_cast<std::size_t>(points.points), triangles = static_cast<std::size_t>(points.pairs.triangles);
+PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records)
+    : blocks_(records.mesh.triangles) {
+  const auto n = static_cast<std::size_t>(records.points),
+             triangles = static_cast<std::size_t>(records.mesh.triangles);
   const std::size_t buckets = std::bit_ceil(2 * triangles);
   grid_.limits = limits;
   grid_.buckets = static_cast<int>(buckets);
@@ -31,33 +32,31 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B
   grid_.crossings = zeros<Indices<B>>("plica::pairs.crossings", n);
   grid_.crossing =
       zeros<Indices<B>>("plica::pairs.crossing", 2 * n * static_cast<std::size_t>(PairGrid<B>::most_crossings));
-  count_ = zeros<Indices<B>>("plica::pairs.count", n);
 }
 
 template <class B>
 void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
-                         const TouchingPoints<B>& points, const BlockSums<B>& blocks) const {
-  const FindPairs<B> find{surface, state, grid_, points};
-  reduce<B, 2, PlacePoints<B>, Sums<2, 2>>(exec, "plica::pairs_moved", points.points,
+                         const ContactRecords<B>& records, bool fresh, const BlockSums<B>& blocks) const {
+  const FindPairs<B> find{surface, state, grid_, records};
+  reduce<B, 2, PlacePoints<B>, Sums<2, 2>>(exec, "plica::pairs_moved", records.points,
                                            PlacePoints<B>{surface, state, grid_}, blocks, grid_.moved,
-                                           JudgeGrid<B>{grid_, points.span});
-  make_grid(exec, points);
-  where_touching<B>(exec, grid_.stale, "plica::pairs_close", points.points, ListClose<B>{find});
-  where_touching<B>(exec, grid_.stale, "plica::pairs_crossings", points.points, ListCrossings<B>{{find}});
-  update_vertices<B>(exec, "plica::pairs_nearest", points.points, NearestTriangles<B>{find});
-  reduce<B, 2>(exec, "plica::pairs_crossing", points.points, DeepestCrossings<B>{{find}}, blocks, points.pairs.found);
-  list_parts(exec, points.pairs);
+                                           JudgeGrid<B>{grid_, records.span});
+  make_grid(exec, records);
+  where_touching<B>(exec, grid_.stale, "plica::pairs_close", records.points, ListClose<B>{find});
+  where_touching<B>(exec, grid_.stale, "plica::pairs_crossings", records.points, ListCrossings<B>{{find}});
+  update_vertices<B>(exec, "plica::pairs_nearest", records.points, NearestTriangles<B>{find, fresh});
+  update_vertices<B>(exec, "plica::pairs_crossing", records.points, DeepestCrossings<B>{{find}, fresh});
 }
 
 /// Where it is stale.
 template <class B>
-void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points) const {
-  const TriangleOfGrid<B> of{points.pairs.corner, grid_};
-  const int triangles = points.pairs.triangles, buckets = grid_.buckets;
+void PairSearch<B>::make_grid(const Exec& exec, const ContactRecords<B>& records) const {
+  const TriangleOfGrid<B> of{records.mesh.corner, grid_};
+  const int triangles = records.mesh.triangles, buckets = grid_.buckets;
   const Doubles<B>& stale = grid_.stale;
   reduce<B, 1, MeasureTriangles<B>, Sums<1, 1>>(exec, "plica::pairs_measure", triangles, MeasureTriangles<B>{of},
                                                 blocks_, grid_.radius, SetWidth<B>{grid_});
-  where_touching<B>(exec, stale, "plica::pairs_keep", points.points, KeepPlaces<B>{grid_});
+  where_touching<B>(exec, stale, "plica::pairs_keep", records.points, KeepPlaces<B>{grid_});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
   where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{of});
   launch_gathered<Exec>();  // Kokkos lends a scan memory that may be elsewhere the next time
@@ -67,23 +66,11 @@ void PairSearch<B>::make_grid(const Exec& exec, const TouchingPoints<B>& points)
   where_touching<B>(exec, stale, "plica::pairs_fill", triangles, FillCells<B>{of});
 }
 
-/// `count_` is 0 before and after.
-template <class B>
-void PairSearch<B>::list_parts(const Exec& exec, const PairedPoints<B>& pairs) const {
-  const int points = pairs.points, all = 2 * points;
-  where_touching<B>(exec, pairs.found, "plica::pairs_parts", all, CountParts<B>{pairs, count_});
-  launch_gathered<Exec>();  // Kokkos lends a scan memory that may be elsewhere the next time
-  Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, points + 1),
-                        SumBefore<B>{count_, pairs.from, points, pairs.found});
-  where_touching<B>(exec, pairs.found, "plica::pairs_list", all, ListParts<B>{pairs, count_});
-  where_touching<B>(exec, pairs.found, "plica::pairs_sort", points, SortParts<B>{pairs});
-}
-
 template <class B>
 std::size_t PairSearch<B>::bytes() const {
   return (grid_.x.span() + grid_.built.span() + grid_.centre.span()) * sizeof(Real) +
          (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + grid_.listed.span() +
-          grid_.about.span() + grid_.crossings.span() + grid_.crossing.span() + count_.span()) *
+          grid_.about.span() + grid_.crossings.span() + grid_.crossing.span()) *
              sizeof(int);
 }
 

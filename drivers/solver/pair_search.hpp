@@ -4,27 +4,25 @@
 
 namespace plica {
 
-/// Finds what of a level's surface is near what else of it: fills the records of pairs. Kernels alone; a grid of the triangles is kept
-/// while nothing has moved far, and where nothing is near the lists are left out.
+/// Finds what of a level's surface is near what else of it: fills the slots of pairs. Kernels alone; a grid of the triangles is kept
+/// while nothing has moved far.
 template <class B>
 class PairSearch {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  PairSearch(const PairLimits<Real>& limits, const TouchingPoints<B>& points);
-  /// Depth, normal, velocity, triangle and weights of each point near one, and the pairs that each point is a corner of.
-  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state, const TouchingPoints<B>& points,
-            const BlockSums<B>& blocks) const;
+  PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records);
+  /// The slots of pairs at a state. `fresh`: nothing is known of the last step.
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state, const ContactRecords<B>& records,
+            bool fresh, const BlockSums<B>& blocks) const;
   std::size_t bytes() const;
 
  private:
   PairGrid<B> grid_;
   BlockSums<B> blocks_;  ///< for triangles
-  Indices<B> count_;     ///< [points]
 
-  void make_grid(const Exec& exec, const TouchingPoints<B>& points) const;
-  void list_parts(const Exec& exec, const PairedPoints<B>& pairs) const;
+  void make_grid(const Exec& exec, const ContactRecords<B>& records) const;
 };
 
 }  // namespace plica

@@ -44,8 +44,8 @@ std::size_t bytes_of(const EmbeddedSurface<B>& s) {
 }
 
 template <class B>
-std::size_t bytes_of(const AttachedPoints<B>& a) {
-  return bytes(a.attachment, a.triangle, a.weight, a.law);
+std::size_t bytes_of(const Attachments<B>& a) {
+  return bytes(a.attachment, a.triangle, a.weight);
 }
 
 std::string counted(std::size_t n, const std::string& what) {

@@ -54,6 +54,7 @@ struct Simulation<B>::Inside {
     std::vector<State<B>> levels;
     std::vector<KeptStress<B>> stress;  ///< of viscous materials only
     Doubles<B> memory;                  ///< of obstacles: see Contact::memory()
+    std::vector<typename ContactResponse<B>::Kept> contact;
     double time = 0, put_in = 0;
     long steps = 0;
     Point drift = Point::Zero();

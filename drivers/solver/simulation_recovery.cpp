@@ -117,6 +117,10 @@ void Simulation<B>::Inside::keep(Kept& to) {
     for (std::size_t i = 0; i < levels.size(); ++i) levels[i].viscosity->keep(exec, levels[i], to.stress[i]);
   }
   copy_memory(exec, memory, to.memory);
+  if (hierarchy()[0].contact()) {
+    to.contact.resize(levels.size());
+    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].response().keep(exec, to.contact[i]);
+  }
   to.time = time, to.steps = steps, to.put_in = put_in, to.drift = drift;
 }
 
@@ -144,6 +148,10 @@ void Simulation<B>::Inside::go_back(const Kept& to) {
   time = to.time, steps = to.steps, put_in = to.put_in, drift = to.drift;
   hierarchy().clear_flags();
   hierarchy().forget();
+  for (std::size_t i = 0; i < to.contact.size(); ++i) {
+    SolverLevel<B>& level = hierarchy().levels[i];
+    level.response().put_back(hierarchy().exec(), level, to.contact[i]);
+  }
   if (const Contact<B>* contact = hierarchy()[0].contact()) {
     contact->take_lost(hierarchy().exec());
     motions.go_back(*contact, time);

@@ -30,7 +30,7 @@ void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity,
                                 std::shared_ptr<const Contact<B>> contact, bool implicit) {
   elasticity_ = std::move(elasticity), contact_ = std::move(contact), implicit_ = implicit;
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
-  if (contact_) response_ = ContactResponse<B>(contact_, this->model.vertices, implicit);
+  if (contact_) response_ = ContactResponse<B>(contact_, *this, implicit);
   const NodalRows<B>& rows = this->model.rows;
   if (implicit && rows.slices > 0 && rows.excess.extent(0) == 0)  // smoothed pressures need both fields once more
     this->nodal.gradient = zeros<Scalars<B>>("plica::nodal.gradient", static_cast<std::size_t>(9 * rows.slots()));
@@ -152,7 +152,7 @@ template <class B>
 void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force, const ContactStep& step,
                               double weight) {
   evaluate_without_contact(at, time, force);
-  if (!contact_) return;
+  if (!contact_ || !(step.span > 0)) return;
   book("contact", [&] {
     response_.add_forces(exec(), *this, at, time, step, force);
     if (weight > 0) response_.add_impulse(exec(), *this, at, time, weight);
@@ -160,11 +160,8 @@ void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>&
 }
 
 template <class B>
-void SolverLevel<B>::count_contact(double time, double weight) {
-  book("contact", [&] {
-    response_.add_forces(exec(), *this, this->state, time, {}, this->f);
-    response_.add_impulse(exec(), *this, this->state, time, weight);
-  });
+void SolverLevel<B>::count_contact(double time, double weight, double again) {
+  book("contact", [&] { response_.add_impulse(exec(), *this, this->state, time, weight, again); });
 }
 
 template <class B>
@@ -191,7 +188,6 @@ void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWe
   if (this->nodal.gradient.extent(0) > 0) keep_gradients<B>(exec(), *this, at.u), linearised_ = at.u;
   add_loads(time + ahead, force);
   add_followers(at, time + ahead, force);
-  if (contact_) book("contact", [&] { response_.linearise(exec(), *this, at, time, weights, ahead, force); });
   if (external_) book("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
   add_correction(force);
 }

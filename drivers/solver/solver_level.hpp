@@ -46,7 +46,7 @@ class SolverLevel : public Level<B> {
     if (viscosity) viscosity->remember(exec(), *this, *elasticity_, this->state.u, time);
   }
 
-  /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default the bare penalty law. They act
+  /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default none. They act
   /// for `weight` of the time [s], which is what the obstacles' impulse counts.
   void evaluate(const State<B>& state, double time, const Vectors<B>& f, const ContactStep& step = {},
                 double weight = 0);
@@ -56,8 +56,8 @@ class SolverLevel : public Level<B> {
   void add_last_impulse(double time, double weight) const {
     response_.add_impulse(exec(), *this, this->state, time, weight);
   }
-  /// Counts the contact of the level's state by the bare penalty law, for `weight` [s]. Uses level.f.
-  void count_contact(double time, double weight);
+  /// Counts the contact of an implicit step's end for `weight` [s], and `again` times what was counted last.
+  void count_contact(double time, double weight, double again);
 
   /// Volumes and pressures of its cavities at its state; waits.
   std::vector<CavityState> cavities(double time) const;
@@ -72,12 +72,8 @@ class SolverLevel : public Level<B> {
   /// f = those that do not depend on the state: gravity, loads, a correction.
   void dead(double time, const Vectors<B>& f) const;
 
-  /// Linearises about a state for an implicit stage: f as above with loads and contact `ahead` of it [s].
+  /// Linearises about a state for an implicit stage: f as above with loads `ahead` of it [s], without contact.
   void linearise(const State<B>& state, double time, const ImplicitWeights& weights, double ahead, const Vectors<B>& f);
-  /// See ContactResponse::move_linearised().
-  void move_contact(const Vectors<B>& change, const Vectors<B>& r) {
-    response_.move_linearised(exec(), *this, change, r);
-  }
   /// q = A p, A = (1 + b c) M + a K + contact at the linearised state; see ImplicitWeights. `positive`: see Elasticity::tangent.
   void product(const State<B>& state, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
                const Vectors<B>& q) const;

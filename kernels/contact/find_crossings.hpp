@@ -16,20 +16,20 @@ struct FindEdges {
   using Real = typename B::Real;
   FindPairs<B> find;
 
-  KOKKOS_INLINE_FUNCTION int end(int e, int i) const { return find.points.pairs.edge(4 * e + i); }
+  KOKKOS_INLINE_FUNCTION int end(int e, int i) const { return find.records.mesh.edge(4 * e + i); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> x(int e, int i) const { return find.x(end(e, i)); }
   KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const { return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)}; }
   /// It may cross another.
   KOKKOS_INLINE_FUNCTION bool may_cross(int e) const {
-    const AttachedPoints<B>& attached = find.points.attached;
+    const Attachments<B>& attached = find.records.attached;
     return end(e, 2) >= 0 && end(e, 3) >= 0 && !attached.ties(end(e, 0)) && !attached.ties(end(e, 1)) &&
            may_be_steep(at(e));
   }
   /// look(own edge, other edge) for all that begin in p and all with a higher number that may cross them, in any order; some come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
-    const PairedPoints<B>& pairs = find.points.pairs;
-    for (int e = pairs.first_edge(p); e < pairs.first_edge(p + 1); ++e) {
+    const SurfaceMesh<B>& mesh = find.records.mesh;
+    for (int e = mesh.first_edge(p); e < mesh.first_edge(p + 1); ++e) {
       if (find.grid.about(end(e, 0)) + find.grid.about(end(e, 1)) == 0 || !may_cross(e)) continue;
       for (int i = 0; i < 2; ++i) search_around(e, end(e, i), look);
     }
@@ -39,7 +39,7 @@ struct FindEdges {
     find.grid.around(vector_at<B>(find.grid.built, q), [&](int t) {
       if (!find.allowed(q, t)) return;
       for (int c = 0; c < 3; ++c)
-        if (const int f = find.points.pairs.side(3 * t + c); f > e && are_near(e, f, t)) look(e, f);
+        if (const int f = find.records.mesh.side(3 * t + c); f > e && are_near(e, f, t)) look(e, f);
     });
   }
   /// `t` is a triangle of f.
@@ -77,8 +77,8 @@ struct ListCrossings {
   }
 };
 
-/// Each point's record of two edges, that which will be the deepest after the step. Its depth is what it is beyond the depths of the
-/// ends, so that nothing is pushed twice. Counts what PairedPoints::found has. After NearestTriangles.
+/// Each point's slot of two edges, that which will be the deepest after the step. Its depth is what it is beyond the depths of the
+/// ends, so that nothing is pushed twice. After NearestTriangles.
 template <class B>
 struct DeepestCrossings {
   using Real = typename B::Real;
@@ -94,34 +94,32 @@ struct DeepestCrossings {
     }
   };
   FindEdges<B> edges;
+  bool fresh;  ///< nothing is known of the last step
 
-  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int p) const {
-    const TouchingPoints<B>& points = edges.find.points;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const ContactRecords<B>& records = edges.find.records;
     const PairGrid<B>& grid = edges.find.grid;
-    const int pair = points.points + p, r = points.record(points.obstacles + 1, p);
-    points.depth(r) = -points.nowhere(), points.mobility(r) = 0;
-    points.pairs.other(3 * pair) = -1;
-    const Sums<2> paired{{points.pairs.partner(p) >= 0 ? 1.0 : 0.0, 0}};
-    if (grid.crossings(p) == 0) return paired;
+    const int r = records.of_point(records.obstacles + 1, p);
+    if (grid.crossings(p) == 0) return records.leave(r);
     Crossing deepest;
     edges.each_near(p, [&](int e, int f) {
       const EdgeGap<Real> gap = gap_of(e, f);
       if (!gap.meet || gap.depth > grid.limits.reach) return;
       const Vec3<Real> velocity = speed(e, f, gap);
-      const Real now = depth(e, f, gap), later = now - points.span * dot(gap.normal, velocity);
+      const Real now = depth(e, f, gap), later = now - records.span * dot(gap.normal, velocity);
       if (gap.depth < -Real(0.5) * grid.limits.reach && later < 0) return;
       const Crossing found{e, f, now, later, velocity, gap};
       if (found.is_before(deepest)) deepest = found;
     });
-    if (deepest.own < 0) return paired;
-    points.depth(r) = deepest.depth, points.mobility(r) = 1;
-    set_vector<B>(points.normal, r, deepest.gap.normal);
-    set_vector<B>(points.velocity, r, deepest.velocity);
+    if (deepest.own < 0) return records.leave(r);
+    Real its = deepest.depth;
+    if (!fresh)
+      its = grown_depth(its, records.near(r) > 0 ? records.depth(r) : Real(0), records.span * deepest.velocity);
     const Real own = deepest.gap.own, other = deepest.gap.other;
-    set_vector<B>(points.pairs.weight, pair, {own, other - 1, -other});
-    points.pairs.other(3 * pair) = edges.end(deepest.own, 1);
-    for (int i = 0; i < 2; ++i) points.pairs.other(3 * pair + 1 + i) = edges.end(deepest.other, i);
-    return {{1, 1}};
+    const int a = edges.end(deepest.own, 0), c = edges.end(deepest.other, 0);
+    records.set_stencil(r, a, edges.end(deepest.own, 1), c, edges.end(deepest.other, 1), 1 - own, own, other - 1,
+                        -other);
+    records.use(r, records.pair_law(a, c), deepest.gap.normal, its, {}, {});
   }
 
   static KOKKOS_INLINE_FUNCTION Vec3<Real> between(const Vec3<Real>& a, const Vec3<Real>& b, Real part) {
@@ -135,15 +133,15 @@ struct DeepestCrossings {
   }
   KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of(int e, int f) const {
     const Real half = Real(0.5);
-    return gap_of_edges(edges.at(e), edges.at(f), edges.find.points.span * (v(e, half) - v(f, half)));
+    return gap_of_edges(edges.at(e), edges.at(f), edges.find.records.span * (v(e, half) - v(f, half)));
   }
   /// Less what the ends of either edge are inside by themselves there.
   KOKKOS_INLINE_FUNCTION Real depth(int e, int f, const EdgeGap<Real>& gap) const {
-    const TouchingPoints<B>& points = edges.find.points;
+    const ContactRecords<B>& records = edges.find.records;
     const auto felt = [&](int edge, Real part) {
       Real sum = 0;
       for (int i = 0; i < 2; ++i) {
-        const Real own = points.depth(points.record(points.obstacles, edges.end(edge, i)));
+        const Real own = records.depth(records.of_point(records.obstacles, edges.end(edge, i)));
         sum += (i == 0 ? 1 - part : part) * Kokkos::max(Real(0), own);
       }
       return sum;

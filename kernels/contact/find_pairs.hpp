@@ -14,9 +14,9 @@ struct FindPairs {
   EmbeddedSurface<B> surface;
   State<B> state;
   PairGrid<B> grid;
-  TouchingPoints<B> points;
+  ContactRecords<B> records;
 
-  KOKKOS_INLINE_FUNCTION int corner(int t, int c) const { return points.pairs.corner(3 * t + c); }
+  KOKKOS_INLINE_FUNCTION int corner(int t, int c) const { return records.mesh.corner(3 * t + c); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> x(int p) const { return vector_at<B>(grid.x, p); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> nearest(const Vec3<Real>& at, int t) const {
     return nearest_on_triangle(at, x(corner(t, 0)), x(corner(t, 1)), x(corner(t, 2)));
@@ -40,8 +40,7 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const { return value_at<B>(surface.embedding, state.v, p); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> rest(int p) const { return vector_at<B>(surface.rest, p); }
   KOKKOS_INLINE_FUNCTION bool one_body(int p, int t) const {
-    const PointLaws<B>& of = points.law;
-    return of.bodies == 1 || of.body(p) == of.body(corner(t, 0));
+    return records.body_of(p) == records.body_of(corner(t, 0));
   }
   KOKKOS_INLINE_FUNCTION bool allowed(int p, int t) const {
     return one_body(p, t) ? grid.limits.self : grid.limits.between;
@@ -71,12 +70,6 @@ struct FindPairs {
     const Vec3<Real> at = x(q), d = unit(x(corner(t, (c + 1) % 3)) - at), e = unit(x(corner(t, (c + 2) % 3)) - at);
     return Kokkos::acos(Kokkos::max(Real(-1), Kokkos::min(Real(1), dot(d, e))));
   }
-  /// Out of the surface around one of its points, not normalised.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> outward_at(int p) const {
-    Vec3<Real> sum;
-    for (int s = points.pairs.first(p); s < points.pairs.first(p + 1); ++s) sum += face(points.pairs.triangle(s));
-    return sum;
-  }
   KOKKOS_INLINE_FUNCTION bool has(int t, int q) const {
     return corner(t, 0) == q || corner(t, 1) == q || corner(t, 2) == q;
   }
@@ -94,8 +87,8 @@ struct FindPairs {
     for (int c = 0; c < 3; ++c)
       if (w[c] > 0) on[n++] = corner(t, c);
     if (n == 3) return look(t);
-    for (int s = points.pairs.first(on[0]); s < points.pairs.first(on[0] + 1); ++s)
-      if (const int other = points.pairs.triangle(s); n == 1 || has(other, on[1])) look(other);
+    for (int s = records.mesh.first(on[0]); s < records.mesh.first(on[0] + 1); ++s)
+      if (const int other = records.mesh.triangle(s); n == 1 || has(other, on[1])) look(other);
   }
   /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see SignedDistance.
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(int t, const Vec3<Real>& w) const {
@@ -103,6 +96,17 @@ struct FindPairs {
     Vec3<Real> sum;
     each_at(t, w, [&](int other) { sum += (vertex < 0 ? Real(1) : angle_at(other, vertex)) * unit(face(other)); });
     return unit(sum);
+  }
+  /// How fast a triangle turns about its normal, times that: the circulation of its corners' velocities over twice its area [rad/s].
+  KOKKOS_INLINE_FUNCTION Vec3<Real> spin(int t) const {
+    Real circulation = 0;
+    for (int c = 0; c < 3; ++c) {
+      const int a = corner(t, c), b = corner(t, (c + 1) % 3);
+      circulation += Real(0.5) * dot(v(a) + v(b), x(b) - x(a));
+    }
+    const Vec3<Real> n = face(t);
+    const Real square = dot(n, n);
+    return square > 0 ? (circulation / square) * n : Vec3<Real>{};
   }
   /// Whether d, from that place, leads into the body. Where all faces around it agree, no normal is needed.
   KOKKOS_INLINE_FUNCTION bool leads_in(const Vec3<Real>& d, int t, const Vec3<Real>& w) const {
@@ -134,7 +138,14 @@ struct ListClose {
   }
 };
 
-/// Each point's record of its nearest triangle, the one with the lowest number where several are. What is fast looks as
+/// A depth grows by little more than the way that a site goes against its partner in a step, and from 0: what counts as inside for other
+/// reasons, such as another triangle that is nearest, stores no energy that nobody has put in.
+template <class Real>
+KOKKOS_INLINE_FUNCTION Real grown_depth(Real depth, Real last, const Vec3<Real>& way) {
+  return Kokkos::min(depth, Kokkos::max(last, Real(0)) + Real(1.5) * Kokkos::sqrt(dot(way, way)));
+}
+
+/// Each point's slot of its nearest triangle, the one with the lowest number where several are. What is fast looks as
 /// far as it may get, and is near what its path leads through.
 template <class B>
 struct NearestTriangles {
@@ -147,16 +158,17 @@ struct NearestTriangles {
     bool inside = false;  ///< of the surface there; of what partner() returns
   };
   FindPairs<B> find;
+  bool fresh;  ///< nothing is known of the last step
 
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    const TouchingPoints<B>& points = find.points;
-    const int r = points.record(points.obstacles, p);
-    points.depth(r) = -points.nowhere(), points.mobility(r) = 0;
-    const int last = points.pairs.partner(p);
-    points.pairs.partner(p) = points.pairs.other(3 * p) = -1;
-    if (points.attached.holds(p)) stretch(p, r);
-    if (points.attached.ties(p) || find.grid.close(p) == 0) return;
-    if (const Nearest found = partner(p, last); found.triangle >= 0) record(p, r, found);
+    const ContactRecords<B>& records = find.records;
+    const int r = records.of_point(records.obstacles, p), last = records.partner(p);
+    records.partner(p) = -1;
+    if (records.attached.holds(p)) return stretch(p, r);
+    if (!records.attached.ties(p) && find.grid.close(p) > 0)
+      if (const Nearest found = partner(p, r, last); found.triangle >= 0 && record(p, r, found)) return;
+    records.depth(r) = -records.nowhere();
+    records.leave(r);
   }
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> corner(int t, int c) const { return find.x(find.corner(t, c)); }
@@ -196,9 +208,9 @@ struct NearestTriangles {
   }
 
   /// `last`: the one of the last step, or -1
-  KOKKOS_INLINE_FUNCTION Nearest partner(int p, int last) const {
+  KOKKOS_INLINE_FUNCTION Nearest partner(int p, int r, int last) const {
     const PairGrid<B>& grid = find.grid;
-    const Real ordinary = grid.limits.reach, far = grid.closing(find.points.span);
+    const Real ordinary = grid.limits.reach, far = grid.closing(find.records.span);
     const bool fast = far > Real(0.5) * ordinary;
     Nearest nearest;
     nearest.square = fast ? Kokkos::max(far * far, ordinary * ordinary) : ordinary * ordinary;
@@ -209,16 +221,16 @@ struct NearestTriangles {
     });
     if (nearest.triangle < 0) return nearest;
     nearest = sided(p, nearest);
-    return fast ? on_path(p, nearest) : facing(p, nearest);
+    return fast ? on_path(p, r, nearest) : as_before(p, r, nearest);
   }
 
   /// What a fast point is near: if it will be held before its path leads through anything, what it is nearest to, else what it leads
   /// through first.
-  KOKKOS_INLINE_FUNCTION Nearest on_path(int p, const Nearest& nearest) const {
+  KOKKOS_INLINE_FUNCTION Nearest on_path(int p, int r, const Nearest& nearest) const {
     constexpr Real third = Real(1) / 3, little = Real(0.05);
-    const Real h = find.points.span, ordinary = find.grid.limits.reach;
+    const Real h = find.records.span, ordinary = find.grid.limits.reach;
     const Vec3<Real> at = find.x(p), d = away_from(p, nearest);
-    if (nearest.inside) return facing(p, nearest);
+    if (nearest.inside) return as_before(p, r, nearest);
     Real when = 2;
     int first = -1;
     find.each_near(p, [&](int t) {
@@ -232,110 +244,54 @@ struct NearestTriangles {
     return nearest.square + closing <= little * nearest.square ? nearest : sided(p, near(p, first));
   }
 
-  /// A point that is inside came through a triangle that its own surface faces: so it does not leave a thin body on the far side.
-  KOKKOS_INLINE_FUNCTION Nearest facing(int p, const Nearest& nearest) const {
-    const int own = nearest.triangle;
-    if (find.one_body(p, own) || !nearest.inside) return nearest;
-    const Vec3<Real> out = find.outward_at(p);
-    if (!(dot(out, find.face(own)) > 0)) return nearest;
+  /// A point that is inside leaves by the nearest face that does not look the other way than the one it came by: it does not leave a
+  /// thin body on the far side.
+  KOKKOS_INLINE_FUNCTION Nearest as_before(int p, int r, const Nearest& nearest) const {
+    constexpr Real other_way = Real(-0.2);
+    if (!nearest.inside || find.records.near(r) == 0) return nearest;
+    const Vec3<Real> N = vector_at<B>(find.records.normal, r);
+    const auto turns = [&](const Nearest& n) { return dot(find.outward(n.triangle, n.weight), N) <= other_way; };
+    if (!turns(nearest)) return nearest;
     Nearest other;
     other.square = find.grid.limits.reach * find.grid.limits.reach;
     find.each_near(p, [&](int t) {
-      if (!find.one_body(p, t) && dot(out, find.face(t)) < 0) take_nearer(p, t, other);
+      if (dot(FindPairs<B>::unit(find.face(t)), N) > other_way) take_nearer(p, t, other);
     });
-    if (other.triangle < 0 || !(dot(away_from(p, other), find.face(other.triangle)) < 0)) return nearest;
-    return sided(p, other);
+    return other.triangle < 0 ? nearest : sided(p, other);
   }
 
-  KOKKOS_INLINE_FUNCTION void join(int p, int t, const Vec3<Real>& w) const {
-    const PairedPoints<B>& pairs = find.points.pairs;
-    pairs.partner(p) = t;
-    set_vector<B>(pairs.weight, p, Real(-1) * w);
-    for (int c = 0; c < 3; ++c) pairs.other(3 * p + c) = find.corner(t, c);
+  KOKKOS_INLINE_FUNCTION void join(int p, int r, int t, const Vec3<Real>& w) const {
+    find.records.partner(p) = t;
+    find.records.set_stencil(r, p, find.corner(t, 0), find.corner(t, 1), find.corner(t, 2), 1, -w[0], -w[1], -w[2]);
   }
 
-  /// The record of a point that is attached to a triangle.
+  /// The slot of a point that is attached to a triangle.
   KOKKOS_INLINE_FUNCTION void stretch(int p, int r) const {
-    const TouchingPoints<B>& points = find.points;
-    const int t = points.attached.triangle(p);
-    const Vec3<Real> w = vector_at<B>(points.attached.weight, p);
-    points.mobility(r) = 1;
-    set_vector<B>(points.normal, r, find.off(find.x(p), t, w));
-    set_vector<B>(points.velocity, r, speed(p, t, w));
-    join(p, t, w);
+    const ContactRecords<B>& records = find.records;
+    const int t = records.attached.triangle(p);
+    const Vec3<Real> w = vector_at<B>(records.attached.weight, p);
+    join(p, r, t, w);
+    records.tie(r, records.attached.first_law + records.attached.attachment(p), find.off(find.x(p), t, w), {});
   }
 
-  KOKKOS_INLINE_FUNCTION void record(int p, int r, const Nearest& found) const {
+  KOKKOS_INLINE_FUNCTION bool record(int p, int r, const Nearest& found) const {
     constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
-    const TouchingPoints<B>& points = find.points;
+    const ContactRecords<B>& records = find.records;
     const int t = found.triangle;
     const bool inside = found.inside;
     const Vec3<Real>&w = found.weight, d = away_from(p, found);
     const Real distance = Kokkos::sqrt(found.square), limit = find.grid.limits.reach;
     const bool on_face = w[0] > 0 && w[1] > 0 && w[2] > 0;
     // The far side of a thin part of its own body is no partner
-    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return;
-    points.depth(r) = inside ? distance : -distance, points.mobility(r) = 1;
+    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
+    Real depth = inside ? distance : -distance;
+    if (!fresh)
+      depth = grown_depth(depth, records.near(r) > 0 ? records.depth(r) : Real(0), records.span * speed(p, t, w));
     const bool by_surface = on_face || distance < tiny * limit;
-    set_vector<B>(points.normal, r, by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d);
-    set_vector<B>(points.velocity, r, speed(p, t, w));
-    join(p, t, w);
-  }
-};
-
-/// Of how many pairs each point is one of the others.
-template <class B>
-struct CountParts {
-  PairedPoints<B> pairs;
-  Indices<B> count;
-  KOKKOS_INLINE_FUNCTION void operator()(int pair) const {
-    if (pair >= pairs.rows() * pairs.points) return;
-    for (int c = 0; c < 3; ++c)
-      if (const int q = pairs.weighted_other(pair, c); q >= 0) Kokkos::atomic_inc(&count(q));
-  }
-};
-
-/// Lists its parts of them, in any order; `count` falls to 0.
-template <class B>
-struct ListParts {
-  PairedPoints<B> pairs;
-  Indices<B> count;
-  KOKKOS_INLINE_FUNCTION void operator()(int pair) const {
-    if (pair >= pairs.rows() * pairs.points) return;
-    for (int c = 0; c < 3; ++c)
-      if (const int q = pairs.weighted_other(pair, c); q >= 0)
-        pairs.part(pairs.from(q) + Kokkos::atomic_fetch_sub(&count(q), 1) - 1) = 3 * pair + c;
-  }
-};
-
-/// Sorts each point's list, which is short.
-template <class B>
-struct SortParts {
-  PairedPoints<B> pairs;
-  KOKKOS_INLINE_FUNCTION void operator()(int q) const {
-    const int begin = pairs.from(q), end = pairs.from(q + 1);
-    for (int i = begin + 1; i < end; ++i) {
-      const int part = pairs.part(i);
-      int j = i;
-      for (; j > begin && pairs.part(j - 1) > part; --j) pairs.part(j) = pairs.part(j - 1);
-      pairs.part(j) = part;
-    }
-  }
-};
-
-/// Potential energy of the pairs' penalties and of attachments' springs, as a field of the pairs [J].
-template <class B>
-struct PairEnergy {
-  TouchingPoints<B> points;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int pair) const {
-    const int row = points.obstacles + pair / points.points, p = pair % points.points, r = points.record(row, p);
-    if (points.is_held(row, p)) {
-      const auto s = vector_at<B>(points.normal, r);
-      return {{0.5 * static_cast<double>(points.spring_of(row, p).stiffness * dot(s, s))}};
-    }
-    const auto depth = points.depth(r);
-    if (!(depth > 0)) return {};
-    return {{0.5 * static_cast<double>(points.law_of(row, p).stiffness * depth * depth)}};
+    const Vec3<Real> N = by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d;
+    join(p, r, t, w);
+    records.use(r, records.pair_law(p, find.corner(t, 0)), N, depth, {}, records.span * find.spin(t));
+    return true;
   }
 };
 

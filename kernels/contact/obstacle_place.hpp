@@ -64,6 +64,8 @@ struct ObstaclePlace {
   KOKKOS_INLINE_FUNCTION bool is_turning() const {
     return pose->turn.turned && dot(pose->turn.rate, pose->turn.rate) > 0;
   }
+  /// Its angular velocity [rad/s].
+  KOKKOS_INLINE_FUNCTION Vec3<Real> rate() const { return is_turning() ? rounded(pose->turn.rate) : Vec3<Real>{}; }
   /// Of what the obstacle has at x [m/s].
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
     if (tools.extent(0) > 0) return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});

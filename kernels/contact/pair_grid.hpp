@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/contact_records.hpp>
+#include <plica/kernels/reduce.hpp>
 
 // The broad phase of pairs: triangles in the cells of a uniform grid, by their centroids. A cell is as wide as what is to be found
 // around a point, so that 27 of them hold all of it, and cells share a table by a hash. With the grid each point gets a list of the

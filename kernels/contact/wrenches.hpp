@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/kernels/contact/obstacle_place.hpp>
-#include <plica/kernels/contact/touching_points.hpp>
+#include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 
 // What obstacles do to the body, and bodies to each other.
@@ -19,19 +19,18 @@ KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const Vec3<Real>& x, const Vec3<Real>& 
   return {{force[0], force[1], force[2], torque[0], torque[1], torque[2]}};
 }
 
-/// Force of one obstacle, and its torque about a point; 0 where nothing touches.
+/// Force of one obstacle, and its torque about a point.
 template <class B>
 struct ObstacleWrench {
-  using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   Vectors<B> u;
-  TouchingPoints<B> points;
+  ContactRecords<B> records;
   int obstacle;
   ObstaclePlace<B> at;
-  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int site) const {
-    const int r = points.record(obstacle, site);
-    if (!(points.count(0) > 0) || !(points.mobility(r) > 0)) return {};
-    return wrench_at(points.place(surface, u, obstacle, site), vector_at<B>(points.force, r), at.about());
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
+    const int r = records.list.item(i);
+    if (records.row(r) != obstacle) return {};
+    return wrench_at(records.place(surface, u, r), vector_at<B>(records.force, r), at.about());
   }
 };
 
@@ -41,23 +40,34 @@ struct BodyWrench {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
   Vectors<B> u;
-  TouchingPoints<B> points;
+  ContactRecords<B> records;
   int body;
-  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
-    if (!(points.count(0) > 0) || points.law.body(p) != body) return {};
-    const Vec3<Real> by_pairs = points.force_on_point(p) - points.force_of_obstacles(p);
-    return wrench_at(points.place(surface, u, 0, p), by_pairs, {});
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
+    const int r = records.list.item(i);
+    Sums<6> sum;
+    if (!records.is_pair(r)) return sum;
+    const Vec3<Real> force = vector_at<B>(records.force, r);
+    for (int c = 0; c < 4; ++c) {
+      const int p = records.point(r, c);
+      if (p < 0 || records.body_of(p) != body) continue;
+      const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+      sum += wrench_at(x, records.weight(r, c) * force, {});
+    }
+    return sum;
   }
 };
 
-/// impulse += weight sums, of one obstacle or body
+/// impulse += weight sums + again times what the last step added, of one obstacle or body
 template <class B>
 struct AddImpulse {
-  Doubles<B> sums, impulse;
+  Doubles<B> sums, impulse, last;
   int first;  ///< the obstacle's first number
-  double weight;
+  double weight, again;
   KOKKOS_INLINE_FUNCTION void operator()() const {
-    for (int k = 0; k < 6; ++k) impulse(first + k) += weight * sums(k);
+    for (int k = first; k < first + 6; ++k) {
+      last(k) = weight * sums(k - first) + (again > 0 ? again * last(k) : 0.0);
+      impulse(k) += last(k);
+    }
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/contact/touching_points.hpp>
+#include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/vectors.hpp>
 
 // The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a = f/m (0 where the motion
@@ -13,7 +13,7 @@ namespace plica {
 template <class B>
 struct SymplecticEulerUpdate {
   static constexpr const char* label = "plica::symplectic_euler";
-  static ContactStep contact(double h) { return {.span = h, .entry = h, .damped = h}; }
+  static ContactStep contact(double h) { return {.span = h, .damped = h}; }
   using Real = typename B::Real;
   VertexModel<B> model;
   Vectors<B> f, u, v;
@@ -61,7 +61,7 @@ struct HalfKick {
 template <class B>
 struct ForwardEulerUpdate {
   static constexpr const char* label = "plica::euler";
-  static ContactStep contact(double h) { return {.span = h, .ahead = h, .entry = h}; }
+  static ContactStep contact(double h) { return {.span = h, .ahead = h}; }
   using Real = typename B::Real;
   VertexModel<B> model;
   Vectors<B> f, u, v;

@@ -39,12 +39,16 @@ struct GeneralizedAlphaEnd {
   using Real = typename B::Real;
   State<B> start, base, state;
   Vectors<B> a;
-  Real h, cv, mass, beta, gamma;  ///< of v = base + cv (mass a_n + (1 - mass) a_{n+1})
+  Real h, cv, mass, beta, gamma;  ///< of v = base + cv (mass a_n + (1 - mass) a_{n+1} + contact)
+  Scalars<B> inverse_mass;
+  Vectors<B> contact;  ///< forces in the stage, which are not carried on [N]; empty: none
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     for (int k = 0; k < 3; ++k) {
-      const Real a0 = a(i, k), a1 = ((state.v(i, k) - base.v(i, k)) / cv - mass * a0) / (1 - mass);
-      state.u(i, k) = start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1);
-      state.v(i, k) = start.v(i, k) + h * ((1 - gamma) * a0 + gamma * a1);
+      const Real touch = contact.extent(0) > 0 ? inverse_mass(i) * contact(i, k) : Real(0);
+      const Real a0 = a(i, k), a1 = ((state.v(i, k) - base.v(i, k)) / cv - touch - mass * a0) / (1 - mass);
+      const Real by_touch = h / (1 - mass) * touch;
+      state.u(i, k) = start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1) + h * beta * by_touch;
+      state.v(i, k) = start.v(i, k) + h * ((1 - gamma) * a0 + gamma * a1) + gamma * by_touch;
       a(i, k) = a1;
     }
   }
@@ -143,7 +147,8 @@ struct StageRetreat {
 };
 
 /// Of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead u + elastic and contact energy,
-/// grad Phi = R but for forces that have none: its vertex terms [J]; |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J].
+/// grad Phi = R but for forces that have none: its vertex terms [J]; |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J]; the
+/// squares of what accelerates the body and of what does not depend on its state [N^2].
 template <class B>
 struct StagePotential {
   using Real = typename B::Real;
@@ -151,8 +156,8 @@ struct StagePotential {
   Vectors<B> f, dead, change;
   Real back;  ///< part of `change` by which the state is ahead of what is asked for
 
-  KOKKOS_INLINE_FUNCTION Sums<4> operator()(int i) const {
-    Sums<4> sums;
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
+    Sums<6> sums;
     if (!stage.is_free(i)) return sums;
     const double m = static_cast<double>(stage.model.mass(i)), c = static_cast<double>(stage.model.damping(i));
     const double a = static_cast<double>(stage.a), r = a / static_cast<double>(stage.b);
@@ -164,6 +169,8 @@ struct StagePotential {
       sums[1] += balance * balance;
       sums[2] += balance * static_cast<double>(change(i, k));
       sums[3] += m * w * w / (2 * a);
+      sums[4] += m * w / a * (m * w / a);
+      sums[5] += static_cast<double>(dead(i, k)) * static_cast<double>(dead(i, k));
     }
     return sums;
   }

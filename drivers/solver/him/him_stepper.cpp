@@ -145,7 +145,7 @@ void HimStepper<B>::take(const Hierarchy<B>& h, HimParts<B>&& parts) {
   p_ = Vectors<B>("plica::him.p", n_), g_ = Vectors<B>("plica::him.g", n_), a_ = Vectors<B>("plica::him.a", n_);
   f_before_ = Vectors<B>("plica::him.f_before", n_), a_before_ = Vectors<B>("plica::him.a_before", n_);
   blocks_ = BlockSums<B>(n_);
-  contact_ = {parts_.contact_force, h[0].response().points().count};
+  contact_ = {parts_.contact_force, h[0].response().records().touching};
   turned_ = Count("plica::him.turned", 1), sums_ = Count("plica::him.sums", 2), watch_ = Count("plica::him.watch", 3);
 }
 

@@ -294,26 +294,25 @@ class HimStepper final : public Stepper<B> {
   /// Contact's forces on the vertices, and A's answer to them.
   void touch(SolverLevel<B>& level, double time, double t) const {
     const auto& exec = level.exec();
-    const TouchingPoints<B>& points = level.response().points();
+    const ContactRecords<B>& records = level.response().records();
+    const Doubles<B>& touching = records.touching;
     ScatterContact<B> scatter{.surface = level.surface,
-                              .points = points,
+                              .records = records,
                               .f = parts_.contact_force,
                               .model = level.model,
                               .damped = static_cast<Real>(t / 2),
-                              .bounding = true};  // the first, of unit forces
+                              .bounding = Bounding::obstacles};  // the first, of unit forces
     const auto respond = [&] {
-      where_touching<B>(exec, points.count, "plica::contact_zero", n_, ZeroVectors<B>{parts_.contact_force});
-      where_touching<B>(exec, points.count, "plica::contact_scatter", level.surface.touched, scatter);
-      scatter.bounding = false;
-      answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
+      where_touching<B>(exec, touching, "plica::contact_zero", n_, ZeroVectors<B>{parts_.contact_force});
+      over_list<B>(exec, records.transpose.vertices, "plica::contact_scatter", scatter, touching);
+      scatter.bounding = Bounding::none;
+      answer(exec, level.model, parts_.contact_force, parts_.contact_answer, touching);
     };
-    answer(exec, level.model, parts_.contact_force, parts_.contact_answer, points.count);
-    where_touching<B>(exec, points.count, "plica::contact_expected", n_,
+    answer(exec, level.model, parts_.contact_force, parts_.contact_answer, touching);
+    where_touching<B>(exec, touching, "plica::contact_expected", n_,
                       TakeExpectedContact<B>{level.model.inverse_mass, parts_.contact_force, parts_.contact_answer, p_,
                                              a_, static_cast<Real>(t)});
-    level.response().resolve(exec, level, level.state, time, {.span = t, .ahead = t / 2}, a_, parts_.contact_answer,
-                             respond);
-    respond();
+    level.response().resolve(exec, level, level.state, time, {.span = t}, a_, parts_.contact_answer, respond);
     level.response().add_impulse(exec, level, level.state, time, t);
   }
 

@@ -9,10 +9,9 @@ namespace plica {
 
 namespace {
 
-// How these methods take contact. In the displacements alone symplectic Euler and the central difference are the same leapfrog, and
-// cmake/docs/contact.md says why it needs nothing ahead. Forward Euler moves by the velocity of the start: contact is taken where
-// that leads, so that it acts as in leapfrog. A Runge-Kutta stage is explicit motion under contact of frequency at most sqrt(2)/h;
-// the midpoint rule, which lets that grow, looks ahead by half a step, which damps it.
+// How these methods take contact. In the displacements alone symplectic Euler and the central difference are the same leapfrog, in
+// which the way of the next step follows from its force: contact is taken at its end. Forward Euler moves by the velocity of the start:
+// contact is taken where that leads, and a step on from there. A Runge-Kutta stage takes it a step ahead of itself, which damps it.
 
 /// One force per step, of which Update makes the next state: semi-implicit Euler, which is symplectic, or forward Euler. Both are
 /// of first order.
@@ -44,7 +43,7 @@ class CentralDifferenceStep final : public Integrator<B> {
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     const int n = level.model.vertices;
     const auto half = static_cast<Real>(h / 2);
-    const ContactStep contact{.span = h, .entry = h, .damped = h / 2};
+    const ContactStep contact{.span = h, .damped = h / 2};
     level.remember(time);
     if (!current_ || level.asks_caller())
       level.evaluate(level.state, time, f_, contact, h / 2);
@@ -76,7 +75,6 @@ class CentralDifferenceStep final : public Integrator<B> {
 /// Explicit Runge-Kutta methods whose stages each start from the one before. A tableau has
 ///   stages, weight[stages]   how much of each stage's slope the step takes
 ///   ahead[stages - 1]        where the next stage is: at start + ahead h slope, and at that part of the step
-///   looks_ahead              how far contact is taken ahead of a stage, in steps
 template <class B, class Tableau>
 class RungeKuttaStep final : public Integrator<B> {
   using Real = typename B::Real;
@@ -98,7 +96,7 @@ class RungeKuttaStep final : public Integrator<B> {
       for (int k = 0; k < Tableau::stages; ++k) {
         const bool last = k + 1 == Tableau::stages;
         const double ahead = last ? 0 : Tableau::ahead[k];
-        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ahead = Tableau::looks_ahead * h, .entry = h},
+        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ends = last},
                        Tableau::weight[k] * h);
         update_vertices<B>(exec, "plica::runge_kutta", level.model.vertices,
                            RungeKuttaStage<B>{level.model, level.f, start_, stage_, sum_, static_cast<Real>(h),
@@ -120,14 +118,12 @@ class RungeKuttaStep final : public Integrator<B> {
 /// The midpoint rule.
 struct MidpointTableau {
   static constexpr int stages = 2;
-  static constexpr double looks_ahead = 0.5;
   static constexpr double weight[2] = {0, 1}, ahead[1] = {0.5};
 };
 
 /// The classical method of order 4.
 struct ClassicalTableau {
   static constexpr int stages = 4;
-  static constexpr double looks_ahead = 0;
   static constexpr double weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}, ahead[3] = {0.5, 0.5, 1};
 };
 

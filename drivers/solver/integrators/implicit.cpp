@@ -24,16 +24,17 @@ class ImplicitEulerStep final : public ImplicitStep<B> {
     const State<B>& base = this->stages().base();
     base.copy(level.exec(), level.state);
     add<B>(level.exec(), "plica::implicit_euler_base", static_cast<typename B::Real>(h), base.v, base.u);
-    return this->stages().solve(level, time, h, {h * h, h});
+    return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
   }
 };
 
 /// Base of the trapezoidal rule over h [s] from the level's state at `time`: half a step of forward Euler, and the drift of the
-/// implicit half. Uses level.f.
+/// implicit half. Contact is no part of it: it acts at the end of a step (C. Kane, E. A. Repetto, M. Ortiz, J. E. Marsden, Comput. Methods
+/// Appl. Mech. Engrg. 180, 1999), and averaged over a step it would gain energy. Uses level.f.
 template <class B>
 void trapezoidal_base(SolverLevel<B>& level, double time, double h, const State<B>& base) {
   using Real = typename B::Real;
-  level.evaluate(level.state, time, level.f);
+  level.evaluate_without_contact(level.state, time, level.f);
   update_vertices<B>(level.exec(), "plica::accelerations", level.model.vertices,
                      Accelerations<B>{level.model, level.f, level.state.v, level.f});
   update_vertices<B>(level.exec(), "plica::trapezoidal_base", level.model.vertices,
@@ -53,14 +54,15 @@ class NewmarkStep final : public ImplicitStep<B> {
  protected:
   bool step(SolverLevel<B>& level, double time, double h) override {
     trapezoidal_base(level, time, h, this->stages().base());
-    return this->stages().solve(level, time, h, {h * h / 4, h / 2});
+    return this->stages().solve(level, time, h, {h * h / 4, h / 2}, {.span = h, .factor = 2});
   }
 };
 
 /// The backward differentiation formula v = (4 v_n - v_{n-1})/3 + 2h/3 a, likewise u: order 2, stable at every step on the
 /// linear problem, and fast motion decays (L-stable); slow motion loses energy in proportion to h^4 (Hairer & Wanner, Solving
 /// ODEs II, V.1). Where there is no step before it, and so on every level of a cycle, which hands over another state: half a
-/// step of the trapezoidal rule, then the formula over the two halves (Bank et al. 1985), as stable and as accurate.
+/// step of the trapezoidal rule, then the formula over the two halves (Bank et al. 1985), as stable and as accurate; with contact,
+/// backward Euler.
 template <class B>
 class Bdf2Step final : public ImplicitStep<B> {
   using Real = typename B::Real;
@@ -82,22 +84,37 @@ class Bdf2Step final : public ImplicitStep<B> {
  protected:
   bool step(SolverLevel<B>& level, double time, double h) override {
     start_.copy(level.exec(), level.state);
-    const bool solved = last_step_ == h ? formula(level, time, h) : first(level, time, h / 2);
+    started_ = last_step_ == h;
+    const bool solved = started_          ? formula(level, time, h, {.span = h})
+                        : level.contact() ? euler(level, time, h)
+                                          : first(level, time, h / 2);
     remember(level);
     last_step_ = h;
     return solved;
+  }
+  /// v = v_n + (v_n - v_{n-1})/3 + 2h/3 a carries a third of the last change of momentum on.
+  typename ImplicitStep<B>::Impulse impulse() const override {
+    return started_ ? typename ImplicitStep<B>::Impulse{2.0 / 3, 1.0 / 3} : typename ImplicitStep<B>::Impulse{};
   }
 
  private:
   State<B> start_, increment_;
   double last_step_ = 0;  // [s]; 0: none
+  bool started_ = false;  // the last step was by the formula
 
-  bool formula(SolverLevel<B>& level, double time, double h) {
+  bool formula(SolverLevel<B>& level, double time, double h, const ContactStage& contact = {}) {
     const double b = 2 * h / 3;
     const State<B>& base = this->stages().base();
     combine<B>(level.exec(), "plica::bdf2_base", Real(1) / 3, increment_, 1, level.state, base);
     add<B>(level.exec(), "plica::bdf2_drift", static_cast<Real>(b), base.v, base.u);
-    return this->stages().solve(level, time, h, {b * b, b});
+    return this->stages().solve(level, time, h, {b * b, b}, contact);
+  }
+  /// Backward Euler: where contact sets in the trapezoidal rule rings.
+  bool euler(SolverLevel<B>& level, double time, double h) {
+    const State<B>& base = this->stages().base();
+    base.copy(level.exec(), level.state);
+    add<B>(level.exec(), "plica::implicit_euler_base", static_cast<Real>(h), base.v, base.u);
+    return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
   }
   bool first(SolverLevel<B>& level, double time, double h) {
     trapezoidal_base(level, time, h, this->stages().base());
@@ -113,7 +130,8 @@ class Bdf2Step final : public ImplicitStep<B> {
 
 /// The generalised alpha method of Chung & Hulbert (1993): order 2, stable at every step on the linear problem, and the fastest
 /// motion keeps rho_infinity of its amplitude per step: 1 conserves (the implicit midpoint rule), 0 annihilates. Balance is met at
-/// t + (1 - alpha_f) h with the acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. It carries an acceleration from step to step; where
+/// t + (1 - alpha_f) h with the acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. Contact acts at the end of the step, and its
+/// acceleration is not carried on. It carries an acceleration from step to step; where
 /// a cycle hands over another state, that is the acceleration there.
 template <class B>
 class GeneralizedAlphaStep final : public ImplicitStep<B> {
@@ -143,7 +161,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
     const int n = level.model.vertices;
     const State<B>& base = this->stages().base();
     if (!carried_) {
-      level.evaluate(level.state, time, level.f);
+      level.evaluate_without_contact(level.state, time, level.f);
       update_vertices<B>(exec, "plica::accelerations", n,
                          Accelerations<B>{level.model, level.f, level.state.v, acceleration_});
     }
@@ -155,12 +173,23 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
                        ExtrapolateState<B>{start_, acceleration_, base, static_cast<Real>(span),
                                            static_cast<Real>(span * h * (0.5 - beta_) - cu * mass_),
                                            static_cast<Real>(span * (1 - gamma_) - cv * mass_)});
-    const bool solved = this->stages().solve(level, time, span, {cu, cv});
-    update_vertices<B>(
-        exec, "plica::generalized_alpha_end", n,
-        GeneralizedAlphaEnd<B>{start_, base, level.state, acceleration_, static_cast<Real>(h), static_cast<Real>(cv),
-                               static_cast<Real>(mass_), static_cast<Real>(beta_), static_cast<Real>(gamma_)});
-    return solved;
+    velocity_of_ = cv;
+    return this->stages().solve(level, time, span, {cu, cv},
+                                {.span = h, .factor = (1 - mass_) / gamma_, .scale = 1 / (1 - force_)});
+  }
+
+  void finish(SolverLevel<B>& level, double h) override {
+    Vectors<B> contact;
+    if (level.contact()) {
+      contact = level.f;
+      fill(level.exec(), contact, Real(0));
+      level.response().add_last_forces(level.exec(), level, contact);
+    }
+    update_vertices<B>(level.exec(), "plica::generalized_alpha_end", level.model.vertices,
+                       GeneralizedAlphaEnd<B>{start_, this->stages().base(), level.state, acceleration_,
+                                              static_cast<Real>(h), static_cast<Real>(velocity_of_),
+                                              static_cast<Real>(mass_), static_cast<Real>(beta_),
+                                              static_cast<Real>(gamma_), level.model.inverse_mass, contact});
   }
 
  private:
@@ -168,6 +197,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   Vectors<B> acceleration_;
   bool carried_ = false;
   double mass_, force_, beta_, gamma_;  // alpha_m, alpha_f, Newmark's
+  double velocity_of_ = 0;              // of an acceleration in the last stage [s]
 };
 
 }  // namespace

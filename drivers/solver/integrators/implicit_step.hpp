@@ -6,8 +6,8 @@
 
 namespace plica {
 
-/// What implicit integrators have in common: they take a step by stages; a step that Newton's method does not solve is
-/// accepted, halved and tried again, or ends the run.
+/// What implicit integrators have in common: they take a step by stages; a step that is not solved is accepted, halved and tried
+/// again, or ends the run. With contact it is halved, unless it ends the run.
 template <class B>
 class ImplicitStep : public Integrator<B> {
  public:
@@ -17,7 +17,10 @@ class ImplicitStep : public Integrator<B> {
   ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
       : stages_(level, parts.implicit, parts.make_linear_solver()),
         unfinished_(parts.implicit.unfinished),
-        most_halvings_(parts.implicit.newton_iterations > 1 && unfinished_ == "halve" ? parts.implicit.halvings : 0) {
+        most_halvings_((parts.contact && unfinished_ == "accept") ||
+                               (parts.implicit.newton_iterations > 1 && unfinished_ == "halve")
+                           ? parts.implicit.halvings
+                           : 0) {
     for (int i = 0; i < most_halvings_; ++i) before_.emplace_back("implicit.before", level.model.vertices);
   }
 
@@ -49,6 +52,13 @@ class ImplicitStep : public Integrator<B> {
   /// solved.
   virtual bool step(SolverLevel<B>& level, double time, double h) = 0;
   StageSolver<B>& stages() { return stages_; }
+  /// What of contact's force over the last step is its impulse: so much of the step, and so much of the impulse before.
+  struct Impulse {
+    double weight = 1, again = 0;
+  };
+  virtual Impulse impulse() const { return {}; }
+  /// From the stage in the level's state to the end of the step, where that is another.
+  virtual void finish(SolverLevel<B>&, double /*h*/) {}
 
  private:
   StageSolver<B> stages_;
@@ -58,9 +68,14 @@ class ImplicitStep : public Integrator<B> {
   long halvings_ = 0;
   bool failed_ = false;
 
-  static bool accept(SolverLevel<B>& level, double time, double h) {
-    if (level.contact()) level.count_contact(time + h, h);
-    return true;
+  void accept(SolverLevel<B>& level, double time, double h) {
+    if (level.contact())
+      level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
+    finish(level, h);
+    prescribe(level.exec(), level, level.state, time + h);
+    if (!level.contact()) return;
+    const Impulse of = impulse();
+    level.count_contact(time + h, of.weight * h, of.again);
   }
 
   /// `before`: what was left unsolved of the step that this is a half of. A half that leaves no less is not halved again: it and
@@ -73,11 +88,9 @@ class ImplicitStep : public Integrator<B> {
     level.remember(time);
     prescribe(exec, level, level.state, time, h);
     const bool solved = step(level, time, h);
-    prescribe(exec, level, level.state, time + h);
-    if (solved || unfinished_ == "accept") return accept(level, time, h);
-    if (unfinished_ == "stop") return false;
+    if (!solved && unfinished_ == "stop") return false;
     const double left = stages_.unsolved();
-    if (!halves || !(left < before)) return accept(level, time, h);
+    if (solved || !halves || !(left < before)) return accept(level, time, h), true;
     ++halvings_;
     stages_.set_misses(misses);
     level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);

@@ -13,6 +13,7 @@ namespace plica {
 template <class B>
 struct IntegratorParts {
   ImplicitOptions implicit;
+  bool contact = false;
   std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
 };
 

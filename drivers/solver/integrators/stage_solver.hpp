@@ -37,21 +37,19 @@ class StageSolver {
       carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
       last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
     }
-    if (!iterates()) {
-      if (level.surface.points > 0) more_ = Vectors<B>("plica::stage.more", level.model.vertices);
-      return;
-    }
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
     blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
-    result_ = Doubles<B>("plica::stage.result", 4);
+    result_ = Doubles<B>("plica::stage.result", 6);
   }
 
   /// The base (u~, v~), to be set before solve().
   const State<B>& base() const { return base_; }
 
   /// Takes the level's state from the step's start at `time` [s] to the stage, `ahead` of it. False where Newton's method did not
-  /// get there.
-  bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
+  /// get there. `contact`: how it takes contact; a default one: not at all.
+  bool solve(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights,
+             const ContactStage& contact = {}) {
+    contact_ = contact;
     prescribe(level.exec(), level, base_, time + ahead);
     if (!carries()) return solve_stage(level, time, ahead, weights);
     const Scalars<B> pressure = std::exchange(level.nodal.pressure, carrying_);
@@ -80,20 +78,19 @@ class StageSolver {
     all.insert({{"linear_solves", solves_},
                 {"cg_iterations", iterations_},
                 {"cg_misses", misses_},
-                {"contact_solves", contact_solves_},
                 {"cg_indefinite", indefinite_}});
-    if (iterates())
+    if (iterates() || newtons_ > 0)
       all.insert({{"newton_iterations", newtons_}, {"newton_misses", unfinished_}, {"line_searches", searches_}});
     if (carries()) all.insert({"pressure_updates", updates_});
     return all;
   }
   std::size_t bytes() const {
-    return solver_->bytes() + (iterates() ? 5 : 4) * 3 * sizeof(Real) * change_.extent(0) + bytes_of_views(more_) +
+    return solver_->bytes() + 5 * 3 * sizeof(Real) * change_.extent(0) +
            sizeof(Real) * (carrying_.extent(0) + last_carried_.extent(0));
   }
   void persist(StateArchive<B>& archive) {
     for (long* count :
-         {&solves_, &iterations_, &misses_, &indefinite_, &contact_solves_, &newtons_, &unfinished_, &searches_})
+         {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
       archive.number(*count);
     archive.number(residual_);
     if (carries()) archive.number(updates_), archive.number(fresh_), archive.field("the carried pressures", carried_);
@@ -103,17 +100,20 @@ class StageSolver {
  private:
   static constexpr int most_halvings = 12;    // of a direction
   static constexpr double sufficient = 1e-4;  // part of the decrease that the slope promises
+  static constexpr double balanced = 3e-3;    // part of the forces in a stage with contact that may be left unbalanced
+  static constexpr int contact_iterations = 16;
+  static constexpr double lost = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
 
   ImplicitOptions options_;
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
-  Vectors<B> right_side_, change_, more_, dead_;
+  Vectors<B> right_side_, change_, dead_;
   Scalars<B> carrying_, carried_,
       last_carried_;  ///< with room for the pressures, these, and those before the last solve
   BlockSums<B> blocks_;
   Doubles<B> result_;
-  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, contact_solves_ = 0, newtons_ = 0, unfinished_ = 0,
-       searches_ = 0;
+  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
+  ContactStage contact_;
   long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;
 
@@ -123,6 +123,7 @@ class StageSolver {
     double residual = 0;  ///< |R| [N]
     double slope = 0;     ///< R.change [J]
     double scale = 0;     ///< of what `value` adds up [J]
+    double forces = 0;    ///< those that accelerate the body and those that do not depend on its state [N]
     bool solved = false;
     bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
   };
@@ -140,6 +141,7 @@ class StageSolver {
   }
 
   bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
+    if (touches(level)) return balance(level, time, ahead, weights);
     level.linearise(level.state, time, weights, ahead, level.f);
     if (iterates()) return newton(level, time + ahead, weights);
     const double before = residual_;
@@ -183,7 +185,6 @@ class StageSolver {
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     residual_ = std::max(residual_, out.relative_residual);
-    if (level.contact() && !iterates() && !out.indefinite) settle_contact(level);
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     if (carries()) {
       copy(level.exec(), last_carried_, carried_);
@@ -193,22 +194,81 @@ class StageSolver {
     return out;
   }
 
-  /// What touches was decided before the solve. Where the solve has changed that, it is solved again, with contact linearised about where
-  /// the last solve led to and elements as they are.
-  void settle_contact(SolverLevel<B>& level) {
-    Vectors<B> last = change_;
-    for (int i = 1; i < options_.contact_solves; ++i) {
-      std::optional<SolveOutcome> out;
-      level.book("solve", [&] {
-        out = solver_->solve_again(
-            level.exec(), [&] { level.move_contact(last, right_side_); }, right_side_, more_);
-      });
-      if (!out || out->iterations == 0) return;
-      ++contact_solves_, iterations_ += out->iterations, misses_ += out->converged ? 0 : 1;
-      add<B>(level.exec(), "plica::stage_more", 1, more_, change_);
-      last = more_;
+  // --- With contact: Newton's method on the incremental potential, elements and contact at once ---------------------------------
+
+  /// Whether contact acts in this stage.
+  bool touches(const SolverLevel<B>& level) const { return level.contact() && contact_.span > 0; }
+
+  /// From the step's start, with contact where its velocities lead to; every further state has a lower potential, with friction's caps as
+  /// they are; then caps follow the normal forces. Ends as soon as what is unbalanced is a small part of the forces there are.
+  bool balance(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
+    const double end = time + ahead;
+    ContactResponse<B>& contact = level.response();
+    const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
+    level.book("contact", [&] { contact.begin_stage(level.exec(), level, level.state, time, contact_); });
+    level.dead(end, dead_);
+    fill(level.exec(), change_, Real(0));
+    level.linearise(level.state, time, w, ahead, level.f);
+    Potential now = potential_with(level, end, w, contact.balance(level.exec(), level, level.state));
+    contact.linearise(level.exec(), level, level.state, w, ahead, level.f);
+    const bool once = !solver_->converges();
+    for (int k = 0; k < contact_iterations && !now.solved; ++k) {
+      ++newtons_;
+      const bool moving = k == 0 && level.prescribed.count > 0;  // given motions have changed what is compared
+      bool projected = options_.tangent == "positive";
+      SolveOutcome out = correct(level, w, k == 0, projected);
+      if (once) break;
+      double slope = vertex_terms(level, w, 1)[2];
+      if (options_.tangent == "auto" && (out.indefinite || (k > 0 && !(slope < 0)))) {
+        undo(level, w, 1);
+        projected = true;
+        out = correct(level, w, k == 0, true);
+        slope = vertex_terms(level, w, 1)[2];
+      }
+      const std::optional<Potential> next = lower(level, end, w, before(level, end, w, now), k > 0 ? slope : 0, moving);
+      if (!next) break;
+      contact.update_caps(level.exec(), level, level.state);
+      const ContactBalance by = contact.linearise(level.exec(), level, level.state, w, 0, level.f);
+      now = potential_with(level, end, w, by);
+      now.solved = now.residual <= balanced * (now.forces + by.forces);
     }
+    level.flags = flags;
+    if (once || now.solved) return true;
+    ++unfinished_;
+    unsolved_ = now.residual / std::max(now.forces, 1e-300);
+    return false;
   }
+
+  /// Shortens the change that the state has made until the potential is lower; level.f then are its forces without contact. None, and the
+  /// change is undone, where it never is.
+  std::optional<Potential> lower(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
+                                 double slope, bool moving) {
+    double part = 1;
+    for (int i = 0;; ++i) {
+      level.linearise(level.state, end, w, 0, level.f);
+      const Potential next =
+          potential_with(level, end, w, level.response().balance(level.exec(), level, level.state));
+      const double rounding =
+          std::max(lost, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * std::max(now.scale, next.scale);
+      if (next.finite() && (moving || next.value - now.value <= sufficient * part * slope + rounding)) return next;
+      if (i == most_halvings) break;
+      ++searches_;
+      part /= 2;
+      retreat(level, w, part);
+    }
+    undo(level, w, part);
+    return {};
+  }
+
+  /// Of the state whose forces are in level.f, with contact's energy.
+  Potential potential_with(const SolverLevel<B>& level, double end, const ImplicitWeights& w,
+                           const ContactBalance& contact) const {
+    Potential p = potential(level, end, w);
+    p.value += contact.energy, p.scale += contact.energy;
+    return p;
+  }
+
+  // --- Without contact ----------------------------------------------------------------------------------------------------------
 
   bool newton(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
     level.dead(end, dead_);
@@ -310,13 +370,13 @@ class StageSolver {
     if (carries()) copy(level.exec(), carried_, last_carried_);
   }
 
-  std::array<double, 4> read(const Exec& exec) const {
+  std::array<double, 6> read(const Exec& exec) const {
     const std::vector<double> sums = host_values(exec, result_);
-    return {sums[0], sums[1], sums[2], sums[3]};
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
   }
   /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
-  std::array<double, 4> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w, double back) const {
-    reduce<B, 4>(level.exec(), "plica::stage_potential", level.model.vertices,
+  std::array<double, 6> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w, double back) const {
+    reduce<B, 6>(level.exec(), "plica::stage_potential", level.model.vertices,
                  StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)}, blocks_, result_);
     return read(level.exec());
   }
@@ -324,15 +384,15 @@ class StageSolver {
   Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
     const double energy = stored(level, end);
-    return {terms[0] + energy, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(energy)};
+    return {terms[0] + energy, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(energy),
+            std::sqrt(terms[4]) + std::sqrt(terms[5])};
   }
-  /// Of elements, contact and pressures that follow the body at the level's state [J].
+  /// Of elements and pressures that follow the body at the level's state [J].
   double stored(const SolverLevel<B>& level, double end) const {
     level.incremental_energy(level.state);
     reduce<B, 1>(level.exec(), "plica::elastic_energy", level.model.shares.rows, FirstComponent<B>{level.partial},
                  blocks_, result_);
-    const double body = read(level.exec())[0] + level.follower_energy(end);
-    return level.contact() ? body + level.response().energy(level.exec(), level, end) : body;
+    return read(level.exec())[0] + level.follower_energy(end);
   }
 };
 

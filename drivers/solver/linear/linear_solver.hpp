@@ -44,12 +44,8 @@ class LinearSolver {
   virtual bool multiply(const Exec&, const Vectors<B>& /*p*/, const Vectors<B>& /*q*/) const { return false; }
   /// x = A^-1 r, zero where motion is given. Overwrites r.
   virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x) = 0;
-  /// x = A^-1 r in the same system, but for contact, which linearise() makes anew, and r with it; by no iterations where that has hardly
-  /// changed. None, and nothing is done, where a solver has no such way.
-  virtual std::optional<SolveOutcome> solve_again(const Exec&, const std::function<void()>& /*linearise*/,
-                                                  const Vectors<B>& /*r*/, const Vectors<B>& /*x*/) {
-    return {};
-  }
+  /// Whether a solve ends where what is left is small enough, and not after a fixed amount of work.
+  virtual bool converges() const { return true; }
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.
   virtual std::size_t bytes() const = 0;

@@ -12,11 +12,7 @@ StageSystem<B>::StageSystem(const Level<B>& level, bool assembled)
       assembled_(assembled),
       inverse_diagonal_(zeros<Blocks<B>>("plica::linear.inverse_diagonal", level.model.vertices)),
       level_(&level) {
-  if (by_matrix())
-    pattern();
-  else
-    without_contact_ =
-        zeros<Blocks<B>>("plica::linear.without_contact", static_cast<std::size_t>(level.surface.touched));
+  if (by_matrix()) pattern();
 }
 
 template <class B>
@@ -38,30 +34,8 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
   if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
   if (cycle_product_) cycle_product_->prepare(level, state_, weights, positive);
   level.diagonal(state, weights, positive, inverse_diagonal_);
-  if (level.contact())
-    update_vertices<B>(exec, "plica::keep_blocks", level.surface.touched,
-                       KeepBlocks<B>{level.surface.vertex, inverse_diagonal_, without_contact_, false});
   add_contact_blocks(exec, false, inverse_diagonal_);
   invert_blocks(exec, inverse_diagonal_);
-}
-
-template <class B>
-void StageSystem<B>::change_contact(const Exec& exec, const std::function<void()>& linearise) {
-  const ContactResponse<B>& contact = forces_->response();
-  const EmbeddedSurface<B>& surface = level_->surface;
-  const auto at_touched = [&]<class Kernel>(const char* label, const Kernel& kernel) {
-    where_touching<B>(exec, contact.points().count, label, surface.touched, kernel);
-  };
-  if (ready_) contact.add_matrix(exec, *level_, -1, pattern_.matrix);
-  linearise();
-  if (ready_) contact.add_matrix(exec, *level_, 1, pattern_.matrix);
-  if (by_matrix())
-    at_touched("plica::take_diagonal",
-               AtTouched<B, TakeDiagonal<B>>{surface.vertex, {pattern_.matrix, inverse_diagonal_}});
-  else
-    at_touched("plica::put_blocks", KeepBlocks<B>{surface.vertex, inverse_diagonal_, without_contact_, true});
-  add_contact_blocks(exec, by_matrix(), inverse_diagonal_);
-  at_touched("plica::invert_blocks", AtTouched<B, InvertBlocks<B>>{surface.vertex, inverting(inverse_diagonal_)});
 }
 
 template <class B>
@@ -139,7 +113,7 @@ std::size_t StageSystem<B>::bytes() const {
   const BlockMatrix<B>& A = pattern_.matrix;
   const PatchPairs<B>& P = pattern_.pairs;
   return (cycle_product_ ? cycle_product_->bytes() : 0) +
-         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, without_contact_, shares_, A.first, A.column, A.diagonal,
+         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column, A.diagonal,
                         A.place, A.value, P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.place,
                         P.first_share, P.shared_place);
 }

@@ -21,8 +21,6 @@ class StageSystem {
   /// A of a level at `state`, where its forces have just been linearised; they stay as they are until the next. Projected elements are assembled,
   /// also where the rest is not.
   void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
-  /// The same system again, with contact as linearise() makes it anew. Costs no more than contact does.
-  void change_contact(const Exec& exec, const std::function<void()>& linearise);
   /// The same system again, with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// q = A p
@@ -53,7 +51,6 @@ class StageSystem {
   Blocks9<B> shares_;
   Blocks<B> inverse_diagonal_, blocks_of_matrix_;  ///< inverses; the latter of nodal elements without cycle_product_
   std::unique_ptr<CycleProduct<B>> cycle_product_;
-  Blocks<B> without_contact_;  ///< [touched][6] of vertex blocks that are not of the matrix, before contact
   const Level<B>* level_ = nullptr;
   const SolverLevel<B>* forces_ = nullptr;
   State<B> state_;

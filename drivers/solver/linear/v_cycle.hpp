@@ -30,6 +30,7 @@ struct VCycleSolver {
           squares_(zeros<Doubles<B>>("plica::v_cycle.squares", 2)),
           sums_(level.model.vertices) {}
 
+    bool converges() const override { return false; }
     void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
                  bool positive) override {
       const Exec& exec = level.exec();

@@ -266,8 +266,6 @@ class HierarchyBuilder {
 
   void add_contact() {
     const Problem& p = problem_;
-    bool stiff = true;
-    for (std::size_t i = 0; i < levels_; ++i) stiff = stiff && is_explicit(integrator_of(i));
     ContactOptions options = p.contact;
     if (options.whole_surface == "auto" && !needs_matrix(p.integration).empty()) options.whole_surface = "never";
     TouchingSurface touching{.surface = surface_,
@@ -281,7 +279,7 @@ class HierarchyBuilder {
       touching.parts.push_back({&p.body.parts[b].material, locators_[0]->mean_edge(b)});
     if (touching.parts.empty()) touching.parts.push_back({&p.body.material, touching.edge});
     if (p.contact.bodies && has_pairs(p)) expect_apart(surface_, p.body.parts, touching.edge);
-    contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p), stiff);
+    contact_ = std::make_shared<const Contact<B>>(options, touching, has_pairs(p));
   }
 
   /// Of each obstacle that chooses them the surface points that it may hold.
@@ -325,7 +323,7 @@ class HierarchyBuilder {
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);
       };
-      level.integrator = Kind::template make<B>(level, {implicit, make_solver});
+      level.integrator = Kind::template make<B>(level, {implicit, contact_ != nullptr, make_solver});
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))

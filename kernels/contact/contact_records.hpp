@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/fields.hpp>
+#include <plica/core/transfer.hpp>
+#include <plica/kernels/contact/contact_law.hpp>
+#include <plica/kernels/vectors.hpp>
+
+// What contact keeps of a level, without its kernels: what has contact includes this and does not wait for those to compile.
+//
+// All contact is in records of one kind: up to four surface points with weights, a normal, a depth, a law. W is the sum of the points'
+// values times their weights; its transpose gives the record's force to the points.
+//
+//   a point that touches an obstacle     1
+//   a triangle that touches one          w0, w1, w2 of its corners, where it is deepest
+//   a point and a triangle               1; -w0, -w1, -w2
+//   two edges                            1 - s, s; t - 1, -t
+//   a point that is held or attached     as the first and the third
+//
+// Where a record stands says what it is of. Rows of one slot for each surface point come first: one for each obstacle, then, where
+// bodies touch, one of points and triangles, then one of edges, which belong to a point where they begin. Behind them is a row of one
+// slot for each triangle, for each obstacle. Few slots are in use: those are listed, in their order, and work goes over the list.
+//
+//   slots   | points, obstacle 0 | obstacle 1 | ... | points and triangles | edges | triangles, obstacle 0 | ...
+//   list      3 5 8 ...                                                        the slots in use, ascending
+namespace plica {
+
+/// Slots or vertices in use, of a field that may be long: their numbers, ascending, and how many.
+template <class B>
+struct DeviceList {
+  Indices<B> item;   ///< [most]
+  Doubles<B> count;  ///< [1]
+  int most = 0;
+};
+
+/// Surface points that are attached to another body: each by a tie to one place on one of its triangles.
+template <class B>
+struct Attachments {
+  static constexpr int none = -1, beside = -2;
+  /// [points] which one holds it; beside: another point is held at a triangle of it, so that it touches nothing either; none; empty: no
+  /// attachments at all
+  Indices<B> attachment;
+  Indices<B> triangle;  ///< [points]
+  Vectors<B> weight;    ///< [points][3] of its corners
+  int first_law = 0;    ///< of the attachments' laws, one each
+
+  KOKKOS_INLINE_FUNCTION bool ties(int p) const { return attachment.extent(0) > 0 && attachment(p) != none; }
+  KOKKOS_INLINE_FUNCTION bool holds(int p) const { return attachment.extent(0) > 0 && attachment(p) >= 0; }
+};
+
+/// Surface points that obstacles hold: each by a tie to where it was, relative to the obstacle, when that closed. A place for every
+/// obstacle and point, numbered as the slots of contact.
+template <class B>
+struct Grasps {
+  using Real = typename B::Real;
+  static constexpr int numbers = 4;  ///< of a place: that place [m], and 1 where the point is held
+
+  int places = 0;     ///< 0: no obstacle can hold anything, no arrays
+  Doubles<B> memory;  ///< of the obstacles; these numbers begin with its number `first`
+  int first = 0;
+  Indices<B> left_out;  ///< [places] 1: of a point that its obstacle never holds; empty: none
+  int first_law = 0;    ///< of their laws, numbered as the obstacles' own
+
+  KOKKOS_INLINE_FUNCTION int at(int r) const { return first + numbers * r; }
+  KOKKOS_INLINE_FUNCTION bool holds(int r) const { return r < places && memory(at(r) + 3) > 0; }
+  KOKKOS_INLINE_FUNCTION bool may_hold(int r) const { return left_out.extent(0) == 0 || left_out(r) == 0; }
+  KOKKOS_INLINE_FUNCTION void hold(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
+    for (int k = 0; k < 3; ++k) memory(at(r) + k) = static_cast<double>(x[k]) - moved[k];
+    memory(at(r) + 3) = 1;
+  }
+  KOKKOS_INLINE_FUNCTION void release(int r) const { memory(at(r) + 3) = 0; }
+  /// How far a point at x is from where an obstacle that has moved so holds it [m].
+  KOKKOS_INLINE_FUNCTION Vec3<Real> stretch(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
+    Vec3<Real> s;
+    for (int k = 0; k < 3; ++k) s[k] = static_cast<Real>(static_cast<double>(x[k]) - moved[k] - memory(at(r) + k));
+    return s;
+  }
+};
+
+/// The surface's triangles and edges, for what touches between its points.
+template <class B>
+struct SurfaceMesh {
+  int triangles = 0;              ///< 0: contact is of points alone, no arrays
+  Indices<B> corner;              ///< [triangles * 3] points, counter-clockwise seen from outside
+  Indices<B> first, triangle;     ///< [points + 1] into the triangles around each point
+  Indices<B> first_edge;          ///< [points + 1] into the edges whose end with the lower number is that point
+  Indices<B> edge;                ///< [edges * 4] its ends, and the third corners of the triangles left and right of it
+  Indices<B> side;                ///< [triangles * 3] the edge from each corner to the next
+};
+
+/// What the search for pairs goes by.
+template <class Real>
+struct PairLimits {
+  Real reach = 0;        ///< a triangle further than that outside is not looked for, but by what is fast [m]
+  Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
+  Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
+  bool between = false;  ///< bodies
+  bool self = false;     ///< on one body
+};
+
+/// W^T of the records in use: to each vertex that they have a part in, the records and its weight in them, by ascending slots.
+template <class B>
+struct ContactTranspose {
+  DeviceList<B> vertices;  ///< numbers into EmbeddedSurface::vertex
+  Indices<B> place;        ///< [vertices] each vertex's number there; -1: no surface point is in its tetrahedra
+  Indices<B> filled;       ///< [touched] entries while it is made
+  Indices<B> first, last;  ///< [touched] of the entries of each in the list
+  Indices<B> record;       ///< [entries] slots; while it is made, with the point and its vertex: 16 i + 4 c + e, i the place in the list
+  Scalars<B> weight;       ///< [entries]
+
+  /// use(slot, weight) for what the i-th in the list of vertices has, always in the same order.
+  template <class Use>
+  KOKKOS_INLINE_FUNCTION void each(int i, const Use& use) const {
+    for (int e = first(i); e < last(i); ++e) use(record(e), weight(e));
+  }
+};
+
+/// How an explicit step takes its contact. A default one: nothing happens in it, and there is none.
+struct ContactStep {
+  double span = 0;    ///< h [s]
+  double ahead = 0;   ///< how far ahead of the state the depth is taken, with the velocity there [s]
+  double damped = 0;  ///< of mass damping c: e = (a - c v) / (1 + damped c), A likewise [s]
+  bool ends = true;   ///< these forces are the step's, so that the carried stretches follow its way; else those of a stage
+};
+
+/// Where surface points are told of that are further inside an obstacle than makes sense, or nowhere: the last of them + 1.
+template <class B>
+struct DepthWatch {
+  Indices<B> lost;           ///< [1]
+  typename B::Real deepest;  ///< [m]
+  KOKKOS_INLINE_FUNCTION void look(int p, typename B::Real distance) const {
+    if (!(distance >= -deepest)) Kokkos::atomic_max(&lost(0), p + 1);
+  }
+};
+
+/// The contacts of one level, on the device.
+template <class B>
+struct ContactRecords {
+  using Real = typename B::Real;
+  using Laws = Kokkos::View<ContactLaw<Real>*, typename B::Memory>;
+  using Stencil = Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory>;
+  using Weights = Kokkos::View<Real* [4], Kokkos::LayoutRight, typename B::Memory>;
+  int points = 0, obstacles = 0, bodies = 1, faces = 0;  ///< faces: triangles, where an obstacle touches between points; else 0
+  bool pairs = false;
+  Real reach = 0;  ///< a point further than that outside an obstacle is not looked at, but where it is fast [m]
+  Real span = 0;   ///< of the step [s]
+  bool long_steps = false;  ///< long steps look along the nearest normal, whatever their path meets
+  Real edge = 0;   ///< mean, of the surface [m]
+  /// @{ shared by all levels
+  Laws law;        ///< of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
+  Indices<B> body;  ///< of each point; empty: there is one
+  SurfaceMesh<B> mesh;
+  Grasps<B> grasps;
+  Attachments<B> attached;
+  /// @}
+  DeviceList<B> list;        ///< slots in use
+  Doubles<B> touching;       ///< [1] how many of them have a force, or may have one in this step
+  Indices<B> near;           ///< [slots] 1: in use
+  Indices<B> close;          ///< [1] 1: a point is so near an obstacle that triangles may touch it
+  Stencil point;             ///< [slots] its surface points; -1: none
+  Weights weight;            ///< [slots]
+  Indices<B> law_of;         ///< [slots]
+  Vectors<B> normal;         ///< [slots][3] out of the partner; of a tie 0
+  Scalars<B> depth;          ///< [slots] > 0 inside [m]
+  Vectors<B> way;            ///< [slots][3] of the obstacle in the step [m]; of an implicit one, where D begins: D = W u - way
+  Vectors<B> stretch;        ///< [slots][3] s [m], carried
+  Vectors<B> force;          ///< [slots][3] F, on the sites that have weight 1 [N], carried
+  Vectors<B> drift;          ///< [slots][3] D without contact's own part, on implicit levels the obstacle's way [m]
+  Scalars<B> response;       ///< [slots] rho [1/kg]; 0: no force in this step; explicit levels
+  Scalars<B> cap;            ///< [slots] tau [N]; implicit levels
+  Blocks<B> block;           ///< [slots][6] dF/dD [kg], weighted; implicit levels
+  Blocks<B> concavity;       ///< [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
+  Indices<B> partner;        ///< [points] the triangle each point was near last; -1: none
+  ContactTranspose<B> transpose;
+
+  KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs ? 2 : 0); }
+  KOKKOS_INLINE_FUNCTION int slots() const { return rows() * points + obstacles * faces; }
+  KOKKOS_INLINE_FUNCTION int of_point(int row, int p) const { return row * points + p; }
+  KOKKOS_INLINE_FUNCTION int of_face(int obstacle, int t) const { return rows() * points + obstacle * faces + t; }
+  KOKKOS_INLINE_FUNCTION bool is_on_face(int r) const { return r >= rows() * points; }
+  /// The obstacle that a record is of; `obstacles` and above: a pair.
+  KOKKOS_INLINE_FUNCTION int row(int r) const {
+    return is_on_face(r) ? (r - rows() * points) / faces : r / points;
+  }
+  KOKKOS_INLINE_FUNCTION bool is_pair(int r) const { return row(r) >= obstacles; }
+  /// It couples the vertices of one tetrahedron alone.
+  KOKKOS_INLINE_FUNCTION bool is_of_one(int r) const { return r < obstacles * points; }
+  KOKKOS_INLINE_FUNCTION int body_of(int p) const { return bodies > 1 ? body(p) : 0; }
+  KOKKOS_INLINE_FUNCTION int obstacle_law(int obstacle, int p) const { return obstacle * bodies + body_of(p); }
+  KOKKOS_INLINE_FUNCTION int pair_law(int p, int q) const {
+    return 2 * obstacles * bodies + body_of(p) * bodies + body_of(q);
+  }
+  KOKKOS_INLINE_FUNCTION int held_law(int obstacle, int p) const { return grasps.first_law + obstacle_law(obstacle, p); }
+  KOKKOS_INLINE_FUNCTION const ContactLaw<Real>& law_at(int r) const { return law(law_of(r)); }
+  static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
+
+  /// W of a field; `bounding`: by absolute weights.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int r,
+                                          bool bounding = false) const {
+    Vec3<Real> sum;
+    for (int c = 0; c < 4; ++c) {
+      const int p = point(r, c);
+      if (p < 0) continue;
+      const Real w = weight(r, c);
+      sum += bounding ? Kokkos::abs(w) * sum_of_parts_at<B>(surface.embedding, x, p)
+                      : w * value_at<B>(surface.embedding, x, p);
+    }
+    return sum;
+  }
+  /// Where a force of it acts on the sites of positive weight [m].
+  KOKKOS_INLINE_FUNCTION Vec3<Real> place(const EmbeddedSurface<B>& surface, const Vectors<B>& u, int r) const {
+    Vec3<Real> x;
+    for (int c = 0; c < 4; ++c)
+      if (point(r, c) >= 0 && weight(r, c) > 0)
+        x += weight(r, c) * value_at<B>(surface.embedding, u, point(r, c), vector_at<B>(surface.rest, point(r, c)));
+    return x;
+  }
+  KOKKOS_INLINE_FUNCTION void set_stencil(int r, int a, int b, int c, int d, Real wa, Real wb, Real wc, Real wd) const {
+    point(r, 0) = a, point(r, 1) = b, point(r, 2) = c, point(r, 3) = d;
+    weight(r, 0) = wa, weight(r, 1) = wb, weight(r, 2) = wc, weight(r, 3) = wd;
+  }
+  /// A slot comes into use or goes on in it: its normal, with the carried stretch turned into the plane across it.
+  KOKKOS_INLINE_FUNCTION void use(int r, int its_law, const Vec3<Real>& N, Real its_depth, const Vec3<Real>& its_way,
+                                  const Vec3<Real>& spin) const {
+    if (near(r) == 0) {
+      set_vector<B>(stretch, r, {}), set_vector<B>(force, r, {});
+    } else {
+      const Vec3<Real> s = vector_at<B>(stretch, r);
+      if (const Real square = dot(s, s); square > 0) {
+        const Vec3<Real> turned = across(s + cross(spin, s), N);
+        const Real left = dot(turned, turned);
+        set_vector<B>(stretch, r, left > 0 ? Kokkos::sqrt(square / left) * turned : turned);
+      }
+    }
+    near(r) = 1, law_of(r) = its_law, depth(r) = its_depth;
+    set_vector<B>(normal, r, N), set_vector<B>(way, r, its_way);
+  }
+  /// A tie, whose stretch is given.
+  KOKKOS_INLINE_FUNCTION void tie(int r, int its_law, const Vec3<Real>& its_stretch, const Vec3<Real>& its_way) const {
+    if (near(r) == 0) set_vector<B>(force, r, {});
+    near(r) = 1, law_of(r) = its_law, depth(r) = -nowhere();
+    set_vector<B>(normal, r, {}), set_vector<B>(way, r, its_way), set_vector<B>(stretch, r, its_stretch);
+  }
+  KOKKOS_INLINE_FUNCTION void leave(int r) const { near(r) = 0; }
+  /// It is in the linear system.
+  KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const { return block(r, 0) + block(r, 1) + block(r, 2) > 0; }
+};
+
+/// Which weights count by their absolute values: none; where A is no multiple of 1 those of obstacles alone, since the two sides of a pair
+/// answer a force of one direction alike; all.
+enum class Bounding { none, obstacles, all };
+
+/// The force [N] that the records put on the i-th vertex in the list.
+template <class B>
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> contact_force(const ContactRecords<B>& records, int i,
+                                                            Bounding bounding = Bounding::none) {
+  Vec3<typename B::Real> sum;
+  records.transpose.each(i, [&](int r, typename B::Real w) {
+    const bool absolute = bounding == Bounding::all || (bounding == Bounding::obstacles && !records.is_pair(r));
+    sum += (absolute ? Kokkos::abs(w) : w) * vector_at<B>(records.force, r);
+  });
+  return sum;
+}
+
+}  // namespace plica

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <plica/core/model.hpp>
+#include <plica/kernels/contact/concavity.hpp>
+#include <plica/kernels/contact/contact_kernels.hpp>
+#include <plica/kernels/contact/gap.hpp>
+
+// Which points of a surface an obstacle touches, and what it holds.
+namespace plica {
+
+/// The slot of every point against this obstacle.
+template <class B, class Shape>
+struct FindOnPoints {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  State<B> state;
+  Shape shape;
+  ObstaclePlace<B> place;
+  DepthWatch<B> watch;
+  int obstacle;
+  Real between;  ///< a triangle whose corners are all further outside than that touches nothing [m]
+  ContactRecords<B> records;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const int r = records.of_point(obstacle, p);
+    const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
+    const Vec3<Real> own = value_at<B>(surface.embedding, state.v, p), its = place.velocity(x), speed = own - its;
+    if (records.grasps.holds(r)) return hold(r, p, x, its);
+    const Vec3<Real> local = place.local(x);
+    const Real far = records.reach + records.span * Kokkos::sqrt(dot(speed, speed));
+    Gap<Real> gap = records.long_steps
+                        ? shape(local)
+                        : gap_along(shape, local, place.inward(records.span * speed), records.reach);
+    watch.look(p, gap.distance);
+    if (gap.distance < between) records.close(0) = 1;
+    if (!(gap.distance < far)) {
+      records.depth(r) = -gap.distance;
+      return records.leave(r);
+    }
+    const Vec3<Real> local_normal = gap.normal, N = place.outward(gap.normal);
+    records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
+    records.use(r, records.obstacle_law(obstacle, p), N, -gap.distance, records.span * its,
+                records.span * place.rate());
+    if constexpr (!Shape::convex)
+      if (records.concavity.extent(0) > 0) {
+        const bool bends = gap.distance + records.span * dot(N, speed) < records.edge && !place.is_turning();
+        set_block<B>(records.concavity, r,
+                     bends ? concavity<B>(shape, place, local, local_normal, records.edge / 4) : SymMat3<Real>{});
+      }
+  }
+  KOKKOS_INLINE_FUNCTION void hold(int r, int p, const Vec3<Real>& x, const Vec3<Real>& its) const {
+    records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
+    records.tie(r, records.held_law(obstacle, p), place.outward(records.grasps.stretch(r, x, place.way(x))),
+                records.span * its);
+    if (records.concavity.extent(0) > 0) set_block<B>(records.concavity, r, {});
+  }
+};
+
+/// An obstacle takes hold of every point that is no further than `reach` from it. What it holds stays as it is.
+template <class B, class Shape>
+struct Grasp {
+  using Real = typename B::Real;
+  EmbeddedSurface<B> surface;
+  Vectors<B> u;
+  Shape shape;
+  ObstaclePlace<B> place;
+  ContactRecords<B> records;
+  int obstacle;
+  Real reach;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    const int r = records.of_point(obstacle, p);
+    if (records.grasps.holds(r) || !records.grasps.may_hold(r)) return;
+    const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
+    if (shape(place.local(x)).distance <= reach) records.grasps.hold(r, x, place.way(x));
+  }
+};
+
+/// It lets them go.
+template <class B>
+struct LetGo {
+  Grasps<B> grasps;
+  int first;  ///< its first place
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const { grasps.release(first + p); }
+};
+
+}  // namespace plica
