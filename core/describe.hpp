@@ -279,7 +279,6 @@ void describe(V& v, ImplicitOptions& o) {
   v("max_iterations", o.max_iterations, Count{1}, "a solve that has not converged by then is counted as a miss");
   v("newton_iterations", o.newton_iterations, AutoCount{},
     "per step, at most; 1: linearly implicit; auto: 20 where the integrator conserves energy, else 1");
-  v("contact_solves", o.contact_solves, Count{1}, "per linearly implicit step, while a solve changes what touches");
   v("newton_tolerance", o.newton_tolerance, Quantity{plain, positive}, "of the residual, relative to the first");
   v("newton_residual", o.newton_residual, Quantity{force, not_negative}, "or, if that is less strict, this residual");
   v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
@@ -390,8 +389,7 @@ void describe(V& v, ContactOptions& o) {
   v("friction", o.friction, Quantity{plain, not_negative}, "of both, Coulomb's coefficient; left out: frictionless");
   v("whole_surface", o.whole_surface, Name{"rule", whole_surface_rules},
     "which obstacles touch the surface between its points, too");
-  v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive},
-    "times the penalty stiffness 64 E A / h");
+  v("stiffness_scale", o.stiffness_scale, Quantity{plain, positive}, "times the penalty stiffness 64 E A / h");
   v("damping_scale", o.damping_scale, Quantity{plain, not_negative}, "times the damping of the approach");
   v("friction_stiffness_scale", o.friction_stiffness_scale, Quantity{plain, positive},
     "times the penalty stiffness: the spring by which friction sticks");

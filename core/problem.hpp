@@ -184,7 +184,6 @@ struct ImplicitOptions {
   int iterations = 0;                   ///< above 0: exactly so many iterations instead
   int max_iterations = 2000;            ///< a solve that has not converged by then is counted as a miss
   int newton_iterations = 0;            ///< at most, per stage; 1: linearly implicit; 0: auto, see newton_iterations()
-  int contact_solves = 8;               ///< at most, of a linearly implicit step, while a solve changes what touches
   double newton_tolerance = 1e-6;       ///< on |residual| relative to the first, where newton_iterations > 1
   double newton_residual = 0;           ///< or below this [N]
   std::string tangent = "auto";         ///< of tangents()

@@ -134,8 +134,8 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     made.damping = static_cast<Real>(options.damping_scale * critical(k, mass));
     if (friction) {
       made.shear_stiffness = static_cast<Real>(options.friction_stiffness_scale * k);
-      made.shear_damping = static_cast<Real>(options.tangential_damping_scale *
-                                             critical(options.friction_stiffness_scale * k, mass));
+      made.shear_damping =
+          static_cast<Real>(options.tangential_damping_scale * critical(options.friction_stiffness_scale * k, mass));
       made.friction = static_cast<Real>(*friction);
     }
     return made;
@@ -154,8 +154,7 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     for (const Layer& l : layers) laws.push_back(of_layer(l, o.friction));
   grasps_.first_law = static_cast<int>(laws.size());
   for (const ObstacleOptions& o : options.obstacles)
-    for (const Layer& l : layers)
-      laws.push_back(tie(of_layer(l, {}), o.grasp ? o.grasp->stiffness : std::nullopt));
+    for (const Layer& l : layers) laws.push_back(tie(of_layer(l, {}), o.grasp ? o.grasp->stiffness : std::nullopt));
   const std::size_t first_pair = laws.size();
   for (const Layer& a : layers)
     for (const Layer& b : layers) {
@@ -168,9 +167,9 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     const auto [own, other] =
         one == of.attached.end()
             ? std::pair<std::size_t, std::size_t>{0, 0}
-            : std::pair{static_cast<std::size_t>(part(one->point)),
-                        static_cast<std::size_t>(part(
-                            of.surface.triangles[static_cast<std::size_t>(one->triangle)][0]))};
+            : std::pair{
+                  static_cast<std::size_t>(part(one->point)),
+                  static_cast<std::size_t>(part(of.surface.triangles[static_cast<std::size_t>(one->triangle)][0]))};
     laws.push_back(tie(laws[first_pair + own * layers.size() + other], options.attachments[a].stiffness));
   }
   const Layer& first = layers.front();
@@ -282,8 +281,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   }
   records.response = zeros<Scalars<B>>("plica::contact.response", slots);
   if (pairs_)
-    records.partner =
-        to_device<Indices<B>>("contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
+    records.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
   // a record has at most as many entries as its points have vertices
   std::vector<int> place(static_cast<std::size_t>(vertices), -1);
   const auto touched = host_values(Exec(), surface.vertex);
@@ -296,9 +294,9 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
     for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0;
     of_points += own, most = std::max(most, own);
   }
-  const std::size_t entries = static_cast<std::size_t>(records.obstacles) *
-                                  (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
-                              (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(points_) : 0);
+  const std::size_t entries =
+      static_cast<std::size_t>(records.obstacles) * (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
+      (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(points_) : 0);
   ContactTranspose<B>& W = records.transpose;
   W.vertices = list("plica::contact.vertices", surface.touched);
   W.place = to_device<Indices<B>>("contact.place", place);

@@ -4,8 +4,8 @@
 #include <plica/core/level.hpp>
 #include <plica/core/problem.hpp>
 #include <plica/drivers/solver/set_up/attachments.hpp>
-#include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/contact/contact_records.hpp>
+#include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/reduce.hpp>
 #include <vector>
 

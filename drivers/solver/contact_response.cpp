@@ -10,7 +10,9 @@ namespace plica {
 
 namespace {
 
-constexpr int contact_sweeps = 3;
+// After the one that finds rho and the forces by e alone. With the lumped masses' inverse they cost little, and two bodies that meet fast need
+// them; with that of `him` each one is an application of it.
+constexpr int sweeps_of_masses = 7, sweeps_of_him = 3;
 
 /// As in a whole macro step, of which this one is a part.
 ContactStep of_whole_step(const ContactStep& step, double part) {
@@ -31,8 +33,7 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, c
       impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))),
       last_impulse_(
           zeros<Doubles<B>>("plica::contact.last_impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
-  if (implicit)
-    product_ = zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
+  if (implicit) product_ = zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
   records_.long_steps = implicit;
   if (records_.pairs) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_);
 }
@@ -70,7 +71,8 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
   free();
   const DeviceList<B>& list = records_.list;
   sum_list<B, 1>(exec, list, "plica::contact_start", StartContact<B>{contact}, blocks_, records_.touching);
-  for (int sweep = 0; sweep <= contact_sweeps; ++sweep) {  // the first for rho and the forces by e alone
+  const int sweeps = contact.isotropic ? sweeps_of_masses : sweeps_of_him;
+  for (int sweep = 0; sweep <= sweeps; ++sweep) {
     respond();
     over_list<B>(exec, list, "plica::contact_sweep", SweepContact<B>{contact, sweep == 0}, records_.touching);
   }
@@ -90,7 +92,11 @@ void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const 
 template <class B>
 void ContactResponse<B>::add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                     const ContactStep& given, const Vectors<B>& f) {
-  if (!(given.span > 0)) return;
+  if (!(given.span > 0)) {
+    look(exec, level, state, time);
+    over_list<B>(exec, records_.list, "plica::contact_static", StaticContact<B>{records_});
+    return scatter(exec, level, f);
+  }
   const Real damped = static_cast<Real>(of_whole_step(given, part_).damped);
   AnswerByMass<B> answer{level.surface, level.model, records_, answer_, damped, Bounding::all};
   const DeviceList<B>& vertices = records_.transpose.vertices;
@@ -156,7 +162,7 @@ void ContactResponse<B>::begin_stage(const Exec& exec, const Level<B>& level, co
 
 template <class B>
 ImplicitContact<B> ContactResponse<B>::at(const Level<B>& level, const State<B>& state, double ahead) const {
-  return {level.surface, state, records_, static_cast<Real>(stage_.span), static_cast<Real>(stage_.scale),
+  return {level.surface,           state, records_, static_cast<Real>(stage_.span), static_cast<Real>(stage_.scale),
           static_cast<Real>(ahead)};
 }
 
@@ -196,9 +202,9 @@ void ContactResponse<B>::end_stage(const Exec& exec, const Level<B>& level, cons
 /// f += factor W^T of the last forces
 template <class B>
 void ContactResponse<B>::scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, double factor) const {
-  over_list<B>(exec, records_.transpose.vertices, "plica::contact_scatter",
-               ScatterContact<B>{.surface = level.surface, .records = records_, .f = f,
-                                 .factor = static_cast<Real>(factor)});
+  over_list<B>(
+      exec, records_.transpose.vertices, "plica::contact_scatter",
+      ScatterContact<B>{.surface = level.surface, .records = records_, .f = f, .factor = static_cast<Real>(factor)});
 }
 
 template <class B>
@@ -282,9 +288,12 @@ void ContactResponse<B>::keep(const Exec& exec, Kept& to) const {
   each_carried([&](const char*, const auto& field) {
     using Field = std::decay_t<decltype(field)>;
     auto& all = [&]() -> auto& {
-      if constexpr (std::is_same_v<Field, Indices<B>>) return to.indices;
-      else return to.reals;
-    }();
+      if constexpr (std::is_same_v<Field, Indices<B>>)
+        return to.indices;
+      else
+        return to.reals;
+    }
+    ();
     std::size_t& at = std::is_same_v<Field, Indices<B>> ? i : k;
     if (all.size() <= at) all.push_back(zeros<Field>("plica::contact.kept", field.extent(0)));
     copy(exec, all[at++], field);

@@ -111,6 +111,11 @@ class ContactResponse {
     std::vector<Scalars<B>> reals;
     double found = 0;
     bool fresh = true;
+    void persist(StateArchive<B>& archive) {
+      for (const auto& field : indices) archive.field("kept contact", field);
+      for (const auto& field : reals) archive.field("kept contact", field);
+      archive.number(found), archive.number(fresh);
+    }
   };
   void keep(const Exec& exec, Kept& to) const;
   void put_back(const Exec& exec, const Level<B>& level, const Kept& from);

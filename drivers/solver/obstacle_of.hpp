@@ -30,14 +30,15 @@ class ObstacleOf final : public Obstacle<B> {
   Path path_;
   Turning turning_;
   DepthWatch<B> watch_;
-  Doubles<B> tools_;  // the obstacles' memory, with mass only
-  int first_;         // its own of them
-  Real longest_;      // edge of the surface [m]
+  Doubles<B> tools_;                              // the obstacles' memory, with mass only
+  int first_;                                     // its own of them
+  Real longest_;                                  // edge of the surface [m]
   static constexpr Real face_reach = Real(0.25);  // of an edge
 
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
-             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number, double longest)
+             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number,
+             double longest)
       : shape_(shape),
         storage_(storage),
         origin_{origin[0], origin[1], origin[2]},

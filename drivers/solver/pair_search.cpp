@@ -9,8 +9,7 @@ namespace plica {
 template <class B>
 PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records)
     : blocks_(records.mesh.triangles) {
-  const auto n = static_cast<std::size_t>(records.points),
-             triangles = static_cast<std::size_t>(records.mesh.triangles);
+  const auto n = static_cast<std::size_t>(records.points), triangles = static_cast<std::size_t>(records.mesh.triangles);
   const std::size_t buckets = std::bit_ceil(2 * triangles);
   grid_.limits = limits;
   grid_.buckets = static_cast<int>(buckets);

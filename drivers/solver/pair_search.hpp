@@ -14,8 +14,8 @@ class PairSearch {
 
   PairSearch(const PairLimits<Real>& limits, const ContactRecords<B>& records);
   /// The slots of pairs at a state. `fresh`: nothing is known of the last step.
-  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state, const ContactRecords<B>& records,
-            bool fresh, const BlockSums<B>& blocks) const;
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
+            const ContactRecords<B>& records, bool fresh, const BlockSums<B>& blocks) const;
   std::size_t bytes() const;
 
  private:

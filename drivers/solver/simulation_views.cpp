@@ -345,6 +345,7 @@ void persist_kept(Kept& kept, StateArchive<B>& archive) {
   for (const auto& state : kept.levels) archive.state("a kept level", state);
   for (auto& stress : kept.stress) archive.field("a kept memory of stress", stress.memory), archive.number(stress.time);
   archive.field("the kept memory of obstacles", kept.memory);
+  for (auto& contact : kept.contact) contact.persist(archive);
 }
 
 /// Names all that is carried, in a fixed order.

@@ -152,7 +152,7 @@ template <class B>
 void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force, const ContactStep& step,
                               double weight) {
   evaluate_without_contact(at, time, force);
-  if (!contact_ || !(step.span > 0)) return;
+  if (!contact_) return;
   book("contact", [&] {
     response_.add_forces(exec(), *this, at, time, step, force);
     if (weight > 0) response_.add_impulse(exec(), *this, at, time, weight);

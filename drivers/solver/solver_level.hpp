@@ -46,7 +46,7 @@ class SolverLevel : public Level<B> {
     if (viscosity) viscosity->remember(exec(), *this, *elasticity_, this->state.u, time);
   }
 
-  /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default none. They act
+  /// f = the forces of a state of this level at a time [s], contact as `step` takes it: by default that of a state that stays. They act
   /// for `weight` of the time [s], which is what the obstacles' impulse counts.
   void evaluate(const State<B>& state, double time, const Vectors<B>& f, const ContactStep& step = {},
                 double weight = 0);

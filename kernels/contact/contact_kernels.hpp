@@ -48,15 +48,31 @@ struct ScatterContact {
   EmbeddedSurface<B> surface;
   ContactRecords<B> records;
   Vectors<B> f;
-  Real factor = 1;              ///< of the forces
+  Real factor = 1;  ///< of the forces
   VertexModel<B> model = {};
-  Real damped = 0;              ///< what mass damping leaves of it; see ContactStep
+  Real damped = 0;  ///< what mass damping leaves of it; see ContactStep
   Bounding bounding = Bounding::none;
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(records.transpose.vertices.item(i));
     const Real part = damped > 0 ? factor * kept<B>(model, a, damped) : factor;
     set_vector<B>(f, a, vector_at<B>(f, a) + part * contact_force<B>(records, i, bounding));
+  }
+};
+
+/// The force of a record in a state that stays: that of its springs.
+template <class B>
+struct StaticContact {
+  ContactRecords<B> records;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    using Real = typename B::Real;
+    const int r = records.list.item(i);
+    const ContactLaw<Real> law = records.law_at(r);
+    const Vec3<Real> s = vector_at<B>(records.stretch, r);
+    const Real lam = law.is_tie() ? Real(0) : law.stiffness * Kokkos::max(Real(0), records.depth(r));
+    const Vec3<Real> q = at_most((law.is_tie() ? law.stiffness : law.shear_stiffness) * s,
+                                 law.is_tie() ? law.strength : law.friction * lam);
+    set_vector<B>(records.force, r, lam * vector_at<B>(records.normal, r) - q);
   }
 };
 
@@ -71,9 +87,12 @@ struct RecordLater {
 
   KOKKOS_INLINE_FUNCTION Real depth(int r) const {
     if (records.law_at(r).is_tie()) return -records.nowhere();
-    if (!(since > 0)) return records.depth(r);
-    const Vec3<Real> D = since * records.value(surface, v, r) - (since / span) * vector_at<B>(records.way, r);
-    return records.depth(r) - dot(vector_at<B>(records.normal, r), D);
+    return records.depth(r) - dot(vector_at<B>(records.normal, r), way(r));
+  }
+  /// Against the partner, since then.
+  KOKKOS_INLINE_FUNCTION Vec3<Real> way(int r) const {
+    if (!(since > 0)) return {};
+    return since * records.value(surface, v, r) - (since / span) * vector_at<B>(records.way, r);
   }
 };
 
@@ -85,7 +104,10 @@ struct ContactEnergy {
     const int r = at.records.list.item(i);
     const auto& law = at.records.law_at(r);
     const auto s = vector_at<B>(at.records.stretch, r);
-    if (law.is_tie()) return {{0.5 * static_cast<double>(law.stiffness * dot(s, s))}};
+    if (law.is_tie()) {
+      const auto now = s + at.way(r);
+      return {{0.5 * static_cast<double>(law.stiffness * dot(now, now))}};
+    }
     const double depth = Kokkos::max(0.0, static_cast<double>(at.depth(r)));
     // of the force that there is: unconverged sweeps are a softer spring
     const double of_stretch = -static_cast<double>(dot(vector_at<B>(at.records.force, r), s));
@@ -106,8 +128,7 @@ struct DepthInPartner {
     if (!(depth > 0)) return {};
     for (int c = 0; records.is_on_face(r) && c < 3; ++c)
       if (const int corner = records.of_point(row, records.point(r, c)); records.near(corner) > 0)
-        depth += static_cast<double>(records.weight(r, c)) *
-                 Kokkos::max(0.0, static_cast<double>(at.depth(corner)));
+        depth += static_cast<double>(records.weight(r, c)) * Kokkos::max(0.0, static_cast<double>(at.depth(corner)));
     return {{depth}};
   }
 };

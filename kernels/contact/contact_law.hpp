@@ -19,20 +19,20 @@ namespace plica {
 
 template <class Real>
 struct ContactLaw {
-  Real stiffness = 0;           ///< k [N/m]; of a tie in all directions
-  Real damping = 0;             ///< c [N s/m]; of a tie in all directions
-  Real shear_stiffness = 0;     ///< kt [N/m]
-  Real shear_damping = 0;       ///< ct [N s/m]
-  Real friction = 0;            ///< Coulomb's coefficient mu
-  Real strength = 0;            ///< of a tie [N]: the force at which it yields; 0: this is a contact
+  Real stiffness = 0;        ///< k [N/m]; of a tie in all directions
+  Real damping = 0;          ///< c [N s/m]; of a tie in all directions
+  Real shear_stiffness = 0;  ///< kt [N/m]
+  Real shear_damping = 0;    ///< ct [N s/m]
+  Real friction = 0;         ///< Coulomb's coefficient mu
+  Real strength = 0;         ///< of a tie [N]: the force at which it yields; 0: this is a contact
   KOKKOS_INLINE_FUNCTION bool is_tie() const { return strength > 0; }
 };
 
 /// The law over a step of h [s].
 template <class Real>
 struct LawOfStep {
-  Real kn, shift;   ///< kn [N/m]; d* over max(0, d0)
-  Real kt, memory;  ///< kt' [N/m]; kt/kt'
+  Real kn, shift;     ///< kn [N/m]; d* over max(0, d0)
+  Real kt, memory;    ///< kt' [N/m]; kt/kt'
   Real spring, rate;  ///< kt [N/m]; ct/h [N/m]
 
   KOKKOS_INLINE_FUNCTION LawOfStep(const ContactLaw<Real>& law, Real h) {
@@ -45,7 +45,9 @@ struct LawOfStep {
     shift = law.damping / h / kn;
   }
   /// The normal force at a depth of the end of the step, from one at its start.
-  KOKKOS_INLINE_FUNCTION Real normal_force(Real start, Real end) const { return Kokkos::max(Real(0), pressure(start, end)); }
+  KOKKOS_INLINE_FUNCTION Real normal_force(Real start, Real end) const {
+    return Kokkos::max(Real(0), pressure(start, end));
+  }
   /// The same before its bound.
   KOKKOS_INLINE_FUNCTION Real pressure(Real start, Real end) const {
     return kn * (end - shift * Kokkos::max(Real(0), start));

@@ -154,8 +154,7 @@ struct CountEntries {
   EmbeddedSurface<B> surface;
   ContactRecords<B> records;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    each_entry<B>(surface, records, i,
-                  [&](int place, int) { Kokkos::atomic_inc(&records.transpose.filled(place)); });
+    each_entry<B>(surface, records, i, [&](int place, int) { Kokkos::atomic_inc(&records.transpose.filled(place)); });
   }
 };
 template <class B>
@@ -217,8 +216,8 @@ template <class B>
 void list_contacts(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const ContactRecords<B>& records,
                    const ListMaker<B>& maker) {
   const ContactTranspose<B>& of = records.transpose;
-  maker.make(exec, "plica::contact_list", records.slots(), SlotInUse<B>{records.near},
-             WriteSlot<B>{records.list.item}, records.list.count);
+  maker.make(exec, "plica::contact_list", records.slots(), SlotInUse<B>{records.near}, WriteSlot<B>{records.list.item},
+             records.list.count);
   over_list<B>(exec, records.list, "plica::contact_entries", CountEntries<B>{surface, records});
   maker.make(exec, "plica::contact_vertices", surface.touched, EntriesOfVertex<B>{of.filled}, ListVertex<B>{of},
              of.vertices.count, records.list.count);

@@ -79,12 +79,12 @@ struct Grasps {
 /// The surface's triangles and edges, for what touches between its points.
 template <class B>
 struct SurfaceMesh {
-  int triangles = 0;              ///< 0: contact is of points alone, no arrays
-  Indices<B> corner;              ///< [triangles * 3] points, counter-clockwise seen from outside
-  Indices<B> first, triangle;     ///< [points + 1] into the triangles around each point
-  Indices<B> first_edge;          ///< [points + 1] into the edges whose end with the lower number is that point
-  Indices<B> edge;                ///< [edges * 4] its ends, and the third corners of the triangles left and right of it
-  Indices<B> side;                ///< [triangles * 3] the edge from each corner to the next
+  int triangles = 0;           ///< 0: contact is of points alone, no arrays
+  Indices<B> corner;           ///< [triangles * 3] points, counter-clockwise seen from outside
+  Indices<B> first, triangle;  ///< [points + 1] into the triangles around each point
+  Indices<B> first_edge;       ///< [points + 1] into the edges whose end with the lower number is that point
+  Indices<B> edge;             ///< [edges * 4] its ends, and the third corners of the triangles left and right of it
+  Indices<B> side;             ///< [triangles * 3] the edge from each corner to the next
 };
 
 /// What the search for pairs goes by.
@@ -104,8 +104,9 @@ struct ContactTranspose {
   Indices<B> place;        ///< [vertices] each vertex's number there; -1: no surface point is in its tetrahedra
   Indices<B> filled;       ///< [touched] entries while it is made
   Indices<B> first, last;  ///< [touched] of the entries of each in the list
-  Indices<B> record;       ///< [entries] slots; while it is made, with the point and its vertex: 16 i + 4 c + e, i the place in the list
-  Scalars<B> weight;       ///< [entries]
+  Indices<B>
+      record;  ///< [entries] slots; while it is made, with the point and its vertex: 16 i + 4 c + e, i the place in the list
+  Scalars<B> weight;  ///< [entries]
 
   /// use(slot, weight) for what the i-th in the list of vertices has, always in the same order.
   template <class Use>
@@ -114,12 +115,13 @@ struct ContactTranspose {
   }
 };
 
-/// How an explicit step takes its contact. A default one: nothing happens in it, and there is none.
+/// How an explicit step takes its contact. A default one: nothing happens in it, and contact is that of a state that stays.
 struct ContactStep {
   double span = 0;    ///< h [s]
   double ahead = 0;   ///< how far ahead of the state the depth is taken, with the velocity there [s]
   double damped = 0;  ///< of mass damping c: e = (a - c v) / (1 + damped c), A likewise [s]
-  bool ends = true;   ///< these forces are the step's, so that the carried stretches follow its way; else those of a stage
+  bool ends =
+      true;  ///< these forces are the step's, so that the carried stretches follow its way; else those of a stage
 };
 
 /// Where surface points are told of that are further inside an obstacle than makes sense, or nowhere: the last of them + 1.
@@ -139,37 +141,38 @@ struct ContactRecords {
   using Laws = Kokkos::View<ContactLaw<Real>*, typename B::Memory>;
   using Stencil = Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory>;
   using Weights = Kokkos::View<Real* [4], Kokkos::LayoutRight, typename B::Memory>;
-  int points = 0, obstacles = 0, bodies = 1, faces = 0;  ///< faces: triangles, where an obstacle touches between points; else 0
+  int points = 0, obstacles = 0, bodies = 1,
+      faces = 0;  ///< faces: triangles, where an obstacle touches between points; else 0
   bool pairs = false;
   Real reach = 0;  ///< a point further than that outside an obstacle is not looked at, but where it is fast [m]
   Real span = 0;   ///< of the step [s]
   bool long_steps = false;  ///< long steps look along the nearest normal, whatever their path meets
-  Real edge = 0;   ///< mean, of the surface [m]
+  Real edge = 0;            ///< mean, of the surface [m]
   /// @{ shared by all levels
-  Laws law;        ///< of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
+  Laws law;         ///< of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
   Indices<B> body;  ///< of each point; empty: there is one
   SurfaceMesh<B> mesh;
   Grasps<B> grasps;
   Attachments<B> attached;
   /// @}
-  DeviceList<B> list;        ///< slots in use
-  Doubles<B> touching;       ///< [1] how many of them have a force, or may have one in this step
-  Indices<B> near;           ///< [slots] 1: in use
-  Indices<B> close;          ///< [1] 1: a point is so near an obstacle that triangles may touch it
-  Stencil point;             ///< [slots] its surface points; -1: none
-  Weights weight;            ///< [slots]
-  Indices<B> law_of;         ///< [slots]
-  Vectors<B> normal;         ///< [slots][3] out of the partner; of a tie 0
-  Scalars<B> depth;          ///< [slots] > 0 inside [m]
-  Vectors<B> way;            ///< [slots][3] of the obstacle in the step [m]; of an implicit one, where D begins: D = W u - way
-  Vectors<B> stretch;        ///< [slots][3] s [m], carried
-  Vectors<B> force;          ///< [slots][3] F, on the sites that have weight 1 [N], carried
-  Vectors<B> drift;          ///< [slots][3] D without contact's own part, on implicit levels the obstacle's way [m]
-  Scalars<B> response;       ///< [slots] rho [1/kg]; 0: no force in this step; explicit levels
-  Scalars<B> cap;            ///< [slots] tau [N]; implicit levels
-  Blocks<B> block;           ///< [slots][6] dF/dD [kg], weighted; implicit levels
-  Blocks<B> concavity;       ///< [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
-  Indices<B> partner;        ///< [points] the triangle each point was near last; -1: none
+  DeviceList<B> list;   ///< slots in use
+  Doubles<B> touching;  ///< [1] how many of them have a force, or may have one in this step
+  Indices<B> near;      ///< [slots] 1: in use
+  Indices<B> close;     ///< [1] 1: a point is so near an obstacle that triangles may touch it
+  Stencil point;        ///< [slots] its surface points; -1: none
+  Weights weight;       ///< [slots]
+  Indices<B> law_of;    ///< [slots]
+  Vectors<B> normal;    ///< [slots][3] out of the partner; of a tie 0
+  Scalars<B> depth;     ///< [slots] > 0 inside [m]
+  Vectors<B> way;  ///< [slots][3] of the obstacle in the step [m]; of an implicit one, where D begins: D = W u - way
+  Vectors<B> stretch;   ///< [slots][3] s [m], carried
+  Vectors<B> force;     ///< [slots][3] F, on the sites that have weight 1 [N], carried
+  Vectors<B> drift;     ///< [slots][3] D without contact's own part, on implicit levels the obstacle's way [m]
+  Scalars<B> response;  ///< [slots] rho [1/kg]; 0: no force in this step; explicit levels
+  Scalars<B> cap;       ///< [slots] tau [N]; implicit levels
+  Blocks<B> block;      ///< [slots][6] dF/dD [kg], weighted; implicit levels
+  Blocks<B> concavity;  ///< [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
+  Indices<B> partner;   ///< [points] the triangle each point was near last; -1: none
   ContactTranspose<B> transpose;
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs ? 2 : 0); }
@@ -178,9 +181,7 @@ struct ContactRecords {
   KOKKOS_INLINE_FUNCTION int of_face(int obstacle, int t) const { return rows() * points + obstacle * faces + t; }
   KOKKOS_INLINE_FUNCTION bool is_on_face(int r) const { return r >= rows() * points; }
   /// The obstacle that a record is of; `obstacles` and above: a pair.
-  KOKKOS_INLINE_FUNCTION int row(int r) const {
-    return is_on_face(r) ? (r - rows() * points) / faces : r / points;
-  }
+  KOKKOS_INLINE_FUNCTION int row(int r) const { return is_on_face(r) ? (r - rows() * points) / faces : r / points; }
   KOKKOS_INLINE_FUNCTION bool is_pair(int r) const { return row(r) >= obstacles; }
   /// It couples the vertices of one tetrahedron alone.
   KOKKOS_INLINE_FUNCTION bool is_of_one(int r) const { return r < obstacles * points; }
@@ -189,7 +190,9 @@ struct ContactRecords {
   KOKKOS_INLINE_FUNCTION int pair_law(int p, int q) const {
     return 2 * obstacles * bodies + body_of(p) * bodies + body_of(q);
   }
-  KOKKOS_INLINE_FUNCTION int held_law(int obstacle, int p) const { return grasps.first_law + obstacle_law(obstacle, p); }
+  KOKKOS_INLINE_FUNCTION int held_law(int obstacle, int p) const {
+    return grasps.first_law + obstacle_law(obstacle, p);
+  }
   KOKKOS_INLINE_FUNCTION const ContactLaw<Real>& law_at(int r) const { return law(law_of(r)); }
   static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
 

@@ -95,6 +95,14 @@ struct SweepContact {
     set_vector<B>(records.force, r, swept(r, first ? Vec3<Real>{} : force, D));
   }
 
+  static constexpr Real stop = 16;  ///< over h^2 rho, a stiffness that leaves 1/17 of a way into the partner
+  static constexpr Real early =
+      Real(0.2);  ///< what is fast is stopped so much of that way before the partner: sweeps are few
+  /// What is outside would end an edge inside: it is stopped in this step, however soft its law.
+  KOKKOS_INLINE_FUNCTION bool comes_in_fast(int r) const {
+    constexpr Real fast = 1;
+    return !(step.records.depth(r) > 0) && step.end(r, vector_at<B>(step.records.drift, r)) > fast * step.records.edge;
+  }
   KOKKOS_INLINE_FUNCTION Vec3<Real> swept(int r, const Vec3<Real>& force, const Vec3<Real>& D) const {
     const ContactLaw<Real> of = step.records.law_at(r);
     const LawOfStep<Real> law(of, step.h);
@@ -102,8 +110,11 @@ struct SweepContact {
     const Real give = step.h * step.h * step.records.response(r), before = dot(force, N);
     Real lam = 0, cap = of.strength;
     if (!of.is_tie()) {
-      const Real wanted = law.pressure(step.records.depth(r), step.end(r, D));
-      lam = Kokkos::max(Real(0), before + (wanted - before) / (1 + give * law.kn));
+      const bool fast = comes_in_fast(r);
+      const Real stiffer = fast ? Kokkos::max(Real(1), stop / (give * law.kn)) : Real(1);
+      const Real margin = fast ? early * step.end(r, vector_at<B>(step.records.drift, r)) : Real(0);
+      const Real wanted = stiffer * law.pressure(step.records.depth(r), step.end(r, D) + margin);
+      lam = Kokkos::max(Real(0), before + (wanted - before) / (1 + give * stiffer * law.kn));
       cap = of.friction * lam;
     }
     Vec3<Real> q = before * N - force;
@@ -129,8 +140,8 @@ struct StretchContact {
     const Real part = span / step.h;
     // h (v + part h (e + r)), of the whole step's numbers
     const Vec3<Real> way = step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
-    const Vec3<Real> by_force = vector_at<B>(records.drift, r) - way +
-                                step.h * step.h * records.value(step.surface, step.answer, r);
+    const Vec3<Real> by_force =
+        vector_at<B>(records.drift, r) - way + step.h * step.h * records.value(step.surface, step.answer, r);
     const Vec3<Real> D = part * (way + part * by_force);
     // what another sweep would make of it: beyond the cap it slips, in proportion
     const LawOfStep<Real> of(law, step.h);

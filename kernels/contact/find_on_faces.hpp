@@ -10,9 +10,6 @@ namespace plica {
 /// The slot of each triangle near an obstacle: where the triangle is deepest, unless a corner is as deep.
 /// Its depth is what it is beyond the depths of the corners, so that nothing is pushed twice: all of it where they are outside,
 /// nothing where the obstacle is flat. A triangle that the obstacle holds by a corner has none: held points keep their depth.
-///
-/// In a long step the place goes on from that of the last step, see followed(). The step pushes the body out there; after a long one what was
-/// next to it is the deepest. If it were taken at once, places would change from step to step, and forces with them.
 template <class B, class Shape>
 struct FindOnFaces {
   using Real = typename B::Real;
@@ -23,14 +20,14 @@ struct FindOnFaces {
   int obstacle;
   Real reach;  ///< a triangle further than that outside is not looked at [m]
   ContactRecords<B> records;
-  static constexpr Real from_corner = Real(0.6);  ///< no place is further from all corners, over the longest edge: 1 / sqrt 3
-  static constexpr Real stretch = 4;              ///< what is stretched more may be found late
+  static constexpr Real from_corner =
+      Real(0.6);                      ///< no place is further from all corners, over the longest edge: 1 / sqrt 3
+  static constexpr Real stretch = 4;  ///< what is stretched more may be found late
 
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
     constexpr Real as_deep = Real(1e-3);  // over the longest edge
     const SurfaceMesh<B>& mesh = records.mesh;
     const int r = records.of_face(obstacle, t);
-    const bool was_near = records.near(r) > 0;
     if (records.close(0) == 0) return records.leave(r);
     int p[3];
     Vec3<Real> x[3], depth;
@@ -45,14 +42,11 @@ struct FindOnFaces {
     }
     if (!(deepest + stretch * from_corner * longest(x) > -reach)) return records.leave(r);
     for (int c = 0; c < 3; ++c) x[c] = value_at<B>(surface.embedding, state.u, p[c], x[c]);
-    const Vec3<Real> speed = place.velocity(x[0]);
     for (int c = 0; c < 3; ++c) x[c] = place.local(x[c]);
     const Real size = longest(x);
     const Real enough = Kokkos::max(-reach, deepest + as_deep * size);  // less is not looked at
     if (!(deepest + from_corner * size > enough) || !(most(x) > enough)) return records.leave(r);
-    Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
-    if (records.long_steps && was_near)
-      w = followed({records.weight(r, 0), records.weight(r, 1), records.weight(r, 2)}, w, size, speed);
+    const Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
     const Vec3<Real> deepest_place = w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
     const Gap<Real> gap = shape(deepest_place);
     if (!(-gap.distance > enough)) return records.leave(r);
@@ -68,15 +62,6 @@ struct FindOnFaces {
         set_block<B>(records.concavity, r,
                      place.is_turning() ? SymMat3<Real>{}
                                         : concavity<B>(shape, place, deepest_place, gap.normal, records.edge / 4));
-  }
-
-  /// Weights two fifths of the way from the last place to the deepest, or as far as the obstacle goes in the step, if that is more.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> followed(const Vec3<Real>& last, const Vec3<Real>& deepest, Real size,
-                                             const Vec3<Real>& speed) const {
-    constexpr Real least = Real(0.4);
-    const Vec3<Real> change = deepest - last;
-    const Real way = size * Kokkos::sqrt(dot(change, change)), of_obstacle = records.span * Kokkos::sqrt(dot(speed, speed));
-    return last + (of_obstacle > least * way ? Kokkos::min(Real(1), of_obstacle / way) : least) * change;
   }
 
   static KOKKOS_INLINE_FUNCTION Real longest(const Vec3<Real>* x) {

@@ -27,9 +27,8 @@ struct FindOnPoints {
     if (records.grasps.holds(r)) return hold(r, p, x, its);
     const Vec3<Real> local = place.local(x);
     const Real far = records.reach + records.span * Kokkos::sqrt(dot(speed, speed));
-    Gap<Real> gap = records.long_steps
-                        ? shape(local)
-                        : gap_along(shape, local, place.inward(records.span * speed), records.reach);
+    Gap<Real> gap =
+        records.long_steps ? shape(local) : gap_along(shape, local, place.inward(records.span * speed), records.reach);
     watch.look(p, gap.distance);
     if (gap.distance < between) records.close(0) = 1;
     if (!(gap.distance < far)) {

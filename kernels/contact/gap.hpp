@@ -4,7 +4,6 @@
 #include <plica/core/functions.hpp>
 #include <plica/core/mesh.hpp>
 #include <plica/core/small.hpp>
-#include <plica/kernels/contact/gap.hpp>
 
 namespace plica {
 

@@ -99,8 +99,8 @@ struct LineariseContact {
     const bool tie = of.is_tie();
     const LawOfStep<Real> law(of, contact.h);
     const auto a = contact.at(r, law, tie);
-    const Real cap = records.cap(r), by_shear = a.slips ? cap * (a.length - cap / (2 * law.kt))
-                                                        : law.kt / 2 * a.length * a.length;
+    const Real cap = records.cap(r),
+               by_shear = a.slips ? cap * (a.length - cap / (2 * law.kt)) : law.kt / 2 * a.length * a.length;
     const Real by_normal = tie ? Real(0) : a.lam * a.lam / (2 * law.kn);
     if (blocks) {
       set_vector<B>(records.force, r, a.force);

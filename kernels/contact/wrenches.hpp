@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/contact/contact_records.hpp>
+#include <plica/kernels/contact/obstacle_place.hpp>
 #include <plica/kernels/reduce.hpp>
 
 // What obstacles do to the body, and bodies to each other.

@@ -39,16 +39,12 @@ struct GeneralizedAlphaEnd {
   using Real = typename B::Real;
   State<B> start, base, state;
   Vectors<B> a;
-  Real h, cv, mass, beta, gamma;  ///< of v = base + cv (mass a_n + (1 - mass) a_{n+1} + contact)
-  Scalars<B> inverse_mass;
-  Vectors<B> contact;  ///< forces in the stage, which are not carried on [N]; empty: none
+  Real h, cv, mass, beta, gamma;  ///< of v = base + cv (mass a_n + (1 - mass) a_{n+1})
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     for (int k = 0; k < 3; ++k) {
-      const Real touch = contact.extent(0) > 0 ? inverse_mass(i) * contact(i, k) : Real(0);
-      const Real a0 = a(i, k), a1 = ((state.v(i, k) - base.v(i, k)) / cv - touch - mass * a0) / (1 - mass);
-      const Real by_touch = h / (1 - mass) * touch;
-      state.u(i, k) = start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1) + h * beta * by_touch;
-      state.v(i, k) = start.v(i, k) + h * ((1 - gamma) * a0 + gamma * a1) + gamma * by_touch;
+      const Real a0 = a(i, k), a1 = ((state.v(i, k) - base.v(i, k)) / cv - mass * a0) / (1 - mass);
+      state.u(i, k) = start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1);
+      state.v(i, k) = start.v(i, k) + h * ((1 - gamma) * a0 + gamma * a1);
       a(i, k) = a1;
     }
   }

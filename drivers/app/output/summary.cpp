@@ -207,14 +207,12 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
   return json_text(json);
 }
 
-// "20 linear systems, 4 again for contact, 211 iterations each, 0 not solved"; empty: none
+// "20 linear systems, 211 iterations each, 0 not solved"; empty: none
 static std::string solves_text(std::map<std::string, long> count) {
   if (count["linear_solves"] == 0) return "";
-  const long again = count["contact_solves"], all = count["linear_solves"] + again;
-  const std::string text =
-      fmt::format("{}{}, {:.3g} iterations each, {} not solved", counted(count["linear_solves"], "linear system"),
-                  again > 0 ? fmt::format(", {} again for contact", again) : "",
-                  static_cast<double>(count["cg_iterations"]) / static_cast<double>(all), count["cg_misses"]);
+  const std::string text = fmt::format(
+      "{}, {:.3g} iterations each, {} not solved", counted(count["linear_solves"], "linear system"),
+      static_cast<double>(count["cg_iterations"]) / static_cast<double>(count["linear_solves"]), count["cg_misses"]);
   if (count["newton_iterations"] == 0) return text;
   return text + fmt::format("; {} of Newton's method, {} not solved", counted(count["newton_iterations"], "iteration"),
                             count["newton_misses"]);

@@ -96,8 +96,7 @@ class RungeKuttaStep final : public Integrator<B> {
       for (int k = 0; k < Tableau::stages; ++k) {
         const bool last = k + 1 == Tableau::stages;
         const double ahead = last ? 0 : Tableau::ahead[k];
-        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ends = last},
-                       Tableau::weight[k] * h);
+        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ends = last}, Tableau::weight[k] * h);
         update_vertices<B>(exec, "plica::runge_kutta", level.model.vertices,
                            RungeKuttaStage<B>{level.model, level.f, start_, stage_, sum_, static_cast<Real>(h),
                                               static_cast<Real>(Tableau::weight[k]), static_cast<Real>(ahead)});

@@ -130,8 +130,7 @@ class Bdf2Step final : public ImplicitStep<B> {
 
 /// The generalised alpha method of Chung & Hulbert (1993): order 2, stable at every step on the linear problem, and the fastest
 /// motion keeps rho_infinity of its amplitude per step: 1 conserves (the implicit midpoint rule), 0 annihilates. Balance is met at
-/// t + (1 - alpha_f) h with the acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. Contact acts at the end of the step, and its
-/// acceleration is not carried on. It carries an acceleration from step to step; where
+/// t + (1 - alpha_f) h with the acceleration alpha_m a_n + (1 - alpha_m) a_{n+1}. It carries an acceleration from step to step; where
 /// a cycle hands over another state, that is the acceleration there.
 template <class B>
 class GeneralizedAlphaStep final : public ImplicitStep<B> {
@@ -174,22 +173,15 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
                                            static_cast<Real>(span * h * (0.5 - beta_) - cu * mass_),
                                            static_cast<Real>(span * (1 - gamma_) - cv * mass_)});
     velocity_of_ = cv;
-    return this->stages().solve(level, time, span, {cu, cv},
-                                {.span = h, .factor = (1 - mass_) / gamma_, .scale = 1 / (1 - force_)});
+    return this->stages().solve(level, time, span, {cu, cv}, {.span = h, .scale = 1 / (1 - force_)});
   }
 
   void finish(SolverLevel<B>& level, double h) override {
-    Vectors<B> contact;
-    if (level.contact()) {
-      contact = level.f;
-      fill(level.exec(), contact, Real(0));
-      level.response().add_last_forces(level.exec(), level, contact);
-    }
-    update_vertices<B>(level.exec(), "plica::generalized_alpha_end", level.model.vertices,
-                       GeneralizedAlphaEnd<B>{start_, this->stages().base(), level.state, acceleration_,
-                                              static_cast<Real>(h), static_cast<Real>(velocity_of_),
-                                              static_cast<Real>(mass_), static_cast<Real>(beta_),
-                                              static_cast<Real>(gamma_), level.model.inverse_mass, contact});
+    update_vertices<B>(
+        level.exec(), "plica::generalized_alpha_end", level.model.vertices,
+        GeneralizedAlphaEnd<B>{start_, this->stages().base(), level.state, acceleration_, static_cast<Real>(h),
+                               static_cast<Real>(velocity_of_), static_cast<Real>(mass_), static_cast<Real>(beta_),
+                               static_cast<Real>(gamma_)});
   }
 
  private:

@@ -69,8 +69,7 @@ class ImplicitStep : public Integrator<B> {
   bool failed_ = false;
 
   void accept(SolverLevel<B>& level, double time, double h) {
-    if (level.contact())
-      level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
+    if (level.contact()) level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
     finish(level, h);
     prescribe(level.exec(), level, level.state, time + h);
     if (!level.contact()) return;

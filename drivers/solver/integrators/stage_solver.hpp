@@ -89,8 +89,7 @@ class StageSolver {
            sizeof(Real) * (carrying_.extent(0) + last_carried_.extent(0));
   }
   void persist(StateArchive<B>& archive) {
-    for (long* count :
-         {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
+    for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
       archive.number(*count);
     archive.number(residual_);
     if (carries()) archive.number(updates_), archive.number(fresh_), archive.field("the carried pressures", carried_);
@@ -246,8 +245,7 @@ class StageSolver {
     double part = 1;
     for (int i = 0;; ++i) {
       level.linearise(level.state, end, w, 0, level.f);
-      const Potential next =
-          potential_with(level, end, w, level.response().balance(level.exec(), level, level.state));
+      const Potential next = potential_with(level, end, w, level.response().balance(level.exec(), level, level.state));
       const double rounding =
           std::max(lost, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * std::max(now.scale, next.scale);
       if (next.finite() && (moving || next.value - now.value <= sufficient * part * slope + rounding)) return next;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/organs.hpp>
 
@@ -67,7 +68,7 @@ TEST(Multigrid, OfNodalElementsKnowsOfContact) {
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   const PathMotion way{{{0, {0, 0, 0}}, {0.1, {0, 0, -0.012}}, {0.2, {0.02, 0, -0.012}}}};
-  p.contact.stiffness_scale = 10,
+  p.contact.stiffness_scale = 10.0 / 16,
   p.contact.obstacles = {{CapsuleOptions{{0.04, 0.04, 0.05}, {0.04, 0.04, 0.15}, 8e-3}, 0.2, way}};
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 5e-3;
@@ -76,8 +77,8 @@ TEST(Multigrid, OfNodalElementsKnowsOfContact) {
   advance(simulation, 40);
   const auto counts = simulation.counters();
   EXPECT_EQ(counts.at("cg_misses"), 0);
-  EXPECT_LE(counts.at("cg_iterations"), 16 * (counts.at("linear_solves") + counts.at("contact_solves")));
-  EXPECT_LE(counts.at("preconditioner_fits"), 4);
+  EXPECT_LE(counts.at("cg_iterations"), 17 * counts.at("linear_solves"));
+  EXPECT_LE(counts.at("preconditioner_fits"), 30);  // a solve of contact that has just changed takes more
 }
 
 // Of nodal elements that stiffen exponentially, whose coarser levels are those of linear ones.
