@@ -21,7 +21,7 @@ body:
   surface: {sphere: {radius: 4 cm, subdivisions: 1}}
   initial: {position: [0, 0, 0.055]}
 integration: {cycle: rsv, macro_step: 1 ms, integrator: implicit_euler}
-contact: {obstacles: [{plane: {point: [0, 0, 0.01]}, friction: 0.2}]}
+contact: {stiffness_scale: 0.0625, obstacles: [{plane: {point: [0, 0, 0.01]}, friction: 0.2}]}
 output: {every: 20 steps, volume: all, probes: {tip: [0.1, 0.02, 0.02], middle: [5 cm, 5 cm, 5 cm]}}
 )";
 
