@@ -122,7 +122,7 @@ TEST(ThinTools, PushSteadilyInLongSteps) {
       const double now = s.wrenches()[0].force.norm();
       least = std::min(least, now), most = std::max(most, now);
     }
-    EXPECT_LT(most, 1.04 * least) << integrator << " " << step;
+    EXPECT_LT(most, 1.05 * least) << integrator << " " << step;
     at_rest.push_back(most);
     EXPECT_GT(most, 0.7 * want) << integrator << " " << step;
     EXPECT_LT(most, 1.05 * want) << integrator << " " << step;
