@@ -101,7 +101,7 @@ class StageSolver {
   static constexpr double sufficient = 1e-4;  // part of the decrease that the slope promises
   static constexpr double balanced = 3e-3;    // part of the forces in a stage with contact that may be left unbalanced
   static constexpr int contact_iterations = 16;
-  static constexpr double lost = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
+  static constexpr double unseen = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
 
   ImplicitOptions options_;
   std::unique_ptr<LinearSolver<B>> solver_;
@@ -247,7 +247,7 @@ class StageSolver {
       level.linearise(level.state, end, w, 0, level.f);
       const Potential next = potential_with(level, end, w, level.response().balance(level.exec(), level, level.state));
       const double rounding =
-          std::max(lost, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * std::max(now.scale, next.scale);
+          std::max(unseen, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * std::max(now.scale, next.scale);
       if (next.finite() && (moving || next.value - now.value <= sufficient * part * slope + rounding)) return next;
       if (i == most_halvings) break;
       ++searches_;

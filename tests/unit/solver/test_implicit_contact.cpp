@@ -267,9 +267,10 @@ TEST(ImplicitContact, TakesNoEnergyFromFriction) {
     for (const double friction : {0.0, 0.3, 1.0})
       for (const Point& velocity : {Point(0, 0, -1), Point(0.5, 0.2, -0.3)}) {
         SCOPED_TRACE(std::to_string(step) + " s, friction " + std::to_string(friction));
-        Problem p = body_of(
-            {TetMesh{{{0.02, 0, 0.001}, {-0.01, 0.017, 0.001}, {-0.01, -0.017, 0.003}, {0, 0, 0.04}}, {{0, 1, 2, 3}}}},
-            "neo_hookean");
+        TetMesh mesh;
+        mesh.vertices = {{0.02, 0, 0.001}, {-0.01, 0.017, 0.001}, {-0.01, -0.017, 0.003}, {0, 0, 0.04}};
+        mesh.tets = {{0, 1, 2, 3}};
+        Problem p = body_of({mesh}, "neo_hookean");
         p.body.material.young_modulus = 1e5;
         p.body.surface = boundary_surface(p.body.levels[0]).surface;
         p.body.initial.velocity = velocity;
