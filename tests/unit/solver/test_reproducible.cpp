@@ -52,13 +52,17 @@ Problem busy_with_matrices() {
 template <class B>
 std::vector<Point> result(const typename B::Exec& exec, const Problem& problem = busy()) {
   Simulation<B> simulation(problem, exec);
-  advance(simulation, 15);
+  bool touched = false;
+  for (int step = 0; step < 15; ++step) {
+    advance(simulation, 1);
+    touched |= simulation.energies().contact > 0;
+  }
+  EXPECT_TRUE(touched);
   std::vector<Point> all;
   for (int level = 0; level < (problem.integration.cycle == "him" ? 1 : 3); ++level)
     for (const auto& field : {simulation.positions(level), simulation.velocities(level)})
       all.insert(all.end(), field.begin(), field.end());
   const Energies e = simulation.energies();
-  EXPECT_GT(e.contact, 0);
   all.push_back({e.kinetic, e.elastic, e.potential});
   all.push_back({e.contact, simulation.macro_step(), simulation.levels()[0].critical_step});
   return all;
