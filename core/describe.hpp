@@ -344,6 +344,10 @@ void describe(V& v, CouplingOptions& o) {
     "of the spring to where its motion asks it to be; 0: none");
   v("damping", o.damping, AutoQuantity{{{.mass = 1, .time = -1}, not_negative}},
     "against the velocity of its motion; auto: critical, 2 sqrt(stiffness mass)");
+  v("angular_stiffness", o.angular_stiffness, Quantity{{.mass = 1, .length = 2, .time = -2}, not_negative},
+    "of one with inertia: of the spring to where its turn asks it to be, for each radian; 0: none");
+  v("angular_damping", o.angular_damping, AutoQuantity{{{.mass = 1, .length = 2, .time = -1}, not_negative}},
+    "likewise, against the rate of its turn; auto: critical for its largest moment of inertia");
 }
 
 template <class V>
@@ -355,6 +359,8 @@ void describe(V& v, GraspOptions& o) {
   v("where", o.where, Group{}, "which points, by where they start; left out: all");
   v("stiffness", o.stiffness, AutoQuantity{{{.mass = 1, .time = -2}, positive}},
     "of the spring of each point that it holds; auto: that of contact");
+  v("strength", o.strength, Quantity{force, positive},
+    "force at which a point's spring tears; left out: it never does");
 }
 
 template <class V>
@@ -365,6 +371,8 @@ void describe(V& v, AttachmentOptions& o) {
   v.required("reach", o.reach, Quantity{length, not_negative}, "how far from that surface a point may be");
   v("stiffness", o.stiffness, AutoQuantity{{{.mass = 1, .time = -2}, positive}},
     "of the spring of each point; auto: that of contact");
+  v("strength", o.strength, Quantity{force, positive},
+    "force at which a point's spring tears; left out: it never does");
 }
 
 /// But for its shape.
@@ -374,9 +382,15 @@ void describe(V& v, ObstacleOptions& o) {
   v("friction", o.friction, Quantity{plain, not_negative}, "Coulomb's coefficient; left out: frictionless");
   v("mass", o.mass, Quantity{{.mass = 1}, positive},
     "the body pushes it, its coupling pulls it to its motion; left out: it is where its motion says");
-  v("coupling", o.coupling, Group{}, "of an obstacle with mass, to its motion");
+  v("inertia", o.inertia, ListOf<Quantity>{{{.mass = 1, .length = 2}}},
+    "of an obstacle with mass, about its centre of mass: [xx, yy, zz] or [xx, yy, zz, xy, xz, yz]; left out: it does "
+    "not turn");
+  v("centre_of_mass", o.centre_of_mass, Vector{length},
+    "of an obstacle with inertia, at t = 0; left out: the shape's origin");
+  v("coupling", o.coupling, Group{}, "of an obstacle with mass, to its motion and its turn");
   v("grasp", o.grasp, Group{}, "it takes hold of the surface points near it, and lets them go");
-  v("turn", o.turn, Group{}, "about an axis that goes along with its motion");
+  v("turn", o.turn, Group{},
+    "about an axis that goes along with its motion; of one with mass and inertia what its coupling pulls it to");
   v.at_most_one();
   describe(v, o.motion);
 }

@@ -243,6 +243,7 @@ struct AttachmentOptions {
   std::optional<Selection> where = {};   ///< of the body's surface points where they start; none: all of them
   double reach = 0;                      ///< how far from the other's surface a point may be that is attached [m]
   std::optional<double> stiffness = {};  ///< of each point's spring [N/m]; none: as contact has it
+  std::optional<double> strength = {};   ///< force at which a point's spring tears [N]; none: it never does
 };
 
 /// Penalty contact of the embedded surface's vertices with obstacles and with the surface's triangles, see

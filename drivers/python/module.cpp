@@ -258,7 +258,8 @@ void bind_simulation(nb::module_& m) {
            [](const H& s) {
              std::vector<nb::object> all;
              for (const ToolState& t : s->tools())
-               all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement), vector_of(t.velocity)));
+               all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement), vector_of(t.velocity),
+                                            vector_of(t.rotation), vector_of(t.angular_velocity)));
              return all;
            })
       .def("held",

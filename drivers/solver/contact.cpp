@@ -60,7 +60,7 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   const auto& all = options.obstacles;
   const double longest = longest_surface_edge(surface.surface);
   for (const ObstacleOptions& o : all) options_.push_back(o.grasp);
-  make_memory(std::ranges::any_of(all, [](const ObstacleOptions& o) { return o.mass.has_value(); }));
+  make_memory(options);
   for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles(), longest));
   choose_held(surface.held);
   make_laws(options, surface);
@@ -71,14 +71,27 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
              static_cast<Real>(surface.edge), options.bodies, options.self};
 }
 
+/// | tools with mass | what obstacles hold | attached points that are torn |
 template <class B>
-void Contact<B>::make_memory(bool tools) {
-  const int count = static_cast<int>(options_.size());
-  if (tools) grasps_.first = ObstaclePlace<B>::numbers * count;
-  if (std::ranges::any_of(options_, [](const auto& grasp) { return grasp.has_value(); }))
-    grasps_.places = count * points_;
-  if (const int size = grasps_.at(grasps_.places); size > 0)
-    grasps_.memory = memory_ = zeros<Doubles<B>>("plica::contact.memory", static_cast<std::size_t>(size));
+void Contact<B>::make_memory(const ContactOptions& options) {
+  const auto& all = options.obstacles;
+  const bool tools = std::ranges::any_of(all, [](const auto& o) { return o.mass.has_value(); });
+  const bool tear = std::ranges::any_of(options.attachments, [](const auto& a) { return a.strength.has_value(); });
+  if (tools) grasps_.first = ObstaclePlace<B>::numbers * static_cast<int>(all.size());
+  if (std::ranges::any_of(all, [](const auto& o) { return o.grasp.has_value(); }))
+    grasps_.places = static_cast<int>(all.size()) * points_;
+  attached_.first = grasps_.at(grasps_.places);
+  std::vector<double> start(static_cast<std::size_t>(attached_.first + (tear ? points_ : 0)), 0.0);
+  for (std::size_t o = 0; tools && o < all.size(); ++o) {
+    const Point turned = all[o].turn ? all[o].turn->rotation : Point(Point::Zero());
+    const double half = turned.norm() / 2;
+    double* const attitude = &start[o * ObstaclePlace<B>::numbers + ObstaclePlace<B>::attitude];
+    attitude[0] = std::cos(half);
+    for (int k = 0; k < 3; ++k) attitude[1 + k] = half > 0 ? std::sin(half) / (2 * half) * turned[k] : 0;
+  }
+  if (start.empty()) return;
+  grasps_.memory = memory_ = to_device<Doubles<B>>("contact.memory", start);
+  if (tear) attached_.memory = memory_;
 }
 
 template <class B>
@@ -140,10 +153,10 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     }
     return made;
   };
-  const auto tie = [&](ContactLaw<Real> made, const std::optional<double>& k) {
+  const auto tie = [&](ContactLaw<Real> made, const std::optional<double>& k, const std::optional<double>& strength) {
     if (k) made.damping *= static_cast<Real>(std::sqrt(*k / static_cast<double>(made.stiffness)));
     if (k) made.stiffness = static_cast<Real>(*k);
-    made.strength = std::numeric_limits<Real>::infinity();
+    made.strength = strength ? static_cast<Real>(*strength) : std::numeric_limits<Real>::infinity();
     return made;
   };
   std::vector<ContactLaw<Real>> laws;
@@ -154,7 +167,8 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
     for (const Layer& l : layers) laws.push_back(of_layer(l, o.friction));
   grasps_.first_law = static_cast<int>(laws.size());
   for (const ObstacleOptions& o : options.obstacles)
-    for (const Layer& l : layers) laws.push_back(tie(of_layer(l, {}), o.grasp ? o.grasp->stiffness : std::nullopt));
+    for (const Layer& l : layers)
+      laws.push_back(o.grasp ? tie(of_layer(l, {}), o.grasp->stiffness, o.grasp->strength) : of_layer(l, {}));
   const std::size_t first_pair = laws.size();
   for (const Layer& a : layers)
     for (const Layer& b : layers) {
@@ -170,7 +184,8 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
             : std::pair{
                   static_cast<std::size_t>(part(one->point)),
                   static_cast<std::size_t>(part(of.surface.triangles[static_cast<std::size_t>(one->triangle)][0]))};
-    laws.push_back(tie(laws[first_pair + own * layers.size() + other], options.attachments[a].stiffness));
+    const AttachmentOptions& its = options.attachments[a];
+    laws.push_back(tie(laws[first_pair + own * layers.size() + other], its.stiffness, its.strength));
   }
   const Layer& first = layers.front();
   stiffness_ = scale * first.modulus * first.area / first.edge;
@@ -192,7 +207,8 @@ void Contact<B>::attach(const TouchingSurface& of) {
   }
   for (const AttachedPoint& one : of.attached)
     for (const int corner : of.surface.triangles[static_cast<std::size_t>(one.triangle)])
-      if (int& number = attachment[static_cast<std::size_t>(corner)]; number < 0) number = Attachments<B>::beside;
+      if (int& number = attachment[static_cast<std::size_t>(corner)]; number < 0)
+        number = Attachments<B>::beside - one.point;
   attached_.attachment = to_device<Indices<B>>("contact.attachment", attachment);
   attached_.triangle = to_device<Indices<B>>("contact.attached_to", triangle);
   attached_.weight = to_device<Vectors<B>>("contact.attached_weight", weight);
@@ -339,6 +355,12 @@ std::vector<int> Contact<B>::held_by(const Exec& exec, int obstacle) const {
   for (int p = 0; p < points_; ++p)
     if (all[static_cast<std::size_t>(grasps_.at(obstacle * points_ + p) + 3)] > 0) held.push_back(p);
   return held;
+}
+
+template <class B>
+int Contact<B>::torn(const Exec& exec) const {
+  const std::vector<double> all = host_values(exec, attached_.memory);
+  return all.empty() ? 0 : static_cast<int>(std::ranges::count(all.begin() + attached_.first, all.end(), 1.0));
 }
 
 template <class B>

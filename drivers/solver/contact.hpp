@@ -99,7 +99,7 @@ class Contact {
     obstacles_[static_cast<std::size_t>(obstacle)]->set_turn(turn);
   }
   /// What obstacles carry from one step to the next: where those with mass are, see ObstaclePlace, then what they hold, see
-  /// Grasps; empty where there is none of it.
+  /// Grasps, then what is torn, see Attachments; empty where there is none of it.
   const Doubles<B>& memory() const { return memory_; }
   /// The obstacle takes hold of what is near it in a state of level 0, whose records these are.
   void grasp(const Exec&, const Level<B>&, double time, int obstacle, const ContactRecords<B>&) const;
@@ -109,6 +109,8 @@ class Contact {
   }
   /// The points that it holds. Waits.
   std::vector<int> held_by(const Exec&, int obstacle) const;
+  /// Points whose attachments are torn. Waits.
+  int torn(const Exec&) const;
   /// Tools with mass take a macro step that ends at `end`.
   void move_tools(const Exec&, const Doubles<B>& wrench, double end, double span) const;
   std::size_t grid_bytes() const;  ///< of sampled distances
@@ -135,7 +137,7 @@ class Contact {
 
   void make_laws(const ContactOptions& options, const TouchingSurface& surface);
   void attach(const TouchingSurface& surface);
-  void make_memory(bool tools);  ///< `tools`: some have mass
+  void make_memory(const ContactOptions& options);
   void choose_held(const std::vector<std::vector<int>>& chosen);
   void choose_whole(const std::string& rule, const TriangleSurface& surface);
   void connect(const TriangleSurface& surface);

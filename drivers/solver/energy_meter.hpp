@@ -116,7 +116,7 @@ class ObstacleWork {
   static void move(const Simulation<B>& simulation, const std::vector<ToolState>& tools, Moving& one) {
     const int number = static_cast<int>(one.obstacle);
     one.place = one.tool == none ? simulation.obstacle_origin(number) : tools[one.tool].displacement;
-    one.rotation = simulation.obstacle_rotation(number);
+    one.rotation = one.tool == none ? simulation.obstacle_rotation(number) : tools[one.tool].rotation;
   }
 };
 

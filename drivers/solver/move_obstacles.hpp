@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/core/keys.hpp>
 #include <plica/drivers/solver/hierarchy.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/contact/wrenches.hpp>
 
 // What obstacles did in a macro step, and where those with mass then are.
@@ -54,17 +55,23 @@ void copy_memory(const Exec& exec, const View& from, View& to) {
   copy(exec, to, from);
 }
 
-/// A tool with mass takes one step of its coupling in every macro step: no more than the spring turns in it.
+/// A tool with mass takes one step of its coupling in every macro step: no more than the springs turn in it.
 inline void check_couplings(const ContactOptions& contact, double step) {
   for (std::size_t i = 0; i < contact.obstacles.size(); ++i) {
     const ObstacleOptions& o = contact.obstacles[i];
-    const double most = o.mass.value_or(std::numeric_limits<double>::infinity()) / (step * step);
-    if (o.coupling.stiffness <= most) continue;
-    const keys::Quantity stiffness{{.mass = 1, .time = -2}}, time{keys::duration};
-    throw InputError("contact.obstacles." + std::to_string(i) + ".coupling.stiffness is " +
-                     stiffness.shown(o.coupling.stiffness) + "; expected at most " + stiffness.shown(most) +
-                     ", which is its mass over the square of the macro step, " + time.shown(step) +
-                     ": a softer coupling, more mass, or a shorter integration.macro_step");
+    const auto expect_soft = [&](const char* key, const keys::Quantity& unit, double stiffness, double inertia,
+                                 const char* what) {
+      const double most = inertia / (step * step);
+      if (stiffness <= most) return;
+      throw InputError("contact.obstacles." + std::to_string(i) + ".coupling." + key + " is " + unit.shown(stiffness) +
+                       "; expected at most " + unit.shown(most) + ", which is its " + what +
+                       " over the square of the macro step, " + keys::Quantity{keys::duration}.shown(step) +
+                       ": a softer coupling, more of it, or a shorter integration.macro_step");
+    };
+    if (o.mass) expect_soft("stiffness", {{.mass = 1, .time = -2}}, o.coupling.stiffness, *o.mass, "mass");
+    if (!o.inertia.empty())
+      expect_soft("angular_stiffness", {{.mass = 1, .length = 2, .time = -2}}, o.coupling.angular_stiffness,
+                  principal_moments(o)[0], "least moment of inertia");
   }
 }
 

@@ -10,6 +10,7 @@
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/contact/find_on_faces.hpp>
 #include <plica/kernels/contact/find_on_points.hpp>
+#include <plica/kernels/contact/move_tool.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
@@ -31,6 +32,7 @@ class ObstacleOf final : public Obstacle<B> {
   Turning turning_;
   DepthWatch<B> watch_;
   Doubles<B> tools_;                              // the obstacles' memory, with mass only
+  RigidTool tool_;                                // likewise
   int first_;                                     // its own of them
   Real longest_;                                  // edge of the surface [m]
   static constexpr Real face_reach = Real(0.25);  // of an edge
@@ -41,7 +43,7 @@ class ObstacleOf final : public Obstacle<B> {
              double longest)
       : shape_(shape),
         storage_(storage),
-        origin_{origin[0], origin[1], origin[2]},
+        origin_(vec3<double>(options.centre_of_mass.value_or(origin))),
         radius_(radius),
         options_(options),
         path_(make_path(options.motion, knots_)),
@@ -51,6 +53,7 @@ class ObstacleOf final : public Obstacle<B> {
         longest_(static_cast<Real>(longest)) {
     options_.shape.reset();
     set_turn(options.turn);
+    if (options.mass) tool_ = rigid_tool(options);
   }
 
   void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number, bool faces,
@@ -74,7 +77,8 @@ class ObstacleOf final : public Obstacle<B> {
   }
   ObstaclePlace<B> place(double time, double ahead) const override {
     const PathPoint now = path_step(path_, knots_.data(), time, ahead);
-    return {origin_, ObstaclePose{now.displacement, now.velocity, time, turning_.at(time, ahead)}, tools_, first_};
+    return {origin_, ObstaclePose{now.displacement, now.velocity, time, turning_.at(time, ahead)}, tools_, first_,
+            !options_.inertia.empty()};
   }
   void set_motion(const Motion& motion) override {
     knots_.clear();
@@ -85,10 +89,8 @@ class ObstacleOf final : public Obstacle<B> {
   }
   void move(const Exec& exec, const Doubles<B>& wrench, int number, double end, double span) const override {
     if (!options_.mass) return;
-    const double m = *options_.mass, k = options_.coupling.stiffness;
-    update_vertices<B>(exec, "plica::contact_tool", 3,
-                       MoveTool<B>{place(end, 0), path_step(path_, knots_.data(), end + span, 0), wrench, 6 * number,
-                                   span, m, k, options_.coupling.damping.value_or(2 * std::sqrt(k * m))});
+    const ObstaclePlace<B> now = place(end, 0), next = place(end + span, 0);
+    update_vertices<B>(exec, "plica::contact_tool", 1, MoveTool<B>{now, next.pose, wrench, 6 * number, span, tool_});
   }
   double radius() const override { return radius_; }
   bool convex() const override { return Shape::convex; }

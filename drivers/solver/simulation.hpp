@@ -93,9 +93,12 @@ struct Wrench {
 
 /// Where an obstacle with mass is.
 struct ToolState {
-  std::string obstacle;                ///< its name
-  Point displacement = Point::Zero();  ///< from where its shape says [m]
-  Point velocity = Point::Zero();      ///< [m/s]
+  std::string obstacle;                    ///< its name
+  Point displacement = Point::Zero();      ///< of its centre of mass, from where its shape says [m]
+  Point velocity = Point::Zero();          ///< [m/s]
+  bool turns = false;                      ///< it has inertia
+  Point rotation = Point::Zero();          ///< its direction is the axis, its length the angle, at most pi [rad]
+  Point angular_velocity = Point::Zero();  ///< [rad/s]
 };
 
 /// What an obstacle that can take hold of points holds.
@@ -185,6 +188,7 @@ class Simulation {
   std::vector<double> contact_depths() const;
   std::vector<ToolState> tools() const;       ///< of obstacles with mass; waits
   std::vector<HeldBy> held() const;           ///< of obstacles that can hold points; waits
+  int torn_attachments() const;               ///< points whose attachments are torn; waits
   std::vector<CavityState> cavities() const;  ///< whose volume is given, of level 0; waits
   /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers each; step() updates it in
   /// place.
@@ -228,7 +232,8 @@ class Simulation {
   /// wait. save() does not store this motion; check() no longer compares energies. Obstacles count from 0. InputError where there is none of
   /// that number.
   void set_obstacle_motion(int obstacle, const Motion& motion);
-  /// Likewise it turns so; none: it is as its shape says. Its motion goes on. InputError for one with mass, which does not turn.
+  /// Likewise it turns so; none: it is as its shape says. Its motion goes on. One with mass and inertia
+  /// follows by its coupling; InputError for one with mass alone, which does not turn.
   void set_obstacle_turn(int obstacle, const std::optional<Turn>& turn);
   /// Likewise straight from where its motion has it now to this displacement [m] at the end of the next macro step, where it stays: for
   /// tools that a hand or a haptic device moves. One with mass follows by its coupling.

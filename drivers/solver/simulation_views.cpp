@@ -70,9 +70,16 @@ std::vector<ToolState> Simulation<B>::tools() const {
   std::vector<ToolState> tools;
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (!obstacles[o].mass) continue;
-    const double* own = all.data() + o * ObstaclePlace<B>::numbers;
-    tools.push_back(
-        {obstacle_name(inside_->problem.contact, o), Point(own[0], own[1], own[2]), Point(own[3], own[4], own[5])});
+    using Place = ObstaclePlace<B>;
+    const double* const own = all.data() + o * Place::numbers;
+    ToolState tool{obstacle_name(inside_->problem.contact, o), Point(own), Point(own + 3),
+                   !obstacles[o].inertia.empty()};
+    if (tool.turns) {
+      const double* const q = own + Place::attitude;
+      tool.rotation = rotation_vector(Quaternion{q[0], q[1], q[2], q[3]}.rotation());
+      tool.angular_velocity = Point(own + Place::rate);
+    }
+    tools.push_back(tool);
   }
   return tools;
 }
@@ -102,9 +109,10 @@ template <class B>
 void Simulation<B>::set_obstacle_turn(int obstacle, const std::optional<Turn>& turn) {
   inside_->contact_with(obstacle);
   const auto number = static_cast<std::size_t>(obstacle);
-  if (turn && inside_->problem.contact.obstacles[number].mass)
+  const ObstacleOptions& its = inside_->problem.contact.obstacles[number];
+  if (turn && its.mass && its.inertia.empty())
     throw InputError(obstacle_name(inside_->problem.contact, number) + " has mass, and does not turn; expected " +
-                     "contact.obstacles." + std::to_string(obstacle) + " without mass");
+                     "contact.obstacles." + std::to_string(obstacle) + " without mass, or with inertia");
   if (turn) validate_turn(*turn);
   inside_->move(obstacle, turn);
 }
@@ -151,9 +159,8 @@ Point Simulation<B>::obstacle_rotation(int obstacle) const {
 }
 template <class B>
 Point Simulation<B>::obstacle_origin(int obstacle) const {
-  ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
-  place.tools = {};
-  const Vec3<double> at = place.about();
+  const ObstaclePlace<B> place = inside_->contact_with(obstacle).place(obstacle, inside_->time);
+  const Vec3<double> at = place.pose->placed(place.origin);
   return {at[0], at[1], at[2]};
 }
 
@@ -204,6 +211,12 @@ std::vector<HeldBy> Simulation<B>::held() const {
       all.push_back({obstacle_name(inside_->problem.contact, o),
                      inside_->contact_with(number).held_by(inside_->hierarchy().exec(), number)});
   return all;
+}
+
+template <class B>
+int Simulation<B>::torn_attachments() const {
+  const Contact<B>* contact = inside_->hierarchy()[0].contact();
+  return contact ? contact->torn(inside_->hierarchy().exec()) : 0;
 }
 
 template <class B>

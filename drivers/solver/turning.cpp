@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/turning.hpp>
@@ -33,6 +35,21 @@ Point turned_about(const ObstacleOptions& obstacle) {
   Point origin = Point::Zero();
   visit_shape(obstacle.shape, [&](auto shape, const auto& o) { origin = shape.origin(o); });
   return origin;
+}
+
+Eigen::Matrix3d inertia_matrix(const ObstacleOptions& obstacle) {
+  const auto& I = obstacle.inertia;
+  Eigen::Matrix3d matrix = Point(I[0], I[1], I[2]).asDiagonal();
+  if (I.size() == 6) {
+    matrix(0, 1) = matrix(1, 0) = I[3];
+    matrix(0, 2) = matrix(2, 0) = I[4];
+    matrix(1, 2) = matrix(2, 1) = I[5];
+  }
+  return matrix;
+}
+
+Point principal_moments(const ObstacleOptions& obstacle) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia_matrix(obstacle)).eigenvalues();
 }
 
 double reach_from(const Point& on_line, const Point& along, const ShapeOptions& shape) {
@@ -71,6 +88,21 @@ Point rotation_vector(const Mat3<double>& rotation) {
     for (int j = 0; j < 3; ++j) R(i, j) = rotation[i][j];
   const Eigen::AngleAxisd turn(R);
   return turn.angle() * turn.axis();
+}
+
+RigidTool rigid_tool(const ObstacleOptions& o) {
+  const CouplingOptions& c = o.coupling;
+  const auto critical = [](double stiffness, double mass) { return 2 * std::sqrt(stiffness * mass); };
+  RigidTool tool;
+  tool.mass = *o.mass, tool.stiffness = c.stiffness;
+  tool.damping = c.damping.value_or(critical(c.stiffness, *o.mass));
+  if (o.inertia.empty()) return tool;
+  const Eigen::Matrix3d I = inertia_matrix(o);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) tool.inertia[i][j] = I(i, j);
+  tool.angular_stiffness = c.angular_stiffness;
+  tool.angular_damping = c.angular_damping.value_or(critical(c.angular_stiffness, principal_moments(o)[2]));
+  return tool;
 }
 
 Turning::Turning(const Turn& turn, const Point& about)

@@ -10,11 +10,9 @@ namespace plica {
 /// How an obstacle's normal n turns where a point moves along a hollow of it, by -G dx: -G is the Hessian of the distance, without what is
 /// convex. A bowl of radius R has G = (1 - n n) / R [1/m], a convex solid 0. `x`, `n`: as the shape has them; by differences of n over `width`
 /// to either side [m].
-template <class B, class Shape>
-KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> concavity(const Shape& shape, const ObstaclePlace<B>& place,
-                                                           const Vec3<typename B::Real>& x,
-                                                           const Vec3<typename B::Real>& n, typename B::Real width) {
-  using Real = typename B::Real;
+template <class Real, class Shape>
+KOKKOS_INLINE_FUNCTION SymMat3<Real> concavity(const Shape& shape, const ObstaclePose& place, const Vec3<Real>& x,
+                                               const Vec3<Real>& n, Real width) {
   if constexpr (requires { shape.cell; }) width = Kokkos::max(width, shape.cell);
   Vec3<Real> across[2], change[2];
   across[0] = direction_across(n, {}, Real(0)), across[1] = cross(n, across[0]);

@@ -24,7 +24,7 @@ struct ContactLaw {
   Real shear_stiffness = 0;  ///< kt [N/m]
   Real shear_damping = 0;    ///< ct [N s/m]
   Real friction = 0;         ///< Coulomb's coefficient mu
-  Real strength = 0;         ///< of a tie [N]: the force at which it yields; 0: this is a contact
+  Real strength = 0;         ///< of a tie [N]: the force at which it tears, infinity: never; 0: this is a contact
   KOKKOS_INLINE_FUNCTION bool is_tie() const { return strength > 0; }
 };
 

@@ -32,19 +32,29 @@ struct DeviceList {
   int most = 0;
 };
 
-/// Surface points that are attached to another body: each by a tie to one place on one of its triangles.
+/// Surface points that are attached to another body: each by a tie to one place on one of its triangles, until it tears.
 template <class B>
 struct Attachments {
   static constexpr int none = -1, beside = -2;
-  /// [points] which one holds it; beside: another point is held at a triangle of it, so that it touches nothing either; none; empty: no
+  /// [points] which one holds it; beside - q: point q is held at a triangle of it, so that it touches nothing either; none; empty: no
   /// attachments at all
   Indices<B> attachment;
+  Doubles<B> memory;  ///< of the obstacles; from its number `first` on [points] 1: torn; empty: nothing tears
+  int first = 0;
   Indices<B> triangle;  ///< [points]
   Vectors<B> weight;    ///< [points][3] of its corners
   int first_law = 0;    ///< of the attachments' laws, one each
 
-  KOKKOS_INLINE_FUNCTION bool ties(int p) const { return attachment.extent(0) > 0 && attachment(p) != none; }
-  KOKKOS_INLINE_FUNCTION bool holds(int p) const { return attachment.extent(0) > 0 && attachment(p) >= 0; }
+  KOKKOS_INLINE_FUNCTION bool is_torn(int p) const { return memory.extent(0) > 0 && memory(first + p) > 0; }
+  KOKKOS_INLINE_FUNCTION void tear(int p) const { memory(first + p) = 1; }
+  KOKKOS_INLINE_FUNCTION bool holds(int p) const {
+    return attachment.extent(0) > 0 && attachment(p) >= 0 && !is_torn(p);
+  }
+  /// It touches nothing.
+  KOKKOS_INLINE_FUNCTION bool ties(int p) const {
+    if (attachment.extent(0) == 0 || attachment(p) == none) return false;
+    return !is_torn(attachment(p) <= beside ? beside - attachment(p) : p);
+  }
 };
 
 /// Surface points that obstacles hold: each by a tie to where it was, relative to the obstacle, when that closed. A place for every
@@ -224,7 +234,7 @@ struct ContactRecords {
   /// A slot comes into use or goes on in it: its normal, with the carried stretch turned into the plane across it.
   KOKKOS_INLINE_FUNCTION void use(int r, int its_law, const Vec3<Real>& N, Real its_depth, const Vec3<Real>& its_way,
                                   const Vec3<Real>& spin) const {
-    if (near(r) == 0) {
+    if (near(r) == 0 || law_at(r).is_tie()) {
       set_vector<B>(stretch, r, {}), set_vector<B>(force, r, {});
     } else {
       const Vec3<Real> s = vector_at<B>(stretch, r);
@@ -244,6 +254,14 @@ struct ContactRecords {
     set_vector<B>(normal, r, {}), set_vector<B>(way, r, its_way), set_vector<B>(stretch, r, its_stretch);
   }
   KOKKOS_INLINE_FUNCTION void leave(int r) const { near(r) = 0; }
+  /// A tie whose last force was its strength.
+  KOKKOS_INLINE_FUNCTION bool is_torn(int r) const {
+    constexpr Real rounding = Real(1e-3);
+    if (near(r) == 0 || !law_at(r).is_tie()) return false;
+    const Vec3<Real> F = vector_at<B>(force, r);
+    const Real least = (1 - rounding) * law_at(r).strength;
+    return dot(F, F) >= least * least;
+  }
   /// It is in the linear system.
   KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const { return block(r, 0) + block(r, 1) + block(r, 2) > 0; }
 };

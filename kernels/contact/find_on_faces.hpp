@@ -42,7 +42,8 @@ struct FindOnFaces {
     }
     if (!(deepest + stretch * from_corner * longest(x) > -reach)) return records.leave(r);
     for (int c = 0; c < 3; ++c) x[c] = value_at<B>(surface.embedding, state.u, p[c], x[c]);
-    for (int c = 0; c < 3; ++c) x[c] = place.local(x[c]);
+    const ObstaclePose pose = place.now();
+    for (int c = 0; c < 3; ++c) x[c] = pose.local(x[c]);
     const Real size = longest(x);
     const Real enough = Kokkos::max(-reach, deepest + as_deep * size);  // less is not looked at
     if (!(deepest + from_corner * size > enough) || !(most(x) > enough)) return records.leave(r);
@@ -55,13 +56,13 @@ struct FindOnFaces {
     records.set_stencil(r, p[0], p[1], p[2], -1, w[0], w[1], w[2], 0);
     const Vec3<Real> at = records.place(surface, state.u, r);
     records.use(r, records.obstacle_law(obstacle, p[0]),
-                place.outward(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
-                records.span * place.velocity(at), records.span * place.rate());
+                pose.outward(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
+                records.span * pose.velocity(at), records.span * pose.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0)
-        set_block<B>(records.concavity, r,
-                     place.is_turning() ? SymMat3<Real>{}
-                                        : concavity<B>(shape, place, deepest_place, gap.normal, records.edge / 4));
+        set_block<B>(
+            records.concavity, r,
+            pose.is_turning() ? SymMat3<Real>{} : concavity(shape, pose, deepest_place, gap.normal, records.edge / 4));
   }
 
   static KOKKOS_INLINE_FUNCTION Real longest(const Vec3<Real>* x) {

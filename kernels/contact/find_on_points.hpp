@@ -23,32 +23,37 @@ struct FindOnPoints {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const int r = records.of_point(obstacle, p);
     const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
-    const Vec3<Real> own = value_at<B>(surface.embedding, state.v, p), its = place.velocity(x), speed = own - its;
-    if (records.grasps.holds(r)) return hold(r, p, x, its);
-    const Vec3<Real> local = place.local(x);
+    const ObstaclePose at = place.now();
+    const Vec3<Real> own = value_at<B>(surface.embedding, state.v, p), its = at.velocity(x), speed = own - its;
+    if (records.grasps.holds(r)) {
+      if (!records.is_torn(r)) return hold(r, p, x, at, its);
+      records.grasps.release(r);
+    }
+    const Vec3<Real> local = at.local(x);
     const Real far = records.reach + records.span * Kokkos::sqrt(dot(speed, speed));
     Gap<Real> gap =
-        records.long_steps ? shape(local) : gap_along(shape, local, place.inward(records.span * speed), records.reach);
+        records.long_steps ? shape(local) : gap_along(shape, local, at.inward(records.span * speed), records.reach);
     watch.look(p, gap.distance);
     if (gap.distance < between) records.close(0) = 1;
     if (!(gap.distance < far)) {
       records.depth(r) = -gap.distance;
       return records.leave(r);
     }
-    const Vec3<Real> local_normal = gap.normal, N = place.outward(gap.normal);
+    const Vec3<Real> local_normal = gap.normal, N = at.outward(gap.normal);
     records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
     records.use(r, records.obstacle_law(obstacle, p), N, -gap.distance, records.span * its,
-                records.span * place.rate());
+                records.span * at.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0) {
-        const bool bends = gap.distance + records.span * dot(N, speed) < records.edge && !place.is_turning();
+        const bool bends = gap.distance + records.span * dot(N, speed) < records.edge && !at.is_turning();
         set_block<B>(records.concavity, r,
-                     bends ? concavity<B>(shape, place, local, local_normal, records.edge / 4) : SymMat3<Real>{});
+                     bends ? concavity(shape, at, local, local_normal, records.edge / 4) : SymMat3<Real>{});
       }
   }
-  KOKKOS_INLINE_FUNCTION void hold(int r, int p, const Vec3<Real>& x, const Vec3<Real>& its) const {
+  KOKKOS_INLINE_FUNCTION void hold(int r, int p, const Vec3<Real>& x, const ObstaclePose& at,
+                                   const Vec3<Real>& its) const {
     records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
-    records.tie(r, records.held_law(obstacle, p), place.outward(records.grasps.stretch(r, x, place.way(x))),
+    records.tie(r, records.held_law(obstacle, p), at.outward(records.grasps.stretch(r, x, at.way(x))),
                 records.span * its);
     if (records.concavity.extent(0) > 0) set_block<B>(records.concavity, r, {});
   }
@@ -69,7 +74,8 @@ struct Grasp {
     const int r = records.of_point(obstacle, p);
     if (records.grasps.holds(r) || !records.grasps.may_hold(r)) return;
     const Vec3<Real> x = value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p));
-    if (shape(place.local(x)).distance <= reach) records.grasps.hold(r, x, place.way(x));
+    const ObstaclePose at = place.now();
+    if (shape(at.local(x)).distance <= reach) records.grasps.hold(r, x, at.way(x));
   }
 };
 

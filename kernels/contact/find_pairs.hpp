@@ -164,7 +164,10 @@ struct NearestTriangles {
     const ContactRecords<B>& records = find.records;
     const int r = records.of_point(records.obstacles, p), last = records.partner(p);
     records.partner(p) = -1;
-    if (records.attached.holds(p)) return stretch(p, r);
+    if (records.attached.holds(p)) {
+      if (!records.is_torn(r)) return stretch(p, r);
+      records.attached.tear(p);
+    }
     if (!records.attached.ties(p) && find.grid.close(p) > 0)
       if (const Nearest found = partner(p, r, last); found.triangle >= 0 && record(p, r, found)) return;
     records.depth(r) = -records.nowhere();

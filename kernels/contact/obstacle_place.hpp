@@ -2,7 +2,6 @@
 #pragma once
 #include <plica/core/fields.hpp>
 #include <plica/core/launch.hpp>
-#include <plica/core/path.hpp>
 #include <plica/core/small.hpp>
 
 namespace plica {
@@ -15,96 +14,122 @@ struct Attitude {
   Vec3<double> rate;      ///< angular velocity [rad/s]
 };
 
-/// By its motion and its turn.
+/// Where an obstacle is at a time, and how fast.
 struct ObstaclePose {
   Vec3<double> displacement, speed;  ///< [m], [m/s]
   double time = 0;                   ///< [s]
   Attitude turn;
-};
 
-/// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool with mass goes, which the device knows
-/// and which does not turn.
-template <class B>
-struct ObstaclePlace {
-  using Real = typename B::Real;
-  static constexpr int numbers = 7;  ///< of a tool: displacement [m] and velocity [m/s] at a time [s]
-
-  Vec3<double> origin;  ///< at t = 0, what torques are about [m]
-  Changing<B, ObstaclePose> pose;
-  Doubles<B> tools;  ///< [numbers of each obstacle]; empty: it has no mass
-  int first = 0;     ///< its own of them
-
-  KOKKOS_INLINE_FUNCTION Vec3<double> moved() const {
-    if (tools.extent(0) == 0) return pose->displacement;
-    const double since = pose->time - tools(first + 6);
-    Vec3<double> x;
-    for (int k = 0; k < 3; ++k) x[k] = tools(first + k) + since * tools(first + 3 + k);
-    return x;
-  }
-  /// What torques are about.
-  KOKKOS_INLINE_FUNCTION Vec3<double> about() const {
-    const Attitude& turn = pose->turn;
-    return turn.turned ? turn.centre + turn.rotation * (origin - turn.centre) + moved() : origin + moved();
+  /// Where it has a point that its shape has at X.
+  KOKKOS_INLINE_FUNCTION Vec3<double> placed(const Vec3<double>& X) const {
+    return turn.turned ? turn.centre + turn.rotation * (X - turn.centre) + displacement : X + displacement;
   }
   /// A place, as the shape has it.
+  template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> local(const Vec3<Real>& x) const {
-    return pose->turn.turned ? rounded(turned_back(exact(x))) : x - rounded(moved());
+    return turn.turned ? rounded<Real>(turned_back(exact(x))) : x - rounded<Real>(displacement);
   }
   /// How far that is moved [m].
+  template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<double> way(const Vec3<Real>& x) const {
-    return pose->turn.turned ? exact(x) - turned_back(exact(x)) : moved();
+    return turn.turned ? exact(x) - turned_back(exact(x)) : displacement;
   }
   /// A direction, as the shape has it, and back.
+  template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> inward(const Vec3<Real>& d) const {
-    return pose->turn.turned ? rounded(transpose(pose->turn.rotation) * exact(d)) : d;
+    return turn.turned ? rounded<Real>(transpose(turn.rotation) * exact(d)) : d;
   }
+  template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(const Vec3<Real>& d) const {
-    return pose->turn.turned ? rounded(pose->turn.rotation * exact(d)) : d;
+    return turn.turned ? rounded<Real>(turn.rotation * exact(d)) : d;
   }
-  KOKKOS_INLINE_FUNCTION bool is_turning() const {
-    return pose->turn.turned && dot(pose->turn.rate, pose->turn.rate) > 0;
-  }
+  KOKKOS_INLINE_FUNCTION bool is_turning() const { return turn.turned && dot(turn.rate, turn.rate) > 0; }
   /// Its angular velocity [rad/s].
-  KOKKOS_INLINE_FUNCTION Vec3<Real> rate() const { return is_turning() ? rounded(pose->turn.rate) : Vec3<Real>{}; }
+  template <class Real>
+  KOKKOS_INLINE_FUNCTION Vec3<Real> rate() const {
+    return is_turning() ? rounded<Real>(turn.rate) : Vec3<Real>{};
+  }
   /// Of what the obstacle has at x [m/s].
+  template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
-    if (tools.extent(0) > 0) return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});
-    const Vec3<double>& speed = pose->speed;
-    const Attitude& turn = pose->turn;
-    return rounded(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - pose->displacement) : speed);
+    return rounded<Real>(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - displacement) : speed);
   }
 
  private:
+  template <class Real>
   static KOKKOS_INLINE_FUNCTION Vec3<Real> rounded(const Vec3<double>& x) {
     return {static_cast<Real>(x[0]), static_cast<Real>(x[1]), static_cast<Real>(x[2])};
   }
+  template <class Real>
   static KOKKOS_INLINE_FUNCTION Vec3<double> exact(const Vec3<Real>& x) {
     return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
   }
   KOKKOS_INLINE_FUNCTION Vec3<double> turned_back(const Vec3<double>& x) const {
-    const Attitude& turn = pose->turn;
-    return turn.centre + transpose(turn.rotation) * (x - turn.centre - moved());
+    return turn.centre + transpose(turn.rotation) * (x - turn.centre - displacement);
   }
 };
 
-/// A tool with mass m after a macro step T, in which it went on with its velocity: m dv/dt = F + k (x* - x) + c (v* - v) by implicit
-/// Euler for the coupling, stable for any k and c, with the mean contact force F of that step. x* and v* are where its motion asks it
-/// to be at the end of the next step and how fast it gets there.
-template <class B>
-struct MoveTool {
-  ObstaclePlace<B> place;        ///< at the end of the step
-  Changing<B, PathPoint> asked;  ///< at the end of the next
-  Doubles<B> wrench;             ///< on the body
-  int force;                     ///< its first number in it
-  double span, mass, stiffness, damping;
+/// A unit quaternion w + x i + y j + z k, as the rotation that it tells.
+struct Quaternion {
+  double w = 1, x = 0, y = 0, z = 0;
 
-  KOKKOS_INLINE_FUNCTION void operator()(int k) const {
-    const int x = place.first + k, v = x + 3;
-    const double T = span, now = place.tools(x) + T * place.tools(v);
-    const double pull = -wrench(force + k) + stiffness * (asked->displacement[k] - now) + damping * asked->velocity[k];
-    place.tools(v) = (place.tools(v) + T / mass * pull) / (1 + T / mass * (damping + T * stiffness));
-    place.tools(x) = now;
-    if (k == 0) place.tools(place.first + 6) = place.pose->time;
+  KOKKOS_INLINE_FUNCTION Mat3<double> rotation() const {
+    return {Vec3<double>{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+            Vec3<double>{2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+            Vec3<double>{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+  }
+  /// After a turn by d [rad], to the third order: q + d q / 2, made a unit again.
+  KOKKOS_INLINE_FUNCTION Quaternion turned(const Vec3<double>& d) const {
+    const double a = d[0] / 2, b = d[1] / 2, c = d[2] / 2;
+    const Quaternion q{w - a * x - b * y - c * z, x + a * w + b * z - c * y, y + b * w + c * x - a * z,
+                       z + c * w + a * y - b * x};
+    const double over = 1 / Kokkos::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return {over * q.w, over * q.x, over * q.y, over * q.z};
+  }
+};
+
+/// The rotation vector d [rad], of at most pi, that leads from R to S: S = exp(d) R.
+KOKKOS_INLINE_FUNCTION Vec3<double> rotation_between(const Mat3<double>& R, const Mat3<double>& S) {
+  const Mat3<double> D = S * transpose(R);
+  const Vec3<double> twice_sine{D[2][1] - D[1][2], D[0][2] - D[2][0], D[1][0] - D[0][1]};
+  const double sine = Kokkos::sqrt(dot(twice_sine, twice_sine)) / 2, cosine = (trace(D) - 1) / 2;
+  const double angle = Kokkos::atan2(sine, cosine);
+  return (sine > 1e-9 ? angle / (2 * sine) : 0.5) * twice_sine;
+}
+
+/// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool with mass goes, which the device knows.
+template <class B>
+struct ObstaclePlace {
+  /// Of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x, y, z) and angular velocity [rad/s].
+  static constexpr int numbers = 14, at_time = 6, attitude = 7, rate = 11;
+
+  Vec3<double> origin;  ///< at t = 0, what torques are about, and what a tool with mass turns about [m]
+  Changing<B, ObstaclePose> pose;
+  Doubles<B> tools;    ///< [numbers of each obstacle]; empty: it has no mass
+  int first = 0;       ///< its own of them
+  bool turns = false;  ///< a tool that has inertia
+
+  KOKKOS_INLINE_FUNCTION ObstaclePose now() const {
+    if (tools.extent(0) == 0) return *pose;
+    ObstaclePose is;
+    is.time = pose->time;
+    const double since = is.time - tools(first + at_time);
+    for (int k = 0; k < 3; ++k) {
+      is.speed[k] = tools(first + 3 + k);
+      is.displacement[k] = tools(first + k) + since * is.speed[k];
+    }
+    if (turns) {
+      is.turn.turned = true, is.turn.centre = origin;
+      for (int k = 0; k < 3; ++k) is.turn.rate[k] = tools(first + rate + k);
+      is.turn.rotation = last_attitude().turned(since * is.turn.rate).rotation();
+    }
+    return is;
+  }
+  /// What torques are about.
+  KOKKOS_INLINE_FUNCTION Vec3<double> about() const { return now().placed(origin); }
+  KOKKOS_INLINE_FUNCTION Quaternion last_attitude() const {
+    const int q = first + attitude;
+    return {tools(q), tools(q + 1), tools(q + 2), tools(q + 3)};
   }
 };
 

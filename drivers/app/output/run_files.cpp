@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <plica/drivers/app/output/run_files.hpp>
@@ -47,6 +48,10 @@ constexpr const char* history_columns =
     "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,total_energy,"
     "com_x,com_y,com_z,max_speed,rms_speed";
 
+bool has_strength(const ContactOptions& contact) {
+  return std::ranges::any_of(contact.attachments, [](const auto& a) { return a.strength.has_value(); });
+}
+
 std::string history_head(bool retries, const Problem& problem) {
   std::string all = std::string(history_columns) + (retries ? ",halvings" : "");
   const auto add = [&](const std::string& name, std::initializer_list<const char*> quantities) {
@@ -55,13 +60,17 @@ std::string history_head(bool retries, const Problem& problem) {
   };
   for (const std::string& name : wrench_names(problem)) add(name, {"force", "torque"});
   for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
-    if (problem.contact.obstacles[o].mass) add(obstacle_name(problem.contact, o), {"displacement", "velocity"});
+    if (problem.contact.obstacles[o].mass) {
+      add(obstacle_name(problem.contact, o), {"displacement", "velocity"});
+      if (!problem.contact.obstacles[o].inertia.empty())
+        add(obstacle_name(problem.contact, o), {"rotation", "angular_velocity"});
+    }
   for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
     if (problem.contact.obstacles[o].grasp) all += fmt::format(",{}.held", obstacle_name(problem.contact, o));
   for (std::size_t i = 0; i < problem.body.loads.size(); ++i)
     if (std::holds_alternative<EnclosedVolume>(problem.body.loads[i].load))
       all += fmt::format(",load_{0}.volume,load_{0}.pressure", i);
-  return all + "\n";
+  return all + (has_strength(problem.contact) ? ",attachments.torn\n" : "\n");
 }
 
 }  // namespace
@@ -70,7 +79,8 @@ History::History(const std::filesystem::path& file, std::vector<double> masses, 
                  std::optional<std::uint64_t> kept)
     : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, problem))),
       masses_(std::move(masses)),
-      retries_(retries) {}
+      retries_(retries),
+      tears_(has_strength(problem.contact)) {}
 
 void History::write(const Snapshot& s) {
   double mass = 0, max_square = 0, sum_square = 0;
@@ -90,9 +100,13 @@ void History::write(const Snapshot& s) {
   if (retries_) row += fmt::format(",{}", s.halvings);
   const auto add = [&](const Point& p) { row += fmt::format(",{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z()); };
   for (const Wrench& w : s.wrenches) add(w.force), add(w.torque);
-  for (const ToolState& t : s.tools) add(t.displacement), add(t.velocity);
+  for (const ToolState& t : s.tools) {
+    add(t.displacement), add(t.velocity);
+    if (t.turns) add(t.rotation), add(t.angular_velocity);
+  }
   for (const HeldBy& h : s.held) row += fmt::format(",{}", h.points.size());
   for (const CavityState& c : s.cavities) row += fmt::format(",{:.9g},{:.9g}", c.volume, c.pressure);
+  if (tears_) row += fmt::format(",{}", s.torn);
   file_.add(row + "\n");
 }
 

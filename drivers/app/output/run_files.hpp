@@ -31,6 +31,7 @@ struct Snapshot {
   std::vector<ToolState> tools;  ///< obstacles with mass
   std::vector<HeldBy> held;      ///< by obstacles that can hold points
   std::vector<CavityState> cavities;
+  int torn = 0;  ///< attached points
 };
 
 /// Of macro steps so far; 0 where bad ones are not retried.
@@ -54,7 +55,8 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.wrenches(),
                     simulation.tools(),
                     simulation.held(),
-                    simulation.cavities()};
+                    simulation.cavities(),
+                    simulation.torn_attachments()};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
@@ -69,7 +71,7 @@ std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
 /// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; where obstacles with mass are;
-/// how many points those hold that can; volume and pressure in cavities.
+/// how many points those hold that can; volume and pressure in cavities; how many attached points are torn.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
@@ -81,7 +83,7 @@ class History {
  private:
   GrowingFile file_;
   std::vector<double> masses_;
-  bool retries_;
+  bool retries_, tears_;
 };
 
 /// Which of the files that tell of a run are in a folder, its checkpoint first; none: it holds no run.

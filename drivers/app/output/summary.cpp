@@ -105,8 +105,11 @@ Json wrenches_json(const std::vector<Wrench>& wrenches) {
 
 Json tools_json(const std::vector<ToolState>& tools) {
   Json all = Json::object();
-  for (const ToolState& t : tools)
-    all[t.obstacle] = {{"displacement", three(t.displacement)}, {"velocity", three(t.velocity)}};
+  for (const ToolState& t : tools) {
+    Json& tool = all[t.obstacle] = {{"displacement", three(t.displacement)}, {"velocity", three(t.velocity)}};
+    if (!t.turns) continue;
+    tool["rotation"] = three(t.rotation), tool["angular_velocity"] = three(t.angular_velocity);
+  }
   return all;
 }
 

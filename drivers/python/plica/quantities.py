@@ -29,7 +29,10 @@ class Cavity:
 
 @dataclass(frozen=True)
 class Tool:
-    """Where an obstacle with mass is. displacement: [3] m from where its shape says. velocity: [3] m/s."""
+    """Where an obstacle with mass is. displacement: [3] m of its centre of mass from where its shape says. velocity: [3] m/s.
+    rotation: [3] rad, its direction the axis and its length the angle. angular_velocity: [3] rad/s. Both are 0 without inertia."""
 
     displacement: np.ndarray
     velocity: np.ndarray
+    rotation: np.ndarray
+    angular_velocity: np.ndarray

@@ -253,7 +253,7 @@ class Simulation:
 
     def tools(self) -> dict[str, Tool]:
         """Where each obstacle with mass is now, by its name."""
-        return {name: Tool(displacement, velocity) for name, displacement, velocity in self._open().tools()}
+        return {name: Tool(*rest) for name, *rest in self._open().tools()}
 
     def cavities(self) -> dict[int, Cavity]:
         """How each load with `enclosed_volume` is now, by its number among body.loads: of level 0."""

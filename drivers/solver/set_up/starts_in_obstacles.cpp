@@ -50,8 +50,7 @@ Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& pla
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     if constexpr (requires { shape.template shape<double>(its); }) {
       const auto gap = shape.template shape<double>(its);
-      ObstaclePlace<Backend<double, Kokkos::DefaultHostExecutionSpace>> start;
-      start.pose = pose_at_start(options);
+      const ObstaclePose start = pose_at_start(options);
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double depth = -gap(start.local(vec3<double>(places[i]))).distance;
         if (depth > 0) ++found.inside;

@@ -12,6 +12,7 @@
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/spaces/coarse_spaces.hpp>
+#include <plica/drivers/solver/turning.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
@@ -146,6 +147,33 @@ void check_grasp(const std::string& path, const GraspOptions& o) {
   }
 }
 
+/// A tool turns where it has inertia.
+void check_inertia(const std::string& path, const ObstacleOptions& o) {
+  const bool turns = !o.inertia.empty();
+  const auto expect_inertia = [&](bool given, const std::string& what) {
+    if (given && !turns)
+      throw InputError(path + what + " is of an obstacle that turns by the torque on it; expected " + path +
+                       ".inertia, too, or neither");
+  };
+  expect_inertia(o.mass && o.turn, ".turn, beside mass,");
+  expect_inertia(o.centre_of_mass.has_value(), ".centre_of_mass");
+  expect_inertia(o.coupling.angular_stiffness > 0 || o.coupling.angular_damping, ".coupling.angular_stiffness");
+  if (!turns) return;
+  if (!o.mass) throw InputError(path + ".inertia is of an obstacle with mass; expected " + path + ".mass, too");
+  if (o.inertia.size() != 3 && o.inertia.size() != 6)
+    throw InputError(path + ".inertia has " + std::to_string(o.inertia.size()) +
+                     " numbers; expected three, xx yy zz, or six, xx yy zz xy xz yz");
+  const Point moments = principal_moments(o);
+  const auto shown = [](double moment) { return Quantity{{.mass = 1, .length = 2}}.shown(moment); };
+  if (!(moments[0] > 0))
+    throw InputError(path + ".inertia has a moment of " + shown(moments[0]) +
+                     " about a principal axis; expected positive ones");
+  if (moments[2] > moments[0] + moments[1] + 1e-9 * moments[2])
+    throw InputError(path + ".inertia has the principal moments " + shown(moments[0]) + ", " + shown(moments[1]) +
+                     " and " + shown(moments[2]) +
+                     "; expected none larger than the sum of the others, as of any solid");
+}
+
 void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   const bool known = visit_shape(o.shape, [&](auto shape, const auto& options) {
     using S = decltype(shape);
@@ -160,8 +188,7 @@ void check_obstacle(const std::string& path, const ObstacleOptions& o) {
   if (o.mass && moves(o.motion) && !(o.coupling.stiffness > 0 || o.coupling.damping))
     throw InputError(path + " has mass and a motion, but nothing that makes it follow; expected " + path +
                      ".coupling, or no motion: a free tool starts at rest");
-  if (o.mass && o.turn)
-    throw InputError(path + " has mass and turn; expected one of them: a tool with mass translates only");
+  check_inertia(path, o);
   if (!o.grasp) return;
   check_grasp(path + ".grasp", *o.grasp);
   if (o.grasp->where) expect_without_name(*o.grasp->where, path + ".grasp.where");

@@ -79,6 +79,31 @@ TEST(Attachments, CarryAWeightByTheirSprings) {
   }
 }
 
+// 16 springs carry the weight, those at the corners more than the mean: eight times as strong as that they hold, half as strong they tear, and
+// the body falls.
+TEST(Attachments, TearAtTheirStrength) {
+  const double weight = 9.81 * mass_of(cube({0, 0, 0}, 3));
+  for (const auto& [integrator, step] : {std::pair{"symplectic_euler", 0.0}, {"implicit_euler", 1e-3}})
+    for (const double part : {8.0, 0.5}) {
+      SCOPED_TRACE(integrator + std::string(" ") + std::to_string(part));
+      Problem p = hanging(3000);
+      p.body.regions.at("lower").damping.mass = p.body.regions.at("upper").damping.mass = 30;
+      p.contact.attachments[0].strength = part * weight / 16;
+      p.integration.integrator = {integrator};
+      if (step > 0) p.integration.macro_step = step;
+      Simulation<Host> s(p);
+      while (s.time() < 0.3) advance(s, 10);
+      EXPECT_EQ(s.torn_attachments(), part > 1 ? 0 : 16);
+      EXPECT_NEAR(s.wrenches()[1].force[2], part > 1 ? weight : 0, 0.02 * weight);
+      if (part < 1) {
+        EXPECT_LT(s.velocities().back()[2], -0.2);
+      }
+      Simulation<Host> other(p);
+      other.restore(s.save());
+      EXPECT_EQ(other.torn_attachments(), s.torn_attachments());
+    }
+}
+
 // One body in two parts bends as it does in one.
 TEST(Attachments, MakeOneBeamOfTwoHalves) {
   const auto half = [&](double at) {

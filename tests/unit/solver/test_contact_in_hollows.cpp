@@ -29,8 +29,8 @@ struct Trough {
 
 template <class Shape>
 Eigen::Matrix3d concavity_at(const Shape& shape, const V& x) {
-  const ObstaclePlace<Host> place{{}, ObstaclePose{}, {}, 0};
-  const Mat3<double> G = matrix_of(concavity<Host>(shape, place, x, shape(x).normal, 1e-4));
+  const ObstaclePose place{};
+  const Mat3<double> G = matrix_of(concavity(shape, place, x, shape(x).normal, 1e-4));
   Eigen::Matrix3d all;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) all(i, j) = G[i][j];

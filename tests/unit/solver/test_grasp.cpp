@@ -80,6 +80,25 @@ TEST(Grasp, HangsByItsSprings) {
   }
 }
 
+// The grip of a plate that goes up holds where it is stronger than the weight's part on each spring, and slips off where it is not.
+TEST(Grasp, TearsAtItsStrength) {
+  for (const auto& [integrator, step] : {std::pair{"symplectic_euler", 2e-4}, {"implicit_euler", 1e-3}})
+    for (const double part : {4.0, 0.5}) {
+      SCOPED_TRACE(integrator + std::string(" ") + std::to_string(part));
+      Problem p = cube_and_plate(from_the_start);
+      p.gravity = {0, 0, -9.81};
+      p.body.damping.mass = 30;
+      p.integration.integrator = {integrator}, p.integration.macro_step = step;
+      const double weight = 9.81 * total(masses_of(p));
+      p.contact.obstacles[0].grasp->stiffness = 2000;
+      p.contact.obstacles[0].grasp->strength = part * weight / 25;
+      Simulation<Host> s(p);
+      while (s.time() < 0.3) advance(s, 1);
+      EXPECT_EQ(held_points(s).size(), part > 1 ? 25u : 0u);
+      EXPECT_NEAR(s.wrenches()[0].force[2], part > 1 ? weight : 0, 0.02 * weight);
+    }
+}
+
 // Pulled, pushed and moved aside the top goes with the plate, and a plate without grasp would leave it where it is.
 TEST(Grasp, CarriesItsPointsInAllDirections) {
   for (const Point& way : {Point(0, 0, 0.02), Point(0.02, 0, 0), Point(0, -0.02, 0)}) {

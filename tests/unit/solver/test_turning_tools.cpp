@@ -308,7 +308,8 @@ TEST(TurningTools, AreRefusedWhereTheyCannotBe) {
   Problem p = below(steady);
   p.contact.obstacles[0].mass = 1;
   EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
-            "contact.obstacles.0 has mass and turn; expected one of them: a tool with mass translates only");
+            "contact.obstacles.0.turn, beside mass, is of an obstacle that turns by the torque on it; expected "
+            "contact.obstacles.0.inertia, too, or neither");
   p.contact.obstacles[0].turn.reset();
   Simulation<Host> heavy(p);
   EXPECT_NE(refusal([&] { heavy.set_obstacle_turn(0, steady); }).find("plate has mass"), std::string::npos);
