@@ -57,6 +57,12 @@ View zeros(const std::string& label, std::size_t n) {
   return view;
 }
 
+/// A field whose memory another one owns, which outlives it. Copies of it cost nothing, those of an owner count how many there are.
+template <class View>
+View lent(const View& x) {
+  return View(x.data(), x.extent(0));
+}
+
 /// x = value, in the order of `exec`.
 template <class Exec, class View>
 void fill(const Exec& exec, const View& x, typename View::non_const_value_type value) {

@@ -282,6 +282,8 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   records.touching = zeros<Doubles<B>>("plica::contact.touching", 1);
   records.near = zeros<Indices<B>>("plica::contact.near", slots);
   records.close = zeros<Indices<B>>("plica::contact.close", 1);
+  records.places = zeros<Vectors<B>>("plica::contact.places", static_cast<std::size_t>(points_));
+  records.fastest = zeros<Doubles<B>>("plica::contact.fastest", 1);
   records.point = zeros<typename ContactRecords<B>::Stencil>("plica::contact.point", slots);
   records.weight = zeros<typename ContactRecords<B>::Weights>("plica::contact.weight", slots);
   records.law_of = zeros<Indices<B>>("plica::contact.law_of", slots);
@@ -307,7 +309,9 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   const auto weights = host_values(Exec(), surface.embedding.weight);
   for (std::size_t p = 0; p < static_cast<std::size_t>(points_); ++p) {
     std::size_t own = 0;
-    for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0;
+    Real sum = 0;
+    for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0, sum += std::abs(weights[4 * p + c]);
+    records.spread = std::max(records.spread, sum);
     of_points += own, most = std::max(most, own);
   }
   const std::size_t entries =
@@ -326,7 +330,10 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
 
 template <class B>
 void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
-                      const ContactRecords<B>& records) const {
+                      const ContactRecords<B>& records, const BlockSums<B>& blocks) const {
+  if (!obstacles_.empty())
+    reduce<B, 1, FastestVertex<B>, Sums<1, 1>>(exec, "plica::contact_fastest", level.surface.touched,
+                                               {level.surface, s.v}, blocks, records.fastest);
   for (std::size_t o = 0; o < obstacles_.size(); ++o)
     obstacles_[o]->find(exec, level.surface, s, time, static_cast<int>(o), whole_[o], records);
 }

@@ -24,7 +24,8 @@ ContactStep of_whole_step(const ContactStep& step, double part) {
 template <class B>
 ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, const Level<B>& level, bool implicit)
     : contact_(std::move(contact)),
-      records_(contact_->make_records(level.surface, level.model.vertices, implicit)),
+      own_(contact_->make_records(level.surface, level.model.vertices, implicit)),
+      records_(own_),
       maker_(std::max(records_.slots(), level.surface.touched)),
       blocks_(std::max(records_.slots(), records_.points)),
       free_(zeros<Vectors<B>>("plica::contact.free", static_cast<std::size_t>(level.model.vertices))),
@@ -33,6 +34,8 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, c
       impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))),
       last_impulse_(
           zeros<Doubles<B>>("plica::contact.last_impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
+  const auto lend = [](auto& field) { field = lent(field); };
+  ContactRecords<B>::each_own(records_, lend), ContactRecords<B>::each_shared(records_, lend);
   if (implicit) product_ = zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
   records_.long_steps = implicit;
   if (records_.pairs) search_ = std::make_shared<const PairSearch<B>>(contact_->limits(), records_);
@@ -46,7 +49,9 @@ void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const Sta
 }
 template <class B>
 void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const {
-  contact_->find(exec, level, state, time, records_);
+  update_vertices<B>(exec, "plica::contact_places", records_.points,
+                     PlacePoints<B>{level.surface, state.u, records_.places});
+  contact_->find(exec, level, state, time, records_, blocks_);
   if (search_) search_->find(exec, level.surface, state, records_, fresh_, blocks_);
   list_contacts<B>(exec, level.surface, records_, maker_);
 }
@@ -236,15 +241,9 @@ void ContactResponse<B>::add_matrix(const Exec& exec, const Level<B>& level, dou
 
 template <class B>
 std::size_t ContactResponse<B>::bytes() const {
-  const ContactRecords<B>& r = records_;
-  const ContactTranspose<B>& W = r.transpose;
-  const std::size_t reals = r.weight.span() + r.normal.span() + r.way.span() + r.stretch.span() + r.force.span() +
-                            r.drift.span() + r.depth.span() + r.response.span() + r.cap.span() + r.block.span() +
-                            r.concavity.span() + W.weight.span() + product_.span() + free_.span() + answer_.span();
-  const std::size_t ints = r.list.item.span() + r.near.span() + r.point.span() + r.law_of.span() + r.partner.span() +
-                           W.vertices.item.span() + W.place.span() + W.filled.span() + W.first.span() + W.last.span() +
-                           W.record.span();
-  return reals * sizeof(Real) + ints * sizeof(int) + (search_ ? search_->bytes() : 0);
+  std::size_t all = (product_.span() + free_.span() + answer_.span()) * sizeof(Real) + (search_ ? search_->bytes() : 0);
+  ContactRecords<B>::each_own(records_, [&](const auto& field) { all += fields::bytes_of(field); });
+  return all;
 }
 
 // --- What a step takes from the last ----------------------------------------------------------------------------------------

@@ -123,7 +123,7 @@ class ContactResponse {
 
  private:
   std::shared_ptr<const Contact<B>> contact_;
-  ContactRecords<B> records_;                    ///< `span`: of the last step
+  ContactRecords<B> own_, records_;              ///< records_: own_ as kernels are given it, `span`: of the last step
   Vectors<B> product_;                           ///< [slots][3] on implicit levels
   std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
   ListMaker<B> maker_;

@@ -64,10 +64,10 @@ class ObstacleOf final : public Obstacle<B> {
     // a triangle that is stretched no more than FindOnFaces allows for touches nothing if all of its corners are further than that
     const Real between = reach + FindOnFaces<B, Shape>::stretch * FindOnFaces<B, Shape>::from_corner * longest_;
     update_vertices<B>(exec, "plica::contact_find", surface.points,
-                       FindOnPoints<B, Shape>{surface, s, shape_, at, watch_, number, between, records});
+                       FindOnPoints<B, Shape>{surface, s.v, shape_, at, watch_, number, between, records});
     if (faces)
       update_vertices<B>(exec, "plica::contact_faces", records.faces,
-                         FindOnFaces<B, Shape>{surface, s, shape_, at, number, reach, records});
+                         FindOnFaces<B, Shape>{shape_, at, number, reach, between, records});
   }
   void grasp(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
              double reach, const ContactRecords<B>& records) const override {

@@ -11,37 +11,43 @@ PairSearch<B>::PairSearch(const PairLimits<Real>& limits, const ContactRecords<B
     : blocks_(records.mesh.triangles) {
   const auto n = static_cast<std::size_t>(records.points), triangles = static_cast<std::size_t>(records.mesh.triangles);
   const std::size_t buckets = std::bit_ceil(2 * triangles);
-  grid_.limits = limits;
-  grid_.buckets = static_cast<int>(buckets);
-  grid_.x = zeros<Vectors<B>>("plica::pairs.x", n);
-  grid_.built = to_device<Vectors<B>>(
+  own_.limits = limits;
+  own_.buckets = static_cast<int>(buckets);
+  own_.x = records.places;
+  own_.built = to_device<Vectors<B>>(
       "pairs.built", std::vector<std::array<Real, 3>>(n, {Real(1e15), Real(1e15), Real(1e15)}));  // far from anything
-  grid_.moved = zeros<Doubles<B>>("plica::pairs.moved", 2);
-  grid_.reach = zeros<Scalars<B>>("plica::pairs.reach", 1);
-  grid_.stale = zeros<Doubles<B>>("plica::pairs.stale", 1);
-  grid_.radius = zeros<Doubles<B>>("plica::pairs.radius", 1);
-  grid_.width = zeros<Scalars<B>>("plica::pairs.width", 1);
-  grid_.first = zeros<Indices<B>>("plica::pairs.first", buckets);
-  grid_.filled = zeros<Indices<B>>("plica::pairs.filled", buckets);
-  grid_.item = zeros<Indices<B>>("plica::pairs.item", triangles);
-  grid_.centre = zeros<Vectors<B>>("plica::pairs.centre", triangles);
-  grid_.close = zeros<Indices<B>>("plica::pairs.close", n);
-  grid_.listed = zeros<Indices<B>>("plica::pairs.listed", n * static_cast<std::size_t>(PairGrid<B>::longest));
-  grid_.about = zeros<Indices<B>>("plica::pairs.about", n);
-  grid_.crossings = zeros<Indices<B>>("plica::pairs.crossings", n);
-  grid_.crossing =
+  own_.mean = zeros<Doubles<B>>("plica::pairs.mean", 6);
+  own_.moved = zeros<Doubles<B>>("plica::pairs.moved", 2);
+  own_.ridge = zeros<Indices<B>>("plica::pairs.ridge", records.mesh.edge.extent(0) / 4);
+  own_.reach = zeros<Scalars<B>>("plica::pairs.reach", 1);
+  own_.stale = zeros<Doubles<B>>("plica::pairs.stale", 1);
+  own_.extent = zeros<Doubles<B>>("plica::pairs.extent", 2);
+  own_.width = zeros<Scalars<B>>("plica::pairs.width", 1);
+  own_.first = zeros<Indices<B>>("plica::pairs.first", buckets);
+  own_.filled = zeros<Indices<B>>("plica::pairs.filled", buckets);
+  own_.item = zeros<Indices<B>>("plica::pairs.item", PairGrid<B>::most_cells * triangles);
+  own_.close = zeros<Indices<B>>("plica::pairs.close", n);
+  own_.listed = zeros<Indices<B>>("plica::pairs.listed", n * static_cast<std::size_t>(PairGrid<B>::longest));
+  own_.crossings = zeros<Indices<B>>("plica::pairs.crossings", n);
+  own_.crossing =
       zeros<Indices<B>>("plica::pairs.crossing", 2 * n * static_cast<std::size_t>(PairGrid<B>::most_crossings));
+  grid_ = own_;
+  PairGrid<B>::each_own(grid_, [](auto& field) { field = lent(field); });
 }
 
 template <class B>
 void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& state,
                          const ContactRecords<B>& records, bool fresh, const BlockSums<B>& blocks) const {
   const FindPairs<B> find{surface, state, grid_, records};
-  reduce<B, 2, PlacePoints<B>, Sums<2, 2>>(exec, "plica::pairs_moved", records.points,
-                                           PlacePoints<B>{surface, state, grid_}, blocks, grid_.moved,
-                                           JudgeGrid<B>{grid_, records.span});
+  const MotionOfPoint<B> motion{surface, state.v, grid_};
+  reduce<B, 6>(exec, "plica::pairs_mean", records.points, motion, blocks, grid_.mean,
+               MeanOfPoints<B>{grid_.mean, 1.0 / records.points});
+  reduce<B, 2, MotionAgainstMean<B>, Sums<2, 2>>(exec, "plica::pairs_moved", records.points, {motion}, blocks,
+                                                 grid_.moved, JudgeGrid<B>{grid_, records.span});
   make_grid(exec, records);
   where_touching<B>(exec, grid_.stale, "plica::pairs_close", records.points, ListClose<B>{find});
+  where_touching<B>(exec, grid_.stale, "plica::pairs_ridges", static_cast<int>(grid_.ridge.extent(0)),
+                    MarkRidges<B>{{find}});
   where_touching<B>(exec, grid_.stale, "plica::pairs_crossings", records.points, ListCrossings<B>{{find}});
   update_vertices<B>(exec, "plica::pairs_nearest", records.points, NearestTriangles<B>{find, fresh});
   update_vertices<B>(exec, "plica::pairs_crossing", records.points, DeepestCrossings<B>{{find}, fresh});
@@ -50,27 +56,26 @@ void PairSearch<B>::find(const Exec& exec, const EmbeddedSurface<B>& surface, co
 /// Where it is stale.
 template <class B>
 void PairSearch<B>::make_grid(const Exec& exec, const ContactRecords<B>& records) const {
-  const TriangleOfGrid<B> of{records.mesh.corner, grid_};
+  const Indices<B>& corner = records.mesh.corner;
   const int triangles = records.mesh.triangles, buckets = grid_.buckets;
   const Doubles<B>& stale = grid_.stale;
-  reduce<B, 1, MeasureTriangles<B>, Sums<1, 1>>(exec, "plica::pairs_measure", triangles, MeasureTriangles<B>{of},
-                                                blocks_, grid_.radius, SetWidth<B>{grid_});
   where_touching<B>(exec, stale, "plica::pairs_keep", records.points, KeepPlaces<B>{grid_});
+  reduce<B, 2, MeasureTriangles<B>, Sums<2, 1>>(exec, "plica::pairs_measure", triangles, {corner, grid_}, blocks_,
+                                                grid_.extent, SetWidth<B>{grid_, triangles});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
-  where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{of});
+  where_touching<B>(exec, stale, "plica::pairs_count", triangles, CountCells<B>{corner, grid_});
   launch_gathered<Exec>();  // Kokkos lends a scan memory that may be elsewhere the next time
   Kokkos::parallel_scan("plica::pairs_scan", Kokkos::RangePolicy<Exec>(exec, 0, buckets),
                         SumBefore<B>{grid_.filled, grid_.first, buckets, stale});
   where_touching<B>(exec, stale, "plica::pairs_clear", buckets, ClearInts<B>{grid_.filled});
-  where_touching<B>(exec, stale, "plica::pairs_fill", triangles, FillCells<B>{of});
+  where_touching<B>(exec, stale, "plica::pairs_fill", triangles, FillCells<B>{corner, grid_});
 }
 
 template <class B>
 std::size_t PairSearch<B>::bytes() const {
-  return (grid_.x.span() + grid_.built.span() + grid_.centre.span()) * sizeof(Real) +
-         (grid_.first.span() + grid_.filled.span() + grid_.item.span() + grid_.close.span() + grid_.listed.span() +
-          grid_.about.span() + grid_.crossings.span() + grid_.crossing.span()) *
-             sizeof(int);
+  std::size_t all = 0;
+  PairGrid<B>::each_own(own_, [&](const auto& field) { all += fields::bytes_of(field); });
+  return all;
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class PairSearch<Backend<Real, Exec>>;

@@ -19,8 +19,8 @@ class PairSearch {
   std::size_t bytes() const;
 
  private:
-  PairGrid<B> grid_;
-  BlockSums<B> blocks_;  ///< for triangles
+  PairGrid<B> own_, grid_;  ///< grid_: own_ as kernels are given it
+  BlockSums<B> blocks_;     ///< for triangles
 
   void make_grid(const Exec& exec, const ContactRecords<B>& records) const;
 };

@@ -13,6 +13,16 @@ struct ZeroVectors {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(x, a, {}); }
 };
 
+/// Where the surface is.
+template <class B>
+struct PlacePoints {
+  EmbeddedSurface<B> surface;
+  Vectors<B> u, x;
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    set_vector<B>(x, p, value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p)));
+  }
+};
+
 /// f += transpose of the embedding times the point forces, each vertex adding its points in order.
 template <class B>
 struct ScatterToVertices {

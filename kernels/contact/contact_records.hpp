@@ -158,6 +158,7 @@ struct ContactRecords {
   Real span = 0;   ///< of the step [s]
   bool long_steps = false;  ///< long steps look along the nearest normal, whatever their path meets
   Real edge = 0;            ///< mean, of the surface [m]
+  Real spread = 1;          ///< no point's velocity is larger than the largest of a vertex, times that
   /// @{ shared by all levels
   Laws law;         ///< of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
   Indices<B> body;  ///< of each point; empty: there is one
@@ -169,6 +170,8 @@ struct ContactRecords {
   Doubles<B> touching;  ///< [1] how many of them have a force, or may have one in this step
   Indices<B> near;      ///< [slots] 1: in use
   Indices<B> close;     ///< [1] 1: a point is so near an obstacle that triangles may touch it
+  Vectors<B> places;    ///< [points][3] where the surface is at the step's start [m]
+  Doubles<B> fastest;   ///< [1] largest velocity of a vertex with surface points, squared [m^2/s^2]
   Stencil point;        ///< [slots] its surface points; -1: none
   Weights weight;       ///< [slots]
   Indices<B> law_of;    ///< [slots]
@@ -184,6 +187,26 @@ struct ContactRecords {
   Blocks<B> concavity;  ///< [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
   Indices<B> partner;   ///< [points] the triangle each point was near last; -1: none
   ContactTranspose<B> transpose;
+
+  /// use(field) for all that a level has of its own, then for what it shares with others.
+  /// @{
+  template <class Self, class Use>
+  static void each_own(Self& r, const Use& use) {
+    auto& W = r.transpose;
+    use(r.list.item), use(r.list.count), use(r.touching), use(r.near), use(r.close), use(r.places), use(r.fastest),
+        use(r.point);
+    use(r.weight), use(r.law_of), use(r.normal), use(r.depth), use(r.way), use(r.stretch), use(r.force), use(r.drift);
+    use(r.response), use(r.cap), use(r.block), use(r.concavity), use(r.partner), use(W.vertices.item);
+    use(W.vertices.count), use(W.place), use(W.filled), use(W.first), use(W.last), use(W.record), use(W.weight);
+  }
+  template <class Self, class Use>
+  static void each_shared(Self& r, const Use& use) {
+    use(r.law), use(r.body), use(r.grasps.memory), use(r.grasps.left_out);
+    use(r.attached.attachment), use(r.attached.memory), use(r.attached.triangle), use(r.attached.weight);
+    use(r.mesh.corner), use(r.mesh.first), use(r.mesh.triangle), use(r.mesh.first_edge), use(r.mesh.edge);
+    use(r.mesh.side);
+  }
+  /// @}
 
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs ? 2 : 0); }
   KOKKOS_INLINE_FUNCTION int slots() const { return rows() * points + obstacles * faces; }

@@ -29,23 +29,24 @@ struct FindEdges {
   template <class Look>
   KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
     const SurfaceMesh<B>& mesh = find.records.mesh;
-    for (int e = mesh.first_edge(p); e < mesh.first_edge(p + 1); ++e) {
-      if (find.grid.about(end(e, 0)) + find.grid.about(end(e, 1)) == 0 || !may_cross(e)) continue;
-      for (int i = 0; i < 2; ++i) search_around(e, end(e, i), look);
-    }
+    for (int e = mesh.first_edge(p); e < mesh.first_edge(p + 1); ++e)
+      if (find.grid.ridge(e) > 0) search_around(e, look);
   }
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void search_around(int e, int q, const Look& look) const {
-    find.grid.around(vector_at<B>(find.grid.built, q), [&](int t) {
-      if (!find.allowed(q, t)) return;
+  KOKKOS_INLINE_FUNCTION void search_around(int e, const Look& look) const {
+    Box3<Real> box(vector_at<B>(find.grid.built, end(e, 0)));
+    box.add(vector_at<B>(find.grid.built, end(e, 1)));
+    find.grid.around(box, find.records.mesh.corner, [&](int t) {
+      if (!find.allowed(end(e, 0), t)) return;
       for (int c = 0; c < 3; ++c)
-        if (const int f = find.records.mesh.side(3 * t + c); f > e && are_near(e, f, t)) look(e, f);
+        if (const int f = find.records.mesh.side(3 * t + c); f > e && find.grid.ridge(f) > 0 && are_near(e, f, t))
+          look(e, f);
     });
   }
   /// `t` is a triangle of f.
   KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
     const Real far = find.grid.edge_reach() + find.grid.limits.margin;
-    return squared_distance_of_segments(x(e, 0), x(e, 1), x(f, 0), x(f, 1)) < far * far && may_cross(f) &&
+    return squared_distance_of_segments(x(e, 0), x(e, 1), x(f, 0), x(f, 1)) < far * far &&
            find.may_touch(end(e, 0), t) && find.may_touch(end(e, 1), t);
   }
   /// The same of what was listed.
@@ -56,6 +57,13 @@ struct FindEdges {
     if (count > grid.most_crossings) return search(p, look);
     for (int i = first; i < first + 2 * count; i += 2) look(grid.crossing(i), grid.crossing(i + 1));
   }
+};
+
+/// Which edges may cross others while the grid stays.
+template <class B>
+struct MarkRidges {
+  FindEdges<B> edges;
+  KOKKOS_INLINE_FUNCTION void operator()(int e) const { edges.find.grid.ridge(e) = edges.may_cross(e) ? 1 : 0; }
 };
 
 /// Lists the edges that may come near those of each point while the grid stays.

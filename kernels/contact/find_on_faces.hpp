@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/inlining.hpp>
 #include <plica/kernels/contact/concavity.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/on_triangle.hpp>
@@ -13,22 +14,29 @@ namespace plica {
 template <class B, class Shape>
 struct FindOnFaces {
   using Real = typename B::Real;
-  EmbeddedSurface<B> surface;
-  State<B> state;
   Shape shape;
   ObstaclePlace<B> place;
   int obstacle;
-  Real reach;  ///< a triangle further than that outside is not looked at [m]
+  Real reach;    ///< a triangle further than that outside is not looked at [m]
+  Real between;  ///< nor one whose corners are further outside than that [m]
   ContactRecords<B> records;
   static constexpr Real from_corner =
       Real(0.6);                      ///< no place is further from all corners, over the longest edge: 1 / sqrt 3
   static constexpr Real stretch = 4;  ///< what is stretched more may be found late
 
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    constexpr Real as_deep = Real(1e-3);  // over the longest edge
-    const SurfaceMesh<B>& mesh = records.mesh;
     const int r = records.of_face(obstacle, t);
     if (records.close(0) == 0) return records.leave(r);
+    Real deepest = -records.nowhere();
+    for (int c = 0; c < 3; ++c)
+      deepest = Kokkos::max(deepest, records.depth(records.of_point(obstacle, records.mesh.corner(3 * t + c))));
+    if (deepest > -between) return look(t, r);
+    records.leave(r);
+  }
+
+  PLICA_CALL PLICA_FLATTEN KOKKOS_FUNCTION void look(int t, int r) const {
+    constexpr Real as_deep = Real(1e-3);  // over the longest edge
+    const SurfaceMesh<B>& mesh = records.mesh;
     int p[3];
     Vec3<Real> x[3], depth;
     Real deepest = -records.nowhere();
@@ -38,15 +46,14 @@ struct FindOnFaces {
       if (records.grasps.holds(of_corner)) return records.leave(r);
       depth[c] = records.depth(of_corner);
       deepest = Kokkos::max(deepest, depth[c]);
-      x[c] = vector_at<B>(surface.rest, p[c]);
+      x[c] = vector_at<B>(records.places, p[c]);
     }
-    if (!(deepest + stretch * from_corner * longest(x) > -reach)) return records.leave(r);
-    for (int c = 0; c < 3; ++c) x[c] = value_at<B>(surface.embedding, state.u, p[c], x[c]);
-    const ObstaclePose pose = place.now();
-    for (int c = 0; c < 3; ++c) x[c] = pose.local(x[c]);
     const Real size = longest(x);
     const Real enough = Kokkos::max(-reach, deepest + as_deep * size);  // less is not looked at
-    if (!(deepest + from_corner * size > enough) || !(most(x) > enough)) return records.leave(r);
+    if (!(deepest + from_corner * size > enough)) return records.leave(r);
+    const ObstaclePose pose = place.now();
+    for (int c = 0; c < 3; ++c) x[c] = pose.local(x[c]);
+    if (!(most(x) > enough)) return records.leave(r);
     const Vec3<Real> w = deepest_on_triangle(shape, x[0], x[1], x[2], size);
     const Vec3<Real> deepest_place = w[0] * x[0] + w[1] * x[1] + w[2] * x[2];
     const Gap<Real> gap = shape(deepest_place);
@@ -54,7 +61,8 @@ struct FindOnFaces {
     Real beyond = -gap.distance;
     for (int c = 0; c < 3; ++c) beyond -= w[c] * Kokkos::max(depth[c], Real(0));
     records.set_stencil(r, p[0], p[1], p[2], -1, w[0], w[1], w[2], 0);
-    const Vec3<Real> at = records.place(surface, state.u, r);
+    Vec3<Real> at;
+    for (int c = 0; c < 3; ++c) at += w[c] * vector_at<B>(records.places, p[c]);
     records.use(r, records.obstacle_law(obstacle, p[0]),
                 pose.outward(out_of(gap.normal, cross(x[1] - x[0], x[0] - x[2]))), beyond,
                 records.span * pose.velocity(at), records.span * pose.template rate<Real>());

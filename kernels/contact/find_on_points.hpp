@@ -1,30 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/inlining.hpp>
 #include <plica/core/model.hpp>
 #include <plica/kernels/contact/concavity.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/gap.hpp>
+#include <plica/kernels/reduce.hpp>
 
 // Which points of a surface an obstacle touches, and what it holds.
 namespace plica {
 
-/// The slot of every point against this obstacle.
+/// The largest square of the velocity of a vertex with surface points.
+template <class B>
+struct FastestVertex {
+  EmbeddedSurface<B> surface;
+  Vectors<B> v;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int i) const {
+    const Vec3<typename B::Real> own = vector_at<B>(v, surface.vertex(i));
+    return {{static_cast<double>(dot(own, own))}};
+  }
+};
+
+/// The slot of every point against this obstacle. Most are further away than the fastest of them gets in the step, and are asked for
+/// nothing else.
 template <class B, class Shape>
 struct FindOnPoints {
   using Real = typename B::Real;
   EmbeddedSurface<B> surface;
-  State<B> state;
+  Vectors<B> v;
   Shape shape;
   ObstaclePlace<B> place;
   DepthWatch<B> watch;
   int obstacle;
   Real between;  ///< a triangle whose corners are all further outside than that touches nothing [m]
   ContactRecords<B> records;
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const int r = records.of_point(obstacle, p);
-    const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
+    const Vec3<Real> x = vector_at<B>(records.places, p);
     const ObstaclePose at = place.now();
-    const Vec3<Real> own = value_at<B>(surface.embedding, state.v, p), its = at.velocity(x), speed = own - its;
+    const Vec3<Real> its = at.velocity(x);
+    const Real most =
+        records.spread * Kokkos::sqrt(static_cast<Real>(records.fastest(0))) + Kokkos::sqrt(dot(its, its));
+    const Real distance = shape(at.local(x)).distance;
+    if (!(distance > Kokkos::max(between, records.reach + records.span * most)) || records.grasps.holds(r))
+      return look(p, r, x, at);
+    records.depth(r) = -distance;
+    records.leave(r);
+  }
+  PLICA_CALL KOKKOS_FUNCTION void look(int p, int r, const Vec3<Real>& x, const ObstaclePose& at) const {
+    const Vec3<Real> own = value_at<B>(surface.embedding, v, p), its = at.velocity(x), speed = own - its;
     if (records.grasps.holds(r)) {
       if (!records.is_torn(r)) return hold(r, p, x, at, its);
       records.grasps.release(r);

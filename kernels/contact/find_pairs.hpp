@@ -33,9 +33,14 @@ struct FindPairs {
       for (int i = 0; i < grid.close(p); ++i) look(grid.listed(p * grid.longest + i));
       return;
     }
-    grid.around(vector_at<B>(grid.built, p), [&](int t) {
+    around(p, [&](int t) {
       if (may_touch(p, t)) look(t);
     });
+  }
+  /// The same of all triangles.
+  template <class Look>
+  KOKKOS_INLINE_FUNCTION void around(int p, const Look& look) const {
+    grid.around(Box3<Real>(vector_at<B>(grid.built, p)), records.mesh.corner, look);
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const { return value_at<B>(surface.embedding, state.v, p); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> rest(int p) const { return vector_at<B>(surface.rest, p); }
@@ -124,17 +129,16 @@ struct ListClose {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     const PairGrid<B>& grid = find.grid;
     const Vec3<Real> at = find.x(p);
-    const Real far = grid.reach(0) + grid.limits.margin;
-    int count = 0, about = 0;
-    grid.around(at, [&](int t) {
+    const Real far = grid.near();
+    int count = 0;
+    find.around(p, [&](int t) {
       if (!find.allowed(p, t)) return;
-      ++about;
       const Vec3<Real> d = find.off(at, t, find.nearest(at, t));
       if (dot(d, d) > far * far || !find.may_touch(p, t)) return;
       if (count < grid.longest) grid.listed(p * grid.longest + count) = t;
       ++count;
     });
-    grid.close(p) = count, grid.about(p) = about;
+    grid.close(p) = count;
   }
 };
 

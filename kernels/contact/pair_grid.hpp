@@ -3,12 +3,33 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// The broad phase of pairs: triangles in the cells of a uniform grid, by their centroids. A cell is as wide as what is to be found
-// around a point, so that 27 of them hold all of it, and cells share a table by a hash. With the grid each point gets a list of the
-// triangles that may come near; where there are more than it holds, it asks the grid itself. Both stay while nothing has moved by more
-// than half of `margin` and nothing is so fast that it meets in one step what is further away; the device decides that, and leaves
-// out the work.
+// The broad phase of pairs: a uniform grid, of which each cell lists the triangles that may come near a point in it: those whose boxes,
+// made larger by how near that is, reach into it. A cell is as wide as such a box is on average, and cells share a table by a hash. With the
+// grid each point gets a list of the triangles that may come near; where there are more than it holds, it asks the grid itself. Both stay
+// while nothing has moved by more than half of `margin` and nothing is so fast that it meets in one step what is further away, each against
+// the mean of all points: what flies needs no new grid. The device decides that, and leaves out the work.
 namespace plica {
+
+/// A box along the axes.
+template <class Real>
+struct Box3 {
+  Vec3<Real> low, high;
+  explicit KOKKOS_INLINE_FUNCTION Box3(const Vec3<Real>& x) : low(x), high(x) {}
+  KOKKOS_INLINE_FUNCTION void add(const Vec3<Real>& x) {
+    for (int k = 0; k < 3; ++k) low[k] = Kokkos::min(low[k], x[k]), high[k] = Kokkos::max(high[k], x[k]);
+  }
+  KOKKOS_INLINE_FUNCTION void enlarge(Real by) {
+    for (int k = 0; k < 3; ++k) low[k] -= by, high[k] += by;
+  }
+  KOKKOS_INLINE_FUNCTION Real longest_side() const {
+    return Kokkos::max(high[0] - low[0], Kokkos::max(high[1] - low[1], high[2] - low[2]));
+  }
+  KOKKOS_INLINE_FUNCTION bool meets(const Box3& other) const {
+    bool meet = true;
+    for (int k = 0; k < 3; ++k) meet = meet && low[k] <= other.high[k] && other.low[k] <= high[k];
+    return meet;
+  }
+};
 
 template <class B>
 struct PairGrid {
@@ -17,23 +38,31 @@ struct PairGrid {
   int buckets = 0;    ///< a power of two
   Vectors<B> x;       ///< [points][3] now [m]
   Vectors<B> built;   ///< [points][3] when the grid was made [m]
-  Doubles<B> moved;   ///< [2] largest squared distance between these [m^2], and largest squared speed [m^2/s^2]
+  Doubles<B> mean;    ///< [6] of all points: way between these [m], velocity [m/s]
+  Doubles<B> moved;   ///< [2] against it: largest squared way [m^2], and largest squared speed [m^2/s^2]
   Scalars<B> reach;   ///< [1] what it was made for [m]
   Doubles<B> stale;   ///< [1] above 0: the grid is being made
-  Doubles<B> radius;  ///< [1] largest squared distance of a corner from its centroid, then [m^2]
+  Doubles<B> extent;  ///< [2] of the triangles' boxes, then: the longest sides' sum and the longest of them [m]
   Scalars<B> width;   ///< [1] of a cell [m]
   Indices<B> first;   ///< [buckets] into item
   Indices<B> filled;  ///< [buckets] items of each
-  Indices<B> item;    ///< [triangles] of one cell after the other
-  Vectors<B> centre;  ///< [items][3] their centroids when the grid was made [m]
-  static constexpr int longest = 32;  ///< list of triangles
+  Indices<B> item;    ///< [triangles * most_cells] triangles, of one cell after the other
+  static constexpr int most_cells = 48;  ///< that a triangle reaches into, on average; see SetWidth
+  Indices<B> ridge;                      ///< [edges] 1: it may cross another, then
+  static constexpr int longest = 32;     ///< list of triangles
   Indices<B> close;   ///< [points] how many triangles may come within reach before the grid is made anew
   Indices<B> listed;  ///< [points * longest] these
-  Indices<B> about;   ///< [points] how many triangles it may touch when the grid is made, in the cells around it
   static constexpr int most_crossings = 16;
   Indices<B> crossings;  ///< [points] how many edges may come to cross one that begins in the point, likewise
   Indices<B> crossing;   ///< [points * most_crossings * 2] these: the own edge, the other
 
+  /// use(field) for all of its own.
+  template <class Self, class Use>
+  static void each_own(Self& g, const Use& use) {
+    use(g.built), use(g.mean), use(g.moved), use(g.reach), use(g.stale), use(g.extent), use(g.width), use(g.first);
+    use(g.filled), use(g.item), use(g.ridge), use(g.close), use(g.listed), use(g.crossings);
+    use(g.crossing);
+  }
   /// How far two points can move against each other in a step of h [s]; bounded where a state is no longer sound.
   KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
     constexpr Real reaches = 32;  // 16 edges
@@ -50,36 +79,69 @@ struct PairGrid {
                            static_cast<unsigned>(k) * 83492791u;
     return static_cast<int>(mixed & static_cast<unsigned>(buckets - 1));
   }
-  KOKKOS_INLINE_FUNCTION int bucket_of(const Vec3<Real>& at) const {
-    return bucket(cell(at[0]), cell(at[1]), cell(at[2]));
+  /// How much larger than its triangle a box is, on all sides [m].
+  KOKKOS_INLINE_FUNCTION Real near() const { return reach(0) + limits.margin; }
+  /// use(bucket) for all cells that a box reaches into.
+  template <class Use>
+  KOKKOS_INLINE_FUNCTION void each_cell(const Box3<Real>& box, const Use& use) const {
+    int low[3], high[3];
+    for (int k = 0; k < 3; ++k) low[k] = cell(box.low[k]), high[k] = cell(box.high[k]);
+    for (int i = low[0]; i <= high[0]; ++i)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int k = low[2]; k <= high[2]; ++k) use(bucket(i, j, k));
   }
-  /// look(triangle) for all that may come near a point that was `at` this place when the grid was made; some come twice.
+  /// look(triangle) for all that may come near what was in this box when the grid was made; some come twice.
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void around(const Vec3<Real>& at, const Look& look) const {
-    const int c[3] = {cell(at[0]), cell(at[1]), cell(at[2])};
-    const Real far = width(0) * width(0);
-    for (int n = 0; n < 27; ++n) {
-      const int b = bucket(c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1), begin = first(b);
-      for (int s = begin; s < begin + filled(b); ++s) {
-        const Vec3<Real> d = vector_at<B>(centre, s) - at;
-        if (dot(d, d) < far) look(item(s));
-      }
-    }
+  KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Indices<B>& corner, const Look& look) const {
+    each_cell(box, [&](int b) {
+      for (int s = first(b); s < first(b) + filled(b); ++s)
+        if (const int t = item(s); box_of(corner, t).meets(box)) look(t);
+    });
+  }
+  /// Of a triangle, when the grid was made; enlarged.
+  KOKKOS_INLINE_FUNCTION Box3<Real> box_of(const Indices<B>& corner, int t) const {
+    Box3<Real> box(vector_at<B>(built, corner(3 * t)));
+    for (int c = 1; c < 3; ++c) box.add(vector_at<B>(built, corner(3 * t + c)));
+    box.enlarge(near());
+    return box;
   }
 };
 
-/// x of a state; its squared distance from where the grid was made, and the squared speed.
+/// How a point has moved since the grid was made, and its velocity.
 template <class B>
-struct PlacePoints {
-  using Real = typename B::Real;
+struct MotionOfPoint {
   EmbeddedSurface<B> surface;
-  State<B> state;
+  Vectors<B> v;
   PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
+    const auto way = vector_at<B>(grid.x, p) - vector_at<B>(grid.built, p), own = value_at<B>(surface.embedding, v, p);
+    Sums<6> motion;
+    for (int k = 0; k < 3; ++k) motion[k] = static_cast<double>(way[k]), motion[3 + k] = static_cast<double>(own[k]);
+    return motion;
+  }
+};
+/// Sums become means.
+template <class B>
+struct MeanOfPoints {
+  Doubles<B> mean;
+  double over;
+  KOKKOS_INLINE_FUNCTION void operator()() const {
+    for (int k = 0; k < 6; ++k) mean(k) *= over;
+  }
+};
+
+/// The squares of both, against the mean.
+template <class B>
+struct MotionAgainstMean {
+  MotionOfPoint<B> of;
   KOKKOS_INLINE_FUNCTION Sums<2, 2> operator()(int p) const {
-    const Vec3<Real> x = value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p));
-    const Vec3<Real> d = x - vector_at<B>(grid.built, p), v = value_at<B>(surface.embedding, state.v, p);
-    set_vector<B>(grid.x, p, x);
-    return {{static_cast<double>(dot(d, d)), static_cast<double>(dot(v, v))}};
+    const Sums<6> motion = of(p);
+    Sums<2, 2> square;
+    for (int k = 0; k < 6; ++k) {
+      const double d = motion[k] - of.grid.mean(k);
+      square[k / 3] += d * d;
+    }
+    return square;
   }
 };
 
@@ -97,40 +159,26 @@ struct JudgeGrid {
   }
 };
 
-/// What a triangle is to a grid that is made.
-template <class B>
-struct TriangleOfGrid {
-  using Real = typename B::Real;
-  Indices<B> corner;
-  PairGrid<B> grid;
-  KOKKOS_INLINE_FUNCTION Vec3<Real> x(int t, int c) const { return vector_at<B>(grid.x, corner(3 * t + c)); }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> centroid(int t) const { return Real(1) / 3 * (x(t, 0) + x(t, 1) + x(t, 2)); }
-};
-
 template <class B>
 struct MeasureTriangles {
-  using Real = typename B::Real;
-  TriangleOfGrid<B> of;
-  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int t) const {
-    Sums<1, 1> largest;
-    if (!(of.grid.stale(0) > 0)) return largest;
-    for (int c = 0; c < 3; ++c) {
-      const Vec3<Real> d = of.x(t, c) - of.centroid(t);
-      largest += {{static_cast<double>(dot(d, d))}};
-    }
-    return largest;
+  Indices<B> corner;
+  PairGrid<B> grid;
+  KOKKOS_INLINE_FUNCTION Sums<2, 1> operator()(int t) const {
+    if (!(grid.stale(0) > 0)) return {};
+    const auto side = static_cast<double>(grid.box_of(corner, t).longest_side());
+    return {{side, side}};
   }
 };
 
-/// Around a point it has all triangles within reach, and around the ends of an edge all whose edges are within theirs of it.
+/// The mean of the sides l, but no less than a third of the longest: then triangles reach into 48 cells each, or less. One of l in cells of w
+/// reaches into (l/w + 2)^3 at most, and n of them with l <= 3 w and a mean of w into most where n/3 are as long as they can be.
 template <class B>
 struct SetWidth {
-  using Real = typename B::Real;
   PairGrid<B> grid;
+  int triangles;
   KOKKOS_INLINE_FUNCTION void operator()() const {
-    if (!(grid.stale(0) > 0)) return;
-    const Real radius = static_cast<Real>(Kokkos::sqrt(grid.radius(0)));  // no less than half of any edge
-    grid.width(0) = radius + Kokkos::max(grid.reach(0), radius + grid.edge_reach()) + grid.limits.margin;
+    if (grid.stale(0) > 0)
+      grid.width(0) = static_cast<typename B::Real>(Kokkos::max(grid.extent(0) / triangles, grid.extent(1) / 3));
   }
 };
 
@@ -148,9 +196,10 @@ struct KeepPlaces {
 
 template <class B>
 struct CountCells {
-  TriangleOfGrid<B> of;
+  Indices<B> corner;
+  PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    Kokkos::atomic_inc(&of.grid.filled(of.grid.bucket_of(of.centroid(t))));
+    grid.each_cell(grid.box_of(corner, t), [&](int b) { Kokkos::atomic_inc(&grid.filled(b)); });
   }
 };
 
@@ -171,13 +220,11 @@ struct SumBefore {
 /// Puts triangles into their cells, whose counts start from 0 again. In any order: who looks takes the nearest.
 template <class B>
 struct FillCells {
-  using Real = typename B::Real;
-  TriangleOfGrid<B> of;
+  Indices<B> corner;
+  PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    const Vec3<Real> centre = of.centroid(t);
-    const int b = of.grid.bucket_of(centre), s = of.grid.first(b) + Kokkos::atomic_fetch_add(&of.grid.filled(b), 1);
-    of.grid.item(s) = t;
-    set_vector<B>(of.grid.centre, s, centre);
+    grid.each_cell(grid.box_of(corner, t),
+                   [&](int b) { grid.item(grid.first(b) + Kokkos::atomic_fetch_add(&grid.filled(b), 1)) = t; });
   }
 };
 
