@@ -46,6 +46,9 @@ struct FindEdges {
   /// `t` is a triangle of f.
   KOKKOS_INLINE_FUNCTION bool are_near(int e, int f, int t) const {
     const Real far = find.grid.edge_reach() + find.grid.limits.margin;
+    Box3<Real> its(x(f, 0)), own(x(e, 0));
+    its.add(x(f, 1)), own.add(x(e, 1)), own.enlarge(far);
+    if (!own.meets(its)) return false;
     return squared_distance_of_segments(x(e, 0), x(e, 1), x(f, 0), x(f, 1)) < far * far &&
            find.may_touch(end(e, 0), t) && find.may_touch(end(e, 1), t);
   }
