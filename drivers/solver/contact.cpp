@@ -309,9 +309,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   const auto weights = host_values(Exec(), surface.embedding.weight);
   for (std::size_t p = 0; p < static_cast<std::size_t>(points_); ++p) {
     std::size_t own = 0;
-    Real sum = 0;
-    for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0, sum += std::abs(weights[4 * p + c]);
-    records.spread = std::max(records.spread, sum);
+    for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0;
     of_points += own, most = std::max(most, own);
   }
   const std::size_t entries =
@@ -330,10 +328,7 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
 
 template <class B>
 void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s, double time,
-                      const ContactRecords<B>& records, const BlockSums<B>& blocks) const {
-  if (!obstacles_.empty())
-    reduce<B, 1, FastestVertex<B>, Sums<1, 1>>(exec, "plica::contact_fastest", level.surface.touched,
-                                               {level.surface, s.v}, blocks, records.fastest);
+                      const ContactRecords<B>& records) const {
   for (std::size_t o = 0; o < obstacles_.size(); ++o)
     obstacles_[o]->find(exec, level.surface, s, time, static_cast<int>(o), whole_[o], records);
 }

@@ -73,8 +73,7 @@ class Contact {
   /// Records of one level.
   ContactRecords<B> make_records(const EmbeddedSurface<B>& surface, int vertices, bool implicit) const;
   /// The slots of obstacles at a state, for the records' step.
-  void find(const Exec&, const Level<B>&, const State<B>&, double time, const ContactRecords<B>&,
-            const BlockSums<B>& blocks) const;
+  void find(const Exec&, const Level<B>&, const State<B>&, double time, const ContactRecords<B>&) const;
 
   /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
   int take_lost(const Exec&) const;

@@ -49,9 +49,9 @@ void ContactResponse<B>::find(const Exec& exec, const Level<B>& level, const Sta
 }
 template <class B>
 void ContactResponse<B>::look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const {
-  update_vertices<B>(exec, "plica::contact_places", records_.points,
-                     PlacePoints<B>{level.surface, state.u, records_.places});
-  contact_->find(exec, level, state, time, records_, blocks_);
+  reduce<B, 1, PlacePoints<B>, Sums<1, 1>>(exec, "plica::contact_places", records_.points,
+                                           {level.surface, state, records_.places}, blocks_, records_.fastest);
+  contact_->find(exec, level, state, time, records_);
   if (search_) search_->find(exec, level.surface, state, records_, fresh_, blocks_);
   list_contacts<B>(exec, level.surface, records_, maker_);
 }

@@ -102,7 +102,7 @@ template <class B, class S>
 auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& radius) {
   using Real = typename B::Real;
   if constexpr (std::is_same_v<S, SampledSurface>) {
-    const DistanceGrid grid = sample_distance(o.surface, o.cells);
+    const DistanceGrid grid = sample_distance(o.surface, o.cells, o.thickness);
     radius = -*std::min_element(grid.value.begin(), grid.value.end());
     storage = to_device<Scalars<B>>("contact.distance_grid", std::vector<Real>(grid.value.begin(), grid.value.end()));
     return SampledSurface::Shape<Real>{storage.data(),

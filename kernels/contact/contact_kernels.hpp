@@ -2,6 +2,7 @@
 #pragma once
 #include <plica/core/model.hpp>
 #include <plica/kernels/contact/contact_records.hpp>
+#include <plica/kernels/reduce.hpp>
 #include <plica/kernels/vectors.hpp>
 
 namespace plica {
@@ -13,13 +14,16 @@ struct ZeroVectors {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(x, a, {}); }
 };
 
-/// Where the surface is.
+/// Where the surface is; the largest square of a point's velocity.
 template <class B>
 struct PlacePoints {
   EmbeddedSurface<B> surface;
-  Vectors<B> u, x;
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
-    set_vector<B>(x, p, value_at<B>(surface.embedding, u, p, vector_at<B>(surface.rest, p)));
+  State<B> state;
+  Vectors<B> places;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int p) const {
+    set_vector<B>(places, p, value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p)));
+    const auto v = value_at<B>(surface.embedding, state.v, p);
+    return {{static_cast<double>(dot(v, v))}};
   }
 };
 

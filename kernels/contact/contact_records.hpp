@@ -158,7 +158,6 @@ struct ContactRecords {
   Real span = 0;   ///< of the step [s]
   bool long_steps = false;  ///< long steps look along the nearest normal, whatever their path meets
   Real edge = 0;            ///< mean, of the surface [m]
-  Real spread = 1;          ///< no point's velocity is larger than the largest of a vertex, times that
   /// @{ shared by all levels
   Laws law;         ///< of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
   Indices<B> body;  ///< of each point; empty: there is one
@@ -171,7 +170,7 @@ struct ContactRecords {
   Indices<B> near;      ///< [slots] 1: in use
   Indices<B> close;     ///< [1] 1: a point is so near an obstacle that triangles may touch it
   Vectors<B> places;    ///< [points][3] where the surface is at the step's start [m]
-  Doubles<B> fastest;   ///< [1] largest velocity of a vertex with surface points, squared [m^2/s^2]
+  Doubles<B> fastest;   ///< [1] largest velocity of a point, squared [m^2/s^2]
   Stencil point;        ///< [slots] its surface points; -1: none
   Weights weight;       ///< [slots]
   Indices<B> law_of;    ///< [slots]

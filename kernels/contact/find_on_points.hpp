@@ -5,21 +5,9 @@
 #include <plica/kernels/contact/concavity.hpp>
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/contact/gap.hpp>
-#include <plica/kernels/reduce.hpp>
 
 // Which points of a surface an obstacle touches, and what it holds.
 namespace plica {
-
-/// The largest square of the velocity of a vertex with surface points.
-template <class B>
-struct FastestVertex {
-  EmbeddedSurface<B> surface;
-  Vectors<B> v;
-  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int i) const {
-    const Vec3<typename B::Real> own = vector_at<B>(v, surface.vertex(i));
-    return {{static_cast<double>(dot(own, own))}};
-  }
-};
 
 /// The slot of every point against this obstacle. Most are further away than the fastest of them gets in the step, and are asked for
 /// nothing else.
@@ -39,8 +27,7 @@ struct FindOnPoints {
     const Vec3<Real> x = vector_at<B>(records.places, p);
     const ObstaclePose at = place.now();
     const Vec3<Real> its = at.velocity(x);
-    const Real most =
-        records.spread * Kokkos::sqrt(static_cast<Real>(records.fastest(0))) + Kokkos::sqrt(dot(its, its));
+    const Real most = Kokkos::sqrt(static_cast<Real>(records.fastest(0))) + Kokkos::sqrt(dot(its, its));
     const Real distance = shape(at.local(x)).distance;
     if (!(distance > Kokkos::max(between, records.reach + records.span * most)) || records.grasps.holds(r))
       return look(p, r, x, at);

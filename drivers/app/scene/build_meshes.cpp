@@ -6,7 +6,9 @@
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/app/scene/load_scene.hpp>
 #include <plica/drivers/app/scene/repair_level.hpp>
+#include <plica/drivers/solver/set_up/sample_distance.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
+#include <plica/meshes/close_slits.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/files/sound_mesh.hpp>
 #include <plica/meshes/generators.hpp>
@@ -231,7 +233,23 @@ TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const Where
   const std::filesystem::path file = found("surface", recipe.file, scene, where);
   SurfaceReport report;
   TriangleSurface surface = placed(where, [&] { return read_surface(file, &report); });
-  if (!report.closed()) throw InputError(fmt::format("the surface '{}' {}", file.string(), why_open(report)), where);
+  const double thickness = recipe.options.thickness;
+  if (thickness == 0 && report.open_edges > 0) {
+    const double cell = distance_cell(surface, recipe.options.cells);
+    if (const int slits = close_slits(surface, cell); slits > 0) {
+      warn(scene, file,
+           {fmt::format("{} narrower than a cell of its distance grid, {:.3g} m, {} closed",
+                        slits > 1 ? fmt::format("{} slits", slits) : "1 slit", recipe.scale * cell,
+                        slits > 1 ? "are" : "is")});
+      report.open_edges = report.crowded_edges = report.inconsistent_edges = 0;
+      count_edges(surface, report);
+    }
+  }
+  if (thickness == 0 && !report.closed())
+    throw InputError(fmt::format("the surface '{}' {}; expected a closed one, or a sheet: thickness: 2 mm",
+                                 file.string(), why_open(report)),
+                     where);
+  if (thickness > 0) report.open_edges = 0;  // as a sheet's are
   warn(scene, file, surface_warnings(report));
   const double angle = recipe.rotation.norm();
   const Eigen::Matrix3d turn =

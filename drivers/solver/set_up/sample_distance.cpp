@@ -18,20 +18,27 @@ double nodes_of(const Point& extent, double cell) {
   return (extent / cell).array().ceil().unaryExpr([](double n) { return n + 1 + 2 * cells_around; }).prod();
 }
 
-double cell_size(const Point& extent, int cells) {
+/// `sheet`: its thickness [m]; 0: no sheet
+double cell_size(const Point& extent, int cells, double sheet) {
   if (cells > 0) return extent.maxCoeff() / cells;
-  double cell = std::min(extent.maxCoeff() / 64, extent.minCoeff() / cells_across);
+  double cell = std::min(extent.maxCoeff() / 64, sheet > 0 ? sheet / 3 : extent.minCoeff() / cells_across);
   while (nodes_of(extent, cell) > affordable) cell *= 1.1;
   return cell;
 }
 
 }  // namespace
 
-DistanceGrid sample_distance(const TriangleSurface& surface, int cells) {
+double distance_cell(const TriangleSurface& surface, int cells, double thickness) {
   const Box box = bounding_box(surface.vertices);
+  return cell_size(box.max - box.min, cells, thickness);
+}
+
+DistanceGrid sample_distance(const TriangleSurface& surface, int cells, double thickness) {
+  Box box = bounding_box(surface.vertices);
+  box.min.array() -= thickness / 2, box.max.array() += thickness / 2;
   const Point extent = box.max - box.min;
   DistanceGrid grid;
-  grid.cell = cell_size(extent, cells);
+  grid.cell = distance_cell(surface, cells, thickness);
   grid.margin = cells_around * grid.cell;
   const std::string size = text(number(extent[0], 3), " x ", number(extent[1], 3), " x ", number(extent[2], 3), " m");
   if (const double nodes = nodes_of(extent, grid.cell); nodes > most_nodes)
@@ -52,7 +59,7 @@ DistanceGrid sample_distance(const TriangleSurface& surface, int cells) {
       for (int x = 0; x < grid.nodes[0]; ++x) {
         const double bound = x > 0 ? std::abs(last) + grid.cell : std::numeric_limits<double>::infinity();
         last = distance(grid.origin + grid.cell * Point(x, y, z), bound);
-        grid.value.push_back(last);
+        grid.value.push_back(thickness > 0 ? std::abs(last) - thickness / 2 : last);
       }
   if (*std::min_element(grid.value.begin(), grid.value.end()) >= 0)
     throw InputError(text("no node of its distance grid, with cells of ", number(grid.cell, 3),

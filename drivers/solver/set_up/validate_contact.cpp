@@ -24,9 +24,13 @@ void check_numbers(const std::string& option, const TriangleSurface& surface) {
     for (const int v : t) vertex.check(option + " triangle's vertex", v);
 }
 
-void check_closed(const std::string& option, const TriangleSurface& surface) {
+void check_triangles(const std::string& option, const TriangleSurface& surface) {
   if (surface.triangles.empty()) throw InputError(option + " has no triangle");
   check_numbers(option, surface);
+}
+
+void check_closed(const std::string& option, const TriangleSurface& surface) {
+  check_triangles(option, surface);
   SurfaceReport edges;
   count_edges(surface, edges);
   if (!edges.closed())
@@ -138,7 +142,8 @@ void validate_contact(const Problem& problem) {
   }
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
-      check_closed("contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
+      (solid->thickness > 0 ? check_triangles : check_closed)("contact.obstacles." + std::to_string(i) + ".surface",
+                                                              solid->surface);
   for (const BodyPart& part : problem.body.parts)
     if (const auto other = named.find(part.name); other != named.end())
       throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" + part.name +

@@ -6,10 +6,11 @@
 
 namespace plica {
 
-/// The inside of a closed surface, by its signed distance on a regular grid.
+/// The inside of a closed surface, by its signed distance on a regular grid; or a sheet, with two sides.
 struct SurfaceOptions {
-  TriangleSurface surface;  ///< closed, every triangle counter-clockwise seen from outside
+  TriangleSurface surface;  ///< closed, every triangle counter-clockwise seen from outside; or any, with a thickness
   int cells = 0;            ///< of the grid along the surface's longest extent; 0: chosen from its shape
+  double thickness = 0;     ///< of a sheet: all that is no further from the surface than half of it [m]; 0: its inside
 };
 
 /// Its parameters, named, with kind, unit, range and meaning.
@@ -18,13 +19,15 @@ void describe(V& v, SurfaceOptions& o) {
   using namespace keys;
   v("cells", o.cells, Count{0, 512},
     "of its distance grid, along the longest extent; 0: 64, and more where it is thin");
+  v("thickness", o.thickness, Quantity{length, not_negative},
+    "of a sheet, which need not be closed: half of it on each side; 0: the inside of a closed surface");
 }
 
 /// The inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in between; the normal is the
 /// gradient's direction. Outside the grid the distance is a lower bound: that to the grid and its margin.
 struct SampledSurface {
   static constexpr const char* name = "surface";
-  static constexpr const char* summary = "the inside of a closed triangulated surface";
+  static constexpr const char* summary = "the inside of a closed triangulated surface, or a sheet of one";
   static Point origin(const SurfaceOptions&) { return Point::Zero(); }
   using Options = SurfaceOptions;
   template <class Real>
