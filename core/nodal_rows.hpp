@@ -60,6 +60,7 @@ struct NodalWork {
   Scalars<B> ratio;     ///< [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
   Scalars<B> pressure;  ///< likewise, what follows from them
   Scalars<B> gradient;  ///< [slots * 9] G of the state that tangents are about, see packed(); empty: not kept
+  Scalars<B> tangent;   ///< [slots * 45] projected tangents there, likewise; empty: none yet
 };
 
 }  // namespace plica

@@ -179,10 +179,10 @@ ContactBalance ContactResponse<B>::read_balance(const Exec& exec) const {
 
 template <class B>
 ContactBalance ContactResponse<B>::linearise(const Exec& exec, const Level<B>& level, const State<B>& state,
-                                             const ImplicitWeights& w, double ahead, const Vectors<B>& f) {
+                                             const ImplicitWeights& w, double ahead, const Vectors<B>& f, bool secant) {
   const auto weight = static_cast<Real>(w.a * stage_.factor * stage_.scale);
   sum_list<B, 3>(exec, records_.list, "plica::contact_linearise",
-                 LineariseContact<B>{at(level, state, ahead), weight, true}, blocks_, sums_);
+                 LineariseContact<B>{at(level, state, ahead), weight, true, secant}, blocks_, sums_);
   scatter(exec, level, f, stage_.factor);
   return read_balance(exec);
 }

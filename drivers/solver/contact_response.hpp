@@ -78,9 +78,10 @@ class ContactResponse {
 
   /// Finds the records of a step from a state at `time`.
   void begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStage&);
-  /// f += the records' forces at a state, `ahead` of it [s], and their blocks for a system of these weights. Waits.
+  /// f += the records' forces at a state, `ahead` of it [s], and their blocks for a system of these weights; `secant`: see LineariseContact.
+  /// Waits.
   ContactBalance linearise(const Exec& exec, const Level<B>& level, const State<B>& state, const ImplicitWeights&,
-                           double ahead, const Vectors<B>& f);
+                           double ahead, const Vectors<B>& f, bool secant = false);
   /// At a state, with the caps as they are. Waits.
   ContactBalance balance(const Exec& exec, const Level<B>& level, const State<B>& state);
   /// Caps become those of the normal forces at a state.

@@ -26,6 +26,9 @@ class Elasticity {
   /// nodal elements smooth.
   virtual void diagonal(const Exec&, const Level<B>&, const Vectors<B>& u, int direction, double over,
                         bool positive = false) const = 0;
+  /// Keeps the projected tangents of the state whose gradients level.nodal keeps, in level.nodal.tangent: `tangent` and `diagonal` of
+  /// that state read them where they are `positive`.
+  virtual void keep_tangents(const Exec&, const Level<B>&) const {}
   /// A = (1 + b c) M + a K(u) + b D(u) as blocks, of linear elements; `positive`: of such whose tangent is projected to positive semi-definite.
   virtual void blocks(const Exec&, const Model<B>&, const PatchPairs<B>&, const Vectors<B>& u, const ImplicitWeights&,
                       bool positive, const Blocks9<B>& shares, const BlockMatrix<B>& A) const = 0;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/drivers/solver/elasticity.hpp>
-#include <plica/kernels/elastic/nodal_diagonal.hpp>
+#include <plica/kernels/elastic/kept_tangents.hpp>
 #include <plica/kernels/elastic/remember_stress.hpp>
-#include <plica/kernels/materials/positive_tangent.hpp>
 
 namespace plica {
 
@@ -23,17 +22,24 @@ class NodalElasticity final : public Elasticity<B> {
   }
   void tangent(const Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p, double over,
                bool positive) const override {
-    if (positive)
+    if (positive && has_kept(level, u))
+      kept_tangent<B>(exec, level, p);
+    else if (positive)
       nodal_tangent<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, p, over);
     else
       nodal_tangent<B, Material, Material::template Tangent>(exec, level, u, p, over);
   }
   void diagonal(const Exec& exec, const Level<B>& level, const Vectors<B>& u, int direction, double over,
                 bool positive) const override {
-    if (positive)
+    if (positive && has_kept(level, u))
+      kept_diagonal<B>(exec, level, direction);
+    else if (positive)
       nodal_diagonal<B, Material, PositiveTangent<Material>::template Of>(exec, level, u, over, direction);
     else
       nodal_diagonal<B, Material, Material::template Tangent>(exec, level, u, over, direction);
+  }
+  void keep_tangents(const Exec& exec, const Level<B>& level) const override {
+    keep_nodal_tangents<B, Material>(exec, level);
   }
   void blocks(const Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs, const Vectors<B>& u,
               const ImplicitWeights& weights, bool positive, const Blocks9<B>& shares,
@@ -53,6 +59,9 @@ class NodalElasticity final : public Elasticity<B> {
   }
 
  private:
+  static bool has_kept(const Level<B>& level, const Vectors<B>& u) {
+    return u.extent(0) == 0 && level.nodal.tangent.extent(0) > 0;
+  }
   std::unique_ptr<Elasticity<B>> linear_ = make_linear_elasticity<B, Material>();
 };
 

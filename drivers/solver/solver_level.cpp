@@ -5,6 +5,7 @@
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/gather_forces.hpp>
+#include <plica/kernels/elastic/kept_tangents.hpp>
 #include <plica/kernels/elastic/lost_stress.hpp>
 #include <plica/kernels/elastic/nodal_rows.hpp>
 #include <plica/kernels/linear/vertex_blocks.hpp>
@@ -216,6 +217,16 @@ template <class B>
 void SolverLevel<B>::incremental_energy(const State<B>& at) const {
   elasticity_->energy(exec(), *this, at.u);
   if (viscosity) add_lost_energy<B>(exec(), *this, at.u);
+}
+
+template <class B>
+void SolverLevel<B>::keep_tangents() {
+  const NodalRows<B>& rows = this->model.rows;
+  if (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0) return;
+  if (this->nodal.tangent.extent(0) == 0)
+    this->nodal.tangent =
+        zeros<Scalars<B>>("plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(rows.slots()));
+  elasticity_->keep_tangents(exec(), *this);
 }
 
 template <class B>

@@ -90,6 +90,8 @@ class SolverLevel : public Level<B> {
   /// semi-definite ones.
   void assemble(const State<B>& state, const ImplicitWeights& weights, bool positive, const PatchPairs<B>& pairs,
                 const Blocks9<B>& shares, const BlockMatrix<B>& A) const;
+  /// Projected tangents of the state that was linearised last, where elements keep them.
+  void keep_tangents();
   /// partial = the shares of -K p at a state; see Elasticity::tangent.
   void tangent(const State<B>& state, const Vectors<B>& p, double over = 0, bool positive = false) const;
 

@@ -90,7 +90,8 @@ struct LineariseContact {
   using Real = typename B::Real;
   ImplicitContact<B> contact;
   Real weight;
-  bool blocks;  ///< else the potential alone
+  bool blocks;          ///< else the potential alone
+  bool secant = false;  ///< blocks of what slips as if it kept its friction in all directions: it does not overshoot
 
   KOKKOS_INLINE_FUNCTION Sums<3> operator()(int i) const {
     const ContactRecords<B>& records = contact.records;
@@ -124,7 +125,7 @@ struct LineariseContact {
       const Real one = i == j ? Real(1) : Real(0);
       Real sum = over * (one - N[i] * N[j]);
       if (!tie && a.lam > 0) sum += law.kn * a.normal[i] * a.normal[j];
-      if (a.slips) sum -= over / (a.length * a.length) * a.shear[i] * a.shear[j];
+      if (a.slips && !secant) sum -= over / (a.length * a.length) * a.shear[i] * a.shear[j];
       C[k] += weight * sum;
     }
     return C;

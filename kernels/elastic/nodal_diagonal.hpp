@@ -10,8 +10,28 @@
 // Where it damps, T_a has that of damping_stress.hpp beside it. Of smoothed pressures, which act beyond neighbours, nothing is in it.
 namespace plica {
 
-/// Leaves as records, of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a neighbour's c = C_ab makes of a
-/// domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z c_z, c_x c_y, c_x c_z, c_y c_z, over V_a.
+/// As a record (Q, v), of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a neighbour's c = C_ab makes of a
+/// domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z c_z, c_x c_y, c_x c_z, c_y c_z, times `weight`. dP: by the column of F that
+/// moves.
+template <class T>
+KOKKOS_INLINE_FUNCTION void diagonal_record(const Mat3<T> (&dP)[3], const T& weight, int direction, Mat3<T>& Q,
+                                            Vec3<T>& v) {
+  T number[12];
+  for (int row = 0; row < 2; ++row) {
+    const int i = (direction + row) % 3;
+    T* const to = number + 6 * row;
+    for (int j = 0; j < 3; ++j) to[j] = weight * dP[j][i][j];
+    to[3] = weight * (dP[0][i][1] + dP[1][i][0]);
+    to[4] = weight * (dP[0][i][2] + dP[2][i][0]);
+    to[5] = weight * (dP[1][i][2] + dP[2][i][1]);
+  }
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) Q[i][j] = number[4 * j + i];
+    v[j] = number[4 * j + 3];
+  }
+}
+
+/// Leaves these records of each domain, over V_a.
 template <class B, class Material, template <class> class Tangent, bool Damped>
 struct NodalDiagonal {
   static constexpr int fields = 1;
@@ -35,19 +55,7 @@ struct NodalDiagonal {
       dP[j] = tangent(dF) - T(scales.stabiliser(region)) * dF;
       if constexpr (Damped) dP[j] = dP[j] + T(over * scales.damping(region)) * DampingTangent<Material, T>{F, c}(dF);
     }
-    T number[12];
-    for (int row = 0; row < 2; ++row) {
-      const int i = (direction + row) % 3;
-      T* const to = number + 6 * row;
-      for (int j = 0; j < 3; ++j) to[j] = weight * dP[j][i][j];
-      to[3] = weight * (dP[0][i][1] + dP[1][i][0]);
-      to[4] = weight * (dP[0][i][2] + dP[2][i][0]);
-      to[5] = weight * (dP[1][i][2] + dP[2][i][1]);
-    }
-    for (int j = 0; j < 3; ++j) {
-      for (int i = 0; i < 3; ++i) Q[i][j] = number[4 * j + i];
-      v[j] = number[4 * j + 3];
-    }
+    diagonal_record(dP, weight, direction, Q, v);
   }
 };
 

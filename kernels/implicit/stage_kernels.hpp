@@ -144,7 +144,7 @@ struct StageRetreat {
 
 /// Of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead u + elastic and contact energy,
 /// grad Phi = R but for forces that have none: its vertex terms [J]; |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J]; the
-/// squares of what accelerates the body and of what does not depend on its state [N^2].
+/// squares of what accelerates the body and of what does not depend on its state [N^2]; of the masses [kg^2].
 template <class B>
 struct StagePotential {
   using Real = typename B::Real;
@@ -152,8 +152,8 @@ struct StagePotential {
   Vectors<B> f, dead, change;
   Real back;  ///< part of `change` by which the state is ahead of what is asked for
 
-  KOKKOS_INLINE_FUNCTION Sums<6> operator()(int i) const {
-    Sums<6> sums;
+  KOKKOS_INLINE_FUNCTION Sums<7> operator()(int i) const {
+    Sums<7> sums;
     if (!stage.is_free(i)) return sums;
     const double m = static_cast<double>(stage.model.mass(i)), c = static_cast<double>(stage.model.damping(i));
     const double a = static_cast<double>(stage.a), r = a / static_cast<double>(stage.b);
@@ -167,8 +167,18 @@ struct StagePotential {
       sums[3] += m * w * w / (2 * a);
       sums[4] += m * w / a * (m * w / a);
       sums[5] += static_cast<double>(dead(i, k)) * static_cast<double>(dead(i, k));
+      sums[6] += m * m;
     }
     return sums;
+  }
+};
+
+/// How much less than 1 a volume ratio is.
+template <class B>
+struct LackOfVolume {
+  Scalars<B> J;
+  KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int i) const {
+    return {{Kokkos::max(0.0, 1 - static_cast<double>(J(i)))}};
   }
 };
 

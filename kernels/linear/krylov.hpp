@@ -41,13 +41,10 @@ struct CgZero {
 template <class B>
 struct CgBegin {
   Doubles<B> s;
-  double again;  ///< of |r| / |b| for the b before, which is enough; below 0: it starts with a b of its own
   KOKKOS_INLINE_FUNCTION void operator()() const {
-    s(cg::start) = s(cg::square);
-    if (again < 0) s(cg::right_side) = s(cg::square);
+    s(cg::start) = s(cg::right_side) = s(cg::square);
     s(cg::iterations) = s(cg::last_product) = 0;
-    const double enough = again < 0 ? 0.0 : again * again * s(cg::right_side);
-    s(cg::stopped) = s(cg::square) > enough ? cg::running : s(cg::square) >= 0 ? cg::converged : cg::not_finite;
+    s(cg::stopped) = s(cg::square) > 0 ? cg::running : s(cg::square) >= 0 ? cg::converged : cg::not_finite;
     if (!Kokkos::isfinite(s(cg::square))) s(cg::stopped) = cg::not_finite;
   }
 };

@@ -14,29 +14,6 @@ struct TakeDiagonal {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_block<B>(diagonal, a, own_block<B>(A, a)); }
 };
 
-/// The vertex blocks of those that a surface touches, in its order: kept of all blocks, or put back.
-template <class B>
-struct KeepBlocks {
-  Indices<B> vertex;  ///< [touched]
-  Blocks<B> all, kept;
-  bool back;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const int a = vertex(i);
-    if (back)
-      set_block<B>(all, a, block_at<B>(kept, i));
-    else
-      set_block<B>(kept, i, block_at<B>(all, a));
-  }
-};
-
-/// What another kernel does to all vertices, at those that a surface touches.
-template <class B, class Kernel>
-struct AtTouched {
-  Indices<B> vertex;  ///< [touched]
-  Kernel kernel;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const { kernel(vertex(i)); }
-};
-
 /// The inverse of a matrix's own block of every row. One that is not positive definite gives way to what is positive on its
 /// diagonal; an empty row's is 0.
 template <class B>

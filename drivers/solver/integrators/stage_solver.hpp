@@ -25,8 +25,11 @@ class StageSolver {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  StageSolver(const Level<B>& level, const ImplicitOptions& options, std::unique_ptr<LinearSolver<B>> solver)
+  /// `edge`: mean, of the level's mesh [m].
+  StageSolver(const Level<B>& level, const ImplicitOptions& options, double edge, bool contact,
+              std::unique_ptr<LinearSolver<B>> solver)
       : options_(options),
+        edge_(edge),
         solver_(std::move(solver)),
         base_("stage.base", level.model.vertices),
         right_side_("plica::stage.right_side", level.model.vertices),
@@ -37,9 +40,12 @@ class StageSolver {
       carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
       last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
     }
+    if (!contact && !iterates()) return;
+    const int elements = level.model.rows.slices > 0 ? level.model.vertices : level.model.tets;
+    von_mises_ = Scalars<B>("plica::stage.von_mises", elements), volume_ = Scalars<B>("plica::stage.volume", elements);
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
     blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
-    result_ = Doubles<B>("plica::stage.result", 6);
+    result_ = Doubles<B>("plica::stage.result", 7);
   }
 
   /// The base (u~, v~), to be set before solve().
@@ -85,8 +91,8 @@ class StageSolver {
     return all;
   }
   std::size_t bytes() const {
-    return solver_->bytes() + 5 * 3 * sizeof(Real) * change_.extent(0) +
-           sizeof(Real) * (carrying_.extent(0) + last_carried_.extent(0));
+    return solver_->bytes() + sizeof(Real) * (4 * change_.span() + dead_.span() + von_mises_.span() + volume_.span() +
+                                              carrying_.extent(0) + last_carried_.extent(0));
   }
   void persist(StateArchive<B>& archive) {
     for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
@@ -100,10 +106,15 @@ class StageSolver {
   static constexpr int most_halvings = 12;    // of a direction
   static constexpr double sufficient = 1e-4;  // part of the decrease that the slope promises
   static constexpr double balanced = 3e-3;    // part of the forces in a stage with contact that may be left unbalanced
-  static constexpr int contact_iterations = 16;
+  static constexpr int contact_iterations = 20;
+  static constexpr double still = 1e-6;             // edges that nobody sees a body move by
+  static constexpr double least_volume_part = 0.2;  // of the least volume that a change of a state must leave
+  static constexpr double first_tolerance = 0.03;   // of the first system
+  static constexpr int halvings_unprojected = 2, projections = 3;
   static constexpr double unseen = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
 
   ImplicitOptions options_;
+  double edge_;  ///< mean, of the level [m]
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
   Vectors<B> right_side_, change_, dead_;
@@ -115,6 +126,9 @@ class StageSolver {
   ContactStage contact_;
   long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;
+  bool cut_ = false;               ///< the last change was shortened
+  int projecting_ = 0;             ///< systems for which tangents are projected without a new reason
+  Scalars<B> von_mises_, volume_;  ///< of elements
 
   /// A state on the way.
   struct Potential {
@@ -123,6 +137,8 @@ class StageSolver {
     double slope = 0;     ///< R.change [J]
     double scale = 0;     ///< of what `value` adds up [J]
     double forces = 0;    ///< those that accelerate the body and those that do not depend on its state [N]
+    double masses = 0;    ///< root of the sum of their squares [kg]
+    double volume = 0;    ///< least ratio of an element, or 1
     bool solved = false;
     bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
   };
@@ -140,22 +156,22 @@ class StageSolver {
   }
 
   bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
-    if (touches(level)) return balance(level, time, ahead, weights);
+    if (touches(level) || iterates()) return minimise(level, time, ahead, weights);
     level.linearise(level.state, time, weights, ahead, level.f);
-    if (iterates()) return newton(level, time + ahead, weights);
-    const double before = residual_;
-    const SolveOutcome out = correct(level, weights, true, options_.tangent == "positive");
+    const double before = residual_, tolerance = options_.relative_residual;
+    const SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
     if (!out.indefinite || options_.tangent != "auto" || level.followers.empty() || level.prescribed.count > 0)
       return true;
     undo(level, weights, 1);  // the pressure takes more stiffness away than there is
     if (!out.converged) --misses_;
     residual_ = before;
-    correct(level, weights, false, true);
+    correct(level, weights, false, true, tolerance);
     return true;
   }
 
   /// One linear solve at the linearised state, and the state that follows from it.
-  SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start, bool positive) {
+  SolveOutcome correct(SolverLevel<B>& level, const ImplicitWeights& w, bool from_start, bool positive,
+                       double tolerance) {
     const int n = level.model.vertices;
     const StageAt<B> stage = at(level, w);
     Vectors<B> force = level.f, gap;
@@ -166,6 +182,7 @@ class StageSolver {
     }
     SolveOutcome out;
     level.book("solve", [&] {
+      if (positive) level.keep_tangents();
       solver_->prepare(level, level.state, w, positive);
       if (from_start && !positive && is_stiffness_alone(level))
         by_product = solver_->multiply(level.exec(), gap, right_side_);
@@ -176,11 +193,11 @@ class StageSolver {
         level.add_follower_product(level.state, gap, -1, positive, right_side_);
         force = right_side_;
       }
-      level.tangent(level.state, gap);
+      level.tangent(level.state, gap, 0, positive);
     }
     update_vertices<B>(level.exec(), "plica::stage_right_side", n,
                        StageRightSide<B>{stage, force, level.partial, right_side_, gap, by_product});
-    level.book("solve", [&] { out = solver_->solve(level.exec(), right_side_, change_); });
+    level.book("solve", [&] { out = solver_->solve(level.exec(), right_side_, change_, tolerance); });
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
     residual_ = std::max(residual_, out.relative_residual);
@@ -193,126 +210,128 @@ class StageSolver {
     return out;
   }
 
-  // --- With contact: Newton's method on the incremental potential, elements and contact at once ---------------------------------
+  // --- Newton's method ----------------------------------------------------------------------------------------------------------
 
   /// Whether contact acts in this stage.
   bool touches(const SolverLevel<B>& level) const { return level.contact() && contact_.span > 0; }
 
-  /// From the step's start, with contact where its velocities lead to; every further state has a lower potential, with friction's caps as
-  /// they are; then caps follow the normal forces. Ends as soon as what is unbalanced is a small part of the forces there are.
-  bool balance(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
+  /// Newton's method on the incremental potential Phi, elements and contact at once, from the step's start. Systems are solved as far as it
+  /// pays (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996). Each further state has a lower potential, with friction's caps as they are,
+  /// and keeps a part of the least volume; then caps follow the normal forces.
+  bool minimise(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
     const double end = time + ahead;
-    ContactResponse<B>& contact = level.response();
     const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
-    level.book("contact", [&] { contact.begin_stage(level.exec(), level, level.state, time, contact_); });
+    if (touches(level))
+      level.book("contact", [&] { level.response().begin_stage(level.exec(), level, level.state, time, contact_); });
     level.dead(end, dead_);
     fill(level.exec(), change_, Real(0));
     level.linearise(level.state, time, w, ahead, level.f);
-    Potential now = potential_with(level, end, w, contact.balance(level.exec(), level, level.state));
-    contact.linearise(level.exec(), level, level.state, w, ahead, level.f);
-    const bool once = !solver_->converges();
-    for (int k = 0; k < contact_iterations && !now.solved; ++k) {
+    Potential now = here(level, end, w);
+    now.volume = least_volume(level);
+    if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
+    const double first = now.residual;
+    now.solved = std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
+    const int most = touches(level) ? contact_iterations : options_.newton_iterations;
+    const bool once = !solver_->converges() && touches(level);
+    double tolerance = first_tolerance;
+    for (int k = 0; k < most && !now.solved; ++k) {
       ++newtons_;
-      const bool moving = k == 0 && level.prescribed.count > 0;  // given motions have changed what is compared
-      bool projected = options_.tangent == "positive";
-      SolveOutcome out = correct(level, w, k == 0, projected);
-      if (once) break;
-      double slope = vertex_terms(level, w, 1)[2];
-      if (options_.tangent == "auto" && (out.indefinite || (k > 0 && !(slope < 0)))) {
-        undo(level, w, 1);
-        projected = true;
-        out = correct(level, w, k == 0, true);
-        slope = vertex_terms(level, w, 1)[2];
-      }
-      const std::optional<Potential> next = lower(level, end, w, before(level, end, w, now), k > 0 ? slope : 0, moving);
-      if (!next) break;
-      contact.update_caps(level.exec(), level, level.state);
-      const ContactBalance by = contact.linearise(level.exec(), level, level.state, w, 0, level.f);
-      now = potential_with(level, end, w, by);
-      now.solved = now.residual <= balanced * (now.forces + by.forces);
+      const std::optional<Potential> next = descend(level, time, ahead, w, now, k, tolerance);
+      if (once || !next) break;
+      const bool lost = std::abs(next->slope) <= rounding(*next) && next->residual <= now.residual;
+      const double from = std::exchange(now, *next).residual;
+      now.solved = touches(level)
+                       ? accept_contact(level, end, w, now)
+                       : now.residual <= std::max(options_.newton_residual, options_.newton_tolerance * first) || lost;
+      tolerance = std::clamp(0.1 * now.residual / from, 1e-3, 0.1);
     }
     level.flags = flags;
     if (once || now.solved) return true;
     ++unfinished_;
-    unsolved_ = now.residual / std::max(now.forces, 1e-300);
+    unsolved_ = touches(level) ? now.residual / std::max(now.forces, 1e-300) : now.residual / first;
     return false;
   }
 
-  /// Shortens the change that the state has made until the potential is lower; level.f then are its forces without contact. None, and the
-  /// change is undone, where it never is.
-  std::optional<Potential> lower(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
-                                 double slope, bool moving) {
-    double part = 1;
+  /// Caps follow the state. Whether what is then unbalanced is a small part of the forces there are, or moves nothing.
+  bool accept_contact(SolverLevel<B>& level, double end, const ImplicitWeights& w, Potential& now) {
+    ContactResponse<B>& contact = level.response();
+    contact.update_caps(level.exec(), level, level.state);
+    const ContactBalance by = contact.linearise(level.exec(), level, level.state, w, 0, level.f, cut_);
+    const double volume = std::exchange(now, with_contact(potential(level, end, w), by)).volume;
+    now.volume = volume;
+    return now.residual <= std::max(balanced * (now.forces + by.forces), unseen_force(now, w));
+  }
+
+  /// What moves the body by no more than anybody sees in the step [N].
+  double unseen_force(const Potential& p, const ImplicitWeights& w) const { return still * edge_ * p.masses / w.a; }
+
+  /// From a state that is linearised to the next, which then is, without contact in level.f: along Newton's direction as far as the potential
+  /// goes down. Where that direction has no positive curvature or does not lead down, along that of the projected tangents, and so in the
+  /// next few systems, too. None, and the state is where it was, where that does not lead down either.
+  std::optional<Potential> descend(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w,
+                                   const Potential& now, int k, double tolerance) {
+    const double end = time + ahead;
+    const bool first = k == 0,
+               moving = first && level.prescribed.count > 0;  // given motions have changed what is compared
+    const bool may_project = options_.tangent == "auto";
+    bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
+    if (may_project && projecting_ > 0) --projecting_;
+    for (;;) {
+      const SolveOutcome out = correct(level, w, first, projected, tolerance);
+      if (touches(level) && !solver_->converges()) return now;
+      const double slope = vertex_terms(level, w, 1)[2];
+      const bool at_start = first && touches(level);  // what contact does there is looked for where velocities lead to
+      const bool leads_up = out.indefinite || (!at_start && !(slope < 0));
+      double part = 1;
+      if (!(leads_up && may_project && !projected) || moving) {
+        const int most = projected || !may_project ? most_halvings : halvings_unprojected;
+        const Potential from = before(level, end, w, now);
+        if (auto next = shorten(level, end, w, from, at_start ? 0 : slope, moving, most, part)) return next;
+      }
+      undo(level, w, part);
+      if (projected || !may_project) return {};
+      projecting_ = projections, projected = true;
+      level.linearise(level.state, first ? time : end, w, first ? ahead : 0, level.f);
+      if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, first ? ahead : 0, level.f);
+    }
+  }
+
+  /// Shortens the change that the state has made, to `part` of it, until the potential is lower and no volume much less than the least was;
+  /// none where it never is.
+  std::optional<Potential> shorten(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
+                                   double slope, bool moving, int most, double& part) {
+    cut_ = false;
     for (int i = 0;; ++i) {
-      level.linearise(level.state, end, w, 0, level.f);
-      const Potential next = potential_with(level, end, w, level.response().balance(level.exec(), level, level.state));
-      const double rounding =
-          std::max(unseen, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * std::max(now.scale, next.scale);
-      if (next.finite() && (moving || next.value - now.value <= sufficient * part * slope + rounding)) return next;
-      if (i == most_halvings) break;
+      const double volume = least_volume(level);
+      if (!(now.volume > 0) || volume >= least_volume_part * now.volume) {
+        level.linearise(level.state, end, w, 0, level.f);
+        Potential next = here(level, end, w);
+        next.slope *= part, next.volume = volume;
+        const bool falls =
+            next.value - now.value <= sufficient * part * slope + std::max(rounding(now), rounding(next));
+        const bool nearer = !touches(level) && next.residual < now.residual;  // where forces have no potential
+        if (next.finite() && (moving || !now.finite() || falls || nearer)) return next;
+      }
+      if (i == most) return {};
       ++searches_;
-      part /= 2;
+      part /= 2, cut_ = true;
       retreat(level, w, part);
     }
-    undo(level, w, part);
-    return {};
+  }
+
+  /// What is lost in rounding where a potential is worked out [J].
+  double rounding(const Potential& p) const {
+    return std::max(contact_.span > 0 ? unseen : 0.0, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * p.scale;
   }
 
   /// Of the state whose forces are in level.f, with contact's energy.
-  Potential potential_with(const SolverLevel<B>& level, double end, const ImplicitWeights& w,
-                           const ContactBalance& contact) const {
-    Potential p = potential(level, end, w);
+  Potential here(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
+    const Potential p = potential(level, end, w);
+    return touches(level) ? with_contact(p, level.response().balance(level.exec(), level, level.state)) : p;
+  }
+  static Potential with_contact(Potential p, const ContactBalance& contact) {
     p.value += contact.energy, p.scale += contact.energy;
     return p;
-  }
-
-  // --- Without contact ----------------------------------------------------------------------------------------------------------
-
-  bool newton(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
-    level.dead(end, dead_);
-    fill(level.exec(), change_, Real(0));
-    const Potential now = potential(level, end, w);
-    const double enough = std::max(options_.newton_residual, options_.newton_tolerance * now.residual);
-    const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
-    const Potential last = iterate(level, end, w, now, enough);
-    level.flags = flags;
-    if (last.solved) return true;
-    ++unfinished_;
-    unsolved_ = last.residual / now.residual;
-    return false;
-  }
-
-  /// The last state that it gets to: solved, or as near as it came.
-  Potential iterate(SolverLevel<B>& level, double end, const ImplicitWeights& w, Potential now, double enough) {
-    for (int i = 0; i < options_.newton_iterations && !now.solved; ++i) {
-      ++newtons_;
-      const std::optional<Potential> next = search(level, end, w, now, i == 0);
-      if (!next) return now;
-      // where what a step can still win is lost in rounding, this is as near as it gets
-      const double lost = 16 * Kokkos::Experimental::epsilon_v<Real> * next->scale;
-      const bool done = next->residual <= enough || (next->residual <= now.residual && std::abs(next->slope) <= lost);
-      now = *next;
-      now.solved = done;
-    }
-    return now;
-  }
-
-  /// From a state that is linearised to the next, which then is: along Newton's direction as far as the potential, or the
-  /// residual where forces have none, goes down. Where it does not, along that of the projected tangents; where it does not
-  /// there either, none, and the state is where it was.
-  std::optional<Potential> search(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
-                                  bool first) {
-    const bool moving = first && level.prescribed.count > 0;  // given motions have changed what is compared
-    bool projected = options_.tangent == "positive";
-    double slope = descend(level, w, first, moving, projected);
-    for (;;) {
-      if (auto next = shorten(level, end, w, before(level, end, w, now), slope, moving)) return next;
-      if (projected || options_.tangent != "auto") return {};
-      projected = true;
-      level.linearise(level.state, end, w, 0, level.f);
-      correct(level, w, false, true);
-      slope = vertex_terms(level, w, 1)[2];
-    }
   }
 
   /// What `now` was before the last change, with the pressures that are carried since.
@@ -325,36 +344,12 @@ class StageSolver {
     return now;
   }
 
-  /// Shortens the change that the state has made until it leads down; none, and the change is undone, where it never does.
-  std::optional<Potential> shorten(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
-                                   double slope, bool moving) {
-    double part = 1;
-    for (int i = 0;; ++i) {
-      level.linearise(level.state, end, w, 0, level.f);
-      Potential next = potential(level, end, w);
-      next.slope *= part;
-      const double rounding = 16 * Kokkos::Experimental::epsilon_v<Real> * std::max(now.scale, next.scale);
-      const bool lower = next.value - now.value <= sufficient * part * slope + rounding;
-      if (next.finite() && (moving || !now.finite() || lower || next.residual < now.residual)) return next;
-      if (i == most_halvings) break;
-      ++searches_;
-      part /= 2;
-      retreat(level, w, part);
-    }
-    undo(level, w, part);
-    return {};
-  }
-
-  /// Newton's step, and the potential's slope along it where it began. Where the tangent has no minimum in that direction,
-  /// that of the elements' projected tangents.
-  double descend(SolverLevel<B>& level, const ImplicitWeights& w, bool first, bool moving, bool& projected) {
-    const SolveOutcome out = correct(level, w, first, projected);
-    const double slope = vertex_terms(level, w, 1)[2];
-    if (options_.tangent != "auto" || moving || (!out.indefinite && !(slope >= 0))) return slope;
-    projected = true;
-    undo(level, w, 1);
-    correct(level, w, false, true);
-    return vertex_terms(level, w, 1)[2];
+  /// The least volume ratio of an element, or 1.
+  double least_volume(const SolverLevel<B>& level) const {
+    level.elasticity().stress(level.exec(), level, level.state.u, von_mises_, volume_);
+    reduce<B, 1, LackOfVolume<B>, Sums<1, 1>>(level.exec(), "plica::least_volume", static_cast<int>(volume_.extent(0)),
+                                              {volume_}, blocks_, result_);
+    return 1 - host_values(level.exec(), result_)[0];
   }
 
   void retreat(const SolverLevel<B>& level, const ImplicitWeights& w, double part) const {
@@ -368,13 +363,13 @@ class StageSolver {
     if (carries()) copy(level.exec(), carried_, last_carried_);
   }
 
-  std::array<double, 6> read(const Exec& exec) const {
+  std::array<double, 7> read(const Exec& exec) const {
     const std::vector<double> sums = host_values(exec, result_);
-    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]};
+    return {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]};
   }
   /// See StagePotential; `back`: of the state before the last change, while level.f are its forces.
-  std::array<double, 6> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w, double back) const {
-    reduce<B, 6>(level.exec(), "plica::stage_potential", level.model.vertices,
+  std::array<double, 7> vertex_terms(const SolverLevel<B>& level, const ImplicitWeights& w, double back) const {
+    reduce<B, 7>(level.exec(), "plica::stage_potential", level.model.vertices,
                  StagePotential<B>{at(level, w), level.f, dead_, change_, static_cast<Real>(back)}, blocks_, result_);
     return read(level.exec());
   }
@@ -382,8 +377,12 @@ class StageSolver {
   Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
     const double energy = stored(level, end);
-    return {terms[0] + energy, std::sqrt(terms[1]), terms[2], terms[3] + std::abs(energy),
-            std::sqrt(terms[4]) + std::sqrt(terms[5])};
+    return {terms[0] + energy,
+            std::sqrt(terms[1]),
+            terms[2],
+            terms[3] + std::abs(energy),
+            std::sqrt(terms[4]) + std::sqrt(terms[5]),
+            std::sqrt(terms[6])};
   }
   /// Of elements and pressures that follow the body at the level's state [J].
   double stored(const SolverLevel<B>& level, double end) const {

@@ -53,10 +53,11 @@ struct ConjugateGradients {
       return true;
     }
 
-    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
+    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x, double tolerance) override {
       const LastSolutions<B>* const last = last_ ? &*last_ : nullptr;
-      if (!preconditions()) return remember(exec, krylov_.solve(exec, system_, nullptr, last, options_, r, x), x);
       ImplicitOptions options = options_;
+      options.relative_residual = tolerance;
+      if (!preconditions()) return remember(exec, krylov_.solve(exec, system_, nullptr, last, options, r, x), x);
       if (options.preconditioner == MultigridCycle::name)
         options.max_iterations = std::min(options.max_iterations, most_cycles);
       const KrylovOutcome out = krylov_.solve(exec, system_, preconditioner_.get(), last, options, r, x);
@@ -67,7 +68,7 @@ struct ConjugateGradients {
       given_up_ = gives_up ? given_up_ + 1 : 0;
       if (!gives_up) return remember(exec, out, x);
       spent_ = patience;
-      return remember(exec, finish(exec, out, r, x), x);
+      return remember(exec, finish(exec, out, r, x, tolerance), x);
     }
 
     bool converges() const override { return options_.iterations == 0; }
@@ -108,10 +109,11 @@ struct ConjugateGradients {
     }
 
     /// From x with the residual r by the vertex blocks alone.
-    KrylovOutcome finish(const Exec& exec, const KrylovOutcome& before, const Vectors<B>& r, const Vectors<B>& x) {
+    KrylovOutcome finish(const Exec& exec, const KrylovOutcome& before, const Vectors<B>& r, const Vectors<B>& x,
+                         double tolerance) {
       const double left = before.relative_residual;
       ImplicitOptions options = options_;
-      options.relative_residual = std::min(1.0, options.relative_residual / left);
+      options.relative_residual = std::min(1.0, tolerance / left);
       KrylovOutcome out = krylov_.solve(exec, system_, nullptr, nullptr, options, r, rest_);
       add<B>(exec, "plica::cg_rest", 1, rest_, x);
       out.iterations += before.iterations, out.relative_residual *= left;

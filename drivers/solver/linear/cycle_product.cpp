@@ -2,7 +2,7 @@
 #include <plica/drivers/solver/linear/cycle_product.hpp>
 #include <plica/drivers/solver/set_up/build_nodal_rows.hpp>
 #include <plica/drivers/solver/spaces/transfer_matrix.hpp>
-#include <plica/kernels/elastic/nodal_rows.hpp>
+#include <plica/kernels/elastic/kept_tangents.hpp>
 #include <plica/kernels/implicit/system_kernels.hpp>
 #include <plica/kernels/linear/packed_rows.hpp>
 #include <plica/kernels/vectors.hpp>
@@ -39,6 +39,11 @@ void CycleProduct<B>::prepare(const SolverLevel<B>& level, const State<B>& state
   forces_ = &level, weights_ = weights, positive_ = positive;
   convert_to(state.u, u_);
   keep_gradients<F>(exec, level_, u_);
+  if (!positive || !keeps_tangents(level_.model.rows)) return;
+  if (level_.nodal.tangent.extent(0) == 0)
+    level_.nodal.tangent =
+        zeros<Scalars<F>>("plica::cycle.tangent", symmetric_nine * static_cast<std::size_t>(level_.model.rows.slots()));
+  elasticity_->keep_tangents(exec, level_);
 }
 
 template <class B>

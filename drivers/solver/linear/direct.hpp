@@ -31,7 +31,7 @@ struct Direct {
       ++projected_;
     }
 
-    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
+    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x, double) override {
       fence(exec, "plica::direct");
       const int n = 3 * system_.rows();
       Eigen::VectorXd b(n);

@@ -69,10 +69,10 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Pr
 
 template <class B>
 void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
-                      std::optional<double> again, const Vectors<B>& r, const Vectors<B>& x) const {
+                      const Vectors<B>& r, const Vectors<B>& x) const {
   const CgSquare<B> square{system.inverse_diagonal(), r, z_};
   reduce<B, 1>(exec, "plica::cg_zero", system.rows(), CgZero<B>{square, x}, sums_, slot(cg::square),
-               CgBegin<B>{scalars_, again.value_or(-1)});
+               CgBegin<B>{scalars_});
   if (!last || !last->any()) return;
   last->start(exec, system, sums_, r, x);
   reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square),
@@ -82,13 +82,13 @@ void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const Last
 template <class B>
 KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
                                const LastSolutions<B>* last, const ImplicitOptions& options, const Vectors<B>& r,
-                               const Vectors<B>& x, std::optional<double> again) const {
+                               const Vectors<B>& x) const {
   std::vector<double> scalar;
   const auto look = [&] { scalar = host_values(exec, scalars_); };
   const bool fixed = options.iterations > 0;
   const int most = fixed ? options.iterations : options.max_iterations;
   const double tolerance = fixed ? -1.0 : options.relative_residual;
-  begin(exec, system, last, tolerance, again, r, x);
+  begin(exec, system, last, tolerance, r, x);
   for (int i = 0; i < most; ++i) {
     if (!fixed && i % watch == 0) {
       look();

@@ -44,11 +44,10 @@ class Krylov {
 
   explicit Krylov(int vertices);
   /// x = A^-1 r from a guess by the last solutions, if any; r becomes the residual. options.iterations > 0: exactly so many; else until the
-  /// relative residual, or max_iterations. `again`: that is relative to the last right side
-  /// that did not have one; where r is this part of it or less, x is 0.
+  /// relative residual, or max_iterations.
   KrylovOutcome solve(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
                       const LastSolutions<B>* last, const ImplicitOptions& options, const Vectors<B>& r,
-                      const Vectors<B>& x, std::optional<double> again = {}) const;
+                      const Vectors<B>& x) const;
   std::size_t bytes() const;
 
  private:
@@ -58,7 +57,7 @@ class Krylov {
 
   Doubles<B> slot(int k) const { return Doubles<B>(scalars_.data() + k, 1); }
   void begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
-             std::optional<double> again, const Vectors<B>& r, const Vectors<B>& x) const;
+             const Vectors<B>& r, const Vectors<B>& x) const;
   void advance(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
                double tolerance, const Vectors<B>& r, const Vectors<B>& x) const;
 };

@@ -42,8 +42,8 @@ class LinearSolver {
   virtual void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights&, bool positive) = 0;
   /// q = A p, where there is a matrix with all of A in it; else false, and nothing is done.
   virtual bool multiply(const Exec&, const Vectors<B>& /*p*/, const Vectors<B>& /*q*/) const { return false; }
-  /// x = A^-1 r, zero where motion is given. Overwrites r.
-  virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x) = 0;
+  /// x = A^-1 r, zero where motion is given, until |r - A x| is `tolerance` of |r|, where it iterates so far. Overwrites r.
+  virtual SolveOutcome solve(const Exec&, const Vectors<B>& r, const Vectors<B>& x, double tolerance) = 0;
   /// Whether a solve ends where what is left is small enough, and not after a fixed amount of work.
   virtual bool converges() const { return true; }
   virtual std::map<std::string, long> counters() const { return {}; }

@@ -43,7 +43,7 @@ struct VCycleSolver {
       fit(exec);
     }
 
-    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x) override {
+    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x, double) override {
       double left = cycle(exec, r, x);
       if (first_ > 0 && !(left <= worn * first_)) {
         fit(exec);

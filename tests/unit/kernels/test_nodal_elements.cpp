@@ -200,6 +200,38 @@ TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
   });
 }
 
+// Kept for a state, projected tangents are those that every product projects anew, and no direction has less than no stiffness in them but
+// for what stabilises; squeezed elements have less.
+TEST(NodalElements, KeepProjectedTangents) {
+  for_each_material_name([](const std::string& material) {
+    Problem problem = nodal(layered_cube(material, 2), "plain");
+    problem.integration.integrator = {"implicit_euler"}, problem.integration.macro_step = 1e-3;
+    LevelProbe<Host> probe(problem);
+    SolverLevel<Host>& level = probe.at(0);
+    auto squeezed = random_field(probe.vertices(), 0.004, 1);
+    for (std::size_t a = 0; a < probe.vertices(); ++a) squeezed[a][2] -= 0.3 * problem.body.levels[0].vertices[a][2];
+    const State<Host> state(device_field<Host>(squeezed), device_field<Host>(probe.zero()));
+    const auto tangent = [&](unsigned seed) {
+      level.tangent(state, device_field<Host>(random_field(probe.vertices(), 0.003, seed)), 0, true);
+      return to_host<Host>({}, level.partial);
+    };
+    const auto own_blocks = [&] {
+      const Blocks<Host> blocks("test.blocks", probe.vertices());
+      level.diagonal(state, {1e-4, 1e-2}, true, blocks);
+      return host_values(Host::Exec(), blocks);
+    };
+    level.linearise(state, 0, {1e-4, 1e-2}, 0, level.f);
+    const auto anew = tangent(3), other = tangent(4);
+    const auto blocks = own_blocks();
+    level.keep_tangents();
+    ASSERT_GT(level.nodal.tangent.extent(0), 0);
+    EXPECT_LE(largest_difference(tangent(3), anew), 1e-11 * largest(anew));
+    EXPECT_LE(largest_difference(tangent(4), other), 1e-11 * largest(other));
+    const auto kept = own_blocks();
+    for (std::size_t i = 0; i < blocks.size(); ++i) EXPECT_NEAR(kept[i], blocks[i], 1e-11 * std::abs(blocks[0]));
+  });
+}
+
 TEST(NodalElements, TangentsTakeTheGradientsThatAreKeptOfTheirStateAlone) {
   for_each_material_name([](const std::string& material) {
     Problem problem = nodal(layered_cube(material, 2), "plain");

@@ -46,14 +46,14 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
   const Vectors<Host> dead("test.dead", n);
   level.dead(0, dead);
   const BlockSums<Host> blocks(static_cast<int>(level.partial.extent(0)));
-  const Kokkos::View<double*, Host::Memory> result("test.result", 6);
+  const Kokkos::View<double*, Host::Memory> result("test.result", 7);
   const auto at = [&](double t) {
     auto x = u, v = u;
     const auto base_u = to_host<Host>({}, base.u), base_v = to_host<Host>({}, base.v);
     for (std::size_t i = 0; i < n; ++i) x[i] += t * change[i], v[i] = base_v[i] + b / a * (x[i] - base_u[i]);
     level.state = {device_field<Host>(x), device_field<Host>(v)};
     level.linearise(level.state, 0, {a, b}, 0, level.f);
-    reduce<Host, 6, StagePotential<Host>, Sums<6>>(
+    reduce<Host, 7, StagePotential<Host>, Sums<7>>(
         {}, "test", static_cast<int>(n),
         StagePotential<Host>{{level.model, base, level.state, a, b}, level.f, dead, device_field<Host>(change), 0},
         blocks, result);
