@@ -230,7 +230,8 @@ class StageSolver {
     now.volume = least_volume(level);
     if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
     const double first = now.residual;
-    now.solved = std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
+    // at rest, where no given motion starts
+    now.solved = level.prescribed.count == 0 && std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
     const int most = touches(level) ? contact_iterations : options_.newton_iterations;
     const bool once = !solver_->converges() && touches(level);
     double tolerance = first_tolerance;
