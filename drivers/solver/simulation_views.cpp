@@ -220,7 +220,31 @@ template <class B>
 std::vector<double> Simulation<B>::contact_depths() const {
   const SolverLevel<B>& finest = inside_->hierarchy()[0];
   if (!finest.contact()) return {};
-  return finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time);
+  std::vector<double> all = finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time);
+  all.resize(static_cast<std::size_t>(finest.contact()->obstacles()));
+  return all;
+}
+
+template <class B>
+double Simulation<B>::pair_depth() const {
+  const SolverLevel<B>& finest = inside_->hierarchy()[0];
+  if (!finest.contact() || !finest.contact()->has_pairs()) return 0;
+  return finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time).back();
+}
+
+template <class B>
+double Simulation<B>::friction_work() const {
+  double sum = 0;
+  for (const SolverLevel<B>& level : inside_->hierarchy().levels)
+    if (level.contact()) sum += level.response().friction_work(inside_->hierarchy().exec());
+  return sum;
+}
+
+template <class B>
+std::vector<double> Simulation<B>::slipping() const {
+  const SolverLevel<B>& finest = inside_->hierarchy()[0];
+  if (!finest.contact()) return {};
+  return finest.response().slipping(inside_->hierarchy().exec());
 }
 
 template <class B>

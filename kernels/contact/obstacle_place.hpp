@@ -13,6 +13,10 @@ struct Attitude {
   Vec3<double> centre;    ///< at t = 0 [m]
   Mat3<double> rotation;  ///< R
   Vec3<double> rate;      ///< angular velocity [rad/s]
+  /// The mean velocity of a step of h, of which a place goes the chord: along sin(w h)/(w h) w x r, and inward (1 - cos(w h))/(w h)^2 h.
+  /// @{
+  double along = 1, inward = 0;
+  /// @}
 };
 
 /// By its motion and its turn.
@@ -71,7 +75,9 @@ struct ObstaclePlace {
     if (tools.extent(0) > 0) return rounded({tools(first + 3), tools(first + 4), tools(first + 5)});
     const Vec3<double>& speed = pose->speed;
     const Attitude& turn = pose->turn;
-    return rounded(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - pose->displacement) : speed);
+    if (!turn.turned) return rounded(speed);
+    const Vec3<double> round = cross(turn.rate, exact(x) - turn.centre - pose->displacement);
+    return rounded(speed + turn.along * round + turn.inward * cross(turn.rate, round));
   }
 
  private:
