@@ -53,6 +53,8 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
       attached_count_(static_cast<int>(surface.attached.size())),
       bodies_(static_cast<int>(surface.parts.size())),
       pairs_(pairs),
+      rubs_((pairs && options.friction.value_or(0) > 0) ||
+            std::ranges::any_of(options.obstacles, [](const auto& o) { return o.friction.value_or(0) > 0; })),
       reach_(surface.edge),
       deepest_(surface.size),
       lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {

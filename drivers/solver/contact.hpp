@@ -117,11 +117,12 @@ class Contact {
   const PairLimits<Real>& limits() const { return limits_; }
   int touching_bodies() const { return pairs_ && bodies_ > 1 ? bodies_ : 0; }
   bool has_pairs() const { return pairs_; }
+  bool rubs() const { return rubs_; }  ///< there is friction
   int wrenches() const { return obstacles() + touching_bodies(); }
 
  private:
   int points_, attached_count_, bodies_;
-  bool pairs_;
+  bool pairs_, rubs_;
   double stiffness_ = 0, damping_ = 0, reach_, deepest_;
   Indices<B> lost_;  ///< [1] see DepthWatch
   typename ContactRecords<B>::Laws laws_;

@@ -32,8 +32,9 @@ ContactResponse<B>::ContactResponse(std::shared_ptr<const Contact<B>> contact, c
       answer_(zeros<Vectors<B>>("plica::contact.answer", static_cast<std::size_t>(level.model.vertices))),
       sums_(zeros<Doubles<B>>("plica::contact.wrench", 6)),
       impulse_(zeros<Doubles<B>>("plica::contact.impulse", static_cast<std::size_t>(6 * contact_->wrenches()))),
-      last_impulse_(
-          zeros<Doubles<B>>("plica::contact.last_impulse", static_cast<std::size_t>(6 * contact_->wrenches()))) {
+      carried_impulse_(
+          zeros<Doubles<B>>("plica::contact.carried_impulse", static_cast<std::size_t>(6 * contact_->wrenches()))),
+      work_(zeros<Doubles<B>>("plica::contact.work", 1)) {
   const auto lend = [](auto& field) { field = lent(field); };
   ContactRecords<B>::each_own(records_, lend), ContactRecords<B>::each_shared(records_, lend);
   if (implicit) product_ = zeros<Vectors<B>>("plica::contact.product", static_cast<std::size_t>(records_.slots()));
@@ -82,8 +83,16 @@ void ContactResponse<B>::solve(const Exec& exec, const Level<B>& level, const St
     over_list<B>(exec, list, "plica::contact_sweep", SweepContact<B>{contact, sweep == 0}, records_.touching);
   }
   respond();
-  if (given.ends)
-    over_list<B>(exec, list, "plica::contact_stretch", StretchContact<B>{contact, static_cast<Real>(given.span)});
+  if (given.ends) end(exec, "plica::contact_stretch", StretchContact<B>{contact, static_cast<Real>(given.span)});
+}
+
+/// The last kernel of a step, which says what friction has done; where there is none, nobody adds that up.
+template <class B>
+template <class End>
+void ContactResponse<B>::end(const Exec& exec, const char* label, const End& kernel) const {
+  if (!contact_->rubs()) return over_list<B>(exec, records_.list, label, kernel);
+  reduce<B, 1, TermOfList<B, End>>(exec, label, records_.list.most, {records_.list.count.data(), kernel}, blocks_,
+                                   sums_, AddWork<B>{sums_, work_});
 }
 
 template <class B>
@@ -125,11 +134,16 @@ void ContactResponse<B>::forget_impulse(const Exec& exec) const {
 
 template <class B>
 void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
-                                     double weight, double again) const {
+                                     double weight) const {
+  add_impulse(exec, level, state, time, CarriedImpulse{weight});
+}
+template <class B>
+void ContactResponse<B>::add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                                     const CarriedImpulse& of) const {
   const auto add = [&](int number, const auto& term) {
     reduce<B, 6, TermOfList<B, std::decay_t<decltype(term)>>>(
         exec, "plica::contact_wrench", records_.list.most, {records_.list.count.data(), term}, blocks_, sums_,
-        AddImpulse<B>{sums_, impulse_, last_impulse_, 6 * number, weight, again});
+        AddImpulse<B>{sums_, impulse_, carried_impulse_, 6 * number, of});
   };
   for (int o = 0; o < contact_->obstacles(); ++o)
     add(o, ObstacleWrench<B>{level.surface, state.u, records_, o, contact_->place(o, time)});
@@ -145,10 +159,26 @@ double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, doubl
 }
 
 template <class B>
+double ContactResponse<B>::friction_work(const Exec& exec) const {
+  return host_values(exec, work_)[0];
+}
+
+template <class B>
+std::vector<double> ContactResponse<B>::slipping(const Exec& exec) const {
+  std::vector<double> all;
+  for (int o = 0; o < contact_->obstacles(); ++o) {
+    sum_list<B, 2>(exec, records_.list, "plica::contact_slips", CountSlips<B>{records_, o}, blocks_, sums_);
+    const auto counts = host_values(exec, sums_);
+    all.push_back(counts[0] > 0 ? counts[1] / counts[0] : 0);
+  }
+  return all;
+}
+
+template <class B>
 std::vector<double> ContactResponse<B>::depths(const Exec& exec, const Level<B>& level, double time) const {
   const RecordLater<B> at = later(exec, level, time);
   std::vector<double> all;
-  for (int o = 0; o < contact_->obstacles(); ++o) {
+  for (int o = 0; o < contact_->obstacles() + (contact_->has_pairs() ? 1 : 0); ++o) {
     sum_list<B, 1, DepthInPartner<B>, Sums<1, 1>>(exec, records_.list, "plica::contact_depth", {at, o}, blocks_, sums_);
     all.push_back(host_values(exec, sums_)[0]);
   }
@@ -201,7 +231,7 @@ void ContactResponse<B>::update_caps(const Exec& exec, const Level<B>& level, co
 
 template <class B>
 void ContactResponse<B>::end_stage(const Exec& exec, const Level<B>& level, const State<B>& state) const {
-  over_list<B>(exec, records_.list, "plica::contact_end", EndContact<B>{at(level, state, 0)});
+  end(exec, "plica::contact_end", EndContact<B>{at(level, state, 0)});
 }
 
 /// f += factor W^T of the last forces
@@ -267,7 +297,7 @@ void ContactResponse<B>::forget(const Exec& exec) {
   fill(exec, records_.near, 0), fill(exec, records_.list.count, 0.0), fill(exec, records_.touching, 0.0);
   fill(exec, records_.transpose.vertices.count, 0.0);
   if (records_.pairs) fill(exec, records_.partner, -1);
-  fill(exec, last_impulse_, 0.0);
+  fill(exec, carried_impulse_, 0.0);
   fresh_ = true;
 }
 
@@ -278,7 +308,8 @@ void ContactResponse<B>::persist(StateArchive<B>& archive, const std::string& na
   archive.field(name + "contact: the list", records_.list.item);
   archive.field(name + "contact: its length", records_.list.count);
   archive.field(name + "contact: how much touches", records_.touching);
-  archive.field(name + "contact: the last impulses", last_impulse_);
+  archive.field(name + "contact: carried impulses", carried_impulse_);
+  archive.field(name + "contact: friction's work", work_);
 }
 
 template <class B>
@@ -297,6 +328,8 @@ void ContactResponse<B>::keep(const Exec& exec, Kept& to) const {
     if (all.size() <= at) all.push_back(zeros<Field>("plica::contact.kept", field.extent(0)));
     copy(exec, all[at++], field);
   });
+  if (to.work.extent(0) == 0) to.work = zeros<Doubles<B>>("plica::contact.kept_work", 1);
+  copy(exec, to.work, work_);
   to.found = found_, to.fresh = fresh_;
 }
 
@@ -310,6 +343,7 @@ void ContactResponse<B>::put_back(const Exec& exec, const Level<B>& level, const
     else
       copy(exec, field, from.reals[k++]);
   });
+  copy(exec, work_, from.work);
   list_contacts<B>(exec, level.surface, records_, maker_);
   found_ = from.found, fresh_ = from.fresh;
 }

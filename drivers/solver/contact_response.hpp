@@ -15,6 +15,7 @@ template <class B>
 class PairSearch;
 template <class B>
 struct RecordLater;
+struct CarriedImpulse;
 template <class B>
 struct ExplicitContact;
 template <class B>
@@ -60,13 +61,18 @@ class ContactResponse {
   /// the longer the step, so that in a short one overlap that was at rest would be pushed out at once.
   void set_part(double part) { part_ = part; }
 
-  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it, with `again` times what was added last.
+  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it, or as a method carries them on.
   void forget_impulse(const Exec& exec) const;
-  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight,
-                   double again = 0) const;
+  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
+  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                   const CarriedImpulse& of) const;
   const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
   /// Stored in all contact of the level's state [J]. Waits.
   double energy(const Exec& exec, const Level<B>& level, double time) const;
+  /// Done by friction in all steps so far [J]. Waits.
+  double friction_work(const Exec& exec) const;
+  /// Of each obstacle the part of what touches it that slips. Waits.
+  std::vector<double> slipping(const Exec& exec) const;
   /// Of each obstacle, then of pairs; see Simulation::contact_depths(). Waits.
   std::vector<double> depths(const Exec& exec, const Level<B>& level, double time) const;
   /// Takes hold of what is near an obstacle.
@@ -110,11 +116,13 @@ class ContactResponse {
   struct Kept {
     std::vector<Indices<B>> indices;
     std::vector<Scalars<B>> reals;
+    Doubles<B> work;
     double found = 0;
     bool fresh = true;
     void persist(StateArchive<B>& archive) {
       for (const auto& field : indices) archive.field("kept contact", field);
       for (const auto& field : reals) archive.field("kept contact", field);
+      archive.field("kept work of friction", work);
       archive.number(found), archive.number(fresh);
     }
   };
@@ -130,7 +138,7 @@ class ContactResponse {
   ListMaker<B> maker_;
   BlockSums<B> blocks_;
   Vectors<B> free_, answer_;  ///< of the vertices, on explicit levels
-  Doubles<B> sums_, impulse_, last_impulse_;
+  Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;
   double part_ = 1, found_ = 0;  ///< found_: the time of the state that the records are of [s]
   bool fresh_ = true;            ///< nothing is known of a last step
@@ -140,6 +148,8 @@ class ContactResponse {
   void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
   void look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const;
   RecordLater<B> later(const Exec& exec, const Level<B>& level, double time) const;
+  template <class End>
+  void end(const Exec& exec, const char* label, const End& kernel) const;
   void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, double factor = 1) const;
   ImplicitContact<B> at(const Level<B>& level, const State<B>& state, double ahead) const;
   ContactBalance read_balance(const Exec& exec) const;

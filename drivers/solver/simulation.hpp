@@ -186,6 +186,12 @@ class Simulation {
   std::vector<Wrench> wrenches() const;
   /// How deep the surface is in each obstacle at its deepest place [m]; 0 outside. Points that it holds are left out. Waits.
   std::vector<double> contact_depths() const;
+  /// Likewise in other bodies, or in itself where it folds, at the deepest place of all [m]. Waits.
+  double pair_depth() const;
+  /// What friction has done so far, on the body and on what rubs it [J]: below 0 it is lost, or stored where the body sticks. Waits.
+  double friction_work() const;
+  /// Of each obstacle the part of what touches it that slips: whose friction is at its cap. Waits.
+  std::vector<double> slipping() const;
   std::vector<ToolState> tools() const;       ///< of obstacles with mass; waits
   std::vector<HeldBy> held() const;           ///< of obstacles that can hold points; waits
   int torn_attachments() const;               ///< points whose attachments are torn; waits

@@ -161,8 +161,8 @@ void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>&
 }
 
 template <class B>
-void SolverLevel<B>::count_contact(double time, double weight, double again) {
-  book("contact", [&] { response_.add_impulse(exec(), *this, this->state, time, weight, again); });
+void SolverLevel<B>::count_contact(double time, const CarriedImpulse& of) {
+  book("contact", [&] { response_.add_impulse(exec(), *this, this->state, time, of); });
 }
 
 template <class B>

@@ -56,8 +56,8 @@ class SolverLevel : public Level<B> {
   void add_last_impulse(double time, double weight) const {
     response_.add_impulse(exec(), *this, this->state, time, weight);
   }
-  /// Counts the contact of an implicit step's end for `weight` [s], and `again` times what was counted last.
-  void count_contact(double time, double weight, double again);
+  /// Counts the contact of an implicit step's end, at the level's state.
+  void count_contact(double time, const CarriedImpulse& of);
 
   /// Volumes and pressures of its cavities at its state; waits.
   std::vector<CavityState> cavities(double time) const;

@@ -123,20 +123,23 @@ struct SweepContact {
   }
 };
 
-/// The carried stretches after a step whose forces are the last ones: they follow its way, and slip at the cap.
+/// The carried stretches after a step whose forces are the last ones: they follow its way, and slip at the cap. The work of friction [J].
 template <class B>
 struct StretchContact {
   using Real = typename B::Real;
   ExplicitContact<B> step;
   Real span;  ///< of the step itself, of which h may be more; see ContactResponse::set_part()
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
     const ContactRecords<B>& records = step.records;
     const int r = records.list.item(i);
     const ContactLaw<Real> law = records.law_at(r);
-    if (law.is_tie()) return;
+    if (law.is_tie()) return {};
     const Vec3<Real> N = step.normal(r), force = vector_at<B>(records.force, r);
     const Real cap = records.response(r) > 0 ? law.friction * dot(force, N) : Real(0);
-    if (!(cap > 0)) return set_vector<B>(records.stretch, r, {});
+    if (!(cap > 0)) {
+      set_vector<B>(records.stretch, r, {});
+      return {};
+    }
     const Real part = span / step.h;
     // h (v + part h (e + r)), of the whole step's numbers
     const Vec3<Real> way = step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
@@ -151,6 +154,7 @@ struct StretchContact {
     const Real size = Kokkos::sqrt(dot(next, next));
     const Vec3<Real> s = vector_at<B>(records.stretch, r) + across(D, N);
     set_vector<B>(records.stretch, r, size > cap ? (cap / size) * s : s);
+    return {{-static_cast<double>(dot(q, D))}};
   }
 };
 

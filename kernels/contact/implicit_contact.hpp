@@ -55,6 +55,7 @@ struct ImplicitContact {
 
   struct Answer {
     Vec3<Real> force, shear;  ///< F, x
+    Vec3<Real> way;           ///< D
     Vec3<Real> normal;        ///< as it has turned
     Real lam = 0, end = 0;    ///< the depth at the end of the step [m]
     Real length = 0;          ///< |x|
@@ -66,7 +67,7 @@ struct ImplicitContact {
     if (ahead > 0) D += ahead * records.value(surface, state.v, r);
     if (scale > 1) D = scale * D + (scale - 1) * vector_at<B>(records.drift, r);
     const Vec3<Real> N = vector_at<B>(records.normal, r);
-    a.normal = N;
+    a.normal = N, a.way = D;
     if (!tie) {
       a.end = records.depth(r) - dot(N, D);
       if (records.concavity.extent(0) > 0) {
@@ -144,12 +145,12 @@ struct UpdateCaps {
   }
 };
 
-/// The end of a step: its forces, the carried stretches, the depths there.
+/// The end of a step: its forces, the carried stretches, the depths there. The work of friction [J].
 template <class B>
 struct EndContact {
   using Real = typename B::Real;
   ImplicitContact<B> contact;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
     const ContactRecords<B>& records = contact.records;
     const int r = records.list.item(i);
     const ContactLaw<Real> of = records.law_at(r);
@@ -159,12 +160,13 @@ struct EndContact {
     const Real over = a.slips ? records.cap(r) / a.length : law.kt;
     if (of.is_tie()) {
       set_vector<B>(records.stretch, r, a.shear - (law.memory - 1) * vector_at<B>(records.stretch, r));
-      return;
+      return {};
     }
     const Vec3<Real> s = vector_at<B>(records.stretch, r);
     const bool sticks = a.lam > 0 && of.friction > 0 && law.kt > 0;
     set_vector<B>(records.stretch, r, sticks ? (1 / law.kt) * (over * a.shear + law.rate * s) : Vec3<Real>{});
     records.depth(r) = a.end;
+    return {{-static_cast<double>(over * dot(a.shear, a.way))}};
   }
 };
 

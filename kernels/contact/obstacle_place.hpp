@@ -12,6 +12,10 @@ struct Attitude {
   Vec3<double> centre;    ///< at t = 0 [m]
   Mat3<double> rotation;  ///< R
   Vec3<double> rate;      ///< angular velocity [rad/s]
+  /// The mean velocity of a step of h, of which a place goes the chord: along sin(w h)/(w h) w x r, and inward (1 - cos(w h))/(w h)^2 h.
+  /// @{
+  double along = 1, inward = 0;
+  /// @}
 };
 
 /// Where an obstacle is at a time, and how fast.
@@ -52,7 +56,9 @@ struct ObstaclePose {
   /// Of what the obstacle has at x [m/s].
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> velocity(const Vec3<Real>& x) const {
-    return rounded<Real>(turn.turned ? speed + cross(turn.rate, exact(x) - turn.centre - displacement) : speed);
+    if (!turn.turned) return rounded<Real>(speed);
+    const Vec3<double> round = cross(turn.rate, exact(x) - turn.centre - displacement);
+    return rounded<Real>(speed + turn.along * round + turn.inward * cross(turn.rate, round));
   }
 
  private:

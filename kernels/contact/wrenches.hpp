@@ -57,17 +57,50 @@ struct BodyWrench {
   }
 };
 
-/// impulse += weight sums + again times what the last step added, of one obstacle or body
+/// How the last forces are part of a step's impulse, where a method carries something on: x = weight F + again x_before is carried, and
+/// the impulse is now x + before x_before.
+struct CarriedImpulse {
+  double weight = 0, again = 0, now = 1, before = 0;
+};
+
+/// Adds that of one obstacle or body.
 template <class B>
 struct AddImpulse {
-  Doubles<B> sums, impulse, last;
+  Doubles<B> sums, impulse, carried;
   int first;  ///< the obstacle's first number
-  double weight, again;
+  CarriedImpulse of;
   KOKKOS_INLINE_FUNCTION void operator()() const {
     for (int k = first; k < first + 6; ++k) {
-      last(k) = weight * sums(k - first) + (again > 0 ? again * last(k) : 0.0);
-      impulse(k) += last(k);
+      const double x_before = of.again != 0 || of.before != 0 ? carried(k) : 0.0;
+      carried(k) = of.weight * sums(k - first) + of.again * x_before;
+      impulse(k) += of.now * carried(k) + of.before * x_before;
     }
+  }
+};
+
+/// work += its sum
+template <class B>
+struct AddWork {
+  Doubles<B> sums, work;
+  KOKKOS_INLINE_FUNCTION void operator()() const { work(0) += sums(0); }
+};
+
+/// How many records of an obstacle press, and how many of these slip: friction is at its cap.
+template <class B>
+struct CountSlips {
+  using Real = typename B::Real;
+  ContactRecords<B> records;
+  int obstacle;
+  KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
+    constexpr Real nearly = Real(0.9999);
+    const int r = records.list.item(i);
+    const ContactLaw<Real> law = records.law_at(r);
+    if (records.row(r) != obstacle || law.is_tie()) return {};
+    const Vec3<Real> F = vector_at<B>(records.force, r), N = vector_at<B>(records.normal, r);
+    const Real lam = dot(F, N);
+    if (!(lam > 0)) return {};
+    const Vec3<Real> q = across(F, N);
+    return {{1.0, Kokkos::sqrt(dot(q, q)) >= nearly * law.friction * lam ? 1.0 : 0.0}};
   }
 };
 

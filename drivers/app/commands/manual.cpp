@@ -12,7 +12,8 @@ unit: 20 kPa, 17 ms, 4 cm, 1000 kg/m^3.
 
 Files in the folder, SI units throughout; a killed run leaves whole ones:
   summary.json     how it went: status, times [s], levels, counters, diagnosis; written at the end
-  history.csv      level 0: energies [J], centre of mass [m], speeds [m/s]; a row per frame
+  history.csv      level 0: energies [J], centre of mass [m], speeds [m/s]; a row per frame. Obstacles: force [N] and
+                   torque [N m]; with friction its work so far [J] and the part of what touches that slips
   frames.pvd       for ParaView: the surface's displacement [m] and velocity [m/s] (frames/surface_*.vtu)
   volume.pvd       where output.volume asks: the tetrahedra of level 0, with mass [kg], von Mises stress [Pa],
                    volume ratio J and region; volume_levelN.pvd of level N

@@ -82,6 +82,7 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.wrenches = simulation.wrenches();
   summary.tools = simulation.tools();
   summary.held = simulation.held();
+  summary.penetrations = output.penetrations();
   summary.diagnosis = end.diagnosis;
   summary.warnings = scene.warnings;
   for (const std::string& sentence : step_advice(scene, simulation, summary)) summary.warnings.push_back(sentence);

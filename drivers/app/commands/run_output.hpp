@@ -74,7 +74,8 @@ class RunOutput {
         energy_(simulation, scene.problem),
         watches_energy_(EnergyBudget::knows(scene.problem)),
         inside_out_(scene.problem.body.material),
-        depth_(scene.problem.contact, simulation.levels()[0].mean_edge),
+        depth_(scene.problem.contact, simulation.levels()[0].mean_edge,
+               scene.problem.body.surface.value_or(TriangleSurface{}), has_pairs(scene.problem)),
         work_(simulation, scene.problem) {
     stages_before_ = checkpoint_.stages;
     if (resumed) {
@@ -112,6 +113,7 @@ class RunOutput {
   }
 
   const RunFiles& files() const { return files_; }
+  const Penetrations& penetrations() const { return depth_.all(); }
   /// What frames and the rows of history.csv have shown to be wrong, in a sentence each.
   std::vector<std::string> warnings() const {
     std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning(), depth_.warning()};
@@ -132,7 +134,7 @@ class RunOutput {
     if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
     if (depth_.looks()) {
       const std::vector<double> depths = simulation_.contact_depths();
-      depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths));
+      depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths), simulation_.pair_depth());
     }
     files_.write(now);
     for (const std::string& name : empty_handed(problem_.contact, now, simulation_.macro_step()))

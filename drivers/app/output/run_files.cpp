@@ -52,6 +52,29 @@ bool has_strength(const ContactOptions& contact) {
   return std::ranges::any_of(contact.attachments, [](const auto& a) { return a.strength.has_value(); });
 }
 
+std::vector<std::size_t> rubbing_obstacles(const ContactOptions& contact) {
+  std::vector<std::size_t> all;
+  for (std::size_t o = 0; o < contact.obstacles.size(); ++o)
+    if (contact.obstacles[o].friction.value_or(0) > 0) all.push_back(o);
+  return all;
+}
+
+}  // namespace
+
+bool has_friction(const ContactOptions& contact) {
+  return contact.friction.value_or(0) > 0 || !rubbing_obstacles(contact).empty();
+}
+
+bool may_halve_steps(const Problem& problem) {
+  const IntegrationOptions& o = problem.integration;
+  const bool touches = !problem.contact.obstacles.empty() || !problem.body.parts.empty() || problem.contact.self;
+  const bool implicit = std::ranges::any_of(o.integrator, [](const std::string& name) { return !is_explicit(name); });
+  return implicit && o.cycle != "him" &&
+         (o.implicit.unfinished == "halve" || (touches && o.implicit.unfinished == "accept"));
+}
+
+namespace {
+
 std::string history_head(bool retries, const Problem& problem) {
   std::string all = std::string(history_columns) + (retries ? ",halvings" : "");
   const auto add = [&](const std::string& name, std::initializer_list<const char*> quantities) {
@@ -70,6 +93,10 @@ std::string history_head(bool retries, const Problem& problem) {
   for (std::size_t i = 0; i < problem.body.loads.size(); ++i)
     if (std::holds_alternative<EnclosedVolume>(problem.body.loads[i].load))
       all += fmt::format(",load_{0}.volume,load_{0}.pressure", i);
+  if (may_halve_steps(problem)) all += ",step_halvings";
+  if (has_friction(problem.contact)) all += ",friction_work";
+  for (const std::size_t o : rubbing_obstacles(problem.contact))
+    all += fmt::format(",{}.slipping", obstacle_name(problem.contact, o));
   return all + (has_strength(problem.contact) ? ",attachments.torn\n" : "\n");
 }
 
@@ -80,7 +107,10 @@ History::History(const std::filesystem::path& file, std::vector<double> masses, 
     : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, problem))),
       masses_(std::move(masses)),
       retries_(retries),
-      tears_(has_strength(problem.contact)) {}
+      tears_(has_strength(problem.contact)),
+      halves_(may_halve_steps(problem)),
+      rubs_(has_friction(problem.contact)),
+      rubbing_(rubbing_obstacles(problem.contact)) {}
 
 void History::write(const Snapshot& s) {
   double mass = 0, max_square = 0, sum_square = 0;
@@ -106,6 +136,9 @@ void History::write(const Snapshot& s) {
   }
   for (const HeldBy& h : s.held) row += fmt::format(",{}", h.points.size());
   for (const CavityState& c : s.cavities) row += fmt::format(",{:.9g},{:.9g}", c.volume, c.pressure);
+  if (halves_) row += fmt::format(",{}", s.step_halvings);
+  if (rubs_) row += fmt::format(",{:.9g}", s.friction_work);
+  for (const std::size_t o : rubbing_) row += fmt::format(",{:.9g}", s.slipping.at(o));
   if (tears_) row += fmt::format(",{}", s.torn);
   file_.add(row + "\n");
 }

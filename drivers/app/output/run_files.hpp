@@ -31,16 +31,29 @@ struct Snapshot {
   std::vector<ToolState> tools;  ///< obstacles with mass
   std::vector<HeldBy> held;      ///< by obstacles that can hold points
   std::vector<CavityState> cavities;
-  int torn = 0;  ///< attached points
+  int torn = 0;                  ///< attached points
+  long step_halvings = 0;        ///< of implicit steps so far
+  double friction_work = 0;      ///< so far [J]
+  std::vector<double> slipping;  ///< of what touches each obstacle, the part that slips
 };
 
+/// Of the simulation's counters; 0 where it has no such one.
+template <class B>
+long counted_by(const Simulation<B>& simulation, const char* name) {
+  const auto counters = simulation.counters();
+  const auto found = counters.find(name);
+  return found == counters.end() ? 0 : found->second;
+}
 /// Of macro steps so far; 0 where bad ones are not retried.
 template <class B>
 long halvings_of(const Simulation<B>& simulation) {
-  const auto counters = simulation.counters();
-  const auto found = counters.find("halvings");
-  return found == counters.end() ? 0 : found->second;
+  return counted_by(simulation, "halvings");
 }
+
+/// Whether something rubs: an obstacle, or bodies.
+bool has_friction(const ContactOptions& contact);
+/// Whether implicit steps may be halved: of what has contact, or where Newton's method is asked to.
+bool may_halve_steps(const Problem& problem);
 
 template <class B>
 Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::vector<int>& volumes) {
@@ -56,7 +69,10 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.tools(),
                     simulation.held(),
                     simulation.cavities(),
-                    simulation.torn_attachments()};
+                    simulation.torn_attachments(),
+                    counted_by(simulation, "step_halvings"),
+                    simulation.friction_work(),
+                    simulation.slipping()};
   for (const int level : volumes)
     snapshot.volumes.push_back(
         {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
@@ -71,7 +87,8 @@ std::vector<double> vertex_masses(const Body& body, int level = 0);
 
 /// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
 /// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; where obstacles with mass are;
-/// how many points those hold that can; volume and pressure in cavities; how many attached points are torn.
+/// how many points those hold that can; volume and pressure in cavities; how often implicit steps were halved so far; with friction its work
+/// so far, and of each obstacle that rubs the part of what touches it that slips; how many attached points are torn.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
@@ -83,7 +100,8 @@ class History {
  private:
   GrowingFile file_;
   std::vector<double> masses_;
-  bool retries_, tears_;
+  bool retries_, tears_, halves_, rubs_;
+  std::vector<std::size_t> rubbing_;  // obstacles with friction
 };
 
 /// Which of the files that tell of a run are in a folder, its checkpoint first; none: it holds no run.

@@ -113,6 +113,19 @@ Json tools_json(const std::vector<ToolState>& tools) {
   return all;
 }
 
+// Of a body's surface in an obstacle, or in a body: null where it did not come inside
+Json penetration_json(const Penetration& p, double edge) {
+  if (!(p.depth > 0)) return nullptr;
+  return {{"depth", p.depth}, {"over_edge", edge > 0 ? Json(p.depth / edge) : Json(nullptr)}, {"time", p.time}};
+}
+
+Json penetrations_json(const Penetrations& all) {
+  Json obstacles = Json::object();
+  for (std::size_t o = 0; o < all.obstacles.size(); ++o)
+    obstacles[all.obstacles[o]] = penetration_json(all.deepest[o], all.edge);
+  return {{"obstacles", obstacles}, {"bodies", all.pairs ? penetration_json(all.deepest.back(), all.edge) : Json()}};
+}
+
 Json held_json(const std::vector<HeldBy>& held) {
   Json all = Json::object();
   for (const HeldBy& h : held) all[h.obstacle] = h.points.size();
@@ -206,7 +219,8 @@ std::string summary_json(const Scene& scene, const Summary& s, const std::vector
                      {"obstacles", obstacles_json(scene.problem.contact)},
                      {"wrenches", wrenches_json(s.wrenches)},
                      {"tools", tools_json(s.tools)},
-                     {"held", held_json(s.held)}};
+                     {"held", held_json(s.held)},
+                     {"penetration", penetrations_json(s.penetrations)}};
   return json_text(json);
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
@@ -36,6 +37,7 @@ struct Summary {
   std::vector<Wrench> wrenches;       ///< of the last macro step
   std::vector<ToolState> tools;       ///< obstacles with mass, at the end
   std::vector<HeldBy> held;           ///< then, by obstacles that can hold points
+  Penetrations penetrations;          ///< the greatest of the run, of its frames
   std::vector<std::string> warnings;  ///< of the scene, and of what the run has shown
   std::vector<Point> diagnosed;       ///< where its element's corners, or its vertex, are in the last good state [m]
 };

@@ -93,8 +93,8 @@ class Bdf2Step final : public ImplicitStep<B> {
     return solved;
   }
   /// v = v_n + (v_n - v_{n-1})/3 + 2h/3 a carries a third of the last change of momentum on.
-  typename ImplicitStep<B>::Impulse impulse() const override {
-    return started_ ? typename ImplicitStep<B>::Impulse{2.0 / 3, 1.0 / 3} : typename ImplicitStep<B>::Impulse{};
+  CarriedImpulse impulse(double h) const override {
+    return started_ ? CarriedImpulse{2 * h / 3, 1.0 / 3} : CarriedImpulse{h};
   }
 
  private:
@@ -159,6 +159,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
     const auto& exec = level.exec();
     const int n = level.model.vertices;
     const State<B>& base = this->stages().base();
+    started_ = carried_;
     if (!carried_) {
       level.evaluate_without_contact(level.state, time, level.f);
       update_vertices<B>(exec, "plica::accelerations", n,
@@ -176,6 +177,13 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
     return this->stages().solve(level, time, span, {cu, cv}, {.span = h, .scale = 1 / (1 - force_)});
   }
 
+  /// Contact's part A of m a goes on as a does, from 0 where no step was before: alpha_m A_n + (1 - alpha_m) A_{n+1} = F, and the impulse is
+  /// h ((1 - gamma) A_n + gamma A_{n+1}).
+  CarriedImpulse impulse(double h) const override {
+    const double again = started_ ? -mass_ / (1 - mass_) : 0;
+    return {1 / (1 - mass_), again, gamma_ * h, started_ ? (1 - gamma_) * h : 0};
+  }
+
   void finish(SolverLevel<B>& level, double h) override {
     update_vertices<B>(
         level.exec(), "plica::generalized_alpha_end", level.model.vertices,
@@ -187,9 +195,9 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
  private:
   State<B> start_;
   Vectors<B> acceleration_;
-  bool carried_ = false;
-  double mass_, force_, beta_, gamma_;  // alpha_m, alpha_f, Newmark's
-  double velocity_of_ = 0;              // of an acceleration in the last stage [s]
+  bool carried_ = false, started_ = false;  // started_: the last step had one before it
+  double mass_, force_, beta_, gamma_;      // alpha_m, alpha_f, Newmark's
+  double velocity_of_ = 0;                  // of an acceleration in the last stage [s]
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <limits>
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/integrators/stage_solver.hpp>
+#include <plica/kernels/contact/wrenches.hpp>
 
 namespace plica {
 
@@ -52,11 +53,8 @@ class ImplicitStep : public Integrator<B> {
   /// solved.
   virtual bool step(SolverLevel<B>& level, double time, double h) = 0;
   StageSolver<B>& stages() { return stages_; }
-  /// What of contact's force over the last step is its impulse: so much of the step, and so much of the impulse before.
-  struct Impulse {
-    double weight = 1, again = 0;
-  };
-  virtual Impulse impulse() const { return {}; }
+  /// How contact's force over the last step is part of its impulse.
+  virtual CarriedImpulse impulse(double h) const { return {h}; }
   /// From the stage in the level's state to the end of the step, where that is another.
   virtual void finish(SolverLevel<B>&, double /*h*/) {}
 
@@ -73,8 +71,7 @@ class ImplicitStep : public Integrator<B> {
     finish(level, h);
     prescribe(level.exec(), level, level.state, time + h);
     if (!level.contact()) return;
-    const Impulse of = impulse();
-    level.count_contact(time + h, of.weight * h, of.again);
+    level.count_contact(time + h, impulse(h));
   }
 
   /// `before`: what was left unsolved of the step that this is a half of. A half that leaves no less is not halved again: it and

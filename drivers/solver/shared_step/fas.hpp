@@ -59,7 +59,7 @@ class FasCycle final : public SharedStep<B> {
 
   /// As the level's own sub-steps take it: a stiff penalty by itself is no force to hold for a macro step.
   static ContactStep contact_of(const SolverLevel<B>& level, double t) {
-    return {.span = level.share * t / level.substeps};
+    return {.span = level.share * t / level.substeps, .ends = false};
   }
 
   /// Leaves in level.f the level's corrected force at this state, for the next coarser level.

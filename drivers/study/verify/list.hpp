@@ -55,6 +55,12 @@ VerifyRows squash(const VerifyContext&);
 VerifyRows manufactured_solution(const VerifyContext&);
 VerifyRows time_order(const VerifyContext&);
 VerifyRows friction_on_a_slope(const VerifyContext&);
+VerifyRows sticking_and_slipping(const VerifyContext&);
+VerifyRows grip_and_lift(const VerifyContext&);
+VerifyRows stuck_on_a_turntable(const VerifyContext&);
+VerifyRows impact_on_a_plate(const VerifyContext&);
+VerifyRows thrown_cube(const VerifyContext&);
+VerifyRows reactions(const VerifyContext&);
 VerifyRows hertz_contact(const VerifyContext&);
 VerifyRows collision(const VerifyContext&);
 
@@ -99,6 +105,13 @@ inline constexpr VerifyProblem verify_list[] = {
      manufactured_solution},
     {"time_order", "the order in time of every integrator on a nonlinear problem", time_order},
     {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope},
+    {"incline", "a block on an incline about its friction angle, by explicit and implicit steps",
+     sticking_and_slipping},
+    {"grip_and_lift", "a cube that jaws lift by friction and hold", grip_and_lift},
+    {"turntable", "a cube that sticks on a table that turns by 90 degrees", stuck_on_a_turntable},
+    {"impact_on_a_plate", "a soft block that falls on a stiff plate: peak force, impulse, energy", impact_on_a_plate},
+    {"thrown_cube", "a cube thrown at a floor gains no energy, by explicit and implicit steps", thrown_cube},
+    {"reactions", "forces of obstacles against the change of momentum, in every integrator", reactions},
     {"hertz", "force against approach of a sphere on a plane and on its like, of nodal elements", hertz_contact},
     {"collision", "momenta of two equal balls that collide askew", collision}};
 

@@ -4,6 +4,7 @@
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
+#include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/generators.hpp>
 
 #include "support/backends.hpp"
@@ -49,6 +50,31 @@ Problem busy_with_matrices() {
   return p;
 }
 
+/// A block that sticks on a slope by friction.
+Problem stuck(const std::string& method) {
+  Problem p = body_of({jittered_box({{0, 0, 0}, {0.1, 0.1, 0.05}}, {4, 4, 2})}, "neo_hookean");
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.body.damping.mass = 20;
+  p.gravity = {1.7, 0, -9.66};
+  p.contact.obstacles.push_back({PlaneOptions{}, 0.5, {}});
+  if (method == "him")
+    p.integration.cycle = method;
+  else
+    p.integration.integrator = {method};
+  if (!is_explicit(method) && method != "him") p.integration.macro_step = 5e-3;
+  return p;
+}
+const std::vector<std::string> sticking_methods = {"symplectic_euler", "central_difference", "implicit_euler", "bdf2",
+                                                   "him"};
+
+template <class B>
+void run_until_stuck(Simulation<B>& simulation) {
+  while (simulation.time() < 0.8) advance(simulation, 1);
+  EXPECT_LT(simulation.slipping().at(0), 0.2);
+  EXPECT_LT(largest(simulation.velocities()), 1e-3);
+  EXPECT_LT(simulation.wrenches()[0].force[0], -0.5);
+}
+
 template <class B>
 std::vector<Point> result(const typename B::Exec& exec, const Problem& problem = busy()) {
   Simulation<B> simulation(problem, exec);
@@ -86,6 +112,24 @@ void expect_one_thread_is_two() {
   ASSERT_EQ(two.concurrency(), 2);
   for (const Problem& problem : {busy(), busy_in_him(), busy_with_matrices()})
     EXPECT_TRUE(same_bits(result<B>(one, problem), result<B>(two, problem))) << problem.integration.cycle;
+}
+TEST(Threads, OneTwoAndFourLetABodyStickWithTheSameBits) {
+  using B = Backend<double, Kokkos::OpenMP>;
+  const int most = Kokkos::OpenMP().concurrency();
+  if (most < 2) GTEST_SKIP() << "one thread";
+  for (const std::string& method : sticking_methods) {
+    Simulation<B> alone(stuck(method), Kokkos::OpenMP(1));
+    run_until_stuck(alone);
+    for (const int threads : {2, 4}) {
+      if (threads > most) continue;
+      Simulation<B> together(stuck(method), Kokkos::OpenMP(threads));
+      run_until_stuck(together);
+      EXPECT_TRUE(same_bits(alone.positions(), together.positions())) << method << " " << threads;
+      EXPECT_TRUE(same_bits(alone.velocities(), together.velocities())) << method << " " << threads;
+      EXPECT_EQ(alone.friction_work(), together.friction_work()) << method << " " << threads;
+      EXPECT_EQ(alone.wrenches()[0].force, together.wrenches()[0].force) << method << " " << threads;
+    }
+  }
 }
 TEST(Threads, OneAndTwoGiveTheSameBitsInDouble) { expect_one_thread_is_two<double>(); }
 TEST(Threads, OneAndTwoGiveTheSameBitsInFloat) { expect_one_thread_is_two<float>(); }
@@ -156,6 +200,22 @@ TYPED_TEST(SavedStates, ContinueBitForBit) {
       expect_same(whole, second);
       EXPECT_EQ(whole.save().bytes, second.save().bytes);
     }
+}
+
+// What holds a body is the stretches that its contacts carry.
+TYPED_TEST(SavedStates, ContinueBitForBitWhileTheBodySticks) {
+  for (const std::string& method : sticking_methods) {
+    SCOPED_TRACE(method);
+    Simulation<TypeParam> whole(stuck(method)), second(stuck(method));
+    run_until_stuck(whole);
+    second.restore(whole.save());
+    advance(whole, 30);
+    advance(second, 30);
+    expect_same(whole, second);
+    EXPECT_EQ(whole.friction_work(), second.friction_work());
+    EXPECT_EQ(whole.slipping(), second.slipping());
+    EXPECT_EQ(whole.save().bytes, second.save().bytes);
+  }
 }
 
 TYPED_TEST(SavedStates, KeepPreconditioners) {

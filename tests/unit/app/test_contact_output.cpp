@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <plica/drivers/app/output/contact_depth.hpp>
+#include <plica/drivers/app/output/run_files.hpp>
+#include <plica/kernels/contact/shapes.hpp>
+
+#include "unit/app/child.hpp"
+#include "unit/app/scene_text.hpp"
+
+// What runs write of contact.
+namespace plica::app::test {
+namespace {
+
+constexpr const char* block = R"(duration: 1
+body: {levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]}
+)";
+const std::vector<std::string> implicit = {"integration.integrator=implicit_euler", "integration.macro_step=1ms"};
+
+// Columns more, and only where something rubs, and where implicit steps may be halved
+TEST(RunFiles, HistoryTellsOfFriction) {
+  const TemporaryFolder folder;
+  Scene scene = scene_of(block, implicit);
+  scene.problem.contact.obstacles.push_back({PlaneOptions{}, 0.3, {}, "floor"});
+  scene.problem.contact.obstacles.push_back({PlaneOptions{}, {}, {}, "ice"});
+  RunFiles files(scene, folder.path());
+  Snapshot now;
+  now.time = 0.25, now.positions = scene.problem.body.levels[0].vertices;
+  now.velocities.assign(now.positions.size(), Point::Zero());
+  now.wrenches.assign(2, {"", {1, 2, 3}, {4, 5, 6}});
+  now.step_halvings = 7, now.friction_work = -0.25, now.slipping = {0.5, 1};
+  files.write(now);
+  const std::string text = content_of(folder / "history.csv");
+  EXPECT_NE(text.find("ice.torque_z,step_halvings,friction_work,floor.slipping\n"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(",4,5,6,7,-0.25,0.5\n")) << text;
+  EXPECT_FALSE(has_friction(scene_of(block).problem.contact));
+  EXPECT_FALSE(may_halve_steps(scene_of(block, implicit).problem)) << "no contact";
+  EXPECT_FALSE(may_halve_steps(scene_of(block).problem));
+}
+
+// The deepest of each obstacle, and of bodies, with the time; also where a run goes on
+TEST(ContactDepths, AreTheGreatestOfTheRun) {
+  ContactOptions contact;
+  contact.obstacles.resize(2);
+  contact.obstacles[0].name = "floor", contact.obstacles[1].name = "probe";
+  TriangleSurface surface;
+  surface.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, surface.triangles = {{0, 1, 2}};
+  ContactDepth depth(contact, 1, surface, true), other(contact, 1, surface, true);
+  EXPECT_EQ(depth.all().edge, 4);
+  depth.look(1, {0.1, 0}, {}, 0.01);
+  other.restore(depth.save());
+  for (ContactDepth* each : {&depth, &other}) {
+    each->look(2, {0.05, 0.2}, {}, 0.04);
+    EXPECT_EQ(each->all().deepest[0].depth, 0.1), EXPECT_EQ(each->all().deepest[0].time, 1);
+    EXPECT_EQ(each->all().deepest[1].depth, 0.2), EXPECT_EQ(each->all().deepest[2].depth, 0.04);
+  }
+}
+
+}  // namespace
+}  // namespace plica::app::test
