@@ -87,12 +87,11 @@ class ContactDepth {
     const auto which = static_cast<std::size_t>(obstacle_);
     if (all_.obstacles.empty() || !(depth_ > limit(which))) return {};
     const bool thin = radius_[which] < edge_;
-    return text(
-        "contact: at ", number(at_, 4), " s ", all_.obstacles[which], " was ", number(depth_, 3),
-        " m deep in the surface, ", number(depth_ / (thin ? radius_[which] : edge_), 3),
-        thin ? " of its radius: it is about to come through, and its force"
-             : " of a mean edge: its force is less than that of a hard one; expected contact.stiffness_scale above 1, "
-               "which on implicit levels needs a smaller integration.macro_step, or a slower obstacle");
+    return text("contact: at ", number(at_, 4), " s ", all_.obstacles[which], " was ", number(depth_, 3),
+                " m deep in the surface, ", number(depth_ / (thin ? radius_[which] : edge_), 3), " of ",
+                thin ? "its radius, and may come through" : "a mean edge",
+                ": its force is less than that of a hard one; expected contact.stiffness_scale above 1, which on "
+                "implicit levels needs a smaller integration.macro_step, or a slower obstacle");
   }
 
  private:

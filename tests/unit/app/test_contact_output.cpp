@@ -57,5 +57,20 @@ TEST(ContactDepths, AreTheGreatestOfTheRun) {
   }
 }
 
+// Half an edge is visible, and of a needle half its radius, where it is about to come through
+TEST(ContactDepths, WarnOfWhatIsDeep) {
+  ContactOptions contact;
+  contact.obstacles.push_back({SphereOptions{{0, 0, 0}, 10}, {}, {}, "ball"});
+  contact.obstacles.push_back({CapsuleOptions{{0, 0, 0}, {0, 0, 9}, 0.1}, {}, {}, "needle"});
+  const TriangleSurface surface;
+  ContactDepth fine(contact, 1, surface, false), ball = fine, needle = fine, both = fine;
+  fine.look(1, {0.49, 0.049}, {}), ball.look(1, {0.6, 0.01}, {}), needle.look(1, {0.4, 0.06}, {});
+  both.look(1, {0.6, 0.01}, {}), both.look(2, {0.2, 0.09}, {});
+  EXPECT_EQ(fine.warning(), "");
+  EXPECT_NE(ball.warning().find("ball was 0.6 m deep in the surface, 0.6 of a mean edge"), std::string::npos);
+  EXPECT_NE(needle.warning().find("needle was 0.06 m deep in the surface, 0.6 of its radius"), std::string::npos);
+  EXPECT_NE(both.warning().find("at 2 s needle was 0.09 m"), std::string::npos) << both.warning();
+}
+
 }  // namespace
 }  // namespace plica::app::test
