@@ -52,8 +52,10 @@ TEST(ContactDepths, AreTheGreatestOfTheRun) {
   other.restore(depth.save());
   for (ContactDepth* each : {&depth, &other}) {
     each->look(2, {0.05, 0.2}, {}, 0.04);
-    EXPECT_EQ(each->all().deepest[0].depth, 0.1), EXPECT_EQ(each->all().deepest[0].time, 1);
-    EXPECT_EQ(each->all().deepest[1].depth, 0.2), EXPECT_EQ(each->all().deepest[2].depth, 0.04);
+    EXPECT_EQ(each->all().deepest[0].depth, 0.1);
+    EXPECT_EQ(each->all().deepest[0].time, 1);
+    EXPECT_EQ(each->all().deepest[1].depth, 0.2);
+    EXPECT_EQ(each->all().deepest[2].depth, 0.04);
   }
 }
 

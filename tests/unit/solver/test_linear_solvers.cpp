@@ -89,7 +89,7 @@ struct StageCase {
     const auto solver = make_linear_solver<B>(chosen, level());
     solver->prepare(level(), state, weights, false);
     Vectors<B> answer("test.x", r.size());
-    const SolveOutcome out = solver->solve(exec(), device_field<B>(r), answer);
+    const SolveOutcome out = solver->solve(exec(), device_field<B>(r), answer, chosen.options.relative_residual);
     x = to_host<B>(exec(), answer);
     EXPECT_GT(solver->bytes(), 0U);
     return out;
@@ -229,7 +229,7 @@ int iterations(const std::string& preconditioner, int cells, const std::string& 
   for (std::size_t a = 0; a < r.size(); ++a)
     if (inverse[a] > 0) r[a] = Point(0, 0, 1e-3 / inverse[a]);
   Vectors<Host> x("test.x", r.size());
-  const SolveOutcome out = solver->solve(exec, device_field<Host>(r), x);
+  const SolveOutcome out = solver->solve(exec, device_field<Host>(r), x, 1e-8);
   EXPECT_TRUE(out.converged);
   return out.iterations;
 }
