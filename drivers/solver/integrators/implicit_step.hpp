@@ -16,7 +16,7 @@ class ImplicitStep : public Integrator<B> {
   using Real = typename B::Real;
 
   ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
-      : stages_(level, parts.implicit, parts.edge, parts.contact, parts.make_linear_solver()),
+      : stages_(level, parts),
         unfinished_(parts.implicit.unfinished),
         most_halvings_((parts.contact && unfinished_ == "accept") ||
                                (parts.implicit.newton_iterations > 1 && unfinished_ == "halve")

@@ -14,6 +14,7 @@ template <class B>
 struct IntegratorParts {
   ImplicitOptions implicit;
   bool contact = false;
+  bool may_invert = false;                                               ///< elements of the material
   double edge = 0;                                                       ///< mean, of the level's mesh [m]
   std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
 };

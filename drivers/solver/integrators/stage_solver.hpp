@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/elastic/carried_pressures.hpp>
@@ -25,12 +26,11 @@ class StageSolver {
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  /// `edge`: mean, of the level's mesh [m].
-  StageSolver(const Level<B>& level, const ImplicitOptions& options, double edge, bool contact,
-              std::unique_ptr<LinearSolver<B>> solver)
-      : options_(options),
-        edge_(edge),
-        solver_(std::move(solver)),
+  StageSolver(const Level<B>& level, const IntegratorParts<B>& parts)
+      : options_(parts.implicit),
+        edge_(parts.edge),
+        may_invert_(parts.may_invert),
+        solver_(parts.make_linear_solver()),
         base_("stage.base", level.model.vertices),
         right_side_("plica::stage.right_side", level.model.vertices),
         change_("plica::stage.change", level.model.vertices) {
@@ -40,7 +40,7 @@ class StageSolver {
       carried_ = Scalars<B>(carrying_.data() + 2 * slots, slots);
       last_carried_ = zeros<Scalars<B>>("plica::stage.last_pressure", slots);
     }
-    if (!contact && !iterates()) return;
+    if (!parts.contact && !iterates()) return;
     const int elements = level.model.rows.slices > 0 ? level.model.vertices : level.model.tets;
     von_mises_ = Scalars<B>("plica::stage.von_mises", elements), volume_ = Scalars<B>("plica::stage.volume", elements);
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
@@ -97,24 +97,25 @@ class StageSolver {
   void persist(StateArchive<B>& archive) {
     for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
       archive.number(*count);
-    archive.number(residual_);
+    archive.number(residual_), archive.number(projecting_);
     if (carries()) archive.number(updates_), archive.number(fresh_), archive.field("the carried pressures", carried_);
     solver_->persist(archive);
   }
 
  private:
-  static constexpr int most_halvings = 12;    // of a direction
-  static constexpr double sufficient = 1e-4;  // part of the decrease that the slope promises
-  static constexpr double balanced = 3e-3;    // part of the forces in a stage with contact that may be left unbalanced
+  static constexpr int most_halvings = 12, halvings_unprojected = 2;  // of a direction
+  static constexpr double sufficient = 1e-4;                          // part of the decrease that the slope promises
+  static constexpr double balanced = 3e-3;  // part of the forces in a stage with contact that may be left unbalanced
   static constexpr int contact_iterations = 20;
-  static constexpr double still = 1e-6;             // edges that nobody sees a body move by
+  static constexpr double still = 1e-9;             // edges that nobody sees a body move by
   static constexpr double least_volume_part = 0.2;  // of the least volume that a change of a state must leave
-  static constexpr double first_tolerance = 0.03;   // of the first system
-  static constexpr int halvings_unprojected = 2, projections = 3;
+  static constexpr double first_tolerance = 0.01;   // of the first system
+  static constexpr int projections = 3;             // systems in a row whose tangents are projected
   static constexpr double unseen = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
 
   ImplicitOptions options_;
-  double edge_;  ///< mean, of the level [m]
+  double edge_;      ///< mean, of the level [m]
+  bool may_invert_;  ///< elements may
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
   Vectors<B> right_side_, change_, dead_;
@@ -127,7 +128,7 @@ class StageSolver {
   long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;
   bool cut_ = false;               ///< the last change was shortened
-  int projecting_ = 0;             ///< systems for which tangents are projected without a new reason
+  long projecting_ = 0;            ///< systems for which tangents are projected without a new reason
   Scalars<B> von_mises_, volume_;  ///< of elements
 
   /// A state on the way.
@@ -215,9 +216,8 @@ class StageSolver {
   /// Whether contact acts in this stage.
   bool touches(const SolverLevel<B>& level) const { return level.contact() && contact_.span > 0; }
 
-  /// Newton's method on the incremental potential Phi, elements and contact at once, from the step's start. Systems are solved as far as it
-  /// pays (Eisenstat & Walker, SIAM J. Sci. Comput. 17, 1996). Each further state has a lower potential, with friction's caps as they are,
-  /// and keeps a part of the least volume; then caps follow the normal forces.
+  /// Elements and contact at once, from the step's start. Systems are solved as far as it pays (Eisenstat & Walker, SIAM J. Sci. Comput. 17,
+  /// 1996). Each further state has a lower potential, with friction's caps as they are, and keeps a part of the least volume; then caps follow.
   bool minimise(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w) {
     const double end = time + ahead;
     const ElementFlags<B> flags = std::exchange(level.flags, {});  // nobody watches where Newton's method looks
@@ -227,14 +227,18 @@ class StageSolver {
     fill(level.exec(), change_, Real(0));
     level.linearise(level.state, time, w, ahead, level.f);
     Potential now = here(level, end, w);
-    now.volume = least_volume(level);
+    if (!may_invert_) now.volume = least_volume(level);
     if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
     const double first = now.residual;
     // at rest, where no given motion starts
     now.solved = level.prescribed.count == 0 && std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
     const int most = touches(level) ? contact_iterations : options_.newton_iterations;
     const bool once = !solver_->converges() && touches(level);
-    double tolerance = first_tolerance;
+    // the change is 0 where nothing moves
+    if (now.solved)
+      update_vertices<B>(level.exec(), "plica::stage_update", level.model.vertices,
+                         StageUpdate<B>{at(level, w), change_});
+    double tolerance = carries() ? options_.relative_residual : first_tolerance * finer();
     for (int k = 0; k < most && !now.solved; ++k) {
       ++newtons_;
       const std::optional<Potential> next = descend(level, time, ahead, w, now, k, tolerance);
@@ -244,7 +248,7 @@ class StageSolver {
       now.solved = touches(level)
                        ? accept_contact(level, end, w, now)
                        : now.residual <= std::max(options_.newton_residual, options_.newton_tolerance * first) || lost;
-      tolerance = std::clamp(0.1 * now.residual / from, 1e-3, 0.1);
+      if (!carries()) tolerance = finer() * std::clamp(0.1 * now.residual / from, 1e-4, first_tolerance);
     }
     level.flags = flags;
     if (once || now.solved) return true;
@@ -263,17 +267,18 @@ class StageSolver {
     return now.residual <= std::max(balanced * (now.forces + by.forces), unseen_force(now, w));
   }
 
+  /// By how much more than by itself systems are to be solved, as `relative_residual` asks for less than its default.
+  double finer() const { return std::min(1.0, options_.relative_residual / ImplicitOptions().relative_residual); }
+
   /// What moves the body by no more than anybody sees in the step [N].
   double unseen_force(const Potential& p, const ImplicitWeights& w) const { return still * edge_ * p.masses / w.a; }
 
-  /// From a state that is linearised to the next, which then is, without contact in level.f: along Newton's direction as far as the potential
-  /// goes down. Where that direction has no positive curvature or does not lead down, along that of the projected tangents, and so in the
-  /// next few systems, too. None, and the state is where it was, where that does not lead down either.
+  /// From a state that is linearised to the next, which then is, without contact in level.f: along Newton's direction as far as it leads down.
+  /// Where it does not, along that of the projected tangents; none, and the state is where it was, where that does not either.
   std::optional<Potential> descend(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w,
                                    const Potential& now, int k, double tolerance) {
     const double end = time + ahead;
-    const bool first = k == 0,
-               moving = first && level.prescribed.count > 0;  // given motions have changed what is compared
+    const bool first = k == 0, moving = first && level.prescribed.count > 0;  // given motions change what is compared
     const bool may_project = options_.tangent == "auto";
     bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
     if (may_project && projecting_ > 0) --projecting_;
@@ -291,7 +296,7 @@ class StageSolver {
       }
       undo(level, w, part);
       if (projected || !may_project) return {};
-      projecting_ = projections, projected = true;
+      projecting_ = carries() ? 0 : projections, projected = true;
       level.linearise(level.state, first ? time : end, w, first ? ahead : 0, level.f);
       if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, first ? ahead : 0, level.f);
     }
@@ -303,8 +308,8 @@ class StageSolver {
                                    double slope, bool moving, int most, double& part) {
     cut_ = false;
     for (int i = 0;; ++i) {
-      const double volume = least_volume(level);
-      if (!(now.volume > 0) || volume >= least_volume_part * now.volume) {
+      const double volume = may_invert_ ? 1 : least_volume(level);
+      if (may_invert_ || !(now.volume > 0) || volume >= least_volume_part * now.volume) {
         level.linearise(level.state, end, w, 0, level.f);
         Potential next = here(level, end, w);
         next.slope *= part, next.volume = volume;

@@ -323,7 +323,9 @@ class HierarchyBuilder {
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);
       };
-      level.integrator = Kind::template make<B>(level, {implicit, contact_ != nullptr, report.mean_edge, make_solver});
+      level.integrator = Kind::template make<B>(
+          level,
+          {implicit, contact_ != nullptr, allows_inversion(problem_.body.material), report.mean_edge, make_solver});
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))

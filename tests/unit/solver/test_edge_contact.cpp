@@ -201,13 +201,13 @@ TEST(EdgeContact, TurnsCrossingBarsBack) {
       advance(s, 1);
       deepest = std::max(deepest, depth_in_the_middle(p, s));
     }
-    EXPECT_LE(deepest, (integrator == "implicit_euler" ? 0.2 : 0.1) * 0.02) << integrator;  // its contact is softer
+    EXPECT_LE(deepest, 0.1 * 0.02) << integrator;
     EXPECT_GE(deepest, 0) << integrator;
     EXPECT_LE(depth_in_the_middle(p, s), -1e-3) << integrator;
     EXPECT_LE(s.energies().total(), 1.005 * energy) << integrator;
     const Momenta after = momenta_of(p, s);
-    EXPECT_LE((after.linear - before.linear).norm(), (integrator == "implicit_euler" ? 1e-6 : 1e-12) * size)
-        << integrator;
+    const double kept = integrator == "implicit_euler" ? 1e-3 : 1e-12;  // as far as its systems are solved
+    EXPECT_LE((after.linear - before.linear).norm(), kept * size) << integrator;
   }
 }
 
