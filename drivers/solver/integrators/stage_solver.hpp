@@ -17,9 +17,8 @@
 namespace plica {
 
 /// Solves the stages of implicit integrators: M (v - v~) = b F(u~ + (a/b)(v - v~), v), for a level's state, by one linear solve
-/// about the start of the step (linearly implicit: Baraff & Witkin 1998) or by Newton's method with a line search on the
-/// incremental potential (Nocedal & Wright, Numerical Optimization, alg. 3.1; Gast et al. 2015). Where nodal elements smooth their
-/// pressures, it carries these from solve to solve: kernels/elastic/carried_pressures.hpp.
+/// about the start of the step (linearly implicit: Baraff & Witkin 1998) or by Newton's method on the incremental potential (Gast et al.
+/// 2015). Where nodal elements smooth their pressures, it carries these from solve to solve: kernels/elastic/carried_pressures.hpp.
 template <class B>
 class StageSolver {
  public:
@@ -44,7 +43,7 @@ class StageSolver {
     const int elements = level.model.rows.slices > 0 ? level.model.vertices : level.model.tets;
     von_mises_ = Scalars<B>("plica::stage.von_mises", elements), volume_ = Scalars<B>("plica::stage.volume", elements);
     dead_ = Vectors<B>("plica::stage.dead", level.model.vertices);
-    blocks_ = BlockSums<B>(static_cast<int>(std::max(level.partial.extent(0), level.f.extent(0))));
+    blocks_ = BlockSums<B>(static_cast<int>(std::max({level.partial.extent(0), level.f.extent(0), volume_.extent(0)})));
     result_ = Doubles<B>("plica::stage.result", 7);
   }
 
@@ -106,15 +105,14 @@ class StageSolver {
   static constexpr int most_halvings = 12, halvings_unprojected = 2;  // of a direction
   static constexpr double sufficient = 1e-4;                          // part of the decrease that the slope promises
   static constexpr double balanced = 3e-3;  // part of the forces in a stage with contact that may be left unbalanced
-  static constexpr int contact_iterations = 20;
-  static constexpr double still = 1e-9;             // edges that nobody sees a body move by
+  static constexpr double still = 1e-9;     // edges that nobody sees a body move by
   static constexpr double least_volume_part = 0.2;  // of the least volume that a change of a state must leave
   static constexpr double first_tolerance = 0.01;   // of the first system
-  static constexpr int projections = 3;             // systems in a row whose tangents are projected
+  static constexpr int contact_iterations = 20, projections = 3;  // systems in a row whose tangents are projected
   static constexpr double unseen = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
 
   ImplicitOptions options_;
-  double edge_;      ///< mean, of the level [m]
+  double edge_;      ///< mean [m]
   bool may_invert_;  ///< elements may
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
