@@ -280,23 +280,23 @@ class StageSolver {
     const bool may_project = options_.tangent == "auto";
     bool projected = options_.tangent == "positive" || (may_project && projecting_ > 0);
     if (may_project && projecting_ > 0) --projecting_;
-    for (;;) {
-      const SolveOutcome out = correct(level, w, first, projected, tolerance);
+    for (bool from_start = first;; from_start = false) {
+      const SolveOutcome out = correct(level, w, from_start, projected, tolerance);
       if (touches(level) && !solver_->converges()) return now;
       const double slope = vertex_terms(level, w, 1)[2];
-      const bool at_start = first && touches(level);  // what contact does there is looked for where velocities lead to
-      const bool leads_up = out.indefinite || (!at_start && !(slope < 0));
+      const bool ahead_of_it = from_start && touches(level);  // contact is that of where velocities lead to
+      const bool leads_up = out.indefinite || (!ahead_of_it && !(slope < 0)), last = projected || !may_project;
       double part = 1;
-      if (!(leads_up && may_project && !projected) || moving) {
-        const int most = projected || !may_project ? most_halvings : halvings_unprojected;
+      if (moving || last || !leads_up) {
         const Potential from = before(level, end, w, now);
-        if (auto next = shorten(level, end, w, from, at_start ? 0 : slope, moving, most, part)) return next;
+        const int most = last && !ahead_of_it ? most_halvings : halvings_unprojected;
+        if (auto next = shorten(level, end, w, from, ahead_of_it ? 0 : slope, moving, most, part)) return next;
       }
       undo(level, w, part);
-      if (projected || !may_project) return {};
-      projecting_ = carries() ? 0 : projections, projected = true;
-      level.linearise(level.state, first ? time : end, w, first ? ahead : 0, level.f);
-      if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, first ? ahead : 0, level.f);
+      if (last && !ahead_of_it) return {};
+      if (may_project) projecting_ = carries() ? 0 : projections, projected = true;
+      level.linearise(level.state, end, w, 0, level.f);
+      if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, 0, level.f);
     }
   }
 
