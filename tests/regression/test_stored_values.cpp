@@ -65,7 +65,7 @@ TEST(StoredValues, HybridOfTwoLevels) {
   p.integration.distribution = "inverse_elements", p.integration.shift_to_coarsest = 0.5;
   p.integration.macro_step = 0.005;
   p.integration.implicit.relative_residual = 1e-9;
-  expect_values(p, {0.01258782715, 0, 0.0454632728, 0.05914266465, 0.01923472134, -0.275654222, 0.0005739125827});
+  expect_values(p, {0.01258889354, 0, 0.04546614427, 0.05914647828, 0.01920238578, -0.275639842, 0.0005727699001});
 }
 
 TEST(StoredValues, ImplicitSingleLevel) {
