@@ -32,10 +32,10 @@ struct Box3 {
 };
 
 /// Of a grid.
-struct Cell {
+struct GridCell {
   int i, j, k;
-  KOKKOS_INLINE_FUNCTION bool operator==(const Cell& c) const { return i == c.i && j == c.j && k == c.k; }
-  KOKKOS_INLINE_FUNCTION Cell or_after(const Cell& c) const {
+  KOKKOS_INLINE_FUNCTION bool operator==(const GridCell& c) const { return i == c.i && j == c.j && k == c.k; }
+  KOKKOS_INLINE_FUNCTION GridCell or_after(const GridCell& c) const {
     return {Kokkos::max(i, c.i), Kokkos::max(j, c.j), Kokkos::max(k, c.k)};
   }
 };
@@ -90,21 +90,23 @@ struct PairGrid {
   }
   /// How much larger than its triangle a box is, on all sides [m].
   KOKKOS_INLINE_FUNCTION Real near() const { return reach(0) + limits.margin; }
-  KOKKOS_INLINE_FUNCTION Cell cell_of(const Vec3<Real>& at) const { return {cell(at[0]), cell(at[1]), cell(at[2])}; }
+  KOKKOS_INLINE_FUNCTION GridCell cell_of(const Vec3<Real>& at) const {
+    return {cell(at[0]), cell(at[1]), cell(at[2])};
+  }
   /// use(cell, its bucket) for all cells that a box reaches into.
   template <class Use>
   KOKKOS_INLINE_FUNCTION void each_cell(const Box3<Real>& box, const Use& use) const {
-    const Cell low = cell_of(box.low), high = cell_of(box.high);
+    const GridCell low = cell_of(box.low), high = cell_of(box.high);
     for (int i = low.i; i <= high.i; ++i)
       for (int j = low.j; j <= high.j; ++j)
-        for (int k = low.k; k <= high.k; ++k) use(Cell{i, j, k}, bucket(i, j, k));
+        for (int k = low.k; k <= high.k; ++k) use(GridCell{i, j, k}, bucket(i, j, k));
   }
   /// look(triangle) for all that may come near what was in this box when the grid was made: each in the first cell that both reach into;
   /// where cells share a bucket, some come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Indices<B>& corner, const Look& look) const {
-    const Cell low = cell_of(box.low);
-    each_cell(box, [&](const Cell& at, int b) {
+    const GridCell low = cell_of(box.low);
+    each_cell(box, [&](const GridCell& at, int b) {
       for (int s = first(b); s < first(b) + filled(b); ++s) {
         const int t = item(s);
         const Box3<Real> its = box_of(corner, t);
@@ -213,7 +215,7 @@ struct CountCells {
   Indices<B> corner;
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    grid.each_cell(grid.box_of(corner, t), [&](const Cell&, int b) { Kokkos::atomic_inc(&grid.filled(b)); });
+    grid.each_cell(grid.box_of(corner, t), [&](const GridCell&, int b) { Kokkos::atomic_inc(&grid.filled(b)); });
   }
 };
 
@@ -237,7 +239,7 @@ struct FillCells {
   Indices<B> corner;
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    grid.each_cell(grid.box_of(corner, t), [&](const Cell&, int b) {
+    grid.each_cell(grid.box_of(corner, t), [&](const GridCell&, int b) {
       grid.item(grid.first(b) + Kokkos::atomic_fetch_add(&grid.filled(b), 1)) = t;
     });
   }
