@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t room = 2048;  // words for values
 constexpr long shortest = 3;        // launches that are worth a graph
-constexpr std::size_t most_known = 16;
+constexpr std::size_t most_known = 64;
 
 /// Values as arguments: they are on the way when the launch returns, and the host may change its own.
 template <class Memory>

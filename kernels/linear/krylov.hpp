@@ -9,7 +9,7 @@ namespace plica {
 
 /// Where a scalar stands among those of a solve.
 namespace cg {
-enum : int { curvature, product, last_product, square, right_side, start, alpha, stopped, iterations, count };
+enum : int { curvature, product, last_product, square, right_side, start, alpha, stopped, iterations, tolerance, count };
 constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3, unsound = 4;  // values of `stopped`
 }  // namespace cg
 
@@ -49,16 +49,29 @@ struct CgBegin {
   }
 };
 
+/// Of |r| / |b|; below 0: it goes on.
+template <class B>
+struct CgTolerance {
+  Doubles<B> s;
+  Changing<B, double> tolerance;
+  KOKKOS_INLINE_FUNCTION void operator()(int) const { s(cg::tolerance) = *tolerance; }
+};
+
+/// Whether r is 0, or as small as it need be.
+template <class B>
+KOKKOS_INLINE_FUNCTION bool is_solved(const Doubles<B>& s) {
+  const double tolerance = s(cg::tolerance);
+  return s(cg::square) == 0 || (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side));
+}
+
 /// After a guess other than zero; it may be the solution already.
 template <class B>
 struct CgGuess {
   Doubles<B> s;
-  double tolerance;
   KOKKOS_INLINE_FUNCTION void operator()() const {
     s(cg::start) = s(cg::square);
     if (s(cg::stopped) != cg::running) return;
-    if (s(cg::square) == 0 || (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side)))
-      s(cg::stopped) = cg::converged;
+    if (is_solved<B>(s)) s(cg::stopped) = cg::converged;
   }
 };
 
@@ -109,13 +122,12 @@ struct CgAdvance {
 template <class B>
 struct CgJudge {
   Doubles<B> s;
-  double tolerance;  ///< of |r| / |b|; below 0: it goes on
   KOKKOS_INLINE_FUNCTION void operator()() const {
     if (s(cg::stopped) != cg::running) return;
     s(cg::iterations) += 1;
     if (!Kokkos::isfinite(s(cg::square)))
       s(cg::stopped) = cg::not_finite;
-    else if (s(cg::square) == 0 || (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side)))
+    else if (is_solved<B>(s))
       s(cg::stopped) = cg::converged;
   }
 };

@@ -249,7 +249,7 @@ class StageSolver {
       if (!carries()) tolerance = finer() * std::clamp(0.1 * now.residual / from, 1e-4, first_tolerance);
     }
     level.flags = flags;
-    if (once || now.solved) return true;
+    if (once || now.solved || (touches(level) && now.residual <= balanced * now.forces)) return true;
     ++unfinished_;
     unsolved_ = touches(level) ? now.residual / std::max(now.forces, 1e-300) : now.residual / first;
     return false;
@@ -261,11 +261,11 @@ class StageSolver {
     contact.update_caps(level.exec(), level, level.state);
     const ContactBalance by = contact.linearise(level.exec(), level, level.state, w, 0, level.f, cut_);
     const double volume = std::exchange(now, with_contact(potential(level, end, w), by)).volume;
-    now.volume = volume;
-    return now.residual <= std::max(balanced * (now.forces + by.forces), unseen_force(now, w));
+    now.volume = volume, now.forces += by.forces;
+    return now.residual <= std::max(finer() * balanced * now.forces, unseen_force(now, w));
   }
 
-  /// By how much more than by itself systems are to be solved, as `relative_residual` asks for less than its default.
+  /// How much nearer than by themselves systems and forces are to be solved, as `relative_residual` asks for less than its default.
   double finer() const { return std::min(1.0, options_.relative_residual / ImplicitOptions().relative_residual); }
 
   /// What moves the body by no more than anybody sees in the step [N].

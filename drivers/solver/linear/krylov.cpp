@@ -53,7 +53,7 @@ Krylov<B>::Krylov(int vertices)
 
 template <class B>
 void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
-                        double tolerance, const Vectors<B>& r, const Vectors<B>& x) const {
+                        const Vectors<B>& r, const Vectors<B>& x) const {
   const int n = system.rows();
   const Blocks<B>& D = system.inverse_diagonal();
   const int product = preconditioner ? cg::product : cg::square;
@@ -64,19 +64,20 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Pr
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, product, z_, p_});
   system.product(exec, p_, q_, sums_, slot(cg::curvature), CgStep<B>{scalars_, product});
   reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square),
-               CgJudge<B>{scalars_, tolerance});
+               CgJudge<B>{scalars_});
 }
 
 template <class B>
 void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
                       const Vectors<B>& r, const Vectors<B>& x) const {
   const CgSquare<B> square{system.inverse_diagonal(), r, z_};
+  update_vertices<B>(exec, "plica::cg_tolerance", 1, CgTolerance<B>{scalars_, tolerance});
   reduce<B, 1>(exec, "plica::cg_zero", system.rows(), CgZero<B>{square, x}, sums_, slot(cg::square),
                CgBegin<B>{scalars_});
   if (!last || !last->any()) return;
   last->start(exec, system, sums_, r, x);
   reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square),
-               CgGuess<B>{scalars_, tolerance});
+               CgGuess<B>{scalars_});
 }
 
 template <class B>
@@ -94,7 +95,7 @@ KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system, c
       look();
       if (scalar[cg::stopped] != cg::running) break;
     }
-    advance(exec, system, preconditioner, tolerance, r, x);
+    advance(exec, system, preconditioner, r, x);
   }
   look();
   KrylovOutcome out;

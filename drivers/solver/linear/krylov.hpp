@@ -59,7 +59,7 @@ class Krylov {
   void begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
              const Vectors<B>& r, const Vectors<B>& x) const;
   void advance(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
-               double tolerance, const Vectors<B>& r, const Vectors<B>& x) const;
+               const Vectors<B>& r, const Vectors<B>& x) const;
 };
 
 }  // namespace plica

@@ -73,7 +73,7 @@ std::vector<Method> methods() {
           {"fas", "symplectic_euler", "linear", 3, Method::falling, 29},
           {"him", "symplectic_euler", "linear", 3, Method::falling, 28},
           {"him", "symplectic_euler", "linear", 3, Method::hanging, 25},
-          {"single", "implicit_euler", "linear", 1, Method::falling, 45, 1}};
+          {"single", "implicit_euler", "linear", 1, Method::falling, 46, 1}};
 }
 
 Problem problem_of(const Method& m) {
