@@ -279,8 +279,9 @@ void describe(V& v, ImplicitOptions& o) {
   v("iterations", o.iterations, Count{0}, "above 0: exactly so many per linear solve, at any residual");
   v("max_iterations", o.max_iterations, Count{1}, "a solve that has not converged by then is counted as a miss");
   v("newton_iterations", o.newton_iterations, AutoCount{},
-    "per step, at most; 1: linearly implicit; auto: 20 where the integrator conserves energy, else 1");
-  v("newton_tolerance", o.newton_tolerance, Quantity{plain, positive}, "of the residual, relative to the first");
+    "per stage, at most; 1: linearly implicit; auto: 20, or 1 where a linear solve is a fixed amount of work");
+  v("newton_tolerance", o.newton_tolerance, AutoQuantity{{plain, positive}},
+    "part of the forces that a stage may leave unbalanced; auto: 0.003, or 1e-6 where the integrator conserves energy");
   v("newton_residual", o.newton_residual, Quantity{force, not_negative}, "or, if that is less strict, this residual");
   v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
   v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");

@@ -184,11 +184,11 @@ struct ImplicitOptions {
   int iterations = 0;                   ///< above 0: exactly so many iterations instead
   int max_iterations = 2000;            ///< a solve that has not converged by then is counted as a miss
   int newton_iterations = 0;            ///< at most, per stage; 1: linearly implicit; 0: auto, see newton_iterations()
-  double newton_tolerance = 1e-6;       ///< on |residual| relative to the first, where newton_iterations > 1
-  double newton_residual = 0;           ///< or below this [N]
-  std::string tangent = "auto";         ///< of tangents()
+  std::optional<double> newton_tolerance = {};  ///< part of the forces that may be unbalanced; none: see StageSolver
+  double newton_residual = 0;                   ///< or below this [N]
+  std::string tangent = "auto";                 ///< of tangents()
   std::string unfinished =
-      "accept";      ///< of newton_outcomes(): what becomes of a step that Newton's method did not solve
+      "halve";       ///< of newton_outcomes(): what becomes of a step that Newton's method did not solve
   int halvings = 6;  ///< of a step, at most, with `halve`
   /// Of generalized_alpha: what is left of the fastest modes after a step; none: see rho_infinity().
   std::optional<double> rho_infinity = {};

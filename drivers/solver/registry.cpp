@@ -113,13 +113,22 @@ bool is_explicit(std::string_view integrator) {
   return is;
 }
 
-int newton_iterations(const ImplicitOptions& options, std::string_view integrator) {
-  constexpr int enough = 20;
+bool conserves_energy(const ImplicitOptions& options, std::string_view integrator) {
   bool conserves = false;
   Integrators::visit(integrator, [&](auto member) {
     if constexpr (requires { member.conserves(options); }) conserves = member.conserves(options);
   });
-  return options.newton_iterations > 0 ? options.newton_iterations : conserves ? enough : 1;
+  return conserves;
+}
+
+int newton_iterations(const ImplicitOptions& options, std::string_view integrator) {
+  constexpr int enough = 20;
+  if (options.newton_iterations > 0) return options.newton_iterations;
+  bool fixed = options.iterations > 0 || options.solver == "v_cycle";
+  Integrators::visit(integrator, [&](auto member) {
+    fixed = fixed || requires { member.linear_solver; };
+  });
+  return fixed && !conserves_energy(options, integrator) ? 1 : enough;
 }
 
 double rho_infinity(const ImplicitOptions& options, bool contact) {

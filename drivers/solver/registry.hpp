@@ -27,8 +27,10 @@ std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 /// Whether that integrator is explicit; true for a name it does not know.
 bool is_explicit(std::string_view integrator);
 
-/// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 1 or,
-/// where it conserves energy on the linear problem, 20. What one iteration leaves unsolved is energy lost or won in every step.
+/// Whether that integrator conserves energy on the linear problem. What a step then leaves unsolved is energy lost or won.
+bool conserves_energy(const ImplicitOptions& options, std::string_view integrator);
+/// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 20; but 1 where a
+/// linear solve is a fixed amount of work.
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator);
 
 /// What of the fastest motion generalized_alpha leaves after a step: by the options, or where they leave it open 0.8, and with contact 0.

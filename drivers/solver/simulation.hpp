@@ -203,7 +203,9 @@ class Simulation {
       const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
   std::map<std::string, long> counters()
       const;                      ///< force evaluations, solver iterations, misses, switched vertices ...
-  double residual() const;        ///< the largest relative residual an implicit solve of the last macro step ended with
+  /// The largest part of its forces that an implicit stage of the last macro step left unbalanced; of a linearly implicit one, the relative
+  /// residual of its linear solve.
+  double residual() const;
   double worst_residual() const;  ///< of all macro steps so far
 
   /// A level's displacements from the placed rest mesh [m] as the device holds them, [vertices][3]. step() updates them in

@@ -58,7 +58,7 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
       double passes = 1;
       const double factor = plan.share[i] * plan.macro_step / plan.substeps[i] / limits[i].critical_step;
       if (!limits[i].is_explicit)
-        passes += newton_iterations(o.implicit, limits[i].integrator) *
+        passes += (o.implicit.newton_iterations > 0 ? o.implicit.newton_iterations : 2) *
                   (o.implicit.iterations > 0 ? o.implicit.iterations : 2 + cg_iterations_per_factor * factor);
       each += passes * plan.substeps[i] * limits[i].tets;
     }

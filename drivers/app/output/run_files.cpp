@@ -68,9 +68,10 @@ bool has_friction(const ContactOptions& contact) {
 bool may_halve_steps(const Problem& problem) {
   const IntegrationOptions& o = problem.integration;
   const bool touches = !problem.contact.obstacles.empty() || !problem.body.parts.empty() || problem.contact.self;
-  const bool implicit = std::ranges::any_of(o.integrator, [](const std::string& name) { return !is_explicit(name); });
-  return implicit && o.cycle != "him" &&
-         (o.implicit.unfinished == "halve" || (touches && o.implicit.unfinished == "accept"));
+  return o.cycle != "him" && o.implicit.unfinished == "halve" &&
+         std::ranges::any_of(o.integrator, [&](const std::string& name) {
+           return !is_explicit(name) && (touches || newton_iterations(o.implicit, name) > 1);
+         });
 }
 
 namespace {

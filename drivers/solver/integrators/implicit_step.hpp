@@ -8,7 +8,7 @@
 namespace plica {
 
 /// What implicit integrators have in common: they take a step by stages; a step that is not solved is accepted, halved and tried
-/// again, or ends the run. With contact it is halved, unless it ends the run.
+/// again, or ends the run.
 template <class B>
 class ImplicitStep : public Integrator<B> {
  public:
@@ -18,8 +18,7 @@ class ImplicitStep : public Integrator<B> {
   ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
       : stages_(level, parts),
         unfinished_(parts.implicit.unfinished),
-        most_halvings_((parts.contact && unfinished_ == "accept") ||
-                               (parts.implicit.newton_iterations > 1 && unfinished_ == "halve")
+        most_halvings_(unfinished_ == "halve" && (parts.contact || parts.implicit.newton_iterations > 1)
                            ? parts.implicit.halvings
                            : 0) {
     for (int i = 0; i < most_halvings_; ++i) before_.emplace_back("implicit.before", level.model.vertices);

@@ -15,6 +15,7 @@ struct IntegratorParts {
   ImplicitOptions implicit;
   bool contact = false;
   bool may_invert = false;                                               ///< elements of the material
+  bool conserves = false;                                                ///< energy, on the linear problem
   double edge = 0;                                                       ///< mean, of the level's mesh [m]
   std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
 };
@@ -29,7 +30,8 @@ class Integrator {
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.
   virtual std::size_t bytes() const { return 0; }
-  /// The largest relative residual that a linear solve of the last advance() ended with; 0 where there are none.
+  /// The largest part of its forces that a stage of the last advance() left unbalanced, or the relative residual of its one linear solve; 0
+  /// where there are none.
   virtual double residual() const { return 0; }
   /// Why the result of the last advance() is not valid, as a sentence for the user; empty where it is.
   virtual std::string failure() const { return {}; }

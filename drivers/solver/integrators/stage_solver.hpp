@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <plica/drivers/solver/integrators/incremental_potential.hpp>
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
@@ -29,6 +30,8 @@ class StageSolver {
       : options_(parts.implicit),
         edge_(parts.edge),
         may_invert_(parts.may_invert),
+        judged_(parts.implicit.newton_tolerance.value_or(parts.conserves && !parts.contact ? conserving : balanced)),
+        aim_(parts.implicit.newton_tolerance ? judged_ : judged_ * finer()),
         solver_(parts.make_linear_solver()),
         base_("stage.base", level.model.vertices),
         right_side_("plica::stage.right_side", level.model.vertices),
@@ -68,13 +71,13 @@ class StageSolver {
     return solved;
   }
 
-  /// Of the last stage that Newton's method did not solve: its residual over its first one.
+  /// Of the last stage that Newton's method did not solve: the part of the forces that is unbalanced.
   double unsolved() const { return unsolved_; }
   /// Stages that were not solved; those of a step that is taken again are taken back.
   long misses() const { return unfinished_; }
   void set_misses(long misses) { unfinished_ = misses; }
 
-  /// The largest relative residual of a linear solve since begin().
+  /// Since begin(): the largest part of its forces that a stage left unbalanced, or the relative residual of its one linear solve.
   double residual() const { return residual_; }
   void begin() { residual_ = 0; }
 
@@ -104,16 +107,17 @@ class StageSolver {
  private:
   static constexpr int most_halvings = 12, halvings_unprojected = 2;  // of a direction
   static constexpr double sufficient = 1e-4;                          // part of the decrease that the slope promises
-  static constexpr double balanced = 3e-3;  // part of the forces in a stage with contact that may be left unbalanced
-  static constexpr double still = 1e-9;     // edges that nobody sees a body move by
+  static constexpr double balanced = 3e-3, conserving = 1e-6;         // part of the forces that may be left unbalanced
+  static constexpr double still = 1e-9;                               // edges that nobody sees a body move by
   static constexpr double least_volume_part = 0.2;  // of the least volume that a change of a state must leave
   static constexpr double first_tolerance = 0.01;   // of the first system
   static constexpr int contact_iterations = 20, projections = 3;  // systems in a row whose tangents are projected
   static constexpr double unseen = 1e-10;  // of a stage's energies: what the potential gains less is lost in rounding
 
   ImplicitOptions options_;
-  double edge_;      ///< mean [m]
-  bool may_invert_;  ///< elements may
+  double edge_;          ///< mean [m]
+  bool may_invert_;      ///< elements may
+  double judged_, aim_;  ///< part of the forces: a stage that leaves no more is solved, one that leaves no more ends
   std::unique_ptr<LinearSolver<B>> solver_;
   State<B> base_;
   Vectors<B> right_side_, change_, dead_;
@@ -128,19 +132,6 @@ class StageSolver {
   bool cut_ = false;               ///< the last change was shortened
   long projecting_ = 0;            ///< systems for which tangents are projected without a new reason
   Scalars<B> von_mises_, volume_;  ///< of elements
-
-  /// A state on the way.
-  struct Potential {
-    double value = 0;     ///< [J]
-    double residual = 0;  ///< |R| [N]
-    double slope = 0;     ///< R.change [J]
-    double scale = 0;     ///< of what `value` adds up [J]
-    double forces = 0;    ///< those that accelerate the body and those that do not depend on its state [N]
-    double masses = 0;    ///< root of the sum of their squares [kg]
-    double volume = 0;    ///< least ratio of an element, or 1
-    bool solved = false;
-    bool finite() const { return std::isfinite(value) && std::isfinite(residual); }
-  };
 
   bool iterates() const { return options_.newton_iterations > 1; }
   bool carries() const { return carried_.extent(0) > 0; }
@@ -157,14 +148,14 @@ class StageSolver {
   bool solve_stage(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& weights) {
     if (touches(level) || iterates()) return minimise(level, time, ahead, weights);
     level.linearise(level.state, time, weights, ahead, level.f);
-    const double before = residual_, tolerance = options_.relative_residual;
-    const SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
-    if (!out.indefinite || options_.tangent != "auto" || level.followers.empty() || level.prescribed.count > 0)
-      return true;
-    undo(level, weights, 1);  // the pressure takes more stiffness away than there is
-    if (!out.converged) --misses_;
-    residual_ = before;
-    correct(level, weights, false, true, tolerance);
+    const double tolerance = options_.relative_residual;
+    SolveOutcome out = correct(level, weights, true, options_.tangent == "positive", tolerance);
+    if (out.indefinite && options_.tangent == "auto" && !level.followers.empty() && level.prescribed.count == 0) {
+      undo(level, weights, 1);  // the pressure takes more stiffness away than there is
+      if (!out.converged) --misses_;
+      out = correct(level, weights, false, true, tolerance);
+    }
+    residual_ = std::max(residual_, out.relative_residual);
     return true;
   }
 
@@ -199,7 +190,6 @@ class StageSolver {
     level.book("solve", [&] { out = solver_->solve(level.exec(), right_side_, change_, tolerance); });
     ++solves_, iterations_ += out.iterations;
     misses_ += out.converged ? 0 : 1, indefinite_ += out.indefinite ? 1 : 0;
-    residual_ = std::max(residual_, out.relative_residual);
     update_vertices<B>(level.exec(), "plica::stage_update", n, StageUpdate<B>{stage, change_});
     if (carries()) {
       copy(level.exec(), last_carried_, carried_);
@@ -224,13 +214,12 @@ class StageSolver {
     level.dead(end, dead_);
     fill(level.exec(), change_, Real(0));
     level.linearise(level.state, time, w, ahead, level.f);
-    Potential now = here(level, end, w);
+    IncrementalPotential now = here(level, end, w);
     if (!may_invert_) now.volume = least_volume(level);
     if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, ahead, level.f);
-    const double first = now.residual;
     // at rest, where no given motion starts
     now.solved = level.prescribed.count == 0 && std::sqrt(vertex_terms(level, w, 0)[1]) <= unseen_force(now, w);
-    const int most = touches(level) ? contact_iterations : options_.newton_iterations;
+    const int most = iterates() ? options_.newton_iterations : contact_iterations;
     const bool once = !solver_->converges() && touches(level);
     // the change is 0 where nothing moves
     if (now.solved)
@@ -239,42 +228,49 @@ class StageSolver {
     double tolerance = carries() ? options_.relative_residual : first_tolerance * finer();
     for (int k = 0; k < most && !now.solved; ++k) {
       ++newtons_;
-      const std::optional<Potential> next = descend(level, time, ahead, w, now, k, tolerance);
+      const std::optional<IncrementalPotential> next = descend(level, time, ahead, w, now, k, tolerance);
       if (once || !next) break;
       const bool lost = std::abs(next->slope) <= rounding(*next) && next->residual <= now.residual;
       const double from = std::exchange(now, *next).residual;
-      now.solved = touches(level)
-                       ? accept_contact(level, end, w, now)
-                       : now.residual <= std::max(options_.newton_residual, options_.newton_tolerance * first) || lost;
+      if (touches(level)) follow_caps(level, end, w, now);
+      now.solved = is_balanced(now, w, aim_) || (lost && !touches(level));
       if (!carries()) tolerance = finer() * std::clamp(0.1 * now.residual / from, 1e-4, first_tolerance);
     }
     level.flags = flags;
-    if (once || now.solved || (touches(level) && now.residual <= balanced * now.forces)) return true;
+    const double unbalanced = now.residual / std::max(now.forces, 1e-300);
+    if (!is_balanced(now, w, 0)) residual_ = std::max(residual_, unbalanced);
+    if (once || now.solved || is_balanced(now, w, judged_)) return true;
     ++unfinished_;
-    unsolved_ = touches(level) ? now.residual / std::max(now.forces, 1e-300) : now.residual / first;
+    unsolved_ = unbalanced;
     return false;
   }
 
-  /// Caps follow the state. Whether what is then unbalanced is a small part of the forces there are, or moves nothing.
-  bool accept_contact(SolverLevel<B>& level, double end, const ImplicitWeights& w, Potential& now) {
+  /// Whether what is unbalanced is no more than a part of the forces there are, which are the same in a body that flies; or moves nothing.
+  bool is_balanced(const IncrementalPotential& now, const ImplicitWeights& w, double part) const {
+    return now.residual <= std::max({options_.newton_residual, part * now.forces, unseen_force(now, w)});
+  }
+
+  void follow_caps(SolverLevel<B>& level, double end, const ImplicitWeights& w, IncrementalPotential& now) {
     ContactResponse<B>& contact = level.response();
     contact.update_caps(level.exec(), level, level.state);
     const ContactBalance by = contact.linearise(level.exec(), level, level.state, w, 0, level.f, cut_);
     const double volume = std::exchange(now, with_contact(potential(level, end, w), by)).volume;
     now.volume = volume, now.forces += by.forces;
-    return now.residual <= std::max(finer() * balanced * now.forces, unseen_force(now, w));
   }
 
   /// How much nearer than by themselves systems and forces are to be solved, as `relative_residual` asks for less than its default.
   double finer() const { return std::min(1.0, options_.relative_residual / ImplicitOptions().relative_residual); }
 
   /// What moves the body by no more than anybody sees in the step [N].
-  double unseen_force(const Potential& p, const ImplicitWeights& w) const { return still * edge_ * p.masses / w.a; }
+  double unseen_force(const IncrementalPotential& p, const ImplicitWeights& w) const {
+    return still * edge_ * p.masses / w.a;
+  }
 
   /// From a state that is linearised to the next, which then is, without contact in level.f: along Newton's direction as far as it leads down.
   /// Where it does not, along that of the projected tangents; none, and the state is where it was, where that does not either.
-  std::optional<Potential> descend(SolverLevel<B>& level, double time, double ahead, const ImplicitWeights& w,
-                                   const Potential& now, int k, double tolerance) {
+  std::optional<IncrementalPotential> descend(SolverLevel<B>& level, double time, double ahead,
+                                              const ImplicitWeights& w, const IncrementalPotential& now, int k,
+                                              double tolerance) {
     const double end = time + ahead;
     const bool first = k == 0, moving = first && level.prescribed.count > 0;  // given motions change what is compared
     const bool may_project = options_.tangent == "auto";
@@ -288,12 +284,13 @@ class StageSolver {
       const bool leads_up = out.indefinite || (!ahead_of_it && !(slope < 0)), last = projected || !may_project;
       double part = 1;
       if (moving || last || !leads_up) {
-        const Potential from = before(level, end, w, now);
+        const IncrementalPotential from = before(level, end, w, now);
         const int most = last && !ahead_of_it ? most_halvings : halvings_unprojected;
         if (auto next = shorten(level, end, w, from, ahead_of_it ? 0 : slope, moving, most, part)) return next;
       }
       undo(level, w, part);
       if (last && !ahead_of_it) return {};
+      if (!out.converged) --misses_;  // and is solved again
       if (may_project) projecting_ = carries() ? 0 : projections, projected = true;
       level.linearise(level.state, end, w, 0, level.f);
       if (touches(level)) level.response().linearise(level.exec(), level, level.state, w, 0, level.f);
@@ -302,14 +299,15 @@ class StageSolver {
 
   /// Shortens the change that the state has made, to `part` of it, until the potential is lower and no volume much less than the least was;
   /// none where it never is.
-  std::optional<Potential> shorten(SolverLevel<B>& level, double end, const ImplicitWeights& w, const Potential& now,
-                                   double slope, bool moving, int most, double& part) {
+  std::optional<IncrementalPotential> shorten(SolverLevel<B>& level, double end, const ImplicitWeights& w,
+                                              const IncrementalPotential& now, double slope, bool moving, int most,
+                                              double& part) {
     cut_ = false;
     for (int i = 0;; ++i) {
       const double volume = may_invert_ ? 1 : least_volume(level);
       if (may_invert_ || !(now.volume > 0) || volume >= least_volume_part * now.volume) {
         level.linearise(level.state, end, w, 0, level.f);
-        Potential next = here(level, end, w);
+        IncrementalPotential next = here(level, end, w);
         next.slope *= part, next.volume = volume;
         const bool falls =
             next.value - now.value <= sufficient * part * slope + std::max(rounding(now), rounding(next));
@@ -324,22 +322,23 @@ class StageSolver {
   }
 
   /// What is lost in rounding where a potential is worked out [J].
-  double rounding(const Potential& p) const {
+  double rounding(const IncrementalPotential& p) const {
     return std::max(contact_.span > 0 ? unseen : 0.0, 16.0 * Kokkos::Experimental::epsilon_v<Real>) * p.scale;
   }
 
   /// Of the state whose forces are in level.f, with contact's energy.
-  Potential here(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
-    const Potential p = potential(level, end, w);
+  IncrementalPotential here(SolverLevel<B>& level, double end, const ImplicitWeights& w) {
+    const IncrementalPotential p = potential(level, end, w);
     return touches(level) ? with_contact(p, level.response().balance(level.exec(), level, level.state)) : p;
   }
-  static Potential with_contact(Potential p, const ContactBalance& contact) {
+  static IncrementalPotential with_contact(IncrementalPotential p, const ContactBalance& contact) {
     p.value += contact.energy, p.scale += contact.energy;
     return p;
   }
 
   /// What `now` was before the last change, with the pressures that are carried since.
-  Potential before(SolverLevel<B>& level, double end, const ImplicitWeights& w, Potential now) const {
+  IncrementalPotential before(SolverLevel<B>& level, double end, const ImplicitWeights& w,
+                              IncrementalPotential now) const {
     if (!carries()) return now;
     now.value = vertex_terms(level, w, 1)[0];
     retreat(level, w, 1);
@@ -378,7 +377,7 @@ class StageSolver {
     return read(level.exec());
   }
   /// Of the state whose forces are in level.f.
-  Potential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
+  IncrementalPotential potential(const SolverLevel<B>& level, double end, const ImplicitWeights& w) const {
     const auto terms = vertex_terms(level, w, 0);
     const double energy = stored(level, end);
     return {terms[0] + energy,

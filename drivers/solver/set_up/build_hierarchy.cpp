@@ -325,7 +325,8 @@ class HierarchyBuilder {
       };
       level.integrator = Kind::template make<B>(
           level,
-          {implicit, contact_ != nullptr, allows_inversion(problem_.body.material), report.mean_edge, make_solver});
+          {implicit, contact_ != nullptr, allows_inversion(problem_.body.material),
+           conserves_energy(implicit, report.integrator), report.mean_edge, make_solver});
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))

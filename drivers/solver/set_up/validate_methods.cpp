@@ -83,11 +83,11 @@ void check_implicit(const ImplicitOptions& o, const std::vector<std::string>& in
         "integration.implicit.matrix is free, but tangents projected to positive ones are assembled; expected auto");
   const bool judged = std::ranges::any_of(
       integrators, [&](const std::string& integrator) { return newton_iterations(o, integrator) > 1; });
-  if (o.unfinished != "accept" && !judged)
-    throw InputError("integration.implicit.unfinished is " + o.unfinished + ", but newton_iterations is " +
-                     (o.newton_iterations == 0 ? "auto, here 1" : "1") +
+  if (o.unfinished == "stop" && !judged)
+    throw InputError("integration.implicit.unfinished is stop, but newton_iterations is " +
+                     std::string(o.newton_iterations == 0 ? "auto, here 1" : "1") +
                      ": a linearly implicit step has no residual to judge; expected newton_iterations above 1, or "
-                     "accept");
+                     "no stop");
 }
 
 }  // namespace

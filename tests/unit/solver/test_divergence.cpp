@@ -188,7 +188,7 @@ TYPED_TEST(Divergence, ImplicitStepsDoNotHideIt) {
   const auto bad = simulation.check();
   ASSERT_TRUE(bad);
   EXPECT_EQ(bad->kind, "non_finite");
-  EXPECT_EQ(simulation.counters()["cg_misses"], 1);
+  EXPECT_GT(simulation.counters()["cg_misses"], 0);
 }
 
 TYPED_TEST(Divergence, ReturnsToTheLastGoodState) {

@@ -119,6 +119,7 @@ TEST(FollowerPressure, ASolveThatIsUndoneIsNoMiss) {
     p.body.loads = {{Box{{-1, -1, -1}, {1, 1, 1}}, FollowerPressure{3e4}, {}}};
     p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.1;
     p.integration.implicit.solver = "conjugate_gradients", p.integration.implicit.preconditioner = "block_jacobi";
+    p.integration.implicit.newton_iterations = 1;
     Simulation<Host> simulation(p);
     simulation.step();
     const auto counters = simulation.counters();
