@@ -58,11 +58,14 @@ class NewmarkStep final : public ImplicitStep<B> {
   }
 };
 
-/// The backward differentiation formula v = (4 v_n - v_{n-1})/3 + 2h/3 a, likewise u: order 2, stable at every step on the
-/// linear problem, and fast motion decays (L-stable); slow motion loses energy in proportion to h^4 (Hairer & Wanner, Solving
-/// ODEs II, V.1). Where there is no step before it, and so on every level of a cycle, which hands over another state: half a
-/// step of the trapezoidal rule, then the formula over the two halves (Bank et al. 1985), as stable and as accurate; with contact,
-/// backward Euler.
+/// The backward differentiation formula of a step that is w times the last one,
+///
+///   v = v_n + w^2/(1 + 2w) (v_n - v_{n-1}) + b a,  b = h (1 + w)/(1 + 2w),  likewise u:
+///
+/// order 2, stable at every constant step on the linear problem, and fast motion decays (L-stable); slow motion loses energy in proportion to
+/// h^4 (Hairer & Wanner, Solving ODEs II, V.1; of steps that change: Solving ODEs I, III.5, stable for w < 1 + sqrt 2). Where there is no
+/// step before it, and so on every level of a cycle, which hands over another state: half a step of the trapezoidal rule, then the formula
+/// over the two halves (Bank et al. 1985), as stable and as accurate; with contact, backward Euler.
 template <class B>
 class Bdf2Step final : public ImplicitStep<B> {
   using Real = typename B::Real;
@@ -83,29 +86,36 @@ class Bdf2Step final : public ImplicitStep<B> {
 
  protected:
   bool step(SolverLevel<B>& level, double time, double h) override {
+    constexpr double most_growth = 2.0 + 1e-9;  // of a step
     start_.copy(level.exec(), level.state);
-    started_ = last_step_ == h;
-    const bool solved = started_          ? formula(level, time, h, {.span = h})
-                        : level.contact() ? euler(level, time, h)
-                                          : first(level, time, h / 2);
+    const double growth = last_step_ > 0 ? h / last_step_ : 0;
+    ratio_ = growth <= most_growth ? growth : 0;
+    return ratio_ > 0        ? formula(level, time, h, ratio_, {.span = h})
+           : level.contact() ? euler(level, time, h)
+                             : first(level, time, h / 2);
+  }
+  void finish(SolverLevel<B>& level, double h) override {
     remember(level);
     last_step_ = h;
-    return solved;
   }
-  /// v = v_n + (v_n - v_{n-1})/3 + 2h/3 a carries a third of the last change of momentum on.
+  /// A part of the last change of momentum is carried on.
   CarriedImpulse impulse(double h) const override {
-    return started_ ? CarriedImpulse{2 * h / 3, 1.0 / 3} : CarriedImpulse{h};
+    return ratio_ > 0 ? CarriedImpulse{implicit_part(ratio_) * h, carried_part(ratio_)} : CarriedImpulse{h};
   }
 
  private:
   State<B> start_, increment_;
   double last_step_ = 0;  // [s]; 0: none
-  bool started_ = false;  // the last step was by the formula
+  double ratio_ = 0;      // of the last step to the one before it; 0: not by the formula
 
-  bool formula(SolverLevel<B>& level, double time, double h, const ContactStage& contact = {}) {
-    const double b = 2 * h / 3;
+  static double carried_part(double ratio) { return ratio * ratio / (1 + 2 * ratio); }
+  static double implicit_part(double ratio) { return (1 + ratio) / (1 + 2 * ratio); }
+
+  bool formula(SolverLevel<B>& level, double time, double h, double ratio, const ContactStage& contact = {}) {
+    const double b = implicit_part(ratio) * h;
     const State<B>& base = this->stages().base();
-    combine<B>(level.exec(), "plica::bdf2_base", Real(1) / 3, increment_, 1, level.state, base);
+    combine<B>(level.exec(), "plica::bdf2_base", static_cast<Real>(carried_part(ratio)), increment_, 1, level.state,
+               base);
     add<B>(level.exec(), "plica::bdf2_drift", static_cast<Real>(b), base.v, base.u);
     return this->stages().solve(level, time, h, {b * b, b}, contact);
   }
@@ -119,9 +129,9 @@ class Bdf2Step final : public ImplicitStep<B> {
   bool first(SolverLevel<B>& level, double time, double h) {
     trapezoidal_base(level, time, h, this->stages().base());
     const bool solved = this->stages().solve(level, time, h, {h * h / 4, h / 2});
-    remember(level);
+    last_step_ = 0, remember(level);  // of the half, also where the step is not accepted
     prescribe(level.exec(), level, level.state, time + h, h);
-    return formula(level, time + h, h) && solved;
+    return formula(level, time + h, h, 1) && solved;
   }
   void remember(const SolverLevel<B>& level) const {
     combine<B>(level.exec(), "plica::bdf2_increment", -1, start_, 1, level.state, increment_);
@@ -165,7 +175,6 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
       update_vertices<B>(exec, "plica::accelerations", n,
                          Accelerations<B>{level.model, level.f, level.state.v, acceleration_});
     }
-    carried_ = true;
     start_.copy(exec, level.state);
     // u = u~ + cu A and v = v~ + cv A at the stage, A = alpha_m a_n + (1 - alpha_m) a_{n+1}
     const double span = (1 - force_) * h, cu = span * h * beta_ / (1 - mass_), cv = span * gamma_ / (1 - mass_);
@@ -185,6 +194,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   }
 
   void finish(SolverLevel<B>& level, double h) override {
+    carried_ = true;
     update_vertices<B>(
         level.exec(), "plica::generalized_alpha_end", level.model.vertices,
         GeneralizedAlphaEnd<B>{start_, this->stages().base(), level.state, acceleration_, static_cast<Real>(h),

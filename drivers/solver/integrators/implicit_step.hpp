@@ -89,10 +89,8 @@ class ImplicitStep : public Integrator<B> {
     ++halvings_;
     stages_.set_misses(misses);
     level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);
-    this->forget();
     attempt(level, time, h / 2, depth + 1, left);
     attempt(level, time + h / 2, h / 2, depth + 1, left);
-    this->forget();
     return true;
   }
 };

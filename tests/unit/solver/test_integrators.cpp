@@ -55,6 +55,34 @@ TEST(Integrators, DampWhatIsTooFastForTheStep) {
   }
 }
 
+/// Where a clamped beam that starts stretched is after steps that grow and shrink as halved ones do; `parts` of each.
+std::vector<Point> after_changing_steps(const std::string& integrator, int parts) {
+  Problem p = body_of({jittered_box(beam_box, {4, 2, 2})}, "neo_hookean");
+  p.body.fixed = {left_face()};
+  p.integration.integrator = {integrator}, p.integration.macro_step = 4e-3;
+  p.integration.implicit.newton_tolerance = 1e-10, p.integration.implicit.relative_residual = 1e-12;
+  LevelProbe<Host> probe(p);
+  SolverLevel<Host>& level = probe.at(0);
+  auto u = p.body.levels[0].vertices;
+  for (Point& x : u) x = {0.02 * x[0], 0.05 * x[0], 0};
+  level.state = {device_field<Host>(u), device_field<Host>(probe.zero())};
+  double time = 0;
+  for (const double factor : {1.0, 0.5, 0.5, 1.0, 2.0, 1.0, 0.25, 0.25, 0.5, 1.0, 2.0}) {
+    const double h = factor * 4e-3 / parts;
+    level.integrator->advance(level, time, h, parts), time += parts * h;
+  }
+  return to_host<Host>({}, level.state.u);
+}
+
+TEST(Integrators, Bdf2HasOrderTwoInStepsThatChange) {
+  const auto exact = after_changing_steps("bdf2", 128);
+  const double coarse = largest_difference(after_changing_steps("bdf2", 4), exact),
+               fine = largest_difference(after_changing_steps("bdf2", 8), exact),
+               finer = largest_difference(after_changing_steps("bdf2", 16), exact);
+  EXPECT_GT(std::log2(coarse / fine), 1.5);
+  EXPECT_GT(std::log2(fine / finer), 1.7);
+}
+
 TEST(Integrators, FollowGivenMotionExactly) {
   for (const std::string& integrator : names(integrators())) {
     Problem p = small_cube("linear", 2);
