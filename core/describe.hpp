@@ -284,8 +284,6 @@ void describe(V& v, ImplicitOptions& o) {
     "part of the forces that a stage may leave unbalanced; auto: 0.003, or 1e-6 where the integrator conserves energy");
   v("newton_residual", o.newton_residual, Quantity{force, not_negative}, "or, if that is less strict, this residual");
   v("tangent", o.tangent, Name{"tangent", tangents}, "of the elements, that linear systems are made of");
-  v("unfinished", o.unfinished, Name{"outcome", newton_outcomes}, "of a step that Newton's method does not solve");
-  v("halvings", o.halvings, Count{1, 20}, "of such a step, at most, with halve; the shortest are accepted");
   v("rho_infinity", o.rho_infinity, AutoQuantity{{plain, zero_to_one}},
     "of generalized_alpha: the part of the fastest motion that is left after a step; auto: 0.8, with contact 0");
 }
@@ -300,8 +298,12 @@ void describe(V& v, HimOptions& o) {
 }
 
 template <class V>
-void describe(V& v, RetryOptions& o) {
-  v("halvings", o.halvings, Count{0, 10}, "of a macro step that does not pass its checks; 0: the run ends there");
+void describe(V& v, FailureOptions& o) {
+  v("halvings", o.halvings, AutoCount{0, 10, FailureOptions::automatic},
+    "of a macro step that fails, at most; auto: 6 where Newton's method judges it; explicit sub-steps and him shorten "
+    "their own");
+  v("unsolved", o.unsolved, Name{"outcome", unsolved_outcomes},
+    "of the shortest part that Newton's method does not solve");
 }
 
 /// What variants of a study may change too; theirs are optional.
@@ -330,7 +332,7 @@ void describe(V& v, IntegrationOptions& o) {
   v("relaxation", o.relaxation, Name{"rule", relaxation_rules}, "how the stresses of body.material.prony go on");
   v("implicit", o.implicit, Group{}, "how implicit levels are solved");
   v("him", o.him, Group{}, "of the cycle him");
-  v("retry", o.retry, Group{}, "of bad macro steps, by halves");
+  v("on_failure", o.on_failure, Group{}, "of a macro step: halved, and longer again once it is calm");
 }
 
 /// But for the body, its integration and contact.

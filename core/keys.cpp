@@ -148,7 +148,7 @@ void Count::check(const std::string& path, int value) const {
 }
 
 void AutoCount::check(const std::string& path, int value) const {
-  if (value != 0 && value < min) refuse(path, shown(value), expects());
+  if (value != automatic && (value < min || value > max)) refuse(path, shown(value), expects());
 }
 
 std::string Counts::shown(const std::array<int, 3>& value) const {

@@ -38,7 +38,7 @@ std::vector<Choice> linear_solver_choices();   ///< of implicit levels, and auto
 std::vector<Choice> preconditioner_choices();  ///< of conjugate gradients, and auto
 std::vector<Choice> matrix_choices();          ///< of linear systems, and auto
 std::vector<Choice> tangents();                ///< of the elements, in their systems
-std::vector<Choice> newton_outcomes();         ///< of steps that Newton's method does not solve
+std::vector<Choice> unsolved_outcomes();       ///< of steps that Newton's method does not solve
 
 }  // namespace plica
 
@@ -131,11 +131,13 @@ struct Count {
   void check(const std::string& path, int value) const;
 };
 
-/// A whole number >= 1, or `auto`, which is 0.
+/// A whole number, or `auto`, which is another one.
 struct AutoCount {
   int min = 1;
-  std::string expects() const { return "a whole number >= " + std::to_string(min) + ", or auto"; }
-  std::string shown(int value) const { return value == 0 ? "auto" : std::to_string(value); }
+  int max = std::numeric_limits<int>::max();
+  int automatic = 0;
+  std::string expects() const { return Count{min, max}.expects() + ", or auto"; }
+  std::string shown(int value) const { return value == automatic ? "auto" : std::to_string(value); }
   void check(const std::string& path, int value) const;
 };
 

@@ -187,9 +187,6 @@ struct ImplicitOptions {
   std::optional<double> newton_tolerance = {};  ///< part of the forces that may be unbalanced; none: see StageSolver
   double newton_residual = 0;                   ///< or below this [N]
   std::string tangent = "auto";                 ///< of tangents()
-  std::string unfinished =
-      "halve";       ///< of newton_outcomes(): what becomes of a step that Newton's method did not solve
-  int halvings = 6;  ///< of a step, at most, with `halve`
   /// Of generalized_alpha: what is left of the fastest modes after a step; none: see rho_infinity().
   std::optional<double> rho_infinity = {};
 };
@@ -201,9 +198,12 @@ struct HimOptions {
   bool smoothing = true;              ///< of its transfers
 };
 
-/// What becomes of a macro step that does not pass its checks.
-struct RetryOptions {
-  int halvings = 0;  ///< it is halved at most so often, each half again where it is bad too; 0: the run ends
+/// What becomes of a macro step that does not pass its checks, or that Newton's method does not solve.
+struct FailureOptions {
+  static constexpr int automatic = -1;
+  int halvings =
+      automatic;  ///< at most, of a macro step; automatic: see most_halvings(); 0: none, and nothing is repaired
+  std::string unsolved = "accept";  ///< of unsolved_outcomes(): what becomes of the shortest part that is not solved
 };
 
 /// How a body is stepped in time.
@@ -233,7 +233,7 @@ struct IntegrationOptions {
   std::string relaxation = "exponential";                      ///< of relaxation_rules(): how Prony series go on
   ImplicitOptions implicit;                                    ///< of implicit levels
   HimOptions him;                                              ///< of the hierarchical inverse mass
-  RetryOptions retry;                                          ///< of a bad macro step
+  FailureOptions on_failure;                                   ///< of a bad macro step
 };
 
 /// Points of one of several bodies, held by springs without length to the places on another one's surface that they start nearest to.

@@ -61,7 +61,7 @@ class EnergyBudget {
     return text("energy: at ", number(at_, 4), " s the body had ", number(surplus_, 3), " J that nobody put in, ",
                 number(growth(), 3),
                 " of all that was put in: its motion from there on is not to be trusted; expected a shorter "
-                "integration.macro_step, integration.retry, or cycle: single with integrator: symplectic_euler");
+                "integration.macro_step, integration.on_failure, or cycle: single with integrator: symplectic_euler");
   }
 
  private:
@@ -84,7 +84,7 @@ class ObstacleWork {
   /// After every macro step.
   void step(const Simulation<B>& simulation) {
     if (moving_.empty()) return;
-    for (const char* again : {"halvings", "inertia_refits", "substep_halvings"})
+    for (const char* again : {"inertia_refits", "substep_halvings"})
       if (const auto counters = simulation.counters(); counters.contains(again))
         known_ = known_ && counters.at(again) == 0;
     const std::vector<Wrench> wrenches = simulation.wrenches();

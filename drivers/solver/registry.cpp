@@ -87,10 +87,8 @@ std::vector<Choice> tangents() {
           {"auto", "exact; projected where Newton's method finds that the body softens"}};
 }
 
-std::vector<Choice> newton_outcomes() {
-  return {{"accept", "goes on, and counts it (newton_misses)"},
-          {"halve", "repeats it in two halves as long as that reduces the residual, then as accept"},
-          {"stop", "ends the run: kind solver"}};
+std::vector<Choice> unsolved_outcomes() {
+  return {{"accept", "goes on, and counts it (newton_misses)"}, {"stop", "ends the run: kind solver"}};
 }
 
 bool uses_coarse_levels(std::string_view cycle) { return stepper_needs(cycle).coarse_meshes; }
@@ -129,6 +127,17 @@ int newton_iterations(const ImplicitOptions& options, std::string_view integrato
     fixed = fixed || requires { member.linear_solver; };
   });
   return fixed && !conserves_energy(options, integrator) ? 1 : enough;
+}
+
+int most_halvings(const Problem& problem) {
+  constexpr int enough = 6;
+  const IntegrationOptions& o = problem.integration;
+  if (o.on_failure.halvings != FailureOptions::automatic) return o.on_failure.halvings;
+  const bool touches = !problem.contact.obstacles.empty() || !problem.body.parts.empty() || problem.contact.self;
+  const bool judged = std::ranges::any_of(o.integrator, [&](const std::string& name) {
+    return !is_explicit(name) && (touches || newton_iterations(o.implicit, name) > 1);
+  });
+  return judged ? enough : 0;
 }
 
 double rho_infinity(const ImplicitOptions& options, bool contact) {

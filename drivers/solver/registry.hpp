@@ -27,6 +27,9 @@ std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 /// Whether that integrator is explicit; true for a name it does not know.
 bool is_explicit(std::string_view integrator);
 
+/// How often a macro step that fails is halved, at most: what the options say, and where they leave it open, 6 where Newton's method judges
+/// the steps of a level, else 0.
+int most_halvings(const Problem& problem);
 /// Whether that integrator conserves energy on the linear problem. What a step then leaves unsolved is energy lost or won.
 bool conserves_energy(const ImplicitOptions& options, std::string_view integrator);
 /// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 20; but 1 where a

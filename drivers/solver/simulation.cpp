@@ -36,6 +36,7 @@
 #include <plica/drivers/solver/move_obstacles.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 #include <plica/drivers/solver/turning.hpp>
 
@@ -71,7 +72,8 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
       built(build_hierarchy<B>(problem, exec)),
       queue(exec),
       meter(*built.hierarchy, built.meshes.front(), p.gravity),
-      motions(p.contact) {
+      motions(p.contact),
+      control(most_halvings(problem)) {
   check_couplings(p.contact, built.macro_step);
   problem.body.levels.clear();
   rest.resize(built.hierarchy->levels.size());
@@ -82,6 +84,10 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   if (const std::size_t count = wrench_names(p).size(); count > 0)
     wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
   if (const Contact<B>* contact = hierarchy()[0].contact()) memory = contact->memory();
+  judges = std::ranges::any_of(hierarchy().levels, [](const auto& level) { return level.integrator->judges(); });
+  if (control.halves()) part_start.emplace();
+  if (control.halves() && wrench.extent(0) > 0)
+    wrench_sum = zeros<Doubles<B>>("plica::contact.wrench_sum", wrench.extent(0));
   linear = !find_material(p.body.material.model)->rotation_invariant;
   keep_anew();
   open_budget();
@@ -96,7 +102,10 @@ void Simulation<B>::step() {
   const Kokkos::Timer timer;
   const bool part = s.reaches_end();  // a short step's mean force wavers: the last whole one's stays
   if (part) copy_memory(s.hierarchy().exec(), s.wrench, s.wrench_before);
-  s.advance(s.time, s.next_span());
+  if (s.control.halves() && (s.judges || s.control.divides()))
+    s.cover(false);
+  else
+    s.advance(s.time, s.next_span()), s.unsolved += s.left_unsolved() > 0 ? 1 : 0;
   if (part) copy_memory(s.hierarchy().exec(), s.wrench_before, s.wrench);
   s.arrive();
   if (!s.cores) return;
@@ -181,7 +190,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
 /// The first that does not hold. `motion`: the furthest that a vertex came in a sub-step, against the body, over its edge.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now, double motion) {
-  if (retries()) look_at_end();
+  if (control.halves()) look_at_end();
   if (auto inverted = find_inverted<B>(built)) return inverted->motion_over_edge = motion, inverted;
   const Energies& e = now.energies;
   if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential)) return failure("non_finite");
@@ -197,7 +206,8 @@ std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport&
   const LevelReport& finest = built.reports.front();
   const double edge_speed = least_edge * finest.mean_edge / built.macro_step;
   const double allowed = 2 * put_in + 0.5 * finest.mass * edge_speed * edge_speed;
-  const bool stores = retries() && !is_viscous(problem.body);  // else the elastic energy is not all there
+  // else the elastic energy is not all there, or is as much as a step that lowers its potential lets it be
+  const bool stores = control.halves() && !judges && !is_viscous(problem.body);
   if (budget_known && e.kinetic + (stores ? meter.all(time).elastic : 0) > allowed) return failure("energy", motion);
   // An explicit sub-step is about the time that sound takes across half an element. What leaves the body as a whole by more
   // than an edge in it is faster than sound: elements there are passed through within a step, whatever the forces say.

@@ -155,13 +155,13 @@ class Simulation {
   /// Why the run must stop, if it must: non-finite values, inverted elements where they are not allowed, more kinetic energy
   /// than was put in, a vertex that leaves the body by more than its edge in one explicit sub-step, a surface point deeper in
   /// an obstacle than the body is large, a solver that gave up, a stepper that has lost its stability. Waits. Examines the state
-  /// there is: with integration.retry also level 0's elements (one or two passes more). Cheap enough to be called after
+  /// there is: with integration.on_failure.halvings also level 0's elements (one or two passes more). Cheap enough to be called after
   /// every macro step; states that pass are kept from time to time. After one that passes, sub-steps that recover() has cut may be given
   /// back: every hundred macro steps at most it looks whether longer ones are stable, which takes as long as some ten steps.
   std::optional<Diagnosis> check();
 
   /// Repairs a state that did not pass check(), where that is possible: goes back to the last state that was kept and steps again
-  /// to the same time, with the inertia fitted again (cycle him), or in halved steps (integration.retry). External forces are
+  /// to the same time, with the inertia fitted again (cycle him), or in halved steps (integration.on_failure). External forces are
   /// asked for again. Returns the diagnosis of a state that is still bad, which stays as it is; none: the run goes on.
   std::optional<Diagnosis> recover(const Diagnosis& bad);
 
@@ -202,7 +202,7 @@ class Simulation {
   std::map<std::string, double> stages()
       const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
   std::map<std::string, long> counters()
-      const;                      ///< force evaluations, solver iterations, misses, switched vertices ...
+      const;  ///< force evaluations, solver iterations, misses, switched vertices ...
   /// The largest part of its forces that an implicit stage of the last macro step left unbalanced; of a linearly implicit one, the relative
   /// residual of its linear solve.
   double residual() const;

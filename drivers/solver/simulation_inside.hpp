@@ -10,6 +10,7 @@
 #include <plica/drivers/solver/motion_log.hpp>
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/step_control.hpp>
 
 namespace plica {
 
@@ -39,10 +40,11 @@ struct Simulation<B>::Inside {
   double end = std::numeric_limits<double>::infinity();  // no step goes beyond it
   double residual = 0, worst_residual = 0;
 
-  // Of each obstacle, over the last macro step or the part of it that was taken last; where the run ends within one, over the one before
-  Doubles<B> wrench, wrench_before;
+  // Of each obstacle, over the last macro step; where the run ends within one, over the one before; the sum over the parts of one so far
+  Doubles<B> wrench, wrench_before, wrench_sum;
 
   // What checks compare with
+  bool judges = false;           // a level's integrator tells whether it has solved a step
   bool linear = false;           // the material is, in any state
   bool budget_known = false;     // nothing from outside but gravity does work
   bool budget_opens = false;     // anew at the next check: the state has been replaced since
@@ -66,7 +68,9 @@ struct Simulation<B>::Inside {
   std::optional<Kept> older;
   MotionLog<B> motions;  // of obstacles
 
-  long halvings = 0, rejected = 0;  // macro steps and parts of them
+  StepControl control;              // of macro steps that fail
+  long rejected = 0, unsolved = 0;  // parts of macro steps that were taken again; that were taken though not solved
+  std::optional<Kept> part_start;   // where parts are judged
 
   std::optional<SharedCores<B>> cores;  // where it shares them with other work
 
@@ -76,7 +80,7 @@ struct Simulation<B>::Inside {
   const Contact<B>& contact_with(int obstacle) const;               // InputError where there is none of that number
   void hold_now(int obstacle, bool closed);                         // InputError where it has no grasp
   void move(int obstacle, const typename MotionLog<B>::Said& how);  // from now on
-  bool retries() const { return problem.integration.retry.halvings > 0; }
+  double left_unsolved() const;                                     // of the last part: see Integrator::unsolved()
 
   // Steps
   bool reaches_end() const;
@@ -100,9 +104,8 @@ struct Simulation<B>::Inside {
   void open_budget();
 
   // Recovery
+  std::optional<Diagnosis> cover(bool checks);
   std::optional<Diagnosis> retry(const Diagnosis& bad);
-  std::optional<Diagnosis> cover(double time, double span, int left);
-  std::optional<Diagnosis> halves(double time, double span, int left);
 };
 
 }  // namespace plica

@@ -25,7 +25,7 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   Inside& s = *inside_;
   std::optional<Diagnosis> still = bad;
   if (s.built.stepper->repairs(bad) && repair(bad)) still.reset();
-  if (still && s.retries()) still = s.retry(*still);
+  if (still && s.control.halves()) still = s.retry(*still);
   if (!still) s.keep_at_times();
   return still;
 }
@@ -49,44 +49,67 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
   return false;
 }
 
-/// Once more from the last kept state: a macro step that is bad is halved, each half likewise, so often at most. Every macro
-/// step starts whole and ends at its own time. What is left of `bad` where that does not help.
+/// Once more from the last kept state to where it is, in shorter parts. What is left of `bad` where that does not help.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   const double there = time;
   go_back(kept);
-  // Where it was the only step since, it is known to be bad as a whole.
-  const bool known = there <= time + (1 + time_rounding) * next_span();
   ++rejected;
-  std::optional<Diagnosis> still = bad;
+  // Where it was the only step since, it is known to be bad as it was.
+  if (there <= time + (1 + time_rounding) * next_span() && !control.halve()) return bad;
   while (time < there) {
-    const int left = problem.integration.retry.halvings;
-    still = known ? halves(time, next_span(), left) : cover(time, next_span(), left);
-    if (still) return still;
+    if (const auto still = cover(true)) return still;
     arrive();
   }
   return {};
 }
 
-/// A span from `time`, whole, and in halves where that is bad.
+/// What parts of a macro step put together.
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::cover(double from, double span, int left) {
-  Kept before;
-  keep(before);
-  advance(from, span);
-  const auto bad = examine(span / built.macro_step);
-  if (!bad) return {};
-  ++rejected;
-  if (left == 0) return bad;
-  go_back(before);
-  return halves(from, span, left);
+struct AddPart {
+  Doubles<B> part, sum;
+  Changing<B, double> size;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const { sum(i) += *size * part(i); }
+};
+
+/// The next macro step, in parts as the control says. With `checks` each part must pass them all, else only be solved. One that is not solved
+/// is halved as long as that leaves less of it; the shortest is taken as it is.
+template <class B>
+std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const Exec& exec = hierarchy().exec();
+  const double span = next_span();
+  const int numbers = static_cast<int>(wrench_sum.extent(0));
+  double least = all;
+  bool whole = true;
+  fill(exec, wrench_sum, 0.0);
+  for (control.begin(); !control.done();) {
+    const double size = control.size();
+    keep(*part_start);
+    advance(time + control.start() * span, size * span);
+    const double left = left_unsolved();
+    const auto bad = checks ? examine(size * span / built.macro_step) : std::nullopt;
+    if (bad || (left > 0 && left < least)) {
+      if (control.halve()) {
+        ++rejected, least = bad ? all : left;
+        go_back(*part_start);
+        continue;
+      }
+      if (bad) return ++rejected, bad;
+    }
+    least = all, unsolved += left > 0 ? 1 : 0, whole = whole && size == 1;
+    update_vertices<B>(exec, "plica::add_wrenches", numbers, AddPart<B>{wrench, wrench_sum, size});
+    control.pass();
+  }
+  if (!whole) copy_memory(exec, wrench_sum, wrench);
+  return {};
 }
 
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::halves(double from, double span, int left) {
-  ++halvings;
-  if (const auto bad = cover(from, span / 2, left - 1)) return bad;
-  return cover(from + span / 2, span / 2, left - 1);
+double Simulation<B>::Inside::left_unsolved() const {
+  double most = 0;
+  for (const auto& level : built.hierarchy->levels) most = std::max(most, level.integrator->unsolved());
+  return most;
 }
 
 // --- Kept states, and states from outside -----------------------------------------------------------------------------------
@@ -98,7 +121,7 @@ void Simulation<B>::return_to_last_good() {
 
 template <class B>
 void Simulation<B>::Inside::keep_at_times() {
-  if (!retries() && steps - kept.steps < keep_every) return;
+  if (!control.halves() && steps - kept.steps < keep_every) return;
   if (older && kept.steps - older->steps >= long_ago) std::swap(kept, *older);
   keep(kept);
   motions.forget_before(older ? older->time : kept.time);

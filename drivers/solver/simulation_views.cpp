@@ -130,7 +130,9 @@ std::map<std::string, long> Simulation<B>::counters() const {
   }
   if (gathers<Exec>)
     all["launches_in_graphs"] = inside_->queue.in_graphs(), all["launches_alone"] = inside_->queue.alone();
-  if (inside_->retries()) all["halvings"] = inside_->halvings, all["rejected_steps"] = inside_->rejected;
+  const Inside& s = *inside_;
+  if (s.control.halves()) all["step_halvings"] = s.control.halvings(), all["rejected_steps"] = s.rejected;
+  if (all.contains("newton_iterations")) all["newton_misses"] = s.unsolved;
   return all;
 }
 
@@ -245,7 +247,8 @@ void persist(Inside& s, StateArchive<B>& archive) {
   for (double* value :
        {&s.time, &s.origin, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.drift[0], &s.drift[1], &s.drift[2]})
     archive.number(*value);
-  for (long* value : {&s.steps, &s.halvings, &s.rejected}) archive.number(*value);
+  for (long* value : {&s.steps, &s.rejected, &s.unsolved}) archive.number(*value);
+  s.control.persist(archive);
   archive.number(s.budget_opens);
   for (std::size_t i = 0; i < s.kept.levels.size(); ++i)
     s.hierarchy().levels[i].persist(archive, "level " + std::to_string(i) + "'s ");

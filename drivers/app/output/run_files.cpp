@@ -65,19 +65,10 @@ bool has_friction(const ContactOptions& contact) {
   return contact.friction.value_or(0) > 0 || !rubbing_obstacles(contact).empty();
 }
 
-bool may_halve_steps(const Problem& problem) {
-  const IntegrationOptions& o = problem.integration;
-  const bool touches = !problem.contact.obstacles.empty() || !problem.body.parts.empty() || problem.contact.self;
-  return o.cycle != "him" && o.implicit.unfinished == "halve" &&
-         std::ranges::any_of(o.integrator, [&](const std::string& name) {
-           return !is_explicit(name) && (touches || newton_iterations(o.implicit, name) > 1);
-         });
-}
-
 namespace {
 
-std::string history_head(bool retries, const Problem& problem) {
-  std::string all = std::string(history_columns) + (retries ? ",halvings" : "");
+std::string history_head(const Problem& problem) {
+  std::string all(history_columns);
   const auto add = [&](const std::string& name, std::initializer_list<const char*> quantities) {
     for (const char* quantity : quantities)
       for (const char axis : {'x', 'y', 'z'}) all += fmt::format(",{}.{}_{}", name, quantity, axis);
@@ -94,7 +85,7 @@ std::string history_head(bool retries, const Problem& problem) {
   for (std::size_t i = 0; i < problem.body.loads.size(); ++i)
     if (std::holds_alternative<EnclosedVolume>(problem.body.loads[i].load))
       all += fmt::format(",load_{0}.volume,load_{0}.pressure", i);
-  if (may_halve_steps(problem)) all += ",step_halvings";
+  if (most_halvings(problem) > 0) all += ",step_halvings";
   if (has_friction(problem.contact)) all += ",friction_work";
   for (const std::size_t o : rubbing_obstacles(problem.contact))
     all += fmt::format(",{}.slipping", obstacle_name(problem.contact, o));
@@ -103,13 +94,12 @@ std::string history_head(bool retries, const Problem& problem) {
 
 }  // namespace
 
-History::History(const std::filesystem::path& file, std::vector<double> masses, bool retries, const Problem& problem,
+History::History(const std::filesystem::path& file, std::vector<double> masses, const Problem& problem,
                  std::optional<std::uint64_t> kept)
-    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(retries, problem))),
+    : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(problem))),
       masses_(std::move(masses)),
-      retries_(retries),
       tears_(has_strength(problem.contact)),
-      halves_(may_halve_steps(problem)),
+      halves_(most_halvings(problem) > 0),
       rubs_(has_friction(problem.contact)),
       rubbing_(rubbing_obstacles(problem.contact)) {}
 
@@ -128,7 +118,6 @@ void History::write(const Snapshot& s) {
   std::string row = fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", s.time,
                                 e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(),
                                 centre.z(), std::sqrt(max_square), std::sqrt(sum_square / mass));
-  if (retries_) row += fmt::format(",{}", s.halvings);
   const auto add = [&](const Point& p) { row += fmt::format(",{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z()); };
   for (const Wrench& w : s.wrenches) add(w.force), add(w.torque);
   for (const ToolState& t : s.tools) {
@@ -225,8 +214,8 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
       volume_levels_(written_levels(scene)),
       frame_times_(from ? from->frame_times : std::vector<double>{}),
       surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
-      history_(folder / "history.csv", vertex_masses(body_), scene.problem.integration.retry.halvings > 0,
-               scene.problem, from ? std::optional(from->history_bytes) : std::nullopt) {
+      history_(folder / "history.csv", vertex_masses(body_), scene.problem,
+               from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
   for (const int level : volume_levels_) {

@@ -26,13 +26,12 @@ struct Snapshot {
   std::vector<Point> surface, surface_velocities;  ///< of the embedded surface's; empty without one
   std::vector<VolumeSnapshot> volumes;             ///< of the levels that are written
   Energies energies;
-  long halvings = 0;             ///< of macro steps so far
   std::vector<Wrench> wrenches;  ///< of the obstacles, of the macro step that ends here
   std::vector<ToolState> tools;  ///< obstacles with mass
   std::vector<HeldBy> held;      ///< by obstacles that can hold points
   std::vector<CavityState> cavities;
   int torn = 0;                  ///< attached points
-  long step_halvings = 0;        ///< of implicit steps so far
+  long step_halvings = 0;        ///< of macro steps so far
   double friction_work = 0;      ///< so far [J]
   std::vector<double> slipping;  ///< of what touches each obstacle, the part that slips
 };
@@ -44,16 +43,14 @@ long counted_by(const Simulation<B>& simulation, const char* name) {
   const auto found = counters.find(name);
   return found == counters.end() ? 0 : found->second;
 }
-/// Of macro steps so far; 0 where bad ones are not retried.
+/// Of macro steps so far; 0 where those that fail are not halved.
 template <class B>
 long halvings_of(const Simulation<B>& simulation) {
-  return counted_by(simulation, "halvings");
+  return counted_by(simulation, "step_halvings");
 }
 
 /// Whether something rubs: an obstacle, or bodies.
 bool has_friction(const ContactOptions& contact);
-/// Whether implicit steps may be halved: of what has contact, or where Newton's method is asked to.
-bool may_halve_steps(const Problem& problem);
 
 template <class B>
 Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::vector<int>& volumes) {
@@ -64,13 +61,12 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.surface_velocities(),
                     {},
                     simulation.energies(),
-                    halvings_of(simulation),
                     simulation.wrenches(),
                     simulation.tools(),
                     simulation.held(),
                     simulation.cavities(),
                     simulation.torn_attachments(),
-                    counted_by(simulation, "step_halvings"),
+                    halvings_of(simulation),
                     simulation.friction_work(),
                     simulation.slipping()};
   for (const int level : volumes)
@@ -92,7 +88,7 @@ std::vector<double> vertex_masses(const Body& body, int level = 0);
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
-  History(const std::filesystem::path& file, std::vector<double> masses, bool retries, const Problem& problem,
+  History(const std::filesystem::path& file, std::vector<double> masses, const Problem& problem,
           std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
   const GrowingFile& file() const { return file_; }
@@ -100,7 +96,7 @@ class History {
  private:
   GrowingFile file_;
   std::vector<double> masses_;
-  bool retries_, tears_, halves_, rubs_;
+  bool tears_, halves_, rubs_;
   std::vector<std::size_t> rubbing_;  // obstacles with friction
 };
 

@@ -37,7 +37,7 @@ Json schema_of(const Count& kind) {
   if (kind.max < std::numeric_limits<int>::max()) count["maximum"] = kind.max;
   return count;
 }
-Json schema_of(const AutoCount& kind) { return any_of({{{"const", "auto"}}, schema_of(Count{kind.min})}); }
+Json schema_of(const AutoCount& kind) { return any_of({{{"const", "auto"}}, schema_of(Count{kind.min, kind.max})}); }
 Json schema_of(const Counts& kind) { return triple_of(schema_of(Count{kind.min})); }
 Json schema_of(const Flag&) { return {{"type", "boolean"}}; }
 Json schema_of(const Text&) { return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}}; }

@@ -101,8 +101,15 @@ void read(const Value& value, const Count& kind, int& target) {
 }
 
 void read(const Value& value, const AutoCount& kind, int& target) {
-  target = 0;
-  if (value.scalar(kind.expects()) != "auto") read(value, Count{kind.min}, target);
+  target = kind.automatic;
+  if (value.scalar(kind.expects()) == "auto") return;
+  int count = 0;
+  try {
+    read(value, Count{kind.min, kind.max}, count);
+  } catch (const InputError&) {
+    value.mismatch(kind.expects());
+  }
+  target = count;
 }
 
 void read(const Value& value, const Counts& kind, std::array<int, 3>& target) {
@@ -221,11 +228,25 @@ const Tree* Reader::take_alternative(const char* key) {
   return tree;
 }
 
+/// Keys of scenes that are older than the program.
+struct Renamed {
+  std::string_view key, now;
+};
+constexpr std::array<Renamed, 4> renamed_keys{{
+    {"integration.retry", "integration.on_failure"},
+    {"integration.implicit.unfinished", "integration.on_failure: {halvings, unsolved}"},
+    {"integration.implicit.halvings", "integration.on_failure.halvings"},
+    {"integration.implicit.contact_solves", "nothing in its place: contact is solved with the elements"},
+}};
+
 void Reader::unknown(const Tree& entry) const {
   const std::string section = map_.path.empty() ? "" : map_.path + ": ";
   const std::string homes = homes_of(entry.key);
   if (!homes.empty())
     throw InputError(fmt::format("{}unknown key '{}'; it belongs in {}", section, entry.key, homes), entry.key_where);
+  const auto renamed = std::ranges::find(renamed_keys, map_.path + "." + entry.key, &Renamed::key);
+  if (renamed != renamed_keys.end())
+    throw InputError(fmt::format("{}unknown key '{}'; expected {}", section, entry.key, renamed->now), entry.key_where);
   throw InputError(section + unknown_name("key", entry.key, known_), entry.key_where);
 }
 

@@ -120,6 +120,7 @@ InertiaFit fit_step(const StepperSetup<B>& setup, HimParts<B>& parts) {
 template <class B>
 void HimStepper<B>::plan(StepperSetup<B>& setup) {
   if (setup.meshes.size() > 1) expect_small(setup.meshes.back(), setup.meshes.size() - 1);
+  may_repair_ = setup.problem.integration.on_failure.halvings == FailureOptions::automatic;
   HimParts<B> parts = him_parts<B>(setup);
   parts.fit = fit_step<B>(setup, parts);
   take(setup.hierarchy, std::move(parts));

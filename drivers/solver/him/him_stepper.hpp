@@ -160,13 +160,11 @@ class HimStepper final : public Stepper<B> {
     for (int s = 0; s < parts(); ++s) one(h, time + s * t / parts(), t / parts());
   }
 
-  bool can_repair() const override { return true; }
+  bool can_repair() const override { return may_repair_; }
   bool lost_stability(const Hierarchy<B>& h, double) override { return watched(h.exec()) > 0; }
 
   /// An impact strains elements by more than a long step can follow. Where stability is lost fast, energy that nobody put in shows it first.
-  bool repairs(const Diagnosis& bad) const override {
-    return parts_.contact_force.extent(0) > 0 || bad.kind == "energy" || bad.kind == "stability";
-  }
+  bool repairs(const Diagnosis&) const override { return may_repair_; }
 
   bool repair(Hierarchy<B>& h, double t) override;
   void lengthen(Hierarchy<B>& h, double t, long steps) override;
@@ -209,7 +207,7 @@ class HimStepper final : public Stepper<B> {
   ContactForces<B> contact_;  ///< of the last step
   BlockSums<B> blocks_;
   Doubles<B> turned_, sums_, watch_;
-  bool first_ = true;
+  bool first_ = true, may_repair_ = true;
   bool has_momenta_ = true;                // else the next step finds them
   static constexpr int most_halvings = 6;  // of a step
   int halvings_ = 0;

@@ -1,51 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <limits>
+#include <algorithm>
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/drivers/solver/integrators/stage_solver.hpp>
 #include <plica/kernels/contact/wrenches.hpp>
 
 namespace plica {
 
-/// What implicit integrators have in common: they take a step by stages; a step that is not solved is accepted, halved and tried
-/// again, or ends the run.
+/// What implicit integrators have in common: they take a step by stages, and accept it whether it is solved or not. unsolved() says how far
+/// it is not.
 template <class B>
 class ImplicitStep : public Integrator<B> {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
-      : stages_(level, parts),
-        unfinished_(parts.implicit.unfinished),
-        most_halvings_(unfinished_ == "halve" && (parts.contact || parts.implicit.newton_iterations > 1)
-                           ? parts.implicit.halvings
-                           : 0) {
-    for (int i = 0; i < most_halvings_; ++i) before_.emplace_back("implicit.before", level.model.vertices);
-  }
+  ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts) : stages_(level, parts), stops_(parts.stops) {}
 
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     stages_.begin();
-    failed_ = false;
-    for (int s = 0; s < steps && !failed_; ++s)
-      failed_ = !attempt(level, time + s * h, h, 0, std::numeric_limits<double>::infinity());
+    unsolved_ = 0;
+    for (int s = 0; s < steps; ++s) {
+      const double start = time + s * h;
+      level.remember(start);
+      prescribe(level.exec(), level, level.state, start, h);
+      if (!step(level, start, h)) unsolved_ = std::max(unsolved_, stages_.unsolved());
+      accept(level, start, h);
+    }
   }
-  std::string failure() const override { return failed_ ? "Newton's method has not solved a step" : std::string(); }
+  bool judges() const override { return stages_.judges(); }
+  double unsolved() const override { return unsolved_; }
+  std::string failure() const override {
+    return stops_ && unsolved_ > 0 ? "Newton's method has not solved a step" : std::string();
+  }
   double residual() const override { return stages_.residual(); }
-  std::map<std::string, long> counters() const override {
-    std::map<std::string, long> all = stages_.counters();
-    if (most_halvings_ > 0) all["step_halvings"] = halvings_;
-    return all;
-  }
-  std::size_t bytes() const override {
-    std::size_t kept = 0;
-    for (const State<B>& state : before_) kept += 2 * state.u.span() * sizeof(Real);
-    return stages_.bytes() + kept;
-  }
-  void persist(StateArchive<B>& archive) override {
-    archive.number(halvings_);
-    stages_.persist(archive);
-  }
+  std::map<std::string, long> counters() const override { return stages_.counters(); }
+  std::size_t bytes() const override { return stages_.bytes(); }
+  void persist(StateArchive<B>& archive) override { stages_.persist(archive); }
 
  protected:
   /// From `time` over h [s], the level's state at the start being consistent with given motions. False where a stage is not
@@ -59,11 +50,8 @@ class ImplicitStep : public Integrator<B> {
 
  private:
   StageSolver<B> stages_;
-  std::string unfinished_;
-  int most_halvings_;
-  std::vector<State<B>> before_;  ///< of the steps that are being halved
-  long halvings_ = 0;
-  bool failed_ = false;
+  bool stops_;           ///< where a step is not solved, the run ends
+  double unsolved_ = 0;  ///< of the last advance()
 
   void accept(SolverLevel<B>& level, double time, double h) {
     if (level.contact()) level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
@@ -71,27 +59,6 @@ class ImplicitStep : public Integrator<B> {
     prescribe(level.exec(), level, level.state, time + h);
     if (!level.contact()) return;
     level.count_contact(time + h, impulse(h));
-  }
-
-  /// `before`: what was left unsolved of the step that this is a half of. A half that leaves no less is not halved again: it and
-  /// one that is too short to halve are taken as they are, like any step with `accept`. False with `stop` alone.
-  bool attempt(SolverLevel<B>& level, double time, double h, int depth, double before) {
-    const Exec& exec = level.exec();
-    const bool halves = depth < most_halvings_;
-    if (halves) before_[static_cast<std::size_t>(depth)].copy(exec, level.state);
-    const long misses = stages_.misses();
-    level.remember(time);
-    prescribe(exec, level, level.state, time, h);
-    const bool solved = step(level, time, h);
-    if (!solved && unfinished_ == "stop") return false;
-    const double left = stages_.unsolved();
-    if (solved || !halves || !(left < before)) return accept(level, time, h), true;
-    ++halvings_;
-    stages_.set_misses(misses);
-    level.state.copy(exec, before_[static_cast<std::size_t>(depth)]);
-    attempt(level, time, h / 2, depth + 1, left);
-    attempt(level, time + h / 2, h / 2, depth + 1, left);
-    return true;
   }
 };
 

@@ -15,6 +15,7 @@ struct IntegratorParts {
   ImplicitOptions implicit;
   bool contact = false;
   bool may_invert = false;                                               ///< elements of the material
+  bool stops = false;                                                    ///< the run, where a step is not solved
   bool conserves = false;                                                ///< energy, on the linear problem
   double edge = 0;                                                       ///< mean, of the level's mesh [m]
   std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
@@ -33,6 +34,10 @@ class Integrator {
   /// The largest part of its forces that a stage of the last advance() left unbalanced, or the relative residual of its one linear solve; 0
   /// where there are none.
   virtual double residual() const { return 0; }
+  /// Whether it tells what it has not solved.
+  virtual bool judges() const { return false; }
+  /// The largest part of the forces that a step of the last advance() left unbalanced where it was not solved; 0: all were.
+  virtual double unsolved() const { return 0; }
   /// Why the result of the last advance() is not valid, as a sentence for the user; empty where it is.
   virtual std::string failure() const { return {}; }
   /// The state was replaced: what it carries from the steps before does not belong to it.

@@ -71,11 +71,10 @@ class StageSolver {
     return solved;
   }
 
+  /// Whether Newton's method ever looks at what it has not solved.
+  bool judges() const { return result_.extent(0) > 0; }
   /// Of the last stage that Newton's method did not solve: the part of the forces that is unbalanced.
   double unsolved() const { return unsolved_; }
-  /// Stages that were not solved; those of a step that is taken again are taken back.
-  long misses() const { return unfinished_; }
-  void set_misses(long misses) { unfinished_ = misses; }
 
   /// Since begin(): the largest part of its forces that a stage left unbalanced, or the relative residual of its one linear solve.
   double residual() const { return residual_; }
@@ -87,8 +86,7 @@ class StageSolver {
                 {"cg_iterations", iterations_},
                 {"cg_misses", misses_},
                 {"cg_indefinite", indefinite_}});
-    if (iterates() || newtons_ > 0)
-      all.insert({{"newton_iterations", newtons_}, {"newton_misses", unfinished_}, {"line_searches", searches_}});
+    if (iterates() || newtons_ > 0) all.insert({{"newton_iterations", newtons_}, {"line_searches", searches_}});
     if (carries()) all.insert({"pressure_updates", updates_});
     return all;
   }
@@ -97,8 +95,7 @@ class StageSolver {
                                               carrying_.extent(0) + last_carried_.extent(0));
   }
   void persist(StateArchive<B>& archive) {
-    for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &unfinished_, &searches_})
-      archive.number(*count);
+    for (long* count : {&solves_, &iterations_, &misses_, &indefinite_, &newtons_, &searches_}) archive.number(*count);
     archive.number(residual_), archive.number(projecting_);
     if (carries()) archive.number(updates_), archive.number(fresh_), archive.field("the carried pressures", carried_);
     solver_->persist(archive);
@@ -125,7 +122,7 @@ class StageSolver {
       last_carried_;  ///< with room for the pressures, these, and those before the last solve
   BlockSums<B> blocks_;
   Doubles<B> result_;
-  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, unfinished_ = 0, searches_ = 0;
+  long solves_ = 0, iterations_ = 0, misses_ = 0, indefinite_ = 0, newtons_ = 0, searches_ = 0;
   ContactStage contact_;
   long updates_ = 0, fresh_ = 1;  ///< of the carried pressures; whether they are still to be taken from a state
   double residual_ = 0, unsolved_ = 0;
@@ -240,7 +237,6 @@ class StageSolver {
     const double unbalanced = now.residual / std::max(now.forces, 1e-300);
     if (!is_balanced(now, w, 0)) residual_ = std::max(residual_, unbalanced);
     if (once || now.solved || is_balanced(now, w, judged_)) return true;
-    ++unfinished_;
     unsolved_ = unbalanced;
     return false;
   }

@@ -323,10 +323,10 @@ class HierarchyBuilder {
         report.linear_solver = describe(parts);
         return make_linear_solver<B>(parts, level);
       };
-      level.integrator = Kind::template make<B>(
-          level,
-          {implicit, contact_ != nullptr, allows_inversion(problem_.body.material),
-           conserves_energy(implicit, report.integrator), report.mean_edge, make_solver});
+      level.integrator =
+          Kind::template make<B>(level, {implicit, contact_ != nullptr, allows_inversion(problem_.body.material),
+                                         problem_.integration.on_failure.unsolved == "stop",
+                                         conserves_energy(implicit, report.integrator), report.mean_edge, make_solver});
     });
     level.set_forces(elasticity_[i], problem_.gravity, contact_, !report.explicit_integrator);
     if (is_viscous(problem_.body))

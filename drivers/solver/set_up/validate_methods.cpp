@@ -36,9 +36,9 @@ void check_him(const IntegrationOptions& o) {
   if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
 }
 
-void check_retry(const IntegrationOptions& o) {
-  if (o.retry.halvings > 0 && (o.cycle == "him" || o.cycle == "auto"))
-    refuse(o, "retry.halvings", std::to_string(o.retry.halvings),
+void check_failure(const IntegrationOptions& o) {
+  if (o.on_failure.halvings > 0 && (o.cycle == "him" || o.cycle == "auto"))
+    refuse(o, "on_failure.halvings", std::to_string(o.on_failure.halvings),
            o.cycle == "him" ? "fits its inertia to one macro step, and again by itself where stability is lost"
                             : "may choose him, which fits its inertia to one macro step");
 }
@@ -75,19 +75,12 @@ void check_v_cycle(const ImplicitOptions& o) {
   if (o.iterations > 0) refuse("iterations is " + std::to_string(o.iterations), "does not iterate");
 }
 
-void check_implicit(const ImplicitOptions& o, const std::vector<std::string>& integrators) {
+void check_implicit(const ImplicitOptions& o) {
   if (o.solver == "direct") check_direct(o);
   if (o.solver == "v_cycle") check_v_cycle(o);
   if (o.matrix == "free" && o.tangent == "positive")
     throw InputError(
         "integration.implicit.matrix is free, but tangents projected to positive ones are assembled; expected auto");
-  const bool judged = std::ranges::any_of(
-      integrators, [&](const std::string& integrator) { return newton_iterations(o, integrator) > 1; });
-  if (o.unfinished == "stop" && !judged)
-    throw InputError("integration.implicit.unfinished is stop, but newton_iterations is " +
-                     std::string(o.newton_iterations == 0 ? "auto, here 1" : "1") +
-                     ": a linearly implicit step has no residual to judge; expected newton_iterations above 1, or "
-                     "no stop");
 }
 
 }  // namespace
@@ -111,8 +104,8 @@ void validate_methods(const IntegrationOptions& o, std::size_t levels) {
                      "must not be negative or missing; expected clamp");
   check_him(o);
   check_auto(o);
-  check_retry(o);
-  check_implicit(o.implicit, o.integrator);
+  check_failure(o);
+  check_implicit(o.implicit);
 }
 
 }  // namespace plica

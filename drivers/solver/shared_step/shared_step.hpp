@@ -37,8 +37,8 @@ class SharedStep : public Stepper<B> {
     const IntegrationOptions& o = setup.problem.integration;
     safety_ = o.safety;
     const bool is_automatic = std::ranges::all_of(o.substeps, [](int n) { return n == 0; });
-    shortens_ =
-        is_automatic && !o.allow_unstable && o.retry.halvings == 0 && std::ranges::count(is_explicit_, true) > 0;
+    shortens_ = is_automatic && !o.allow_unstable && o.on_failure.halvings == FailureOptions::automatic &&
+                std::ranges::count(is_explicit_, true) > 0;
     allocate(setup.hierarchy);
   }
 

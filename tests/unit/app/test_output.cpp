@@ -186,13 +186,13 @@ TEST(RunFiles, HistoryCountsHeldPoints) {
 // A column more, and only where bad macro steps are retried
 TEST(RunFiles, HistoryCountsHalvings) {
   const TemporaryFolder folder;
-  const Scene scene = scene_of(block, {"integration.retry.halvings=3"});
+  const Scene scene = scene_of(block, {"integration.on_failure.halvings=3"});
   RunFiles files(scene, folder.path());
   Snapshot snapshot = moved(scene, 0.25, {0, 0, 0.5});
-  snapshot.halvings = 12;
+  snapshot.step_halvings = 12;
   files.write(snapshot);
   const std::string text = content_of(folder / "history.csv");
-  EXPECT_NE(text.find("rms_speed,halvings\n"), std::string::npos);
+  EXPECT_NE(text.find("rms_speed,step_halvings\n"), std::string::npos);
   EXPECT_TRUE(text.ends_with(",12\n")) << text;
 }
 
@@ -353,10 +353,10 @@ TEST(LevelsJson, HaveTheStiffestElements) {
 
 TEST(Keys, OfBadStatesAndSteps) {
   const Scene scene = scene_of(sound_scene, {"body.initial.stretch=[1, 0, -1]", "body.material.allow_inversion=true",
-                                             "integration.retry.halvings=3"});
+                                             "integration.on_failure.halvings=3"});
   EXPECT_EQ(scene.problem.body.initial.stretch, Point(1, 0, -1));
   EXPECT_EQ(scene.problem.body.material.allow_inversion, true);
-  EXPECT_EQ(scene.problem.integration.retry.halvings, 3);
+  EXPECT_EQ(scene.problem.integration.on_failure.halvings, 3);
   EXPECT_EQ(scene_of(sound_scene, {"body.initial.random=7"}).problem.body.initial.random, 7);
   EXPECT_FALSE(scene_of(sound_scene).problem.body.material.allow_inversion);
   EXPECT_NE(error_of(sound_scene, {"body.initial.random=seven"}).find("body.initial.random"), std::string::npos);

@@ -144,12 +144,13 @@ TEST_F(Program, DivergedIs3) {
 
 // That the run went on is said only where it did.
 TEST_F(Program, WarnsOfUnsolvedStepsWhereTheRunWentOn) {
-  for (const char* unfinished : {"accept", "stop"}) {
-    const bool stops = unfinished == std::string("stop");
-    const std::string implicit = "{newton_iterations: 2, newton_tolerance: 1e-12, unfinished: ";
+  for (const char* unsolved : {"accept", "stop"}) {
+    const bool stops = unsolved == std::string("stop");
+    const std::string implicit =
+        "{newton_iterations: 2, newton_tolerance: 1e-12}, on_failure: {halvings: 0, unsolved: ";
     const Child run =
         plica({"run", scene, "-o", out, "--force", "--set",
-               "integration={integrator: implicit_euler, macro_step: 20 ms, implicit: " + implicit + unfinished + "}}",
+               "integration={integrator: implicit_euler, macro_step: 20 ms, implicit: " + implicit + unsolved + "}}",
                "--set", "body.initial.angular_velocity=[0, 0, 10]"});
     EXPECT_EQ(run.status, stops ? 3 : 0) << run.errors;
     EXPECT_EQ(summary()["warnings"].dump().find("the run went on") == std::string::npos, stops) << summary();

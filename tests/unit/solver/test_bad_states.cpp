@@ -70,7 +70,7 @@ TEST(BadStates, NewtonTurnsAMirroredBodyBack) {
   p.body.damping.mass = 20;
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 2e-3;
   p.integration.implicit.newton_iterations = 60;
-  p.integration.implicit.unfinished = "halve", p.integration.implicit.halvings = 12;
+  p.integration.on_failure.halvings = 10;
   Simulation<Host> simulation(p);
   const double before = simulation.energies().elastic;
   advance(simulation, 500);
@@ -94,7 +94,7 @@ TYPED_TEST(BadStates, RecoverInMaterialsThatSaySo) {
       p.body.damping.mass = 20;
       p.integration.integrator = {"implicit_euler"};
       p.integration.macro_step = 2e-3;
-      p.integration.retry.halvings = 10;
+      p.integration.on_failure.halvings = 10;
       Simulation<TypeParam> simulation(p);
       const double before = simulation.energies().elastic;
       advance(simulation, 500);
@@ -175,7 +175,7 @@ Problem squashed(int halvings, const std::string& cycle = "single") {
   p.integration.substeps = {1};
   p.integration.macro_step = cycle == "single" ? 5e-3 : 7e-3;
   p.integration.allow_unstable = true;
-  p.integration.retry.halvings = halvings;
+  p.integration.on_failure.halvings = halvings;
   return p;
 }
 
@@ -189,9 +189,9 @@ TYPED_TEST(Retry, GoesOnWhereTheRunWouldEnd) {
   advance(with, 100);
   EXPECT_DOUBLE_EQ(with.time(), 100 * with.macro_step());
   EXPECT_EQ(with.macro_steps(), 100);
-  EXPECT_GT(with.counters().at("halvings"), 0);
-  EXPECT_GE(with.counters().at("rejected_steps"), with.counters().at("halvings"));
-  EXPECT_FALSE(without.counters().contains("halvings"));
+  EXPECT_GT(with.counters().at("step_halvings"), 0);
+  EXPECT_GE(with.counters().at("rejected_steps"), with.counters().at("step_halvings"));
+  EXPECT_FALSE(without.counters().contains("step_halvings"));
 }
 
 TYPED_TEST(Retry, OfAStepThatEndsTheRun) {
@@ -200,7 +200,7 @@ TYPED_TEST(Retry, OfAStepThatEndsTheRun) {
   simulation.end_at(end);
   advance(simulation, 61);
   EXPECT_EQ(simulation.time(), end);
-  EXPECT_GT(simulation.counters().at("halvings"), 0);
+  EXPECT_GT(simulation.counters().at("step_halvings"), 0);
   std::vector<Point> u(simulation.positions().size(), Point::Zero()), v = u;
   simulation.set_state(u, v);
   simulation.end_at(end + 0.25 * simulation.macro_step());
@@ -213,11 +213,11 @@ TYPED_TEST(Retry, IsNotNoticedWhereNothingIsBad) {
     Problem p = squashed(0, cycle);
     p.integration.macro_step = 1e-3;
     Simulation<TypeParam> plain(p);
-    p.integration.retry.halvings = 4;
+    p.integration.on_failure.halvings = 4;
     Simulation<TypeParam> watched(p);
     advance(plain, 15), advance(watched, 15);
     EXPECT_TRUE(same_bits(plain.positions(), watched.positions()));
-    EXPECT_EQ(watched.counters().at("halvings"), 0);
+    EXPECT_EQ(watched.counters().at("step_halvings"), 0);
   }
 }
 
@@ -230,7 +230,7 @@ TYPED_TEST(Retry, GivesUpAtItsLimit) {
   const auto bad = simulation.step_checked();
   ASSERT_TRUE(bad);
   EXPECT_EQ(bad->kind, "non_finite");
-  EXPECT_EQ(simulation.counters().at("halvings"), simulation.counters().at("rejected_steps") - 1);
+  EXPECT_EQ(simulation.counters().at("step_halvings"), simulation.counters().at("rejected_steps") - 1);
 }
 
 TYPED_TEST(Retry, OfCyclesAndOfSeveralStepsAtOnce) {
@@ -255,16 +255,16 @@ TYPED_TEST(Retry, LeavesTheStateToTheCheckAsItIs) {
   for (int n = 0; n < 100 && !bad; ++n) {
     simulation.step();
     const auto x = simulation.positions();
-    const long halvings = simulation.counters().at("halvings");
+    const long halvings = simulation.counters().at("step_halvings");
     bad = simulation.check();
     EXPECT_TRUE(same_bits(simulation.positions(), x));
-    EXPECT_EQ(simulation.counters().at("halvings"), halvings);
+    EXPECT_EQ(simulation.counters().at("step_halvings"), halvings);
   }
   ASSERT_TRUE(bad);
   const long steps = simulation.macro_steps();
   EXPECT_FALSE(simulation.recover(*bad));
   EXPECT_EQ(simulation.macro_steps(), steps);
-  EXPECT_GT(simulation.counters().at("halvings"), 0);
+  EXPECT_GT(simulation.counters().at("step_halvings"), 0);
   EXPECT_FALSE(simulation.check());
 }
 
@@ -280,15 +280,16 @@ TYPED_TEST(Retry, ContinuesBitForBitFromASavedState) {
   EXPECT_EQ(whole.counters(), second.counters());
 }
 
-TEST(RetryOptions, AreChecked) {
+TEST(FailureOptions, AreChecked) {
   const auto refused = [](const Problem& p) { return refusal([&] { Simulation<Host>{p}; }); };
-  EXPECT_NE(refused(squashed(11)).find("integration.retry.halvings is 11; expected a whole number in [0, 10]"),
-            std::string::npos);
-  EXPECT_NE(refused(squashed(-1)).find("integration.retry.halvings"), std::string::npos);
+  EXPECT_NE(
+      refused(squashed(11)).find("integration.on_failure.halvings is 11; expected a whole number in [0, 10], or auto"),
+      std::string::npos);
+  EXPECT_NE(refused(squashed(-2)).find("integration.on_failure.halvings"), std::string::npos);
   for (const char* cycle : {"him", "auto"}) {
     Problem p = squashed(2, cycle);
     p.integration.macro_step.reset(), p.integration.allow_unstable = false;  // which auto does not take either
-    EXPECT_NE(refused(p).find("retry.halvings is 2, but cycle " + std::string(cycle)), std::string::npos) << cycle;
+    EXPECT_NE(refused(p).find("on_failure.halvings is 2, but cycle " + std::string(cycle)), std::string::npos) << cycle;
   }
 }
 

@@ -209,7 +209,7 @@ TEST(ContactBalance, WithoutFrictionThereIsNone) {
 // A macro step that is taken again takes the work of friction back, and a saved state has it.
 TEST(ContactBalance, TheWorkOfFrictionGoesBackWithTheState) {
   Problem p = block(0.5);
-  p.integration.retry.halvings = 2;
+  p.integration.on_failure.halvings = 2;
   Simulation<Host> s(p), other(p);
   advance(s, 100);
   const double work = s.friction_work();

@@ -291,7 +291,7 @@ TEST(Grasp, GoesOnFromASavedState) {
 // Steps that are taken again take hold and let go again.
 TEST(Grasp, GoesBackWithTheState) {
   Problem p = pulled();
-  p.integration.retry.halvings = 3;
+  p.integration.on_failure.halvings = 3;
   Simulation<Host> s(p), other(p);
   for (int round = 0; round < 2; ++round) {  // over the step that closes, then over that which opens
     advance(s, round == 0 ? 20 : 129), advance(other, round == 0 ? 20 : 129);

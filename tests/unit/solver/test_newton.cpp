@@ -3,12 +3,12 @@
 
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/masses.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/kernels/energies.hpp>
 #include <plica/kernels/implicit/stage_kernels.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
-#include <plica/drivers/solver/set_up/masses.hpp>
 
 #include <plica/drivers/study/level_probe.hpp>
 #include "support/backends.hpp"
@@ -67,7 +67,7 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
 TEST(Newton, MeetsItsTolerance) {
   for (const std::string& material : names(materials())) {
     Problem p = hanging(material, 0.05);
-    p.integration.implicit.newton_tolerance = 1e-9, p.integration.implicit.unfinished = "stop";
+    p.integration.implicit.newton_tolerance = 1e-9, p.integration.on_failure = {0, "stop"};
     Simulation<Host> simulation(p);
     advance(simulation, 10);
     EXPECT_EQ(simulation.counters().at("newton_misses"), 0) << material;
@@ -91,7 +91,7 @@ TEST(Newton, HalvesStepsItCannotSolve) {
   p.integration.implicit.newton_tolerance = 1e-6;
   Simulation<Host> solved(p);
   p.integration.implicit.newton_iterations = 2, p.integration.implicit.newton_tolerance = 1e-6;
-  p.integration.implicit.unfinished = "halve", p.integration.implicit.halvings = 8;
+  p.integration.on_failure.halvings = 8;
   Simulation<Host> halved(p);
   advance(solved, 10), advance(halved, 10);
   EXPECT_GT(halved.counters().at("step_halvings"), 0);
@@ -101,7 +101,7 @@ TEST(Newton, HalvesStepsItCannotSolve) {
 }
 
 /// It falls on the ground.
-Problem falling_liver(const std::string& unfinished) {
+Problem falling_liver() {
   Problem p = body_of({read_mesh(PLICA_SOURCE_DIR "/meshes/data/liver_coarse.msh")});
   const double lowest = bounding_box(p.body.levels[0].vertices).min[2];
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
@@ -109,30 +109,30 @@ Problem falling_liver(const std::string& unfinished) {
   p.contact.stiffness_scale = 0.25;
   p.gravity = {0, 0, -9.81};
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.02;
-  p.integration.implicit.newton_iterations = 10, p.integration.implicit.unfinished = unfinished;
+  p.integration.implicit.newton_iterations = 10, p.integration.on_failure.halvings = 0;
   return p;
 }
 
 /// Its first step has no minimum near.
-Problem mirrored(const std::string& unfinished) {
+Problem mirrored(const FailureOptions& on_failure) {
   Problem p = small_cube("corotational");
   p.body.initial.stretch = {-1, 1, 1};
   p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.01;
-  p.integration.implicit.newton_iterations = 10, p.integration.implicit.unfinished = unfinished;
+  p.integration.implicit.newton_iterations = 10, p.integration.on_failure = on_failure;
   return p;
 }
 
 TEST(Newton, HalvingCompletesWhatAcceptingCompletes) {
-  Simulation<Host> accepted(mirrored("accept")), halved(mirrored("halve"));
+  Simulation<Host> accepted(mirrored({0, "accept"})), halved(mirrored({}));
   advance(accepted, 25), advance(halved, 25);
   EXPECT_GT(accepted.counters().at("newton_misses"), 0);
   EXPECT_GT(halved.counters().at("step_halvings"), 0);
-  EXPECT_LE(halved.counters().at("newton_misses"), accepted.counters().at("newton_misses"));
+  EXPECT_FALSE(halved.check());
 }
 
 // A fall that touches ground in steps as long as the impact: contact sets in without a jump, so that every step is solved.
 TEST(Newton, SolvesAnImpact) {
-  Simulation<Host> simulation(falling_liver("accept"));
+  Simulation<Host> simulation(falling_liver());
   advance(simulation, 25);
   EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
   EXPECT_GT(simulation.counters().at("newton_iterations"), 25);
@@ -161,7 +161,7 @@ TEST(Newton, AcceptsNoStepThatExplodes) {
   for (const double step : {0.01, 0.1, 1.0}) {
     Problem p = hanging("neo_hookean", step);
     p.body.element = {"nodal"}, p.body.initial.stretch = {0.6, 1, 1}, p.gravity = {0, 0, -50};
-    p.integration.implicit.newton_iterations = 0, p.integration.implicit.unfinished = "accept";
+    p.integration.implicit.newton_iterations = 0, p.integration.on_failure.halvings = 0;
     Simulation<Host> simulation(p);
     const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
     for (int n = 0; n < 5; ++n) {
@@ -178,7 +178,7 @@ TEST(Newton, AcceptsNoStepThatExplodes) {
 }
 
 TEST(Newton, StoppingEndsTheRun) {
-  Simulation<Host> simulation(mirrored("stop"));
+  Simulation<Host> simulation(mirrored({0, "stop"}));
   std::optional<Diagnosis> bad;
   for (int n = 0; n < 25 && !bad; ++n) simulation.step(), bad = simulation.check();
   ASSERT_TRUE(bad);
@@ -224,7 +224,7 @@ TEST(Newton, LongSwingsKeepTheirEnergy) {
 
 TEST(Newton, RefusesWhatMakesNoSense) {
   Problem p = hanging("linear", 0.01);
-  p.integration.implicit.newton_iterations = 1, p.integration.implicit.unfinished = "stop";
+  p.integration.on_failure.unsolved = "stopp";
   EXPECT_THROW(Simulation<Host>{p}, InputError);
   p = hanging("linear", 0.01), p.integration.implicit.tangent = "positve";
   EXPECT_THROW(Simulation<Host>{p}, InputError);

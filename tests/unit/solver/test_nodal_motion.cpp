@@ -103,7 +103,7 @@ TEST(NodalMotion, MultigridPreconditionsImplicitSteps) {
 TEST(NodalMotion, NewtonsMethodSolvesAStepToItsTolerance) {
   Problem p = sagging_beam();
   p.integration.integrator = {"newmark"}, p.integration.macro_step = 5e-3;
-  p.integration.implicit.unfinished = "stop", p.integration.implicit.relative_residual = 1e-10;
+  p.integration.on_failure = {0, "stop"}, p.integration.implicit.relative_residual = 1e-10;
   Simulation<Host> simulation(p);
   const double start = simulation.energies().total();
   advance(simulation, 40);

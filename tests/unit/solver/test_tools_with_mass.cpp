@@ -95,7 +95,7 @@ TEST(ToolsWithMass, GoOnFromASavedState) {
 // Macro steps that are taken again take the tool back.
 TEST(ToolsWithMass, GoBackWithTheState) {
   Problem p = block_and_tool(0.001, 0.02, 100);
-  p.integration.retry.halvings = 3;
+  p.integration.on_failure.halvings = 3;
   Simulation<Host> s(p), other(p);
   advance(s, 50), advance(other, 50);
   s.step();  // without a check, and so not kept
