@@ -232,7 +232,7 @@ class SimulationOf final : public AnySimulation {
 template <class B>
 std::unique_ptr<AnySimulation> make(std::shared_ptr<const app::Scene> scene) {
   try {
-    return std::make_unique<SimulationOf<B>>(scene, choose_cycle<B>(scene->problem));
+    return std::make_unique<SimulationOf<B>>(scene, choose_cycle<B>(scene->problem, {scene->duration, {}}));
   } catch (const SubstepRefused& error) {
     throw app::located(app::in_input_numbers(error, *scene), scene->source);
   } catch (const InputError& error) {

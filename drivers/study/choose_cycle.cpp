@@ -1,107 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
 #include <cmath>
 #include <plica/core/error.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
-#include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/him/advice.hpp>
 #include <plica/drivers/solver/integrators/list.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
 #include <plica/drivers/solver/steppers.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
+#include <plica/drivers/study/cycle_trial.hpp>
+#include <plica/drivers/study/first_touch.hpp>
 #include <plica/meshes/embedding.hpp>
 
 namespace plica {
 
 namespace {
 
-constexpr int trial_steps = 128;                    // critical steps
-constexpr int trial_quarters = 4;                   // at whose ends states are compared
-constexpr int trial_factors[] = {32, 16, 8, 4, 2};  // macro step over critical step
-constexpr int usual_factor = 8;                     // where nothing moves
-constexpr double no_motion = 1e-12;                 // of the body's size
-constexpr double before_touching = 0.125;           // of a trial: where it starts
-constexpr double most_looking = 400;                // forces of level 0 that the look ahead may cost
+constexpr int trial_steps = 128;            // critical steps
+constexpr int usual_factor = 8;             // macro step over critical step, tried first
+constexpr int longer_factors[] = {16, 32};  // while those before are good
+constexpr int shorter_factors[] = {4, 2};   // until one is good
+constexpr int unseen_factor = 4;            // at most, where contact is to come that the trials do not show
+constexpr double reference_step = 0.45;     // of the critical one; central differences, of order 2
+constexpr int timed_steps = 32;             // of level 0 alone
+constexpr double worth = 20;                // a run is at least so many times what timing it takes
+constexpr double looking_part = 0.05;       // of the run: what looking ahead may take
+constexpr double before_touching = 0.125;   // of a trial: where it starts
+constexpr double clearly_less = 0.9;        // of single's run time: what it may be left for
+constexpr double him_set_ups = 5;           // set-ups of level 0 alone that one of him takes, about ...
+constexpr double him_dense = 2.3e-8;        // ... and this per cube of the coarsest level's vertices [s]
+constexpr double past_the_peak = 0.5;       // of the elastic energy: looking ahead ends there
+constexpr double him_step = 3;              // steps of level 0 alone, about, before one of him has been timed
+constexpr long most_looking = 20000;        // steps of looking ahead, where the run has no end
 
-// A step of him at the shortest macro step costs less than level 0 alone over the same time
-static_assert(him_step_cost / 2 < 1 / 0.9);
+double reference_forces() { return trial_steps / reference_step; }
+// A run of fewer steps is surely shorter than trials that are worth it
+double fewest_steps() { return std::max(worth * timed_steps, reference_forces() / trial_part); }
 
-using Quarters = std::vector<std::vector<Point>>;  // [quarter][vertex], displacements [m]
-
-// Where trials start: from the scene's own start, or from a state of level 0
-struct TrialStart {
-  double time = 0;  // [s]
-  std::vector<Point> u, v;
-};
-
-struct TrialRun {
-  Quarters u;
-  std::string reason;  // why there is none
-};
-
-template <class B>
-TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps, const TrialStart& start,
-                   const typename B::Exec& exec) {
-  const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: a trial of " + integration.cycle);
-  TrialRun run;
-  problem.integration = integration;
-  try {
-    Simulation<B> simulation(problem, exec);
-    if (start.time > 0) simulation.set_state(start.u, start.v), simulation.set_time(start.time);
-    EnergyBudget energy(simulation, problem);
-    ObstacleWork<B> work(simulation, problem);
-    const auto look = [&] {
-      if (EnergyBudget::knows(problem) && work.known())
-        energy.look(simulation.time(), simulation.energies(), work.done());
-    };
-    look();
-    for (int n = 1; n <= steps; ++n) {
-      if (const auto diagnosis = simulation.step_checked()) return {{}, "diverges: " + diagnosis->text()};
-      work.step(simulation);
-      if (n % (steps / trial_quarters) != 0) continue;
-      look();
-      std::vector<Point>& u = run.u.emplace_back(to_host<B>(exec, simulation.displacement()));
-      for (std::size_t a = 0; a < start.u.size(); ++a) u[a] -= start.u[a];
-    }
-    const auto counters = simulation.counters();
-    if (const auto refits = counters.find("inertia_refits"); refits != counters.end() && refits->second > 0)
-      run.reason = "loses its stability: its inertia had to be fitted anew";
-    if (energy.growth() > EnergyBudget::notable) run.reason = "makes energy of nothing: " + energy.warning();
-  } catch (const InputError& error) {
-    run.reason = std::string("refused: ") + error.what();
-  }
-  return run;
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double relative_difference(const Quarters& u, const Quarters& from) {
-  double difference = 0, size = 0;
-  for (std::size_t j = 0; j < from.size(); ++j)
-    for (std::size_t a = 0; a < from[j].size(); ++a) {
-      difference += (u[j][a] - from[j][a]).squaredNorm();
-      size += from[j][a].squaredNorm();
-    }
-  return std::sqrt(difference / size);
+std::string as_percent(double part) { return number(100 * part, 2) + " %"; }
+std::string as_seconds(double time) { return number(time, 2) + " s"; }
+
+std::string too_short(double steps) {
+  return text("the run is short: ", number(std::ceil(steps), 9), " steps of level 0 alone, and trials pay from ",
+              number(std::ceil(fewest_steps()), 9), " on");
 }
 
-bool anything_moves(const Quarters& u, const TetMesh& mesh) {
-  const Box box = bounding_box(mesh.vertices);
-  const double least = no_motion * (box.max - box.min).norm();
-  return std::ranges::any_of(u, [&](const auto& field) {
-    return std::ranges::any_of(field, [&](const Point& p) { return p.norm() > least; });
-  });
-}
-
-IntegrationOptions alone(IntegrationOptions o, const char* integrator, std::optional<double> step) {
+IntegrationOptions stepped(IntegrationOptions o, const char* integrator, std::optional<double> step) {
   o.cycle = "single", o.integrator = {integrator}, o.macro_step = step;
   return o;
 }
 
 /// One of its levels alone.
-Problem only(Problem problem, std::size_t level) {
+Problem only_level(Problem problem, std::size_t level) {
   Body& body = problem.body;
   body.levels = {body.levels[level]};
   if (body.element.size() > 1) body.element = {body.element[level]};
@@ -109,42 +70,24 @@ Problem only(Problem problem, std::size_t level) {
 }
 
 template <class B>
-bool touches(const Simulation<B>& simulation) {
-  return std::ranges::any_of(simulation.wrenches(), [](const Wrench& w) { return w.force.norm() > 0; });
-}
-
-std::string as_percent(double part) { return number(100 * part, 2) + " %"; }
-
-template <class B>
 class CycleTrials {
   using Exec = typename B::Exec;
 
  public:
-  CycleTrials(const Problem& problem, const Exec& exec) : problem_(problem), exec_(exec) {
+  CycleTrials(const Problem& problem, const ChoiceOptions& options, const Simulation<B>& alone, const Exec& exec)
+      : problem_(problem), options_(options), exec_(exec), now_(options.clock ? options.clock : seconds_now) {
+    begun_ = now_();
     choice_.error_class = problem.integration.error_class;
     ErrorClasses::visit(choice_.error_class, [&](auto chosen) { choice_.allowed = decltype(chosen)::error; });
-    const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: level 0 alone");
-    Problem finest = only(problem, 0);
-    finest.integration = alone(problem.integration, SymplecticEuler::name, {});
-    const Simulation<B> simulation(finest, exec);
-    critical_ = simulation.levels().front().critical_step, edge_ = simulation.levels().front().mean_edge;
-    take("single", simulation.macro_step(), "there is no coarser level");
+    critical_ = alone.levels().front().critical_step, edge_ = alone.levels().front().mean_edge;
+    take("single", alone.macro_step(), "there is no coarser level");
+    steps_ = options.duration / alone.macro_step();
   }
 
   CycleChoice all() {
     if (!has_coarse_levels(problem_.integration.cycle, problem_.body)) return std::move(choice_);
-    choice_.duration = trial_steps * critical_;
-    if (has_contact(problem_)) look_ahead();
-    const TrialRun reference = run_reference();
-    if (!reference.reason.empty()) {
-      choice_.reason = "level 0 alone, which is what errors are measured against, " + reference.reason;
-    } else if (!anything_moves(reference.u, problem_.body.levels.front())) {
-      try_unmoved();
-    } else {
-      for (const int factor : trial_factors)
-        if (try_moved(factor, reference.u)) return std::move(choice_);
-      look_at_alone(reference.u);
-    }
+    try_out();
+    if (choice_.single_time > 0) choice_.spent = now_() - begun_;
     return std::move(choice_);
   }
 
@@ -154,121 +97,292 @@ class CycleTrials {
     choice_.macro_step = macro_step, choice_.over_critical = macro_step / critical_;
   }
 
-  // Contact decides which step will do, so trials begin shortly before it. The coarsest level alone, in explicit steps, says when
-  // something first touches; its state there is level 0's. Where it sees nothing, or fails, trials begin at the start
+  void try_out() {
+    if (steps_ < fewest_steps()) return void(choice_.reason = too_short(steps_));
+    time_alone();
+    budget_ = trial_part * choice_.single_time;
+    trials_time_ = reference_forces() * step_time_ + him_set_up() + trial_steps / usual_factor * him_step * step_time_;
+    if (choice_.single_time < worth * (now_() - begun_) || now_() - begun_ + trials_time_ > budget_)
+      return void(choice_.reason =
+                      text("trials would take ", as_seconds(now_() - begun_ + trials_time_), ", more than ",
+                           as_percent(trial_part), " of the run by level 0 alone, ", as_seconds(choice_.single_time)));
+    choice_.duration = trial_steps * critical_;
+    find_start();
+    const TrialRun reference = run_reference();
+    if (!reference.reason.empty())
+      return void(choice_.reason = "level 0 alone, which is what errors are measured against, " + reference.reason);
+    CycleTrial& alone = choice_.trials.emplace_back(
+        CycleTrial{"single", choice_.macro_step, choice_.over_critical, {}, "what the others are measured against"});
+    alone.set_up_time = set_up_time_, alone.step_time = reference.step_time;
+    alone.run_time = run_time_of(alone);
+    budget_ = std::max(budget_, trial_part * alone.run_time);  // what touches or is deformed takes longer than rest
+    try_him(reference);
+    choose();
+  }
+
+  // Also the run's predicted time
+  void time_alone() {
+    const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: level 0 alone is timed");
+    const TrialRun timed =
+        run_trial<B>(level_0_alone(problem_), level_0_alone(problem_).integration, timed_steps, {}, {now_}, exec_);
+    set_up_time_ = timed.set_up_time, step_time_ = timed.step_time;
+    choice_.single_time = set_up_time_ + steps_ * step_time_;
+  }
+
+  double him_set_up() const {
+    if (him_set_up_time_ > 0) return him_set_up_time_;
+    const auto& levels = problem_.body.levels;
+    double coarsest = static_cast<double>(levels.back().vertices.size());
+    if (levels.size() == 1) {  // spaces are made of it
+      const SizeRule rule = has_contact(problem_) ? him_sizes_with_contact : him_sizes;
+      coarsest = std::clamp<double>(rule.last * coarsest, rule.fewest, rule.most);
+    }
+    return him_set_ups * set_up_time_ + him_dense * coarsest * coarsest * coarsest;
+  }
+
+  double run_time_of(const CycleTrial& trial) const {
+    if (!std::isfinite(options_.duration)) return trial.step_time / trial.macro_step;
+    return trial.set_up_time + options_.duration / trial.macro_step * trial.step_time;
+  }
+
+  // Shortly before the first touch, which decides which step will do; else where the body is deformed most
+  void find_start() {
+    touch_ = first_touch(problem_, options_.duration);
+    const std::optional<RigidMotion> rigid = rigid_motion(problem_);
+    const double early = before_touching * choice_.duration;
+    if (rigid && touch_.expected() && touch_.time > early) {
+      const double t = touch_.time - early;
+      const std::size_t vertices = problem_.body.levels.front().vertices.size();
+      start_ = {t, std::vector<Point>(vertices, rigid->displacement_at(t)),
+                std::vector<Point>(vertices, rigid->velocity_at(t))};
+    }
+    if (touch_.expected() ? !touch_.exact : !rigid) look_ahead();
+    choice_.start = start_.time;
+  }
+
   void look_ahead() {
     const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: the coarsest level looks ahead");
-    const std::size_t last = problem_.body.levels.size() - 1;
-    Problem coarsest = only(problem_, last);
-    coarsest.integration = alone(problem_.integration, SymplecticEuler::name, {});
-    const TetMesh &fine = problem_.body.levels.front(), &coarse = problem_.body.levels[last];
-    const double least = before_touching * choice_.duration;
-    const auto most = static_cast<long>(most_looking * static_cast<double>(fine.tets.size()) /
-                                        static_cast<double>(coarse.tets.size()));
+    // what is deformed most is looked for by level 0 itself: between meshes a state gets kinks, which him follows badly
+    const std::size_t last = touch_.expected() ? problem_.body.levels.size() - 1 : 0;
+    Problem coarsest = only_level(problem_, last);
+    coarsest.integration = stepped(problem_.integration, SymplecticEuler::name, {});
+    const double left = std::min(looking_part * choice_.single_time, budget_ - trials_time_ - (now_() - begun_));
+    const double until = now_() + left, early = before_touching * choice_.duration;
     try {
       Simulation<B> simulation(coarsest, exec_);
-      TrialStart before, now;
-      for (long n = 0; n < most; ++n) {
-        if (simulation.step_checked()) return;
-        if (touches(simulation)) {
-          if (before.time > 0) start_ = {before.time, on_level_0(before.u), on_level_0(before.v)};
-          choice_.start = start_.time;
+      simulation.share_cores();
+      if (start_.time > 0) {
+        const std::size_t vertices = coarsest.body.levels.front().vertices.size();
+        simulation.set_state(std::vector<Point>(vertices, start_.u.front()),
+                             std::vector<Point>(vertices, start_.v.front()));
+        simulation.set_time(start_.time);
+      }
+      TrialStart before, now, hardest;
+      double most = 0;
+      for (long n = 0; n < most_looking && simulation.time() < options_.duration && now_() < until; ++n) {
+        if (simulation.step_checked()) break;
+        if (touch_.expected() && (is_pushed(simulation) || simulation.pair_depth() > 0)) {
+          if (before.time > 0) start_ = on_level_0(before);
           return;
         }
-        if (simulation.time() < now.time + least) continue;
+        if (simulation.time() < now.time + early) continue;
         before = std::move(now);
         now = {simulation.time(), to_host<B>(exec_, simulation.displacement()),
                to_host<B>(exec_, simulation.velocity())};
+        const double elastic = simulation.energies().elastic;
+        if (elastic > most) most = elastic, hardest = now;
+        if (!touch_.expected() && elastic < past_the_peak * most) break;
       }
+      if (most > 0 && last == 0 && start_.time == 0) start_ = hardest;
     } catch (const InputError&) {  // of the coarsest mesh alone: what is wrong there is told by whoever uses it
     }
   }
 
-  std::vector<Point> on_level_0(const std::vector<Point>& field) const {
+  TrialStart on_level_0(const TrialStart& coarse) const {
+    if (problem_.body.levels.size() == 1) return coarse;
     const Embedding rows = embed(problem_.body.levels.front().vertices, problem_.body.levels.back(), Outside::clamp);
-    std::vector<Point> values(rows.vertices.size(), Point::Zero());
-    for (std::size_t a = 0; a < values.size(); ++a)
-      for (std::size_t c = 0; c < 4; ++c)
-        values[a] += rows.weights[a][c] * field[static_cast<std::size_t>(rows.vertices[a][c])];
-    return values;
+    const auto fine = [&](const std::vector<Point>& field) {
+      std::vector<Point> values(rows.vertices.size(), Point::Zero());
+      for (std::size_t a = 0; a < values.size(); ++a)
+        for (std::size_t c = 0; c < 4; ++c)
+          values[a] += rows.weights[a][c] * field[static_cast<std::size_t>(rows.vertices[a][c])];
+      return values;
+    };
+    return {coarse.time, fine(coarse.u), fine(coarse.v)};
   }
 
-  // Level 0 in steps of at most this length that hit the quarters; their length
-  std::pair<TrialRun, double> run_alone(const char* integrator, double longest) const {
+  // In steps that hit the quarters
+  TrialRun run_reference() {
     const double quarter = choice_.duration / trial_quarters;
-    const int steps = static_cast<int>(std::ceil(quarter / longest));
-    const double step = quarter / steps;
-    return {run_trial<B>(only(problem_, 0), alone(problem_.integration, integrator, step), trial_quarters * steps,
-                         start_, exec_),
-            step};
-  }
-
-  TrialRun run_reference() const {
-    constexpr double half = 0.5;  // of its limit
-    return run_alone(Rk4::name, half * critical_ * Rk4::limit.radius / SymplecticEuler::limit.radius).first;
-  }
-
-  // Taken whatever its error, which is told
-  void look_at_alone(const Quarters& reference) {
-    choice_.reason = "no longer step is within " + as_percent(choice_.allowed);
-    const auto [run, step] = run_alone(SymplecticEuler::name, choice_.macro_step);
-    CycleTrial& trial = choice_.trials.emplace_back(CycleTrial{"single", step, step / critical_, {}, run.reason});
-    if (run.reason.empty()) trial.error = relative_difference(run.u, reference);
-  }
-
-  TrialRun run_him(int factor) {
-    IntegrationOptions o = problem_.integration;
-    o.cycle = "him", o.macro_step = factor * critical_;
-    TrialRun run;
-    run.reason = too_fast_for_him(problem_, *o.macro_step, edge_);
-    if (run.reason.empty()) run = run_trial<B>(problem_, o, trial_steps / factor, start_, exec_);
-    choice_.trials.push_back({"him", *o.macro_step, static_cast<double>(factor), {}, run.reason});
+    const int steps = static_cast<int>(std::ceil(quarter / (reference_step * critical_)));
+    const IntegrationOptions o = stepped(problem_.integration, CentralDifference::name, quarter / steps);
+    TrialRun run = run_trial<B>(only_level(problem_, 0), o, trial_quarters * steps, start_, {now_}, exec_);
+    const std::optional<RigidMotion> rigid = run.touched ? rigid_motion(problem_) : std::nullopt;
+    for (int j = 1; j <= trial_quarters; ++j)
+      rigid_.push_back(
+          rigid ? Point(rigid->displacement_at(start_.time + j * quarter) - rigid->displacement_at(start_.time))
+                : Point::Zero());
     return run;
   }
 
-  void try_unmoved() {
-    if (run_him(usual_factor).reason.empty()) {
-      choice_.trials.back().reason = "nothing moves in the trial";
-      take("him", choice_.trials.back().macro_step, "nothing moves in the trial, so the usual step is taken");
+  void try_him(const TrialRun& reference) {
+    const bool moves = anything_moves(reference, rigid_, problem_.body.levels.front());
+    const bool unseen = touch_.expected() && !reference.touched;
+    choice_.provisional = unseen || !moves;
+    const TrialRun* from = moves ? &reference : nullptr;
+    if (unseen) {
+      for (const int factor : shorter_factors)
+        if (factor <= unseen_factor && try_factor(factor, from)) return;
+    } else if (try_factor(usual_factor, from)) {
+      for (const int factor : longer_factors)
+        if (!moves || !try_factor(factor, from)) return;
     } else {
-      choice_.reason = "nothing moves in the trial, and the usual step of him cannot be used";
+      for (const int factor : shorter_factors)
+        if (try_factor(factor, from)) return;
     }
   }
 
-  bool try_moved(int factor, const Quarters& reference) {
-    const TrialRun run = run_him(factor);
-    CycleTrial& trial = choice_.trials.back();
-    if (!run.reason.empty()) return false;
-    trial.error = relative_difference(run.u, reference);
-    if (!std::isfinite(*trial.error)) trial.error.reset(), trial.reason = "diverges: a displacement is not finite";
-    if (!trial.error || *trial.error > choice_.allowed) return false;
-    take("him", trial.macro_step, "the longest step within " + as_percent(choice_.allowed));
-    return true;
+  // Not where it cannot gain what it costs. Steps of him take about the same time at any length
+  bool try_factor(int factor, const TrialRun* reference) {
+    if (given_up_) return false;
+    const CycleTrial& alone = choice_.trials.front();
+    const double step_time = him_step_time_ > 0 ? him_step_time_ : him_step * alone.step_time, spent = now_() - begun_;
+    CycleTrial trial{"him", factor * critical_, static_cast<double>(factor), {}, {}, him_set_up(), step_time};
+    double best = alone.run_time;
+    for (const CycleTrial& before : choice_.trials)
+      if (before.error) best = std::min(best, before.run_time);
+    const double gain = best - run_time_of(trial), cost = trial.set_up_time + trial_steps / factor * step_time;
+    const bool pays = std::isfinite(options_.duration) ? gain > cost : gain > 0;
+    if (!pays || spent + cost > budget_) {
+      given_up_ = true;
+      note_ = !pays ? text("; him at ", factor, " x was not tried: it could gain ", as_seconds(std::max(0., gain)))
+                    : text("; him at ", factor, " x was not tried: trials had taken ", as_seconds(spent));
+      return false;
+    }
+    IntegrationOptions o = problem_.integration;
+    o.cycle = "him", o.macro_step = trial.macro_step;
+    TrialRun run;
+    run.reason = too_fast_for_him(problem_, *o.macro_step, edge_);
+    if (run.reason.empty())
+      run = run_trial<B>(problem_, o, trial_steps / factor, start_, {now_, begun_ + budget_}, exec_);
+    if (run.set_up_time > 0) him_set_up_time_ = run.set_up_time;
+    if (run.step_time > 0) him_step_time_ = run.step_time;
+    trial.set_up_time = run.set_up_time, trial.step_time = run.step_time, trial.reason = run.reason;
+    trial.run_time = run.step_time > 0 ? run_time_of(trial) : 0;
+    if (run.reason.empty()) trial.error = reference != nullptr ? trial_error(run, *reference, rigid_) : 0;
+    if (trial.error && !std::isfinite(*trial.error))
+      trial.error.reset(), trial.reason = "diverges: a displacement is not finite";
+    choice_.trials.push_back(trial);
+    return trial.error && *trial.error <= choice_.allowed;
+  }
+
+  void choose() {
+    const CycleTrial& alone = choice_.trials.front();
+    const CycleTrial* best = nullptr;
+    bool within = false;
+    for (const CycleTrial& trial : choice_.trials) {
+      if (!trial.error || *trial.error > choice_.allowed) continue;
+      within = true;
+      if (trial.run_time < (best != nullptr ? best->run_time : clearly_less * alone.run_time)) best = &trial;
+    }
+    if (best == nullptr) {
+      choice_.provisional = false;
+      choice_.reason =
+          (within                       ? "no trial was clearly faster"
+           : choice_.trials.size() == 1 ? "no longer step was tried"
+                                        : "no step tried is known to be within " + as_percent(choice_.allowed)) +
+          note_;
+      return;
+    }
+    // whole steps to the end of the run, so that the one step repeats it
+    const double steps = std::ceil(options_.duration / best->macro_step * (1 - 1e-9));
+    const double macro_step = std::isfinite(steps) ? options_.duration / steps : best->macro_step;
+    std::string reason = "the least run time of those within " + as_percent(choice_.allowed) + note_;
+    if (choice_.provisional)
+      reason += touch_.expected() ? "; provisional: contact with " + touch_.what + " was not seen in the trials"
+                                  : "; provisional: nothing moves in the trials";
+    take(best->cycle, macro_step, reason);
   }
 
   const Problem& problem_;
+  const ChoiceOptions& options_;
   const Exec& exec_;
+  std::function<double()> now_;
+  double begun_ = 0, budget_ = 0, steps_ = 0;
   double critical_ = 0, edge_ = 0;
+  double set_up_time_ = 0, step_time_ = 0;          // of level 0 alone
+  double him_set_up_time_ = 0, him_step_time_ = 0;  // 0: not timed
+  double trials_time_ = 0;                          // of the first ones, about
+  FirstTouch touch_;
   TrialStart start_;
+  std::vector<Point> rigid_;  // what the body is displaced by in any case, at the quarters' ends
+  bool given_up_ = false;
+  std::string note_;
   CycleChoice choice_;
 };
 
 }  // namespace
 
-template <class B>
-std::optional<CycleChoice> choose_cycle(const Problem& problem, const typename B::Exec& exec) {
-  if (problem.integration.cycle != "auto") return {};
-  validate(problem);
-  return CycleTrials<B>(problem, exec).all();
+std::string CycleChoice::keys() const {
+  if (cycle == "single") return "cycle: single, macro_step: auto";
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), macro_step).ptr;
+  return "cycle: " + cycle + ", macro_step: " + std::string(digits.data(), end) + " s";
 }
 
-Problem with_choice(Problem problem, const std::optional<CycleChoice>& choice) {
-  if (choice) problem.integration.cycle = choice->cycle, problem.integration.macro_step = choice->macro_step;
+template <class B>
+std::optional<CycleChoice> choose_cycle(const Problem& problem, const Simulation<B>& alone,
+                                        const ChoiceOptions& options, const typename B::Exec& exec) {
+  if (problem.integration.cycle != "auto") return {};
+  return CycleTrials<B>(problem, options, alone, exec).all();
+}
+
+template <class B>
+std::optional<CycleChoice> choose_cycle(const Problem& problem, const ChoiceOptions& options,
+                                        const typename B::Exec& exec) {
+  if (problem.integration.cycle != "auto") return {};
+  validate(problem);
+  const Simulation<B> alone(level_0_alone(problem), exec);
+  return choose_cycle<B>(problem, alone, options, exec);
+}
+
+std::string trials_ahead(const Problem& problem, double duration, const LevelReport& alone, double macro_step) {
+  if (problem.integration.cycle != "auto") return {};
+  if (!has_coarse_levels("auto", problem.body)) return "a run takes single: there is no coarser level";
+  const double steps = duration / macro_step;
+  if (steps < fewest_steps()) return "a run takes single: " + too_short(steps);
+  const double early = before_touching * trial_steps * alone.critical_step;
+  const FirstTouch touch = first_touch(problem, duration);
+  std::string from = "from the start, or where the body is deformed most";
+  if (rigid_motion(problem)) from = "from the start";
+  if (touch.expected())
+    from = touch.exact ? text("from ", number(std::max(0., touch.time - early), 3), " s on, shortly before ",
+                              touch.what, " is first touched")
+                       : text("shortly before ", touch.what, " is first touched, which is not before ",
+                              number(touch.time, 3), " s");
+  return text("a run times ", timed_steps, " of the ", number(std::ceil(steps), 9),
+              " steps of level 0 alone, and takes single unless trials cost less than ", as_percent(trial_part),
+              " of it; it tries him at ", usual_factor, " critical steps, ",
+              number(usual_factor * alone.critical_step, 3), " s, then at 16 and 32, or at 4 and 2, ", from);
+}
+
+Problem level_0_alone(Problem problem) {
+  if (problem.integration.cycle == "auto") problem.integration.cycle = "single";
   return problem;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) \
-  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>(const Problem&, const Exec&);
+Problem with_choice(Problem problem, const std::optional<CycleChoice>& choice) {
+  if (!choice) return problem;
+  problem.integration.cycle = choice->cycle;
+  if (choice->cycle != "single") problem.integration.macro_step = choice->macro_step;
+  return problem;
+}
+
+#define PLICA_INSTANTIATE(Real, Exec)                                                                         \
+  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>(const Problem&, const ChoiceOptions&, \
+                                                                        const Exec&);                         \
+  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>(                                      \
+      const Problem&, const Simulation<Backend<Real, Exec>>&, const ChoiceOptions&, const Exec&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -8,7 +8,6 @@
 #include <plica/drivers/solver/set_up/build_hierarchy.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/study/choose_cycle.hpp>
 #include <plica/drivers/study/small_motion.hpp>
 #include <random>
 
@@ -17,7 +16,6 @@ namespace plica {
 template <class B>
 Problem about_rest(Problem p, const typename B::Exec& exec) {
   validate(p);
-  p = with_choice(p, choose_cycle<B>(p, exec));
   p.integration.allow_unstable = true;
   const BuiltHierarchy<B> whole = build_hierarchy<B>(p, exec);
   p.integration.macro_step = whole.macro_step;

@@ -8,7 +8,8 @@ namespace plica {
 
 /// The problem of its small motions about rest: every material is `linear`, nothing acts but elasticity and damping, given
 /// motions stand still, mappings never switch, implicit levels solve to 1e-12; at the macro step, the shares and the sub-steps of
-/// the whole problem, also above a limit. InputError where that is refused.
+/// the whole problem, also above a limit. InputError where that is refused, as cycle auto is:
+/// ask choose_cycle() before.
 template <class B>
 Problem about_rest(Problem problem, const typename B::Exec& exec);
 

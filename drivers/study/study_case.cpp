@@ -22,6 +22,7 @@ constexpr const char* coarse_integrator = "symplectic_euler";  // where coarse/L
 constexpr double implicit_factors[] = {16, 4, 64};           // of the finest critical step, the most telling first
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
 constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
+constexpr double him_step_cost = 4;                          // forces of level 0, about: 2.7 to 10 on organs
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
 // The limit of an explicit integrator, undamped; 0 where it has none of this kind
@@ -41,7 +42,8 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   const IntegrationOptions& o = one.integration;
   if (o.cycle != "single" && !integrates_coarse_levels(o.cycle)) {
     const double steps = std::ceil(duration / o.macro_step.value_or(8 * levels[0].critical_step));
-    return levels[0].tets * (him_step_cost * steps + (o.cycle == "auto" ? trial_evaluations : 0));
+    const double alone = std::ceil(duration / (o.safety * levels[0].critical_step));
+    return levels[0].tets * (o.cycle == "auto" ? (1 + trial_part) * alone : him_step_cost * steps);
   }
   const bool alone = o.cycle == "single";
   std::vector<LevelLimits> limits;

@@ -45,7 +45,7 @@ class Measured {
       : options_(options),
         exec_(exec),
         start_(Clock::now()),
-        simulation_(with_choice(problem, choose_cycle<B>(problem, exec)), exec),
+        simulation_(with_choice(problem, choose_cycle<B>(problem, {options.duration, {}}, exec)), exec),
         conserves_(keeps_energy(problem)),
         part_(0, 1 + options.timed_runs) {
     result_.setup_time = since(start_);

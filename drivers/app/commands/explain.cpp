@@ -37,6 +37,7 @@ void check_its_study(const Scene& scene) {
 std::string used_levels(const Scene& scene, std::size_t used) {
   const std::string levels = counted(static_cast<long>(used), "level"), &cycle = scene.problem.integration.cycle;
   const std::size_t given = scene.levels.size();
+  if (cycle == "auto") return fmt::format("{} given", counted(static_cast<long>(given), "level"));
   return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given) : levels;
 }
 
@@ -52,17 +53,22 @@ ExitStatus explain(const SceneArguments& arguments) {
 
 ExitStatus check(const SceneArguments& arguments) {
   try {
-    with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine&, double) {
+    const auto say = [&](const Scene& scene, const auto& simulation, const Machine&, double) {
       check_its_study(scene);
+      const std::string ahead =
+          trials_ahead(scene.problem, scene.duration, simulation.levels().front(), simulation.macro_step());
       if (arguments.json)
         std::cout << json_text({{"scene", scene.file},
                                 {"sound", true},
                                 {"error", nullptr},
                                 {"warnings", scene.warnings},
+                                {"cycle_auto", ahead.empty() ? Json(nullptr) : Json(ahead)},
                                 {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
       else
-        std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size()) << "\n";
-    });
+        std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size()) << "\n"
+                  << (ahead.empty() ? "" : wrapped("cycle auto: " + ahead, 98, "  "));
+    };
+    with_simulation(arguments, say, {false, {}});
   } catch (const InputError& error) {
     if (arguments.json)
       std::cout << json_text({{"scene", arguments.scene.string()},

@@ -160,6 +160,7 @@ Exit status: 0 done, 2 bad input)";
 
 constexpr const char* check_manual =
     R"(Reads the scene and its meshes and sets the simulation up, as a run would, and stops there. Writes no file.
+Of cycle auto it sets up level 0 alone, tries nothing, and says what a run would try.
 
 Examples:
   plica check ball.yaml

@@ -267,10 +267,12 @@ ExitStatus run(const RunArguments& arguments) {
   if (!resumed) checkpoint = new_checkpoint(scene, arguments);
   checkpoint.scene = scene.source;  // with a new duration
   if (every != Interval{}) checkpoint.every = every;
-  return with_simulation(scene, checkpoint.precision, arguments.kokkos, progress,
-                         [&](const Scene&, auto& simulation, const Machine& machine, double set_up_time) {
-                           return simulate(scene, simulation, machine, set_up_time, arguments, checkpoint, watch);
-                         });
+  const CycleAuto made{true, checkpoint.choice};
+  const auto action = [&](const Scene&, auto& simulation, const Machine& machine, double set_up_time) {
+    checkpoint.choice = machine.choice;
+    return simulate(scene, simulation, machine, set_up_time, arguments, checkpoint, watch);
+  };
+  return with_simulation(scene, checkpoint.precision, arguments.kokkos, progress, action, made);
 }
 
 }  // namespace plica::app

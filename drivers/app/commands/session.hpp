@@ -7,6 +7,7 @@
 #include <optional>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
+#include <plica/drivers/solver/set_up/validate.hpp>
 #include <plica/drivers/solver/simulation.hpp>
 #include <plica/drivers/study/choose_cycle.hpp>
 #include <string>
@@ -74,21 +75,36 @@ struct Machine {
   std::optional<CycleChoice> choice = {};  ///< of cycle auto: what it has come to
 };
 
+/// What becomes of cycle auto at a set-up.
+struct CycleAuto {
+  bool trials = true;                      ///< false: level 0 alone, and nothing is tried
+  std::optional<CycleChoice> choice = {};  ///< that was made before: of the run that goes on
+};
+
+/// The simulation of a scene, and what cycle auto has come to.
+template <class B>
+std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, const Scene& scene, const CycleAuto& made) {
+  const Problem& problem = scene.problem;
+  if (problem.integration.cycle != "auto") return simulation.emplace(problem), std::nullopt;
+  validate(problem);
+  std::optional<CycleChoice> choice = made.choice;
+  if (!choice) simulation.emplace(level_0_alone(problem));
+  if (!choice && made.trials) choice = choose_cycle<B>(problem, *simulation, {scene.duration, {}});
+  if (choice && (!simulation || choice->cycle != "single")) simulation.emplace(with_choice(problem, choice));
+  return choice;
+}
+
 /// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `progress` began [s]).
 template <class Action>
 auto with_simulation(const Scene& scene, const std::string& precision, const KokkosArguments& kokkos,
-                     SetUpProgress& progress, const Action& action) {
+                     SetUpProgress& progress, const Action& action, const CycleAuto& made = {}) {
   const KokkosSession session(kokkos);
   progress.listen();
   const auto run = [&]<class B>(std::type_identity<B>) {
     std::optional<CycleChoice> choice;
     std::optional<Simulation<B>> simulation;
     try {
-      choice = choose_cycle<B>(scene.problem);
-      if (choice)
-        simulation.emplace(with_choice(scene.problem, choice));
-      else
-        simulation.emplace(scene.problem);
+      choice = set_up<B>(simulation, scene, made);
     } catch (const SubstepRefused& error) {
       throw located(in_input_numbers(error, scene), scene.source);
     } catch (const InputError& error) {
@@ -109,10 +125,10 @@ Scene loaded(const SceneArguments& arguments, SetUpProgress& progress);
 
 /// The same for that scene.
 template <class Action>
-auto with_simulation(const SceneArguments& arguments, const Action& action) {
+auto with_simulation(const SceneArguments& arguments, const Action& action, const CycleAuto& made = {}) {
   SetUpProgress progress(false);
   const Scene scene = loaded(arguments, progress);
-  return with_simulation(scene, arguments.precision, arguments.kokkos, progress, action);
+  return with_simulation(scene, arguments.precision, arguments.kokkos, progress, action, made);
 }
 
 }  // namespace plica::app

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <plica/core/text.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
+#include <plica/drivers/app/output/cycle_choice.hpp>
 #include <plica/drivers/app/output/write_file.hpp>
 #include <plica/drivers/app/scene/tree.hpp>
 #include <sstream>
@@ -15,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* checkpoint_title = "plica checkpoint ";
-constexpr int version_written = 12;
+constexpr int version_written = 13;
 
 // A path is bytes, JSON is UTF-8: where it is not, the bytes' numbers
 Json path_json(const std::string& path) {
@@ -44,6 +45,7 @@ Json header_of(const Checkpoint& c) {
           {"macro_steps", c.macro_steps},
           {"wall_time", c.wall_time},
           {"stages", c.stages},
+          {"choice", choice_json(c.choice)},
           {"energy", c.energy},
           {"inside_out", c.inside_out},
           {"depth", c.depth},
@@ -64,6 +66,7 @@ Checkpoint checkpoint_of(const Json& json) {
   json.at("macro_steps").get_to(c.macro_steps);
   json.at("wall_time").get_to(c.wall_time);
   json.at("stages").get_to(c.stages);
+  c.choice = choice_of(json.at("choice"));
   json.at("energy").get_to(c.energy);
   json.at("inside_out").get_to(c.inside_out);
   json.at("depth").get_to(c.depth);

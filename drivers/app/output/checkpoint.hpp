@@ -4,6 +4,7 @@
 #include <plica/drivers/app/output/run_files.hpp>
 #include <plica/drivers/app/scene/scene.hpp>
 #include <plica/drivers/solver/simulation.hpp>
+#include <plica/drivers/study/choose_cycle.hpp>
 
 namespace plica::app {
 
@@ -19,6 +20,7 @@ struct Checkpoint {
   long macro_steps = 0;
   double wall_time = 0;                  ///< so far [s]
   std::map<std::string, double> stages;  ///< so far [s]
+  std::optional<CycleChoice> choice;     ///< of cycle auto
   FilesMark files;
   std::vector<double> energy;      ///< of EnergyBudget; then the work of obstacles [J], and 1 where that is known
   std::vector<double> inside_out;  ///< of InsideOut

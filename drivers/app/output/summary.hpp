@@ -64,10 +64,6 @@ nlohmann::ordered_json levels_json(const std::vector<LevelReport>& levels);
 /// The cycle that runs: the scene's, or what auto has come to.
 std::string cycle_name(const Scene& scene, const std::optional<CycleChoice>& choice);
 
-/// What auto has come to, and the trials: a table for people, in 100 columns, and for programs (null: the scene names its cycle).
-std::string choice_text(const CycleChoice& choice);
-nlohmann::ordered_json choice_json(const std::optional<CycleChoice>& choice);
-
 /// What the set-up of a scene decided.
 struct Plan {
   double macro_step = 0;  ///< [s]

@@ -275,33 +275,6 @@ TEST_F(Program, ExplainsTheSpaceForSliversAboveAGivenMesh) {
   EXPECT_EQ(levels[2]["kind"], "mesh");
 }
 
-TEST_F(Program, ExplainsWhatCycleAutoChose) {
-  const std::vector<std::string> sets = {"--set", "integration.cycle=auto", "--set", "integration.macro_step=auto"};
-  const auto with_sets = [&](std::vector<std::string> words) {
-    words.insert(words.end(), sets.begin(), sets.end());
-    return plica(words);
-  };
-  const Child text = with_sets({"explain", scene});
-  ASSERT_EQ(text.status, 0) << text.errors;
-  EXPECT_NE(text.output.find("Cycle auto"), std::string::npos) << text.output;
-  EXPECT_NE(text.output.find("balanced: "), std::string::npos) << text.output;
-  const Json json = Json::parse(with_sets({"explain", scene, "--json"}).output);
-  EXPECT_EQ(json["cycle"], json["choice"]["cycle"]);
-  EXPECT_EQ(json["macro_step"], json["choice"]["macro_step"]);
-  EXPECT_EQ(json["choice"]["error_class"], "balanced");
-  for (const Json& trial : json["choice"]["trials"])
-    EXPECT_TRUE(trial["error"].is_number() || trial["reason"] != "") << trial;
-  EXPECT_TRUE(Json::parse(plica({"explain", scene, "--json"}).output)["choice"].is_null());
-  ASSERT_EQ(with_sets({"run", scene, "-o", out}).status, 0);
-  const Json written = summary();
-  EXPECT_EQ(written["choice"], json["choice"]);
-  EXPECT_EQ(written["cycle"], json["cycle"]);
-  const Child refused = plica({"check", scene, "--set", "integration.cycle=auto"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.errors.find("cycle auto chooses the macro step; leave it out"), std::string::npos)
-      << refused.errors;
-}
-
 TEST_F(Program, ChecksWithoutRunning) {
   EXPECT_EQ(plica({"check", scene}).status, 0);
   EXPECT_EQ(Json::parse(plica({"check", scene, "--json"}).output)["sound"], true);
