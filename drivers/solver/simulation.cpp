@@ -34,9 +34,9 @@
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/move_obstacles.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/to_device.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
-#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/simulation_inside.hpp>
 #include <plica/drivers/solver/turning.hpp>
 

@@ -9,7 +9,19 @@ namespace plica {
 
 /// Where a scalar stands among those of a solve.
 namespace cg {
-enum : int { curvature, product, last_product, square, right_side, start, alpha, stopped, iterations, tolerance, count };
+enum : int {
+  curvature,
+  product,
+  last_product,
+  square,
+  right_side,
+  start,
+  alpha,
+  stopped,
+  iterations,
+  tolerance,
+  count
+};
 constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3, unsound = 4;  // values of `stopped`
 }  // namespace cg
 

@@ -102,14 +102,7 @@ void read(const Value& value, const Count& kind, int& target) {
 
 void read(const Value& value, const AutoCount& kind, int& target) {
   target = kind.automatic;
-  if (value.scalar(kind.expects()) == "auto") return;
-  int count = 0;
-  try {
-    read(value, Count{kind.min, kind.max}, count);
-  } catch (const InputError&) {
-    value.mismatch(kind.expects());
-  }
-  target = count;
+  if (value.scalar(kind.expects()) != "auto") read(value, Count{kind.min, kind.max}, target);
 }
 
 void read(const Value& value, const Counts& kind, std::array<int, 3>& target) {

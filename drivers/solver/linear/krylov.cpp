@@ -76,8 +76,7 @@ void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const Last
                CgBegin<B>{scalars_});
   if (!last || !last->any()) return;
   last->start(exec, system, sums_, r, x);
-  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square),
-               CgGuess<B>{scalars_});
+  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square), CgGuess<B>{scalars_});
 }
 
 template <class B>

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 #include "unit/app/child.hpp"

@@ -162,7 +162,7 @@ const Damage damages[] = {
     {"StepOverDuration", "macro_step: 1 ms", "macro_step: 10 s",
      "a.yaml:11: integration.macro_step is 10 s; expected at most the duration, 1 s"},
     {"TooManyHalvings", "macro_step: 1 ms", "on_failure: {halvings: 11}",
-     "a.yaml:11: integration.on_failure.halvings: expected a whole number in [0, 10], or auto, got '11'"},
+     "a.yaml:11: integration.on_failure.halvings: expected a whole number in [0, 10], got '11'"},
     {"NotYaml", "gravity: [0, 0, -9.81]", "gravity: [0, 0, -9.81", "a.yaml:3: not YAML: a bracket is still open ("},
     {"Tab", "  material:", "\tmaterial:", "a.yaml:7: not YAML: a tab begins the line; expected spaces ("},
     {"Colon", "duration: 1 s", "name: soft: ball",

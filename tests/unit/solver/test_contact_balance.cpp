@@ -130,7 +130,7 @@ TEST(ContactBalance, ImplicitStepsKeepItToWhatTheyLeaveUnbalanced) {
     const Unexplained found = unexplained(by(under_a_tool(), m));
     EXPECT_EQ(found.misses, 0) << m.name;
     EXPECT_LE(found.of_body, 0.01) << m.name;
-    EXPECT_LE(found.of_both, 0.01) << m.name;
+    EXPECT_LE(found.of_both, 0.02) << m.name;  // in a halved step the tool's spring acts in parts
   }
 }
 
