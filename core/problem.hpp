@@ -201,9 +201,8 @@ struct HimOptions {
 /// What becomes of a macro step that does not pass its checks, or that Newton's method does not solve.
 struct FailureOptions {
   static constexpr int automatic = -1;  ///< left to most_halvings()
-  int halvings =
-      automatic;  ///< at most, of a macro step; automatic: see most_halvings(); 0: none, and nothing is repaired
-  std::string unsolved = "accept";  ///< of unsolved_outcomes(): what becomes of the shortest part that is not solved
+  int halvings = automatic;             ///< at most, of a macro step; 0: none, and nothing is repaired
+  std::string unsolved = "accept";      ///< of unsolved_outcomes(): of the shortest part that is not solved
 };
 
 /// How a body is stepped in time.

@@ -50,8 +50,7 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
   else if (report.explicit_integrator)
     d.remedy =
         "a smaller macro_step, or integration.on_failure.halvings: the critical step is that of the body at rest, and "
-        "large "
-        "strain stiffens it";
+        "large strain stiffens it";
   else
     d.remedy = "a smaller macro_step, or more of integration.on_failure.halvings";
   if (d.kind == "inverted")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/courses.hpp>
 #include <plica/drivers/solver/hierarchy.hpp>
@@ -69,6 +70,14 @@ class EnergyBudget {
   double start_ = 0, put_in_, surplus_ = 0, at_ = 0;
 };
 
+/// How often a stepper has cut its own steps, of a simulation's counters.
+inline long cuts_of(const std::map<std::string, long>& counters) {
+  long cuts = 0;
+  for (const char* name : {"inertia_refits", "substep_halvings"})
+    if (const auto found = counters.find(name); found != counters.end()) cuts += found->second;
+  return cuts;
+}
+
 /// The work that moving obstacles have done on a body [J], added up over its macro steps.
 template <class B>
 class ObstacleWork {
@@ -84,9 +93,7 @@ class ObstacleWork {
   /// After every macro step.
   void step(const Simulation<B>& simulation) {
     if (moving_.empty()) return;
-    for (const char* again : {"inertia_refits", "substep_halvings"})
-      if (const auto counters = simulation.counters(); counters.contains(again))
-        known_ = known_ && counters.at(again) == 0;
+    known_ = known_ && cuts_of(simulation.counters()) == 0;
     const std::vector<Wrench> wrenches = simulation.wrenches();
     const std::vector<ToolState> tools = simulation.tools();
     for (Moving& one : moving_) {

@@ -80,11 +80,9 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
   const Exec& exec = hierarchy().exec();
   const double span = next_span();
   const int numbers = static_cast<int>(wrench_sum.extent(0));
-  double least = all;
-  bool whole = true;
-  fill(exec, wrench_sum, 0.0);
+  double least = all, size = 1;
   for (control.begin(); !control.done();) {
-    const double size = control.size();
+    size = control.size();
     keep(*part_start);
     advance(time + control.start() * span, size * span);
     const double left = left_unsolved();
@@ -97,11 +95,12 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
       }
       if (bad) return ++rejected, bad;
     }
-    least = all, unsolved += left > 0 ? 1 : 0, whole = whole && size == 1;
-    update_vertices<B>(exec, "plica::add_wrenches", numbers, AddPart<B>{wrench, wrench_sum, size});
+    least = all, unsolved += left > 0 ? 1 : 0;
+    if (size < 1 && control.start() == 0) fill(exec, wrench_sum, 0.0);
+    if (size < 1) update_vertices<B>(exec, "plica::add_wrenches", numbers, AddPart<B>{wrench, wrench_sum, size});
     control.pass();
   }
-  if (!whole) copy_memory(exec, wrench_sum, wrench);
+  if (size < 1) copy_memory(exec, wrench_sum, wrench);
   return {};
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/diagnose.hpp>
@@ -19,15 +18,6 @@ double median_of(std::vector<double> times) {
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
   std::ranges::nth_element(times, middle);
   return *middle;
-}
-
-template <class B>
-bool was_cut(const Simulation<B>& simulation) {
-  const auto counters = simulation.counters();
-  return std::ranges::any_of(std::array{"inertia_refits", "halvings", "substep_halvings"}, [&](const char* again) {
-    const auto count = counters.find(again);
-    return count != counters.end() && count->second > 0;
-  });
 }
 
 /// Whether a trial gains energy, where that can be told.
@@ -83,7 +73,8 @@ TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int s
       if (diagnosis) return run.u.clear(), run.reason = "diverges: " + diagnosis->text(), run;
       if (after > clock.deadline && n < steps)
         return run.u.clear(), run.reason = "given up: trials had taken long enough", run;
-      if (was_cut(simulation)) return run.u.clear(), run.reason = "loses its stability: steps had to be cut", run;
+      if (cuts_of(simulation.counters()) > 0)
+        return run.u.clear(), run.reason = "loses its stability: steps had to be cut", run;
       gain.step();
       run.touched = run.touched || is_pushed(simulation);
       if (n % (steps / trial_quarters) != 0) continue;

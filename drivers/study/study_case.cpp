@@ -23,6 +23,7 @@ constexpr double implicit_factors[] = {16, 4, 64};           // of the finest cr
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
 constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
 constexpr double him_step_cost = 4;                          // forces of level 0, about: 2.7 to 10 on organs
+constexpr int usual_iterations = 2;                          // of Newton's method in a stage
 constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
 
 // The limit of an explicit integrator, undamped; 0 where it has none of this kind
@@ -60,7 +61,8 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
       double passes = 1;
       const double factor = plan.share[i] * plan.macro_step / plan.substeps[i] / limits[i].critical_step;
       if (!limits[i].is_explicit)
-        passes += (o.implicit.newton_iterations > 0 ? o.implicit.newton_iterations : 2) *
+        passes += std::min(newton_iterations(o.implicit, limits[i].integrator),
+                           o.implicit.newton_iterations > 0 ? o.implicit.newton_iterations : usual_iterations) *
                   (o.implicit.iterations > 0 ? o.implicit.iterations : 2 + cg_iterations_per_factor * factor);
       each += passes * plan.substeps[i] * limits[i].tets;
     }

@@ -36,17 +36,12 @@ struct Snapshot {
   std::vector<double> slipping;  ///< of what touches each obstacle, the part that slips
 };
 
-/// Of the simulation's counters; 0 where it has no such one.
-template <class B>
-long counted_by(const Simulation<B>& simulation, const char* name) {
-  const auto counters = simulation.counters();
-  const auto found = counters.find(name);
-  return found == counters.end() ? 0 : found->second;
-}
 /// Of macro steps so far; 0 where those that fail are not halved.
 template <class B>
 long halvings_of(const Simulation<B>& simulation) {
-  return counted_by(simulation, "step_halvings");
+  const auto counters = simulation.counters();
+  const auto found = counters.find("step_halvings");
+  return found == counters.end() ? 0 : found->second;
 }
 
 /// Whether something rubs: an obstacle, or bodies.

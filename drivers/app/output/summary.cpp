@@ -10,6 +10,7 @@
 #include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/app/output/terminal.hpp>
 #include <plica/drivers/solver/elements.hpp>
+#include <plica/drivers/solver/energy_meter.hpp>
 #include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/plan_steps.hpp>
 #include <plica/version.hpp>
@@ -197,7 +198,7 @@ static std::string solves_text(std::map<std::string, long> count) {
 
 // "cut 4 times, as the body stiffened, given back 2 times"; empty: never cut
 static std::string cuts_text(std::map<std::string, long> count) {
-  const long cuts = count["substep_halvings"] + count["inertia_refits"], back = count["substeps_regained"];
+  const long cuts = cuts_of(count), back = count["substeps_regained"];
   if (cuts == 0) return "";
   return fmt::format("cut {} as the body stiffened{}", counted(cuts, "time"),
                      back > 0 ? fmt::format(", given back {}", counted(back, "time")) : "");

@@ -225,10 +225,9 @@ const Tree* Reader::take_alternative(const char* key) {
 struct Renamed {
   std::string_view key, now;
 };
-constexpr std::array<Renamed, 4> renamed_keys{{
+constexpr std::array<Renamed, 3> renamed_keys{{
     {"integration.retry", "integration.on_failure"},
     {"integration.implicit.unfinished", "integration.on_failure: {halvings, unsolved}"},
-    {"integration.implicit.halvings", "integration.on_failure.halvings"},
     {"integration.implicit.contact_solves", "nothing in its place: contact is solved with the elements"},
 }};
 
