@@ -52,7 +52,9 @@ void complete(Diagnosis& d, const BuiltHierarchy<B>& built) {
         "a smaller macro_step, or integration.on_failure.halvings: the critical step is that of the body at rest, and "
         "large strain stiffens it";
   else
-    d.remedy = "a smaller macro_step, or more of integration.on_failure.halvings";
+    d.remedy =
+        "a smaller macro_step, integration.implicit.newton_iterations above 1, or more of "
+        "integration.on_failure.halvings";
   if (d.kind == "inverted")
     d.remedy += "; or let elements be inverted (body.material.allow_inversion) in a material that pushes them back (" +
                 recovering_materials() + ")";
