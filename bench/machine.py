@@ -31,6 +31,12 @@ def words():
     return f"{kind}, {cpu['CPU(s)']} cores, {caches}"
 
 
+def revision():
+    """Of the sources, such as 5644515 or 5644515-dirty; "unknown" without git."""
+    found = subprocess.run(["git", "-C", os.path.dirname(__file__), "describe", "--always", "--dirty"], capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
+
+
 def load():
     return os.getloadavg()[0]
 
