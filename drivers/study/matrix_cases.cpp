@@ -61,7 +61,8 @@ struct Method {
 // Implicit integrators by what becomes of fast motion: damped in every step, damped but for slow motion, or kept.
 Method::Kind kind_of(const std::string& implicit_integrator) {
   if (implicit_integrator == "implicit_euler" || implicit_integrator == "v_cycle_euler") return Method::Kind::damped;
-  return implicit_integrator == "bdf2" ? Method::Kind::half_damped : Method::Kind::conserving;
+  const bool half = implicit_integrator == "bdf2" || implicit_integrator == "sdirk2";
+  return half ? Method::Kind::half_damped : Method::Kind::conserving;
 }
 
 template <class Visit>
@@ -139,7 +140,7 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
                                           : stops();
   if (!damped && pierces) return stops();
   if (!damped && body.start == Start::stretched)
-    return either("bdf2 damps slow motion little, so the recoil may have more energy than was put in");
+    return either("it damps slow motion little, so the recoil may have more energy than was put in");
   if (nodal(body) && body.start == Start::stretched)
     return completes();  // tetrahedra turn inside out, their means do not
   const bool crushed = body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;

@@ -33,6 +33,26 @@ struct ExtrapolateState {
   }
 };
 
+/// u~ and v~ of the second stage of sdirk2 from its first: a_1 = (v_1 - v_n)/(c h) - w f, f being contact's forces; `part` is c h, `rest`
+/// (1 - c) h.
+template <class B>
+struct Sdirk2Base {
+  using Real = typename B::Real;
+  VertexModel<B> model;
+  State<B> start, first;
+  Vectors<B> f;
+  State<B> base;
+  Real part, rest;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const {
+    const Real w = model.inverse_mass(i);
+    for (int k = 0; k < 3; ++k) {
+      const Real a = (first.v(i, k) - start.v(i, k)) / part - w * f(i, k);
+      base.v(i, k) = start.v(i, k) + rest * a;
+      base.u(i, k) = start.u(i, k) + rest * first.v(i, k) + part * base.v(i, k);
+    }
+  }
+};
+
 /// From the stage of the generalised alpha method to the step's end; a_n becomes a_{n+1}.
 template <class B>
 struct GeneralizedAlphaEnd {

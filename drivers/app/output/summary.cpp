@@ -204,6 +204,13 @@ static std::string cuts_text(std::map<std::string, long> count) {
                      back > 0 ? fmt::format(", given back {}", counted(back, "time")) : "");
 }
 
+// "halved 5 times where they failed (step_halvings of history.csv)"; empty: never
+static std::string halvings_text(const std::map<std::string, long>& count) {
+  const auto found = count.find("step_halvings");
+  if (found == count.end() || found->second == 0) return "";
+  return fmt::format("halved {} where they failed (step_halvings of history.csv)", counted(found->second, "time"));
+}
+
 std::string unsolved_text(std::map<std::string, long> count) {
   const bool newton = count["newton_iterations"] > 0;  // makes up for linear systems that are not solved
   const long missed = count[newton ? "newton_misses" : "cg_misses"];
@@ -259,6 +266,8 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
       {"to look at", "plica report " + shell_word(folder)}};
   if (const std::string solves = solves_text(s.counters); !solves.empty())
     rows.insert(rows.begin() + 2, {"solving", solves});
+  if (const std::string halved = halvings_text(s.counters); !halved.empty())
+    rows.insert(rows.begin() + 1, {"macro steps", halved});
   if (const std::string cuts = cuts_text(s.counters); !cuts.empty()) rows.insert(rows.begin() + 2, {"sub-steps", cuts});
   if (s.choice) rows.insert(rows.begin() + 1, {"cycle auto", choice_line(*s.choice)});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");

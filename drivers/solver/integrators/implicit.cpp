@@ -210,8 +210,53 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
   double velocity_of_ = 0;                  // of an acceleration in the last stage [s]
 };
 
+/// A singly diagonally implicit Runge-Kutta method of two stages (R. Alexander, SIAM J. Numer. Anal. 14, 1977), c = 1 - 1/sqrt 2:
+///
+///   v_1 = v_n + c h a_1,  v_{n+1} = v_n + (1 - c) h a_1 + c h a_2,  likewise u:
+///
+/// order 2, stable at every step on the linear problem, and fast motion decays (L-stable); it needs no step before. Both stages have one
+/// system. Contact is met in both, and acts on the step at its end alone, as in Newmark's method: a_1 is without it.
+template <class B>
+class Sdirk2Step final : public ImplicitStep<B> {
+  using Real = typename B::Real;
+
+ public:
+  Sdirk2Step(const Level<B>& level, const IntegratorParts<B>& parts)
+      : ImplicitStep<B>(level, parts), start_("sdirk2.start", level.model.vertices) {}
+  std::size_t bytes() const override { return ImplicitStep<B>::bytes() + 2 * start_.u.span() * sizeof(Real); }
+
+ protected:
+  bool step(SolverLevel<B>& level, double time, double h) override {
+    const double part = (1 - std::sqrt(0.5)) * h, rest = h - part;
+    const ImplicitWeights weights{part * part, part};
+    const State<B>& base = this->stages().base();
+    start_.copy(level.exec(), level.state);
+    base.copy(level.exec(), level.state);
+    add<B>(level.exec(), "plica::implicit_euler_base", static_cast<Real>(part), base.v, base.u);
+    const bool first = this->stages().solve(level, time, part, weights, {.span = part});
+    fill(level.exec(), level.f, Real(0));
+    if (level.contact())
+      level.book("contact", [&] {
+        level.response().end_stage(level.exec(), level, level.state);
+        level.response().add_last_forces(level.exec(), level, level.f);
+      });
+    prescribe(level.exec(), level, level.state, time + part, part);
+    update_vertices<B>(level.exec(), "plica::sdirk2_base", level.model.vertices,
+                       Sdirk2Base<B>{level.model, start_, level.state, level.f, base, static_cast<Real>(part),
+                                     static_cast<Real>(rest)});
+    return this->stages().solve(level, time + part, rest, weights, {.span = rest, .factor = h / part}) && first;
+  }
+
+ private:
+  State<B> start_;
+};
+
 }  // namespace
 
+template <class B>
+std::unique_ptr<Integrator<B>> Sdirk2::make(const Level<B>& level, const IntegratorParts<B>& parts) {
+  return std::make_unique<Sdirk2Step<B>>(level, parts);
+}
 template <class B>
 std::unique_ptr<Integrator<B>> ImplicitEuler::make(const Level<B>& level, const IntegratorParts<B>& parts) {
   return std::make_unique<ImplicitEulerStep<B>>(level, parts);
@@ -237,6 +282,7 @@ std::unique_ptr<Integrator<B>> VCycleEuler::make(const Level<B>& level, const In
   PLICA_MAKE_INTEGRATOR(ImplicitEuler, Backend<Real, Exec>)    \
   PLICA_MAKE_INTEGRATOR(Newmark, Backend<Real, Exec>)          \
   PLICA_MAKE_INTEGRATOR(Bdf2, Backend<Real, Exec>)             \
+  PLICA_MAKE_INTEGRATOR(Sdirk2, Backend<Real, Exec>)           \
   PLICA_MAKE_INTEGRATOR(GeneralizedAlpha, Backend<Real, Exec>) \
   PLICA_MAKE_INTEGRATOR(VCycleEuler, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)

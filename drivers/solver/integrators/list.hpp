@@ -113,6 +113,16 @@ struct Bdf2 {
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
+struct Sdirk2 {
+  static constexpr const char* name = "sdirk2";
+  static constexpr const char* summary = "implicit, order 2, two solves a step, fast motion decays; no limit";
+  static constexpr int order = 2;
+  static constexpr bool is_explicit = false;
+  static constexpr StabilityLimit limit{};
+  template <class B>
+  static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
+};
+
 struct GeneralizedAlpha {
   static constexpr const char* name = "generalized_alpha";
   static constexpr const char* summary =
@@ -139,6 +149,6 @@ struct VCycleEuler {
 
 /// Every integrator there is. One more: its entry above, its name here, and its source.
 using Integrators = TypeList<SymplecticEuler, CentralDifference, ForwardEuler, Rk2, Rk4, ImplicitEuler, Newmark, Bdf2,
-                             GeneralizedAlpha, VCycleEuler>;
+                             Sdirk2, GeneralizedAlpha, VCycleEuler>;
 
 }  // namespace plica

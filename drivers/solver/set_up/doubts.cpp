@@ -81,7 +81,7 @@ void doubt_integrator(const Problem& problem, std::vector<std::string>& sentence
     if (std::ranges::count(problem.integration.integrator, name) > 0)
       sentences.push_back(std::string("integration.integrator is ") + name +
                           ": motion where something touches rings on from step to step, and forces of tools alternate; "
-                          "expected bdf2, implicit_euler or an explicit integrator");
+                          "expected bdf2, sdirk2, implicit_euler or an explicit integrator");
 }
 
 }  // namespace

@@ -79,6 +79,7 @@ VerifyRows impact_on_a_plate(const VerifyContext& context) {
                                       {"implicit_euler", 10e-3},
                                       {"bdf2", 5e-3},
                                       {"bdf2", 10e-3},
+                                      {"sdirk2", 5e-3},
                                       {"central_difference"}}) {
     context.proceed();
     const Impact found = impact(method);
@@ -127,6 +128,7 @@ VerifyRows thrown_cube(const VerifyContext& context) {
                                         {"newmark", 5e-3},
                                         {"implicit_euler", 5e-3},
                                         {"bdf2", 5e-3},
+                                        {"sdirk2", 5e-3},
                                         {"generalized_alpha", 5e-3},
                                         {"him"}}) {
       if (context.small && method.name == "implicit_euler") break;
@@ -183,8 +185,11 @@ VerifyRows reactions(const VerifyContext& context) {
     rows[0].add(method.text(), 1, reacting::unexplained(method));
   }
   rows[1].note = "what a step leaves unbalanced, at most 0.003 of the forces there are, is in no force";
-  for (const ContactMethod& method :
-       {ContactMethod{"implicit_euler", 5e-3}, {"newmark", 5e-3}, {"bdf2", 5e-3}, {"generalized_alpha", 5e-3}}) {
+  for (const ContactMethod& method : {ContactMethod{"implicit_euler", 5e-3},
+                                      {"newmark", 5e-3},
+                                      {"bdf2", 5e-3},
+                                      {"sdirk2", 5e-3},
+                                      {"generalized_alpha", 5e-3}}) {
     context.proceed();
     rows[1].add(method.text(), 1, reacting::unexplained(method));
   }

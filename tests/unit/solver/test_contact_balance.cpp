@@ -25,7 +25,8 @@ struct Method {
   double step;       // [s]; 0: automatic
 };
 const std::vector<Method> explicit_methods = {{"symplectic_euler", 0}, {"central_difference", 0}, {"him", 1e-3}},
-                          implicit_methods = {{"implicit_euler", 5e-3}, {"bdf2", 5e-3}, {"newmark", 5e-3}};
+                          implicit_methods = {
+                              {"implicit_euler", 5e-3}, {"bdf2", 5e-3}, {"sdirk2", 5e-3}, {"newmark", 5e-3}};
 
 Problem by(Problem p, const Method& m) {
   if (m.name == "him")
@@ -136,8 +137,11 @@ TEST(ContactBalance, ImplicitStepsKeepItToWhatTheyLeaveUnbalanced) {
 
 // Pressed alone, without friction, an implicit step finds the forces to what its linear solves leave.
 TEST(ContactBalance, ImpulsesAreThoseOfTheMethod) {
-  for (const Method& m :
-       {Method{"implicit_euler", 5e-3}, {"bdf2", 5e-3}, {"newmark", 5e-3}, {"generalized_alpha", 5e-3}}) {
+  for (const Method& m : {Method{"implicit_euler", 5e-3},
+                          {"bdf2", 5e-3},
+                          {"sdirk2", 5e-3},
+                          {"newmark", 5e-3},
+                          {"generalized_alpha", 5e-3}}) {
     Problem p = by(block(), m);
     p.contact.obstacles[0].friction.reset();
     p.body.damping = {};
@@ -162,8 +166,12 @@ TEST(ContactBalance, ImpulsesAreThoseOfTheMethod) {
 
 // On a slope of 30 degrees it is the force along it times the way; on a gentle one the block sticks, and it is next to nothing.
 TEST(ContactBalance, FrictionTakesItsForceTimesTheWay) {
-  for (const Method& m :
-       {Method{"symplectic_euler", 0}, {"rk4", 0}, {"implicit_euler", 5e-3}, {"bdf2", 5e-3}, {"him", 0}}) {
+  for (const Method& m : {Method{"symplectic_euler", 0},
+                          {"rk4", 0},
+                          {"implicit_euler", 5e-3},
+                          {"bdf2", 5e-3},
+                          {"sdirk2", 5e-3},
+                          {"him", 0}}) {
     for (const double angle : {0.5236, 0.1}) {
       Problem p = by(block(angle), m);
       if (m.name == "him" && angle > 0.3)

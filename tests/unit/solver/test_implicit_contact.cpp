@@ -220,8 +220,8 @@ struct Method {
   const char* integrator;
   int newton_iterations;
 };
-constexpr Method methods[] = {
-    {"implicit_euler", 1}, {"implicit_euler", 20}, {"newmark", 20}, {"bdf2", 1}, {"generalized_alpha", 20}};
+constexpr Method methods[] = {{"implicit_euler", 1}, {"implicit_euler", 20}, {"newmark", 20},
+                              {"bdf2", 1},           {"sdirk2", 20},         {"generalized_alpha", 20}};
 
 Point momentum(const Simulation<Host>& s, const std::vector<double>& mass) {
   Point sum = Point::Zero();
@@ -301,7 +301,8 @@ TEST(ImplicitContact, SticksOnASlope) {
     p.integration.macro_step = 5e-3;
     Simulation<Host> s(p);
     while (s.time() < 2) advance(s, 1);
-    EXPECT_LT(largest(s.velocities()), 1e-7);
+    const bool two_stages = m.integrator == std::string("sdirk2");  // what they leave unsolved differs
+    EXPECT_LT(largest(s.velocities()), two_stages ? 1e-6 : 1e-7);
     const double weight = 9.81 * s.levels()[0].mass;
     EXPECT_NEAR(s.wrenches()[0].force[2], std::cos(0.17) * weight, 1e-4 * weight);
     EXPECT_NEAR(s.wrenches()[0].force[0], -std::sin(0.17) * weight, 1e-4 * weight);
@@ -343,7 +344,7 @@ TEST(ImplicitContact, StopsNeedles) {
   const double want = force("auto", "implicit_euler", 1);
   EXPECT_LT(want, -0.3);
   EXPECT_EQ(force("never", "implicit_euler", 1), 0);
-  for (const char* integrator : {"newmark", "bdf2"})
+  for (const char* integrator : {"newmark", "bdf2", "sdirk2"})
     EXPECT_NEAR(force("auto", integrator, 1), want, 0.03 * -want) << integrator;
   EXPECT_NEAR(force("auto", "symplectic_euler", 1), want, 0.03 * -want);
 }

@@ -45,7 +45,7 @@ TEST(Integrators, KeepTheEnergyTheySayTheyKeep) {
 }
 
 TEST(Integrators, DampWhatIsTooFastForTheStep) {
-  for (const char* integrator : {"implicit_euler", "bdf2"})
+  for (const char* integrator : {"implicit_euler", "bdf2", "sdirk2"})
     EXPECT_LT(energy_left(ringing(integrator, 1e4), 4), 1e-8) << integrator;
   for (const double rho : {0.2, 0.5, 0.9}) {
     Problem p = ringing("generalized_alpha", 1e4);
@@ -74,13 +74,15 @@ std::vector<Point> after_changing_steps(const std::string& integrator, int parts
   return to_host<Host>({}, level.state.u);
 }
 
-TEST(Integrators, Bdf2HasOrderTwoInStepsThatChange) {
-  const auto exact = after_changing_steps("bdf2", 128);
-  const double coarse = largest_difference(after_changing_steps("bdf2", 4), exact),
-               fine = largest_difference(after_changing_steps("bdf2", 8), exact),
-               finer = largest_difference(after_changing_steps("bdf2", 16), exact);
-  EXPECT_GT(std::log2(coarse / fine), 1.5);
-  EXPECT_GT(std::log2(fine / finer), 1.7);
+TEST(Integrators, HaveOrderTwoInStepsThatChange) {
+  for (const char* integrator : {"bdf2", "sdirk2"}) {
+    const auto exact = after_changing_steps(integrator, 128);
+    const double coarse = largest_difference(after_changing_steps(integrator, 4), exact),
+                 fine = largest_difference(after_changing_steps(integrator, 8), exact),
+                 finer = largest_difference(after_changing_steps(integrator, 16), exact);
+    EXPECT_GT(std::log2(coarse / fine), 1.5) << integrator;
+    EXPECT_GT(std::log2(fine / finer), 1.7) << integrator;
+  }
 }
 
 TEST(Integrators, FollowGivenMotionExactly) {

@@ -204,7 +204,7 @@ double energy_error(const std::string& integrator, const std::string& material, 
 
 TEST(Newton, IsIteratedWhereASolveIsNoFixedWork) {
   ImplicitOptions options;
-  for (const char* integrator : {"implicit_euler", "bdf2", "newmark", "generalized_alpha"})
+  for (const char* integrator : {"implicit_euler", "bdf2", "sdirk2", "newmark", "generalized_alpha"})
     EXPECT_EQ(newton_iterations(options, integrator), 20) << integrator;
   EXPECT_EQ(newton_iterations(options, "v_cycle_euler"), 1);
   options.iterations = 25;

@@ -64,8 +64,8 @@ Problem stuck(const std::string& method) {
   if (!is_explicit(method) && method != "him") p.integration.macro_step = 5e-3;
   return p;
 }
-const std::vector<std::string> sticking_methods = {"symplectic_euler", "central_difference", "implicit_euler", "bdf2",
-                                                   "him"};
+const std::vector<std::string> sticking_methods = {
+    "symplectic_euler", "central_difference", "implicit_euler", "bdf2", "sdirk2", "him"};
 
 template <class B>
 void run_until_stuck(Simulation<B>& simulation) {
