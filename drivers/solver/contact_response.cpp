@@ -159,6 +159,15 @@ double ContactResponse<B>::energy(const Exec& exec, const Level<B>& level, doubl
 }
 
 template <class B>
+double ContactResponse<B>::energy_found(const Exec& exec, const Level<B>& level, const State<B>& state, double time) {
+  keep(exec, aside_);
+  find(exec, level, state, time);
+  const double found = energy(exec, level, time);
+  put_back(exec, level, aside_);
+  return found;
+}
+
+template <class B>
 double ContactResponse<B>::friction_work(const Exec& exec) const {
   return host_values(exec, work_)[0];
 }

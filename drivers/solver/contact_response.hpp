@@ -99,6 +99,8 @@ class ContactResponse {
     scatter(exec, level, f, stage_.factor);
   }
   const ContactStage& stage() const { return stage_; }
+  /// Stored in the contact that a step from a state at `time` would start with [J]; the records stay those of the last step. Waits.
+  double energy_found(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
   /// q += W^T C W p; `beside`: of what add_matrix() leaves out alone
   void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
                    const Vectors<B>& q) const;
@@ -140,6 +142,7 @@ class ContactResponse {
   Vectors<B> free_, answer_;  ///< of the vertices, on explicit levels
   Doubles<B> sums_, impulse_, carried_impulse_, work_;
   ContactStage stage_;
+  Kept aside_;                   ///< the last step's records, while others are looked at
   double part_ = 1, found_ = 0;  ///< found_: the time of the state that the records are of [s]
   bool fresh_ = true;            ///< nothing is known of a last step
 

@@ -193,6 +193,17 @@ struct StagePotential {
   }
 };
 
+/// [J]
+template <class B>
+struct KineticEnergy {
+  Scalars<B> mass;
+  Vectors<B> v;
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    const auto speed = vector_at<B>(v, a);
+    return {{0.5 * static_cast<double>(mass(a)) * static_cast<double>(dot(speed, speed))}};
+  }
+};
+
 /// How much less than 1 a volume ratio is.
 template <class B>
 struct LackOfVolume {

@@ -73,6 +73,12 @@ class StageSolver {
 
   /// Whether Newton's method ever looks at what it has not solved.
   bool judges() const { return result_.extent(0) > 0; }
+  /// Of the level's state [J]. Waits.
+  double kinetic(const SolverLevel<B>& level) const {
+    reduce<B, 1>(level.exec(), "plica::kinetic_energy", level.model.vertices,
+                 KineticEnergy<B>{level.model.mass, level.state.v}, blocks_, result_);
+    return host_values(level.exec(), result_)[0];
+  }
   /// Of the last stage that Newton's method did not solve: the part of the forces that is unbalanced.
   double unsolved() const { return unsolved_; }
 
