@@ -7,6 +7,7 @@
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/boundary_triangles.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
+#include <plica/meshes/jitter.hpp>
 #include <plica/meshes/organs.hpp>
 
 #include "support/backends.hpp"
@@ -14,7 +15,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Explicit steps whose number is automatic, of a body that stiffens beyond the limit it has at rest.
+// Steps that become shorter: explicit ones whose number is automatic, of a body that stiffens beyond the limit it has at rest; implicit ones
+// in which the surface turns about the places where a tool touches it.
 namespace {
 
 using namespace plica;
@@ -141,6 +143,34 @@ TEST(ShorterSteps, GoOnAfterACheckpoint) {
   for (Simulation<Host>* one : {&whole, &second}) advance(*one, 30);
   EXPECT_EQ(second.counters().at("substep_halvings"), whole.counters().at("substep_halvings"));
   EXPECT_TRUE(same_bits(whole.positions(), second.positions()));
+}
+
+/// The force [N] of a rod that is pressed 13 mm into an organ and held there.
+double force_of_a_held_rod(const std::string& integrator, std::optional<double> step, long* halvings = nullptr) {
+  Problem p = body_of({jittered(blob_mesh({0, 0, 0}, 0.16, 8), 0.2)}, "neo_hookean");
+  p.body.element = {"nodal"};
+  p.body.material.young_modulus = 50e3, p.body.material.poisson_ratio = 0.45;
+  p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
+  p.body.surface = boundary_surface(p.body.levels[0]).surface;
+  p.body.damping.mass = 20;
+  const PathMotion path{{{0, {0, 0, 0}}, {0.1, {0, 0, -0.03}}, {1, {0, 0, -0.03}}}};
+  p.contact.obstacles.push_back({CapsuleOptions{{-0.01, 0.005, 0.06}, {-0.01, 0.005, 0.2}, 8e-3}, 0.3, path});
+  p.integration.integrator = {integrator}, p.integration.macro_step = step;
+  Simulation<Host> s(p);
+  while (s.time() < 0.25)
+    if (const auto bad = s.step_checked()) ADD_FAILURE() << bad->text();
+  if (halvings) *halvings = s.counters().at("step_halvings");
+  return -s.wrenches()[0].force[2];
+}
+
+// With steps that stay as long as they are, the surface would turn to and fro about those places for ever and creep along the rod.
+TEST(ShorterSteps, AreTakenWhereContactWasNotForeseen) {
+  long halvings = 0;
+  const double by_explicit = force_of_a_held_rod("symplectic_euler", {}),
+               found = force_of_a_held_rod("implicit_euler", 5e-3, &halvings);
+  EXPECT_GT(by_explicit, 25);
+  EXPECT_NEAR(found, by_explicit, 0.05 * by_explicit);
+  EXPECT_GT(halvings, 0);
 }
 
 }  // namespace
