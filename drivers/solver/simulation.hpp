@@ -69,8 +69,9 @@ struct LevelReport {
 struct HimReport {
   double product = 0;      ///< t^2 times the largest eigenvalue of A K; below 4 is stable
   double bound = 0;        ///< of that, from each level's own eigenvalue: never less
-  int coarsest = 0;        ///< vertices of the coarsest level
+  int coarsest = 0;        ///< vertices of the coarsest level; of several bodies the fewest
   bool all_modes = false;  ///< whether each of its modes has its own frequency
+  double usual_step = 0;   ///< the automatic step before halvings that the fit needed; 0: the step was given [s]
 };
 
 /// Energies of level 0.
@@ -171,6 +172,10 @@ class Simulation {
   /// From now on a macro step that would go beyond this time [s] ends there. It is shorter than the others and not counted
   /// among macro_steps(); the step after it makes up the rest.
   void end_at(double time);
+
+  /// Keeps the state as it is, after a check() that it passed, where recover() starts from the last kept one (cycle him): it goes back no
+  /// further. For states that were written or shown, which what follows should join.
+  void keep();
 
   /// Takes all levels and the time back to the last state that was kept.
   void return_to_last_good();

@@ -30,8 +30,8 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before; then by
-/// one that does better still from there. False where the stepper cannot.
+/// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before, if that
+/// is another one; then by one that does better still from there. False where the stepper cannot.
 template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
@@ -42,6 +42,7 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
     return !s.examine();
   };
   for (int attempt = late ? 2 : 0; attempt < most_repairs; ++attempt) {
+    if (attempt == 1 && s.older->steps == s.kept.steps) continue;
     s.go_back(attempt == 0 ? s.kept : *s.older);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
     if (go_on()) return true;
@@ -112,6 +113,14 @@ double Simulation<B>::Inside::left_unsolved() const {
 }
 
 // --- Kept states, and states from outside -----------------------------------------------------------------------------------
+
+template <class B>
+void Simulation<B>::keep() {
+  Inside& s = *inside_;
+  if (!s.older || s.built.stepper->sees_late()) return;
+  s.keep(s.kept), s.keep(*s.older);
+  s.motions.forget_before(s.time);
+}
 
 template <class B>
 void Simulation<B>::return_to_last_good() {

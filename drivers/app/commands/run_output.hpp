@@ -195,6 +195,7 @@ RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOu
     const std::size_t frames = output.files().frames();
     output.record(end);
     const auto now = Clock::now();
+    if (frames < output.files().frames()) simulation.keep();  // what follows joins the frame
     if (frames == output.files().frames() && now - told < std::chrono::milliseconds(100)) return;
     told = now;
     reached(end);

@@ -67,7 +67,7 @@ std::string inertia_text(const Scene& scene, const Plan& plan) {
                     own > 0 ? fmt::format("{:.3g}", plan.macro_step / own) : ""});
   }
   std::string advice;
-  for (const std::string& sentence : him_advice(scene.problem, plan.levels, plan.macro_step))
+  for (const std::string& sentence : him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step))
     advice += wrapped(sentence, 98, "  ");
   return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>>") +
          fmt::format(
@@ -178,7 +178,7 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
                                              {"bound", plan.him->bound},
                                              {"coarsest_vertices", plan.him->coarsest},
                                              {"all_modes", plan.him->all_modes},
-                                             {"advice", him_advice(scene.problem, plan.levels, plan.macro_step)}}
+                                             {"advice", him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step)}}
                                       : Json(nullptr)},
                      {"parts", parts}};
   return json_text(json);

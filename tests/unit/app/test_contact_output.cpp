@@ -4,13 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
-// What runs write of contact.
+// What runs write of contact, and of the steps that it cuts.
 namespace plica::app::test {
 namespace {
 
@@ -76,6 +77,13 @@ TEST(ContactDepths, WarnOfWhatIsDeep) {
   EXPECT_NE(ball.warning().find("ball was 0.6 m deep in the surface, 0.6 of a mean edge"), std::string::npos);
   EXPECT_NE(needle.warning().find("needle was 0.06 m deep in the surface, 0.6 of its radius"), std::string::npos);
   EXPECT_NE(both.warning().find("at 2 s needle was 0.09 m"), std::string::npos) << both.warning();
+}
+
+TEST(Summary, SaysWhereHimWentByExplicitSteps) {
+  EXPECT_EQ(mostly_explicit_text({{"him_explicit_steps", 50}}, 100), "");
+  EXPECT_EQ(mostly_explicit_text({}, 100), "");
+  EXPECT_EQ(mostly_explicit_text({{"him_explicit_steps", 51}}, 100).substr(0, 70),
+            "cycle him: 51 of 100 macro steps were taken by explicit steps of level");
 }
 
 }  // namespace

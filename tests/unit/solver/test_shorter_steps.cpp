@@ -81,6 +81,48 @@ TEST(ShorterSteps, AreGivenBackWhereTheBodyIsCalm) {
   }
 }
 
+/// A cube that is pressed to a fifth of its length, by the cycle him.
+Problem crushed_cube() {
+  Problem p = small_cube("neo_hookean", 6);
+  p.body.damping.mass = 20;
+  p.body.fixed = {left_face()};
+  p.body.prescribed = {{Box{{0.1, -1, -1}, {1, 1, 1}}, PathMotion{{{0, {0, 0, 0}}, {0.4, {-0.08, 0, 0}}}}}};
+  p.integration.cycle = "him";
+  return p;
+}
+
+// Where a step that an inertia fits is shorter than what level 0 alone may take.
+TEST(ShorterSteps, OfHimGiveWayToExplicitOnes) {
+  Problem p = crushed_cube();
+  Simulation<Host> him(p);
+  while (him.time() < 0.4) ASSERT_FALSE(him.step_checked());
+  EXPECT_GE(him.counters().at("him_explicit_steps"), 1);
+  Simulation<Host> resumed(p);
+  resumed.restore(him.save());
+  p.integration.cycle = "single", p.integration.safety = 0.4;
+  Simulation<Host> single(p);
+  single.end_at(him.time());
+  while (single.time() < him.time()) ASSERT_FALSE(single.step_checked());
+  EXPECT_LE(largest_difference(him.positions(), single.positions()), 2e-3);
+  advance(him, 3), advance(resumed, 3);
+  EXPECT_TRUE(same_bits(resumed.positions(), him.positions()));
+}
+
+// A state that was written is not changed any more: what follows starts from it.
+TEST(ShorterSteps, OfHimAreTakenFromTheKeptStateOn) {
+  Simulation<Host> him(crushed_cube());
+  double earliest = 0;
+  him.set_external_forces([&](const ForceRequest<Host>& request) { earliest = std::min(earliest, request.time); });
+  while (him.time() < 0.4) {
+    him.keep();
+    const double kept = him.time();
+    earliest = 1;
+    ASSERT_FALSE(him.step_checked());
+    ASSERT_GE(earliest, kept);
+  }
+  EXPECT_GE(him.counters().at("inertia_refits"), 1);
+}
+
 /// A tube that is blown up slowly, whose wall stiffens beyond the limit at rest; the largest kinetic energy that a caller sees, looking
 /// at every tenth step [J].
 double most_motion(double safety, long& halvings) {
