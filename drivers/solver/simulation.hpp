@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -173,9 +174,11 @@ class Simulation {
   /// among macro_steps(); the step after it makes up the rest.
   void end_at(double time);
 
-  /// Keeps the state as it is, after a check() that it passed, where recover() starts from the last kept one (cycle him): it goes back no
-  /// further. For states that were written or shown, which what follows should join.
-  void keep();
+  /// Calls this after each macro step that recover() takes again, in their order; where a try fails, from an earlier one on again. For drivers
+  /// that record motion: macro_steps() and time() say from where on it is replaced.
+  void on_repeated_step(std::function<void()> call);
+  /// The macro step whose end is the earliest state that recover() may go back to.
+  long earliest_kept() const;
 
   /// Takes all levels and the time back to the last state that was kept.
   void return_to_last_good();

@@ -38,7 +38,10 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
   const bool late = bad.kind == "stability" && s.built.stepper->sees_late();  // the last kept one is no better
   const double there = s.time;
   const auto go_on = [&] {
-    while (s.time < there) step();
+    while (s.time < there) {
+      step();
+      if (s.after_repeated) s.after_repeated();
+    }
     return !s.examine();
   };
   for (int attempt = late ? 2 : 0; attempt < most_repairs; ++attempt) {
@@ -61,6 +64,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   while (time < there) {
     if (const auto still = cover(true)) return still;
     arrive();
+    if (after_repeated) after_repeated();
   }
   return {};
 }
@@ -115,11 +119,13 @@ double Simulation<B>::Inside::left_unsolved() const {
 // --- Kept states, and states from outside -----------------------------------------------------------------------------------
 
 template <class B>
-void Simulation<B>::keep() {
-  Inside& s = *inside_;
-  if (!s.older || s.built.stepper->sees_late()) return;
-  s.keep(s.kept), s.keep(*s.older);
-  s.motions.forget_before(s.time);
+void Simulation<B>::on_repeated_step(std::function<void()> call) {
+  inside_->after_repeated = std::move(call);
+}
+
+template <class B>
+long Simulation<B>::earliest_kept() const {
+  return inside_->older ? std::min(inside_->older->steps, inside_->kept.steps) : inside_->kept.steps;
 }
 
 template <class B>

@@ -83,7 +83,7 @@ void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
 template <class B>
 void HimStepper<B>::step_explicitly(Hierarchy<B>& h, double time, double t) {
   SolverLevel<B>& level = h[0];
-  ++explicit_steps_;
+  if (time + t > explicit_until_) ++explicit_steps_, explicit_until_ = time + t;  // not those that are taken again
   level.book("integrate", [&] {
     prescribe(h.exec(), level, level.state, time);
     level.integrator->advance(level, time, t / explicit_, explicit_);
@@ -234,7 +234,7 @@ std::size_t HimStepper<B>::bytes() const {
 template <class B>
 void HimStepper<B>::persist(StateArchive<B>& archive) {
   archive.number(halvings_), archive.number(explicit_), archive.number(repairs_), archive.number(explicit_steps_);
-  archive.number(has_momenta_);
+  archive.number(explicit_until_), archive.number(has_momenta_);
   regaining_.persist(archive);
   for (HimBody<B>& body : bodies_) body.persist(archive);
   use_fits();

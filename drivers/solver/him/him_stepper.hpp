@@ -72,6 +72,7 @@ class HimStepper final : public Stepper<B> {
   int halvings_ = 0;
   int explicit_ = 0;  // sub-steps of level 0 in a macro step; 0: none, it is taken by the inverse mass
   long repairs_ = 0, explicit_steps_ = 0;
+  double explicit_until_ = 0;  // the end of the latest macro step that was taken so [s]
   Regaining regaining_;
 
   /// The bodies, and the fields that they share.
