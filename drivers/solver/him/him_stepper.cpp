@@ -68,7 +68,8 @@ void HimStepper<B>::begin(Hierarchy<B>& h) {
 template <class B>
 void HimStepper<B>::forget(const Exec& exec) {
   for (HimBody<B>& body : bodies_) body.forget(exec);
-  fill(exec, fields_.contact.force, Real(0));
+  for (const Vectors<B>& last : {fields_.force_before, fields_.answer_before, fields_.contact.force})
+    fill(exec, last, Real(0));  // they may be no numbers, after steps that went wrong
 }
 
 // --- Step -------------------------------------------------------------------------------------------------------------------
@@ -219,9 +220,15 @@ void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
   }
   const bool longer = fitting < longest;
   regaining_.tried(steps, longer);
+  const bool returns = longer && explicit_ > 0;
   if (longer) halvings_ = fitting, explicit_ = 0;
   use_fits();
-  if (longer) begin(h);
+  if (returns) {
+    start(h);  // fast detail that explicit steps have left goes: with its added inertia it would have more energy
+    has_momenta_ = true;
+  } else if (longer) {
+    begin(h);
+  }
 }
 
 template <class B>

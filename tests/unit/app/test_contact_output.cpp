@@ -79,6 +79,33 @@ TEST(ContactDepths, WarnOfWhatIsDeep) {
   EXPECT_NE(both.warning().find("at 2 s needle was 0.09 m"), std::string::npos) << both.warning();
 }
 
+// A run whose last steps are taken again replaces what it has written of them
+TEST(RunFiles, GoOnFromWhereTheyAreCutBack) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  RunFiles files(scene, folder.path());
+  Snapshot now;
+  now.positions = scene.problem.body.levels[0].vertices;
+  now.velocities.assign(now.positions.size(), Point::Zero());
+  std::uint64_t first = 0;
+  for (const double time : {0., 0.25, 0.5, 0.75}) {
+    now.time = time;
+    files.write(now);
+    if (time == 0) first = files.history_bytes();
+  }
+  files.cut_back(1, first);
+  EXPECT_EQ(files.frames(), 1u);
+  EXPECT_EQ(files.last_time(), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/surface_0001.vtu"));
+  now.time = 0.3;
+  files.write(now);
+  const std::string history = content_of(folder / "history.csv"), film = content_of(folder / "frames.pvd");
+  EXPECT_EQ(std::ranges::count(history, '\n'), 3) << history;
+  EXPECT_NE(history.find("\n0.3,"), std::string::npos) << history;
+  EXPECT_NE(film.find("timestep=\"0.3\" part=\"0\" file=\"frames/surface_0001.vtu\""), std::string::npos) << film;
+  EXPECT_EQ(film.find("timestep=\"0.25\""), std::string::npos) << film;
+}
+
 TEST(Summary, SaysWhereHimWentByExplicitSteps) {
   EXPECT_EQ(mostly_explicit_text({{"him_explicit_steps", 50}}, 100), "");
   EXPECT_EQ(mostly_explicit_text({}, 100), "");

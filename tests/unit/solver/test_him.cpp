@@ -280,7 +280,11 @@ TEST(Him, RefusesWhatItCannotDo) {
   refuses([](Problem& p) { p.integration.him.dissipation = 1; }, "him.dissipation");
   refuses([](Problem& p) { p.body.levels = {p.body.levels.back()}, p.integration.macro_step = 10; },
           "no inertia makes it stable");
-  refuses([](Problem& p) { p.body.levels.back() = box_mesh(beam_box, {40, 8, 8}); }, "expected at most 1500");
+  refuses(
+      [](Problem& p) {
+        p.body.levels.back() = box_mesh(beam_box, {40, 8, 8}), p.body.coarsen = {2000};
+      },
+      "it has 2000 points, expected at most 1500");
 }
 
 }  // namespace
