@@ -41,6 +41,7 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
     while (s.time < there) {
       step();
       if (s.after_repeated) s.after_repeated();
+      if (const auto now = s.examine(); now && (now->kind == "non_finite" || now->kind == "inverted")) return false;
     }
     return !s.examine();
   };

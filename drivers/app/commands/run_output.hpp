@@ -70,6 +70,7 @@ class RunOutput {
         folder_(folder),
         checkpoint_(std::move(checkpoint)),
         recorded_(resumed ? checkpoint_.macro_steps : -1),
+        saved_(recorded_),
         files_(scene, folder, resumed ? std::optional(checkpoint_.files) : std::nullopt),
         frames_(checkpoint_.frame_every, simulation.macro_step()),
         probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()),
@@ -205,7 +206,7 @@ class RunOutput {
   std::filesystem::path folder_;
   Checkpoint checkpoint_;
   std::map<std::string, double> stages_before_;
-  long recorded_;
+  long recorded_, saved_;  // the last macro steps that were; -1: none
   RunFiles files_;
   std::optional<Probes<B>> probes_;
   Schedule frames_, probing_;
@@ -215,7 +216,6 @@ class RunOutput {
   ContactDepth depth_;
   ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
-  long saved_ = -1;
   bool replaces_saved_ = false;  // what was saved last is not the run's any more
   std::deque<Mark> marks_;       // from the earliest state on that the run may go back to
 };

@@ -14,7 +14,8 @@ namespace {
 double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
 constexpr double explicit_safety = 0.9;  // of the stable explicit step
-constexpr double forces_per_step = 2;   // what a step of the inverse mass costs, in steps of level 0: cmake/docs/him.md
+// What a step of the inverse mass costs, in explicit steps of level 0: cmake/docs/him.md
+constexpr double cost_of_step = 3, cost_with_contact = 6;
 constexpr int most_explicit = 1 << 14;  // sub-steps in a macro step
 
 }  // namespace
@@ -165,7 +166,8 @@ double HimStepper<B>::explicit_step(const Hierarchy<B>& h) const {
 
 template <class B>
 int HimStepper<B>::most_halvings(double explicit_step) const {
-  const double most = std::floor(std::log2(macro_step_ / (forces_per_step * explicit_step)));
+  const double cost = fields_.contact.force.extent(0) > 0 ? cost_with_contact : cost_of_step;
+  const double most = std::floor(std::log2(macro_step_ / (cost * explicit_step)));
   return static_cast<int>(std::clamp(most, 0.0, 1.0 * HimBody<B>::most_halvings));
 }
 
@@ -186,8 +188,9 @@ bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
   ++repairs_;
   regaining_.cut();
   if (explicit_ > 0) {
+    if (explicit_ > most_explicit / 2 * macro_step_ / (explicit_safety * explicit_limit_)) return false;
     explicit_ *= 2;
-    return explicit_ <= most_explicit;
+    return true;
   }
   const double step = explicit_step(h);
   for (int next = halvings_ + 1; next <= most_halvings(step); ++next)
@@ -197,7 +200,8 @@ bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
       return true;
     }
   use_fits();
-  explicit_ = static_cast<int>(std::clamp(std::ceil(t / step), 1.0, 1.0 * most_explicit));
+  explicit_ = static_cast<int>(
+      std::clamp(std::ceil(t / step), 1.0, std::ceil(most_explicit * t / (explicit_safety * explicit_limit_))));
   return true;
 }
 
