@@ -35,7 +35,9 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
 template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
-  const bool late = bad.kind == "stability" && s.built.stepper->sees_late();  // the last kept one is no better
+  const Stepper<B>& stepper = *s.built.stepper;
+  const bool sees_late = stepper.sees_late(),
+             late = bad.kind == "stability" && sees_late;  // the last kept one is no better
   const double there = s.time;
   const auto go_on = [&] {
     while (s.time < there) {
@@ -49,6 +51,8 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
     if (attempt == 1 && s.older->steps == s.kept.steps) continue;
     s.go_back(attempt == 0 ? s.kept : *s.older);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
+    // explicit steps do not bear what has grown in the last kept state, and may take very long to fail in it
+    if (attempt == 0 && !sees_late && stepper.sees_late()) s.go_back(*s.older), attempt = 1;
     if (go_on()) return true;
   }
   return false;

@@ -42,6 +42,7 @@ class HimStepper final : public Stepper<B> {
 
   bool can_repair() const override { return may_repair_; }
   bool lost_stability(const Hierarchy<B>& h, double kinetic) override;
+  bool sees_late() const override { return explicit_ > 0; }  // as other explicit steps
   /// An impact strains elements by more than a long step can follow. Where stability is lost fast, energy that nobody put in shows it first.
   bool repairs(const Diagnosis&) const override { return may_repair_; }
   bool repair(Hierarchy<B>& h, double t) override;
