@@ -137,6 +137,7 @@ struct BodyPart {
   std::string name;          ///< not empty
   MaterialOptions material;  ///< where its regions have no other: contact is as stiff as that
   int points = 0;            ///< of its surface; the body's surface has those of all parts, in their order
+  std::optional<std::vector<int>> coarsen = {};  ///< its own numbers, see Body::coarsen
 };
 
 /// A deformable body.
@@ -152,7 +153,7 @@ struct Body {
   /// @}
 
   std::vector<TetMesh> levels;  ///< finest first, at least one
-  /// Coarse spaces of the one mesh there is, for methods that need coarse levels but no coarse elements (him, multigrid): their
+  /// Coarse spaces of the last mesh, for methods that need coarse levels but no coarse elements (him, multigrid): their
   /// numbers of points, finest first; empty: as many as it takes. None: likewise, where a method needs them.
   std::optional<std::vector<int>> coarsen = {};
   std::vector<std::string> element = {"auto"};   ///< of elements(): one for all levels, or one each, finest first

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -69,8 +70,9 @@ struct LevelReport {
 struct HimReport {
   double product = 0;      ///< t^2 times the largest eigenvalue of A K; below 4 is stable
   double bound = 0;        ///< of that, from each level's own eigenvalue: never less
-  int coarsest = 0;        ///< vertices of the coarsest level
+  int coarsest = 0;        ///< vertices of the coarsest level; of several bodies the fewest
   bool all_modes = false;  ///< whether each of its modes has its own frequency
+  double usual_step = 0;   ///< the automatic step before halvings that the fit needed; 0: the step was given [s]
 };
 
 /// Energies of level 0.
@@ -171,6 +173,12 @@ class Simulation {
   /// From now on a macro step that would go beyond this time [s] ends there. It is shorter than the others and not counted
   /// among macro_steps(); the step after it makes up the rest.
   void end_at(double time);
+
+  /// Calls this after each macro step that recover() takes again, in their order; where a try fails, from an earlier one on again. For drivers
+  /// that record motion: macro_steps() and time() say from where on it is replaced.
+  void on_repeated_step(std::function<void()> call);
+  /// The macro step whose end is the earliest state that recover() may go back to.
+  long earliest_kept() const;
 
   /// Takes all levels and the time back to the last state that was kept.
   void return_to_last_good();

@@ -67,6 +67,7 @@ struct Simulation<B>::Inside {
   Kept kept;
   std::optional<Kept> older;
   MotionLog<B> motions;  // of obstacles
+  std::function<void()> after_repeated;
 
   StepControl control;              // of macro steps that fail
   long rejected = 0, unsolved = 0;  // parts of macro steps that were taken again; that were taken though not solved

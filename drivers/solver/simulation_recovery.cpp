@@ -30,20 +30,29 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before; then by
-/// one that does better still from there. False where the stepper cannot.
+/// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before, if that
+/// is another one; then by one that does better still from there. False where the stepper cannot.
 template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
-  const bool late = bad.kind == "stability" && s.built.stepper->sees_late();  // the last kept one is no better
+  const Stepper<B>& stepper = *s.built.stepper;
+  const bool sees_late = stepper.sees_late(),
+             late = bad.kind == "stability" && sees_late;  // the last kept one is no better
   const double there = s.time;
   const auto go_on = [&] {
-    while (s.time < there) step();
+    while (s.time < there) {
+      step();
+      if (s.after_repeated) s.after_repeated();
+      if (const auto now = s.examine(); now && (now->kind == "non_finite" || now->kind == "inverted")) return false;
+    }
     return !s.examine();
   };
   for (int attempt = late ? 2 : 0; attempt < most_repairs; ++attempt) {
+    if (attempt == 1 && s.older->steps == s.kept.steps) continue;
     s.go_back(attempt == 0 ? s.kept : *s.older);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
+    // explicit steps do not bear what has grown in the last kept state, and may take very long to fail in it
+    if (attempt == 0 && !sees_late && stepper.sees_late()) s.go_back(*s.older), attempt = 1;
     if (go_on()) return true;
   }
   return false;
@@ -60,6 +69,7 @@ std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   while (time < there) {
     if (const auto still = cover(true)) return still;
     arrive();
+    if (after_repeated) after_repeated();
   }
   return {};
 }
@@ -112,6 +122,16 @@ double Simulation<B>::Inside::left_unsolved() const {
 }
 
 // --- Kept states, and states from outside -----------------------------------------------------------------------------------
+
+template <class B>
+void Simulation<B>::on_repeated_step(std::function<void()> call) {
+  inside_->after_repeated = std::move(call);
+}
+
+template <class B>
+long Simulation<B>::earliest_kept() const {
+  return inside_->older ? std::min(inside_->older->steps, inside_->kept.steps) : inside_->kept.steps;
+}
 
 template <class B>
 void Simulation<B>::return_to_last_good() {

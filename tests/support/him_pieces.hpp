@@ -59,19 +59,20 @@ struct Pieces {
     if (made)
       for (CoarseSpace& space :
            coarse_spaces(levels[0], constrained[0], probe.mass(), rest_stiffness(levels[0], constants),
-                         {.sizes = space_sizes(problem.body, constrained[0]), .slivers = true}))
+                         {.sizes = space_sizes(problem.body.coarsen, constrained[0]), .slivers = true}))
         transfers.push_back(std::move(space.up));
     const auto spaces = mass_spaces(transfers, probe.mass());
     const RowMatrix whole = to_finest(spaces);
     inverse_mass =
-        std::make_unique<InverseMass<Host>>(level, spaces,
+        std::make_unique<InverseMass<Host>>(level.model.inverse_mass, spaces,
                                             made ? axes_of_space(levels.front(), whole, probe.mass())
                                                  : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
     const std::shared_ptr<const Elasticity<Host>> elasticity = make_elasticity<Host>(problem.body.material.model);
     const Vectors<Host> rest("rest", levels[0].vertices.size());
     fitter = std::make_unique<InertiaFitter<Host>>(
-        typename Host::Exec{}, level, elasticity, largest_eigenvalue<Host>({}, {level, *elasticity, rest}),
-        *inverse_mass, CoarseModes(coarse_stiffness(levels[0], constants, whole), spaces.back().mass));
+        typename Host::Exec{}, level, RowsOfBody{0, level.model.vertices}, elasticity,
+        largest_eigenvalue<Host>({}, {level, *elasticity, rest}), *inverse_mass,
+        CoarseModes(coarse_stiffness(levels[0], constants, whole), spaces.back().mass));
   }
 
   Eigen::MatrixXd matrix() {

@@ -38,7 +38,8 @@ void warn_of(const std::string& sentence) { message(coloured("warning: ", Colour
 template <class B>
 std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& simulation, const Summary& summary) {
   std::vector<std::string> sentences;
-  if (simulation.him()) sentences = him_advice(scene.problem, summary.levels, summary.macro_step);
+  if (const auto him = simulation.him())
+    sentences = him_advice(scene.problem, *him, summary.levels, summary.macro_step);
   if (!scene.problem.integration.macro_step && summary.macro_step > scene.duration)
     sentences.push_back(fmt::format(
         "integration.macro_step: the step of {} that fits this body is longer than the duration, {}: the run is one "
@@ -53,8 +54,9 @@ template <class B>
 std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunEnd& end, const RunOutput<B>& output) {
   std::vector<std::string> sentences = output.warnings();
   if (end.diagnosis) return sentences;
-  if (std::string unsolved = unsolved_text(simulation.counters()); !unsolved.empty())
-    sentences.push_back(std::move(unsolved));
+  for (std::string sentence :
+       {unsolved_text(simulation.counters()), mostly_explicit_text(simulation.counters(), end.macro_steps)})
+    if (!sentence.empty()) sentences.push_back(std::move(sentence));
   return sentences;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <chrono>
+#include <deque>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/output/checkpoint.hpp>
@@ -48,6 +49,7 @@ class Probes {
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += points_.rest()[i] + placement_;
     file_.add(probe_row(time, positions, velocities));
   }
+  GrowingFile& file() { return file_; }
   const GrowingFile& file() const { return file_; }
 
  private:
@@ -68,6 +70,7 @@ class RunOutput {
         folder_(folder),
         checkpoint_(std::move(checkpoint)),
         recorded_(resumed ? checkpoint_.macro_steps : -1),
+        saved_(recorded_),
         files_(scene, folder, resumed ? std::optional(checkpoint_.files) : std::nullopt),
         frames_(checkpoint_.frame_every, simulation.macro_step()),
         probing_(scene.output.probe_every.value_or(Interval{0, 1}), simulation.macro_step()),
@@ -88,16 +91,30 @@ class RunOutput {
       probes_.emplace(scene, folder / "probes.csv",
                       resumed ? std::optional(checkpoint_.files.probe_bytes) : std::nullopt);
     if (checkpoint_.every != Interval{}) saving_.emplace(checkpoint_.every, simulation.macro_step());
+    marks_.push_back(mark());
   }
 
   /// After a macro step, and once before the first.
   void record(const RunEnd& now) {
-    if (now.macro_steps <= recorded_) return;  // where the run goes on: it is on the disk
-    if (recorded_ >= 0 && watches_energy_) work_.step(simulation_);
-    recorded_ = now.macro_steps;
-    if (frames_.due(now.macro_steps)) write_frame(now.time);
-    if (probes_ && probing_.due(now.macro_steps)) probes_->write(simulation_, now.time);
-    if (saving_ && saving_->due(now.macro_steps)) save(now);
+    add(now);
+    if (saving_ && saved_ < now.macro_steps && (replaces_saved_ || saving_->due(now.macro_steps))) save(now);
+  }
+
+  /// After a macro step that is taken again: it replaces what was written of it, and of all that came after it.
+  void record_again(const RunEnd& now) {
+    if (now.macro_steps <= recorded_) go_back(now.macro_steps - 1);
+    add(now);
+  }
+
+  /// Takes what was written after so many macro steps out again.
+  void go_back(long macro_steps) {
+    while (marks_.size() > 1 && marks_.back().macro_steps > macro_steps) marks_.pop_back();
+    const Mark& to = marks_.back();
+    files_.cut_back(to.frames, to.history_bytes);
+    if (probes_) probes_->file().cut_back(to.probe_bytes);
+    energy_.restore(to.energy), inside_out_.restore(to.inside_out), depth_.restore(to.depth);
+    recorded_ = macro_steps;
+    if (saved_ > macro_steps) saved_ = -1, replaces_saved_ = true;
   }
 
   /// Before a step that is shorter because the run ends with it: a longer run goes on from here, so nothing is saved later.
@@ -128,6 +145,30 @@ class RunOutput {
   }
 
  private:
+  /// How far files were after a macro step that wrote to them, and what they had shown.
+  struct Mark {
+    long macro_steps;
+    std::size_t frames;
+    std::uint64_t history_bytes, probe_bytes;
+    std::vector<double> energy, inside_out, depth;
+  };
+  Mark mark() const {
+    return {recorded_,      files_.frames(),    files_.history_bytes(), probes_ ? probes_->file().size() : 0,
+            energy_.save(), inside_out_.save(), depth_.save()};
+  }
+
+  void add(const RunEnd& now) {
+    if (now.macro_steps <= recorded_) return;  // where the run goes on: it is on the disk
+    if (recorded_ >= 0 && watches_energy_) work_.step(simulation_);
+    recorded_ = now.macro_steps;
+    const bool frame = frames_.due(now.macro_steps), probe = probes_ && probing_.due(now.macro_steps);
+    if (frame) write_frame(now.time);
+    if (probe) probes_->write(simulation_, now.time);
+    if (!frame && !probe) return;
+    marks_.push_back(mark());
+    while (marks_.size() > 1 && marks_[1].macro_steps <= simulation_.earliest_kept()) marks_.pop_front();
+  }
+
   void write_frame(double time) {
     const Snapshot now = take_snapshot(simulation_, time, files_.volumes());
     if (watches_energy_ && work_.known()) energy_.look(time, now.energies, work_.done());
@@ -146,7 +187,7 @@ class RunOutput {
   void save(const RunEnd& now) {
     files_.sync();
     if (probes_) probes_->file().sync();
-    checkpoint_.macro_steps = saved_ = now.macro_steps;
+    checkpoint_.macro_steps = saved_ = now.macro_steps, replaces_saved_ = false;
     checkpoint_.wall_time = now.wall_time;
     checkpoint_.stages = stages();
     checkpoint_.energy = energy_.save();
@@ -165,7 +206,7 @@ class RunOutput {
   std::filesystem::path folder_;
   Checkpoint checkpoint_;
   std::map<std::string, double> stages_before_;
-  long recorded_;
+  long recorded_, saved_;  // the last macro steps that were; -1: none
   RunFiles files_;
   std::optional<Probes<B>> probes_;
   Schedule frames_, probing_;
@@ -175,7 +216,8 @@ class RunOutput {
   ContactDepth depth_;
   ObstacleWork<B> work_;
   std::optional<Schedule> saving_;
-  long saved_ = -1;
+  bool replaces_saved_ = false;  // what was saved last is not the run's any more
+  std::deque<Mark> marks_;       // from the earliest state on that the run may go back to
 };
 
 /// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. The last step is
@@ -190,19 +232,28 @@ RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOu
   const bool automatic = !scene.problem.integration.macro_step;
   if (automatic) simulation.end_at(scene.duration);
   Clock::time_point told{};
+  std::size_t frames = 0;
   const auto record = [&] {
     const auto lock = watch.hold();
-    const std::size_t frames = output.files().frames();
     output.record(end);
     const auto now = Clock::now();
     if (frames == output.files().frames() && now - told < std::chrono::milliseconds(100)) return;
-    told = now;
+    told = now, frames = output.files().frames();
     reached(end);
   };
+  bool replaced = false;  // in the present macro step
+  simulation.on_repeated_step([&] {
+    const auto lock = watch.hold();
+    RunEnd now = end;
+    now.time = simulation.time(), now.macro_steps = steps_to_cover(now.time, simulation.macro_step());
+    output.record_again(now);
+    replaced = true;
+  });
   record();
   while (end.macro_steps < steps && !interrupted()) {
     if (automatic && end.macro_steps + 1 == steps) output.before_shorter_step(end);
     const auto start = Clock::now();
+    replaced = false;
     end.diagnosis = simulation.step_checked();
     end.wall_time += std::chrono::duration<double>(Clock::now() - start).count();
     if (end.diagnosis) break;
@@ -216,7 +267,9 @@ RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOu
   if (end.diagnosis) {
     simulation.return_to_last_good();
     last = simulation.time();
+    if (replaced) output.go_back(simulation.macro_steps());
   }
+  simulation.on_repeated_step({});
   if (end.diagnosis || end.macro_steps < steps) end.status = end.diagnosis ? "diverged" : "interrupted";
   output.finish(end, last);
   return end;

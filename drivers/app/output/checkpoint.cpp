@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* checkpoint_title = "plica checkpoint ";
-constexpr int version_written = 13;
+constexpr int version_written = 14;
 
 // A path is bytes, JSON is UTF-8: where it is not, the bytes' numbers
 Json path_json(const std::string& path) {

@@ -89,13 +89,15 @@ Frames::Frames(std::filesystem::path folder, std::string name, std::string colle
       throw InputError("cannot resume: there is no " + (folder_ / file_of(entries_)).string() + " any more");
     enlist(time);
   }
-  std::error_code ignored;
-  if (entries_ == 0)
-    std::filesystem::remove(folder_ / collection_, ignored);
-  else
-    write_collection();
-  remove_later();
+  remove_others();
   synchronised_ = entries_;
+}
+
+void Frames::cut_back(std::size_t count) {
+  std::size_t end = 0;
+  for (std::size_t i = 0; i < count; ++i) end = list_.find('\n', end) + 1;
+  list_.resize(end), entries_ = count, synchronised_ = std::min(synchronised_, count);
+  remove_others();
 }
 
 std::string Frames::file_of(std::size_t entry) const { return fmt::format("frames/{}_{:04}.vtu", name_, entry); }
@@ -113,8 +115,13 @@ void Frames::write_collection() const {
                                                 list_));
 }
 
-// Files NAME_NUMBER.vtu with a number that is not in the list, and drafts
-void Frames::remove_later() {
+// Files NAME_NUMBER.vtu with a number that is not in the list, and drafts; the collection then names those that stay
+void Frames::remove_others() {
+  std::error_code ignored;
+  if (entries_ == 0)
+    std::filesystem::remove(folder_ / collection_, ignored);
+  else
+    write_collection();
   std::vector<std::filesystem::path> stale;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "frames")) {
     const std::string file = entry.path().filename().string(), start = name_ + "_";
@@ -125,7 +132,6 @@ void Frames::remove_later() {
     if (error == std::errc{} && (ending == ".vtu.part" || (ending == ".vtu" && number >= entries_)))
       stale.push_back(entry.path());
   }
-  std::error_code ignored;
   for (const auto& file : stale) std::filesystem::remove(file, ignored);
 }
 

@@ -44,6 +44,7 @@ class Frames {
   /// are there already; those of a former run behind them are removed. InputError where one is missing.
   Frames(std::filesystem::path folder, std::string name, std::string collection, const std::vector<double>& times = {});
   void write(const VtuGrid& grid);
+  void cut_back(std::size_t count);  ///< to the first so many: what comes next replaces the others
   std::size_t count() const { return entries_; }
   /// Waits until the frames since the last call are on the disk.
   void sync();
@@ -52,7 +53,7 @@ class Frames {
   std::string file_of(std::size_t entry) const;
   void enlist(double time);
   void write_collection() const;
-  void remove_later();
+  void remove_others();
 
   std::filesystem::path folder_;
   std::string name_, collection_, list_;

@@ -67,7 +67,7 @@ std::string inertia_text(const Scene& scene, const Plan& plan) {
                     own > 0 ? fmt::format("{:.3g}", plan.macro_step / own) : ""});
   }
   std::string advice;
-  for (const std::string& sentence : him_advice(scene.problem, plan.levels, plan.macro_step))
+  for (const std::string& sentence : him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step))
     advice += wrapped(sentence, 98, "  ");
   return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>>") +
          fmt::format(
@@ -163,24 +163,25 @@ std::string plan_json(const Scene& scene, const Plan& plan) {
   Json parts = Json::array();
   for (const Part& part : plan.parts)
     parts.push_back({{"name", part.name}, {"in", part.in}, {"reason", part.reason}, {"bytes", part.bytes}});
-  const Json json = {{"name", scene.name},
-                     {"scene", scene.file},
-                     {"duration", scene.duration},
-                     {"macro_step", plan.macro_step},
-                     {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
-                     {"cycle", cycle_name(scene, plan.choice)},
-                     {"choice", choice_json(plan.choice)},
-                     {"precision", plan.precision},
-                     {"backend", plan.backend},
-                     {"threads", plan.threads},
-                     {"levels", levels_json(plan.levels)},
-                     {"him", plan.him ? Json{{"product", plan.him->product},
-                                             {"bound", plan.him->bound},
-                                             {"coarsest_vertices", plan.him->coarsest},
-                                             {"all_modes", plan.him->all_modes},
-                                             {"advice", him_advice(scene.problem, plan.levels, plan.macro_step)}}
-                                      : Json(nullptr)},
-                     {"parts", parts}};
+  const Json json = {
+      {"name", scene.name},
+      {"scene", scene.file},
+      {"duration", scene.duration},
+      {"macro_step", plan.macro_step},
+      {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
+      {"cycle", cycle_name(scene, plan.choice)},
+      {"choice", choice_json(plan.choice)},
+      {"precision", plan.precision},
+      {"backend", plan.backend},
+      {"threads", plan.threads},
+      {"levels", levels_json(plan.levels)},
+      {"him", plan.him ? Json{{"product", plan.him->product},
+                              {"bound", plan.him->bound},
+                              {"coarsest_vertices", plan.him->coarsest},
+                              {"all_modes", plan.him->all_modes},
+                              {"advice", him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step)}}
+                       : Json(nullptr)},
+      {"parts", parts}};
   return json_text(json);
 }
 

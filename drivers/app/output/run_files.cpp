@@ -251,6 +251,13 @@ void RunFiles::write(const Snapshot& snapshot) {
   frame_times_.push_back(snapshot.time);
 }
 
+void RunFiles::cut_back(std::size_t frames, std::uint64_t history_bytes) {
+  surface_frames_.cut_back(frames);
+  for (Frames& volume : volume_frames_) volume.cut_back(frames);
+  history_.file().cut_back(history_bytes);
+  frame_times_.resize(frames);
+}
+
 void RunFiles::sync() {
   surface_frames_.sync();
   for (Frames& frames : volume_frames_) frames.sync();

@@ -86,6 +86,7 @@ class History {
   History(const std::filesystem::path& file, std::vector<double> masses, const Problem& problem,
           std::optional<std::uint64_t> kept = {});
   void write(const Snapshot& snapshot);
+  GrowingFile& file() { return file_; }
   const GrowingFile& file() const { return file_; }
 
  private:
@@ -115,6 +116,9 @@ class RunFiles {
   std::size_t frames() const { return frame_times_.size(); }
   double last_time() const { return frame_times_.empty() ? 0 : frame_times_.back(); }  ///< of what is on disk [s]
   FilesMark mark() const { return {frame_times_, history_.file().size(), 0}; }
+  std::uint64_t history_bytes() const { return history_.file().size(); }
+  /// To the first so many frames, and so much of the history: what comes next replaces the rest.
+  void cut_back(std::size_t frames, std::uint64_t history_bytes);
   /// Waits until all of it is on the disk.
   void sync();
 

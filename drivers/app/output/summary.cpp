@@ -196,12 +196,17 @@ static std::string solves_text(std::map<std::string, long> count) {
                             count["newton_misses"]);
 }
 
-// "cut 4 times, as the body stiffened, given back 2 times"; empty: never cut
+// "cut 4 times as the body stiffened, given back 2 times, at the end 2 in a macro step"; empty: never cut
 static std::string cuts_text(std::map<std::string, long> count) {
-  const long cuts = cuts_of(count), back = count["substeps_regained"];
+  const long cuts = cuts_of(count), back = count["substeps_regained"], now = count["him_substeps"],
+             level_alone = count["him_explicit_steps"];
   if (cuts == 0) return "";
-  return fmt::format("cut {} as the body stiffened{}", counted(cuts, "time"),
-                     back > 0 ? fmt::format(", given back {}", counted(back, "time")) : "");
+  std::string text = fmt::format("cut {} as the body stiffened", counted(cuts, "time"));
+  if (back > 0) text += fmt::format(", given back {}", counted(back, "time"));
+  if (now > 0) text += fmt::format(", at the end {} in a macro step", now);
+  if (level_alone > 0)
+    text += fmt::format("; {} by explicit steps of level 0, as cycle single", counted(level_alone, "macro step"));
+  return text;
 }
 
 // "halved 5 times where they failed (step_halvings of history.csv)"; empty: never
@@ -220,6 +225,15 @@ std::string unsolved_text(std::map<std::string, long> count) {
       "integration.macro_step, or more integration.implicit.{}",
       counted(missed, newton ? "step" : "linear system") + (missed == 1 ? " was" : " were"),
       newton ? "newton_iterations" : "max_iterations");
+}
+
+std::string mostly_explicit_text(std::map<std::string, long> count, long macro_steps) {
+  const long level_alone = count["him_explicit_steps"];
+  if (2 * level_alone <= macro_steps) return "";
+  return fmt::format(
+      "cycle him: {} of {} were taken by explicit steps of level 0, since no longer step was stable as the body "
+      "stiffened; expected cycle: single, which takes these without the set-up",
+      level_alone, counted(macro_steps, "macro step"));
 }
 
 std::string many_steps_text(const Scene& scene, const Summary& s) {

@@ -48,6 +48,9 @@ std::string summary_json(const Scene& scene, const Summary& summary, const std::
 /// A sentence of systems, or of Newton's steps, that were not solved, of a simulation's counters; empty where all were.
 std::string unsolved_text(std::map<std::string, long> counters);
 
+/// A sentence where the cycle him went by explicit steps of level 0 for most of so many macro steps; else empty.
+std::string mostly_explicit_text(std::map<std::string, long> counters, long macro_steps);
+
 /// A sentence where the run takes very many macro steps: what would make them longer that the scene does not have yet. Else empty.
 std::string many_steps_text(const Scene& scene, const Summary& summary);
 

@@ -106,9 +106,15 @@ GrowingFile::GrowingFile(std::filesystem::path file, std::uint64_t size) : file_
     throw InputError(
         "cannot resume: " + file_.string() + " was changed since the checkpoint: " +
         (error ? error.message() : std::to_string(found) + " bytes, " + std::to_string(size) + " expected"));
+  cut_back(size);
+  open();
+}
+
+void GrowingFile::cut_back(std::uint64_t size) {
+  std::error_code error;
   std::filesystem::resize_file(file_, size, error);
   if (error) throw FileError("cannot write " + file_.string() + ": " + error.message());
-  open();
+  size_ = size;
 }
 
 GrowingFile::~GrowingFile() {

@@ -66,7 +66,8 @@ class GrowingFile {
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   void add(const std::string& line);
-  void sync() const;  ///< waits until it is on the disk
+  void sync() const;                  ///< waits until it is on the disk
+  void cut_back(std::uint64_t size);  ///< what stands behind is cut off
   std::uint64_t size() const { return size_; }
 
  private:

@@ -100,7 +100,9 @@ Tree shared_integration(const Tree& tree) {
 
 namespace {
 
-/// The scene with one of its bodies as `body`, which has `levels` levels: the coarsest is repeated.
+bool is_space(const Tree& level) { return level.find("coarsen") != nullptr; }
+
+/// The scene with one of its bodies as `body`, which has `levels` meshes: the coarsest is repeated. Coarse spaces come after them.
 Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   Tree one = tree;
   std::erase_if(one.items, [](const Tree& item) {
@@ -109,8 +111,11 @@ Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   one.items.push_back(body);
   one.items.back().key = "body";
   for (Tree& item : one.items.back().items)
-    if (item.key == "levels" && item.kind == Tree::Kind::list)
-      while (!item.items.empty() && item.items.size() < levels) item.items.push_back(item.items.back());
+    if (item.key == "levels" && item.kind == Tree::Kind::list) {
+      const auto first = std::ranges::find_if(item.items, is_space);
+      const auto meshes = static_cast<std::size_t>(first - item.items.begin());
+      if (meshes > 0 && meshes < levels) item.items.insert(first, levels - meshes, Tree(item.items[meshes - 1]));
+    }
   return one;
 }
 
@@ -144,13 +149,18 @@ void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, st
   input.tets = joined_numbers(std::move(input.tets), one.input.tets, tets, mesh.tets.size());
 }
 
+std::size_t meshes_of(const BodyRecipe& body) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(body.levels, [](const LevelRecipe& level) { return !level.coarsen; }));
+}
+
 }  // namespace
 
 Scene load_bodies(const Tree& tree) {
   const Scene recipe = read_scene(tree);
   std::size_t levels = 0;
   for (const auto& [name, body] : recipe.bodies)
-    levels = std::max({levels, body.levels.size(), body.lattices ? body.lattices->sizes.size() : 0});
+    levels = std::max({levels, meshes_of(body), body.lattices ? body.lattices->sizes.size() : 0});
   for (const auto& [name, body] : recipe.bodies)
     if (body.lattices && body.lattices->sizes.size() != levels) {
       const std::string path = "bodies." + name + ".levels.sizes";

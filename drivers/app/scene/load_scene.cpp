@@ -20,7 +20,7 @@ std::vector<Choice> precisions() { return {{"float", "32 bits"}, {"double", "64 
 
 namespace {
 
-/// Levels without a mesh, which stand after the one mesh, become the body's coarse spaces.
+/// Levels without a mesh, which stand after the meshes, become the body's coarse spaces.
 void take_coarse_spaces(Scene& scene, const Tree& tree) {
   const auto first =
       std::ranges::find_if(scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
@@ -31,10 +31,6 @@ void take_coarse_spaces(Scene& scene, const Tree& tree) {
     throw InputError(path + ": " + why, place_of(tree, path));
   };
   if (meshes == 0) refuse(0, "coarsen makes coarse spaces of the mesh before it; expected a mesh first");
-  if (meshes > 1)
-    refuse(meshes,
-           fmt::format("coarsen makes coarse spaces of the finest mesh, but {} meshes stand before it; expected one",
-                       meshes));
   std::vector<int>& sizes = scene.problem.body.coarsen.emplace();
   for (auto i = meshes; i < std::ssize(scene.levels); ++i) {
     const std::optional<int>& points = scene.levels[static_cast<std::size_t>(i)].coarsen;

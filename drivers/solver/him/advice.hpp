@@ -54,18 +54,28 @@ inline std::string too_fast_for_him(const Problem& problem, double macro_step, d
               " s, or cycle: single");
 }
 
-/// What the levels lack for contact, in a sentence each.
-inline std::vector<std::string> him_advice(const Problem& problem, const std::vector<LevelReport>& levels,
-                                           double macro_step) {
+/// A sentence where no inertia fitted the automatic step. Else nothing.
+inline std::string shorter_than_usual(const HimReport& him, double macro_step) {
+  if (!(him.usual_step > (1 + 1e-9) * macro_step)) return {};
+  return text(
+      "cycle him: no inertia fits the automatic macro step of ", number(him.usual_step, 3), " s, and it was halved to ",
+      number(macro_step, 3),
+      " s: the run takes so much longer; expected a finer coarsest level, as by {coarsen: auto}, or cycle: single");
+}
+
+/// What is to be known before a run, a sentence each: of its step, and what the levels lack for contact.
+inline std::vector<std::string> him_advice(const Problem& problem, const HimReport& him,
+                                           const std::vector<LevelReport>& levels, double macro_step) {
   constexpr int fewest = 300;  // 6 to 7 cells across are 343 to 512 vertices; the spaces that are made have 300
   std::vector<std::string> sentences;
+  if (std::string shorter = shorter_than_usual(him, macro_step); !shorter.empty())
+    sentences.push_back(std::move(shorter));
   if (!has_contact(problem)) return sentences;
-  if (const LevelReport& last = levels.back(); levels.size() > 1 && last.vertices < fewest)
-    sentences.push_back(
-        text("cycle him: the coarsest level has ", last.vertices, " vertices, about ",
-             number(std::cbrt(last.vertices) - 1, 2),
-             " cells across; with 343 to 512, 6 to 7 across, errors of contact are 1.5 to 2 times smaller: "
-             "expected a finer last one in body.levels, or {coarsen: 430}"));
+  if (levels.size() > 1 && him.coarsest < fewest)
+    sentences.push_back(text(
+        "cycle him: the coarsest level has ", him.coarsest, " vertices, about ", number(std::cbrt(him.coarsest) - 1, 2),
+        " cells across; with 343 to 512, 6 to 7 across, errors of contact are 1.5 to 2 times smaller: "
+        "expected a finer last one in body.levels, or {coarsen: 430}"));
   if (std::string fast = too_fast_for_him(problem, macro_step, levels.front().mean_edge); !fast.empty())
     sentences.push_back(std::move(fast));
   return sentences;

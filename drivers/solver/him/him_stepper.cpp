@@ -1,187 +1,259 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Kokkos_Profiling_ScopedRegion.hpp>
 #include <algorithm>
-#include <plica/core/error.hpp>
-#include <plica/core/text.hpp>
+#include <cmath>
+#include <plica/drivers/solver/him/find_momenta.hpp>
+#include <plica/drivers/solver/him/him_parts.hpp>
 #include <plica/drivers/solver/him/him_stepper.hpp>
-#include <plica/drivers/solver/set_up/to_device.hpp>
-#include <plica/drivers/solver/spaces/coarse_spaces.hpp>
-#include <plica/drivers/solver/spaces/coarse_stiffness.hpp>
+#include <plica/drivers/solver/largest_eigenvalue.hpp>
 
 namespace plica {
 
 namespace {
 
-// Times the critical step of the finest level; over spaces made of it, slivers left out
-constexpr double automatic_step = 8, step_with_contact = 4;
 /// The largest t^2 lambda_max(A K) of steps that are given back: half way from that at rest to where WatchSpectrum reports it.
 double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
-void expect_small(const TetMesh& coarsest, std::size_t level) {
-  const auto most = static_cast<std::size_t>(CoarseModes::most_unknowns / 3);
-  if (coarsest.vertices.size() > most)
-    throw InputError("cycle him solves its coarsest level by a dense matrix; level " + std::to_string(level) + " has " +
-                     std::to_string(coarsest.vertices.size()) + " vertices, expected at most " + std::to_string(most) +
-                     ": add a coarser level, of 200 to 350 vertices");
-}
-
-template <class B>
-LevelsBelow coarser_levels(const StepperSetup<B>& setup, const BlockRows& K) {
-  std::vector<RestLevel> levels;
-  for (std::size_t i = 0; i < setup.meshes.size(); ++i)
-    levels.push_back({setup.meshes[i], setup.constants[i].constrained, i > 0 ? &setup.up[i] : nullptr});
-  SpaceOptions options{.sizes = {}, .slivers = true};
-  if (levels.size() == 1)
-    options.sizes = space_sizes(setup.problem.body, setup.constants[0].constrained,
-                                setup.contact ? him_sizes_with_contact : him_sizes);
-  return levels_below(levels, setup.constants[0].mass, K, options, setup.problem.integration.him.smoothing);
-}
-
-/// What the reports say of spaces: they have no elements. They come below the finest level, above coarser meshes.
-void report_spaces(const std::vector<CoarseSpace>& made, std::vector<LevelReport>& reports) {
-  auto place = reports.begin();
-  for (const CoarseSpace& space : made) {
-    place = reports.emplace(place + 1);
-    LevelReport& report = *place;
-    report.kind = space.slivers ? LevelKind::slivers : LevelKind::space;
-    report.vertices = static_cast<int>(space.points.size());
-    report.mean_edge = space.spacing;
-    report.nonzeros = static_cast<double>(space.up.nonZeros()) / static_cast<double>(space.up.rows());
-    report.element = "none";
-  }
-}
-
-template <class B>
-HimParts<B> him_parts(StepperSetup<B>& setup) {
-  const auto& exec = setup.hierarchy.exec();
-  const Level<B>& finest = setup.hierarchy[0];
-  const std::vector<TetMesh>& meshes = setup.meshes;
-  const LevelConstants& constants = setup.constants[0];
-  std::vector<std::array<double, 2>> lame;
-  for (const auto& one : constants.lame) lame.push_back({one.lambda, one.mu});
-  const LevelsBelow coarser = coarser_levels<B>(setup, rest_stiffness(meshes.front(), lame));
-  report_spaces(coarser.made, setup.reports);
-  const auto spaces = mass_spaces(coarser.transfers, constants.mass);
-  HimParts<B> parts;
-  parts.options = setup.problem.integration.him;
-  parts.detail = meshes.size() == 1 && !coarser.made.empty() && coarser.made.front().slivers;
-  std::optional<CoarseModes> modes;
-  AxesShape axes;
-  if (!spaces.empty()) {
-    const RowMatrix whole = to_finest(spaces);
-    modes.emplace(coarse_stiffness(meshes.front(), lame, whole), spaces.back().mass);
-    axes = meshes.size() > 1 ? axes_of_mesh(meshes.front(), meshes.back(), constants.mass)
-                             : axes_of_space(meshes.front(), whole, constants.mass);
-  }
-  parts.inverse_mass = std::make_unique<InverseMass<B>>(finest, spaces, axes);
-  parts.fitter = std::make_unique<InertiaFitter<B>>(exec, finest, setup.elasticity, setup.eigenvalue,
-                                                    *parts.inverse_mass, std::move(modes));
-  if (setup.contact) {
-    const auto n = static_cast<std::size_t>(finest.model.vertices);
-    parts.contact_force = zeros<Vectors<B>>("plica::him.contact_force", n);
-    parts.contact_answer = zeros<Vectors<B>>("plica::him.contact_answer", n);
-  }
-  const bool free = std::ranges::count(constants.constrained, 1) == 0;
-  if (free && !spaces.empty()) {
-    const Box box = bounding_box(meshes.front().vertices);
-    std::vector<Point> rest = meshes.front().vertices;
-    for (Point& p : rest) p -= (box.min + box.max) / 2;
-    parts.free.emplace(to_device<Vectors<B>>("him.rest", rows<typename B::Real>(rest)));
-  }
-  return parts;
-}
-
-[[noreturn]] void refuse_step(double t, double fits, double critical) {
-  throw InputError(text("integration.macro_step ", number(t, 4), " s is ", number(t / critical, 3),
-                        " times the finest level's critical step ", number(critical, 4),
-                        " s, and no inertia makes it stable in cycle him; expected at most about ", number(fits, 3),
-                        " s, or a finer coarsest level"));
-}
-
-/// The fit to the scene's macro step, or to the longest that it takes by itself.
-template <class B>
-InertiaFit fit_step(const StepperSetup<B>& setup, HimParts<B>& parts) {
-  const std::optional<double>& given = setup.problem.integration.macro_step;
-  const Vectors<B>& u = setup.hierarchy[0].state.u;
-  const double critical = parts.fitter->critical_steps()[parts.detail], sigma = parts.options.sigma;
-  const bool coarse = parts.inverse_mass->levels() > 1;
-  const double usual = setup.contact ? step_with_contact : automatic_step;
-  const double asked = given.value_or((coarse ? usual : sigma) * critical);
-  for (double t = asked; t > 0.01 * std::min(asked, critical); t /= 2)
-    if (const auto fit = parts.fitter->fit(t, sigma, u)) {
-      if (given && t < asked) refuse_step(asked, t, setup.reports.front().critical_step);
-      return *fit;
-    }
-  refuse_step(asked, 0, setup.reports.front().critical_step);
-}
+constexpr double explicit_safety = 0.9;  // of the stable explicit step
+// What a step of the inverse mass costs, in explicit steps of level 0: cmake/docs/him.md
+constexpr double cost_of_step = 3, cost_with_contact = 6;
+constexpr int most_explicit = 1 << 14;  // sub-steps in a macro step
 
 }  // namespace
 
+// --- Set-up -----------------------------------------------------------------------------------------------------------------
+
 template <class B>
 void HimStepper<B>::plan(StepperSetup<B>& setup) {
-  if (setup.meshes.size() > 1) expect_small(setup.meshes.back(), setup.meshes.size() - 1);
+  options_ = setup.problem.integration.him;
   may_repair_ = setup.problem.integration.on_failure.halvings == FailureOptions::automatic;
-  HimParts<B> parts = him_parts<B>(setup);
-  parts.fit = fit_step<B>(setup, parts);
-  take(setup.hierarchy, std::move(parts));
-  setup.macro_step = parts_.fit.step;
-  const std::vector<double>& own = parts_.fitter->critical_steps();
-  for (std::size_t i = 0; i < setup.reports.size(); ++i) {
-    LevelReport& report = setup.reports[i];
-    report.inertia = parts_.fit.inertia[i];
-    report.explicit_integrator = false;  // no critical step limits it
-    report.share = i == 0 ? 1 : 0, report.substeps = i == 0 ? 1 : 0;
-    if (i > 0) report.integrator = "none";
-    if (i < own.size()) report.detail_step = own[i];
-  }
-  const int coarsest = setup.reports.size() > 1 ? setup.reports.back().vertices : 0;
-  setup.him = HimReport{parts_.fit.product, parts_.fit.bound, coarsest, 3 * coarsest <= CoarseModes::most_modes};
+  explicit_limit_ = setup.reports.front().critical_step, eigenvalue_ = setup.eigenvalue;
+  std::vector<HimParts<B>> bodies = him_parts<B>(setup);
+  double usual = 0;
+  macro_step_ = setup.macro_step = fit_step<B>(setup, bodies, usual);
+  report_fits<B>(setup, bodies);
+  setup.him->usual_step = usual;
+  take(setup.hierarchy, std::move(bodies), setup.contact != nullptr);
 }
 
 template <class B>
-void HimStepper<B>::take(const Hierarchy<B>& h, HimParts<B>&& parts) {
-  parts_ = std::move(parts);
-  scale_at(0) = parts_.fit.scale;
+void HimStepper<B>::take(const Hierarchy<B>& h, std::vector<HimParts<B>>&& parts, bool contact) {
   n_ = h[0].model.vertices;
-  p_ = Vectors<B>("plica::him.p", n_), g_ = Vectors<B>("plica::him.g", n_), a_ = Vectors<B>("plica::him.a", n_);
-  f_before_ = Vectors<B>("plica::him.f_before", n_), a_before_ = Vectors<B>("plica::him.a_before", n_);
-  blocks_ = BlockSums<B>(n_);
-  contact_ = {parts_.contact_force, h[0].response().records().touching};
-  turned_ = Count("plica::him.turned", 1), sums_ = Count("plica::him.sums", 2), watch_ = Count("plica::him.watch", 3);
+  macro_step_ = parts.front().fit.step;
+  fields_ = HimFields<B>(n_, contact, h[0].response().records().touching);
+  for (HimParts<B>& one : parts) bodies_.emplace_back(h[0], std::move(one), fields_);
+}
+
+template <class B>
+void HimStepper<B>::start(Hierarchy<B>& h) {
+  const Level<B>& level = h[0];
+  const auto& exec = h.exec();
+  for (const HimBody<B>& body : bodies_) body.turn(exec, level.state.u);
+  weigh<B>(exec, "plica::him_momenta", level.model, 1, level.state.v, 0, level.state.v, fields_.p);
+  answer(exec, fields_.p, fields_.a);
+  combine_free<B>(exec, "plica::him_start", level.model.inverse_mass, 1, fields_.a, 0, fields_.a, level.state.v);
+  forget(exec);
+}
+
+template <class B>
+void HimStepper<B>::begin(Hierarchy<B>& h) {
+  const Level<B>& level = h[0];
+  const auto& exec = h.exec();
+  copy(exec, fields_.a, level.state.u);
+  const auto half = static_cast<Real>(0.5 * macro_step_ / (1 << halvings_));
+  combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1, fields_.a, fields_.a);
+  for (const HimBody<B>& body : bodies_) body.turn(exec, fields_.a);
+  has_momenta_ = false;
+  forget(exec);
+}
+
+template <class B>
+void HimStepper<B>::forget(const Exec& exec) {
+  for (HimBody<B>& body : bodies_) body.forget(exec);
+  for (const Vectors<B>& last : {fields_.force_before, fields_.answer_before, fields_.contact.force})
+    fill(exec, last, Real(0));  // they may be no numbers, after steps that went wrong
+}
+
+// --- Step -------------------------------------------------------------------------------------------------------------------
+
+template <class B>
+void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
+  if (explicit_ > 0) return step_explicitly(h, time, t);
+  if (!has_momenta_) find_momenta(h.exec(), h[0]);
+  for (int s = 0; s < parts(); ++s) substep(h, time + s * t / parts(), t / parts());
+}
+
+template <class B>
+void HimStepper<B>::step_explicitly(Hierarchy<B>& h, double time, double t) {
+  SolverLevel<B>& level = h[0];
+  if (time + t > explicit_until_) ++explicit_steps_, explicit_until_ = time + t;  // not those that are taken again
+  level.book("integrate", [&] {
+    prescribe(h.exec(), level, level.state, time);
+    level.integrator->advance(level, time, t / explicit_, explicit_);
+  });
+}
+
+template <class B>
+void HimStepper<B>::find_momenta(const Exec& exec, const Level<B>& level) {
+  const auto A = [&](const Vectors<B>& p, const Vectors<B>& v) { answer(exec, p, v); };
+  momentum_of<B>(exec, level.model, A, level.state.v, fields_.p);
+  has_momenta_ = true;
+}
+
+template <class B>
+void HimStepper<B>::substep(Hierarchy<B>& h, double time, double t) {
+  SolverLevel<B>& level = h[0];
+  const auto& exec = level.exec();
+  const State<B>& x = level.state;
+  combine_free<B>(exec, "plica::him_drift", level.model.inverse_mass, static_cast<Real>(t / 2), x.v, 1, x.u, x.u);
+  prescribe(exec, level, level.state, time + t / 2);
+  level.remember(time + t / 2);
+  level.evaluate_without_contact(level.state, time + t / 2, level.f);
+  h.clock.time("turn", 0, [&] {
+    for (const HimBody<B>& body : bodies_) body.kick(exec, options_.dissipation.value_or(-1), t);
+  });
+  h.clock.time("answer", 0, [&] {
+    for (const HimBody<B>& body : bodies_) body.push_and_accelerate(exec, t);
+  });
+  if (level.contact()) h.clock.time("contact", 0, [&] { touch(level, time + t / 2, t); });
+  for (HimBody<B>& body : bodies_) body.finish(exec, t);
+  prescribe(exec, level, level.state, time + t);
+}
+
+template <class B>
+void HimStepper<B>::touch(SolverLevel<B>& level, double time, double t) const {
+  const auto& exec = level.exec();
+  const ContactRecords<B>& records = level.response().records();
+  const Doubles<B>& touching = records.touching;
+  const Vectors<B>&force = fields_.contact.force, &acceleration = fields_.contact_answer;
+  ScatterContact<B> scatter{.surface = level.surface,
+                            .records = records,
+                            .f = force,
+                            .model = level.model,
+                            .damped = static_cast<Real>(t / 2),
+                            .bounding = Bounding::obstacles};  // the first, of unit forces
+  const auto respond = [&] {
+    where_touching<B>(exec, touching, "plica::contact_zero", n_, ZeroVectors<B>{force});
+    over_list<B>(exec, records.transpose.vertices, "plica::contact_scatter", scatter, touching);
+    scatter.bounding = Bounding::none;
+    answer(exec, force, acceleration, touching);
+  };
+  answer(exec, force, acceleration, touching);
+  where_touching<B>(exec, touching, "plica::contact_expected", n_,
+                    TakeExpectedContact<B>{level.model.inverse_mass, force, acceleration, fields_.p, fields_.a,
+                                           static_cast<Real>(t)});
+  level.response().resolve(exec, level, level.state, time, {.span = t}, fields_.a, acceleration, respond);
+  level.response().add_impulse(exec, level, level.state, time, t);
+}
+
+// --- Shorter steps, and longer ones again -----------------------------------------------------------------------------------
+
+template <class B>
+bool HimStepper<B>::lost_stability(const Hierarchy<B>& h, double) {
+  if (explicit_ == 0)
+    return std::ranges::any_of(bodies_, [&](const HimBody<B>& body) { return body.lost_stability(h.exec()); });
+  const SolverLevel<B>& level = h[0];
+  const double most = 2 * explicit_ / macro_step_;  // angular frequency [1/s]
+  return excited_eigenvalue<B>(h.exec(), {level, level.elasticity(), level.state.u}, level.state.v) > most * most;
+}
+
+template <class B>
+double HimStepper<B>::explicit_step(const Hierarchy<B>& h) const {
+  const SolverLevel<B>& level = h[0];
+  const double now = largest_eigenvalue<B>(h.exec(), {level, level.elasticity(), level.state.u});
+  const double stiffened = now > eigenvalue_ ? std::sqrt(eigenvalue_ / now) : 1;
+  return explicit_safety * stiffened * explicit_limit_;
+}
+
+template <class B>
+int HimStepper<B>::most_halvings(double explicit_step) const {
+  const double cost = fields_.contact.force.extent(0) > 0 ? cost_with_contact : cost_of_step;
+  const double most = std::floor(std::log2(macro_step_ / (cost * explicit_step)));
+  return static_cast<int>(std::clamp(most, 0.0, 1.0 * HimBody<B>::most_halvings));
+}
+
+template <class B>
+bool HimStepper<B>::fit(const Hierarchy<B>& h, int halvings) {
+  return std::ranges::all_of(bodies_, [&](HimBody<B>& body) {
+    return body.fit(macro_step_ / (1 << halvings), options_.sigma, halvings, h[0].state.u);
+  });
+}
+
+template <class B>
+void HimStepper<B>::use_fits() {
+  for (HimBody<B>& body : bodies_) body.use_fit(macro_step_ / (1 << halvings_), options_.sigma, halvings_);
 }
 
 template <class B>
 bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
   ++repairs_;
   regaining_.cut();
-  for (int next = halvings_ + 1; next <= most_halvings; ++next)
-    if (const auto fit = parts_.fitter->fit(t / (1 << next), parts_.options.sigma, h[0].state.u)) {
-      parts_.fit = *fit;
-      halvings_ = next, scale_at(next) = fit->scale;
+  if (explicit_ > 0) {
+    if (explicit_ > most_explicit / 2 * macro_step_ / (explicit_safety * explicit_limit_)) return false;
+    explicit_ *= 2;
+    return true;
+  }
+  const double step = explicit_step(h);
+  for (int next = halvings_ + 1; next <= most_halvings(step); ++next)
+    if (fit(h, next)) {
+      halvings_ = next;
       begin(h);
       return true;
     }
-  use(t);
-  return false;
+  use_fits();
+  explicit_ = static_cast<int>(
+      std::clamp(std::ceil(t / step), 1.0, std::ceil(most_explicit * t / (explicit_safety * explicit_limit_))));
+  return true;
 }
 
 template <class B>
 void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
-  if (halvings_ == 0 || !regaining_.due(steps)) return;
-  const double sigma = parts_.options.sigma;
-  int fitting = halvings_;
-  for (int next = fitting - 1; next >= 0; --next) {
-    if (scale_at(next) == 0) continue;
-    const double step = t / (1 << next);
-    parts_.fitter->use(step, sigma, scale_at(next));
-    if (parts_.fitter->product(step, h[0].state.u) > steady_product(sigma)) break;
+  if ((halvings_ == 0 && explicit_ == 0) || !regaining_.due(steps)) return;
+  const double sigma = options_.sigma, step = explicit_ > 0 ? explicit_step(h) : 0;
+  const int longest = explicit_ > 0 ? most_halvings(step) + 1 : halvings_;  // from there on steps are given back
+  int fitting = longest;
+  for (int next = longest - 1; next >= 0; --next) {
+    const auto had = [&](const HimBody<B>& body) { return body.has_fit(next); };
+    if (!std::ranges::all_of(bodies_, had)) continue;
+    const double part = t / (1 << next);
+    const auto holds = [&](HimBody<B>& body) {
+      body.use_fit(part, sigma, next);
+      return body.fitter().product(part, h[0].state.u) <= steady_product(sigma);
+    };
+    if (!std::ranges::all_of(bodies_, holds)) break;
     fitting = next;
   }
-  const bool longer = fitting < halvings_;
+  const bool longer = fitting < longest;
   regaining_.tried(steps, longer);
-  halvings_ = fitting;
-  use(t);
-  if (longer) begin(h);
+  const bool returns = longer && explicit_ > 0;
+  if (longer) halvings_ = fitting, explicit_ = 0;
+  use_fits();
+  if (returns) {
+    start(h);  // fast detail that explicit steps have left goes: with its added inertia it would have more energy
+    has_momenta_ = true;
+  } else if (longer) {
+    begin(h);
+  }
+}
+
+template <class B>
+std::size_t HimStepper<B>::bytes() const {
+  std::size_t total = fields_.bytes();
+  for (const HimBody<B>& body : bodies_) total += body.bytes();
+  return total;
+}
+
+template <class B>
+void HimStepper<B>::persist(StateArchive<B>& archive) {
+  archive.number(halvings_), archive.number(explicit_), archive.number(repairs_), archive.number(explicit_steps_);
+  archive.number(explicit_until_), archive.number(has_momenta_);
+  regaining_.persist(archive);
+  for (HimBody<B>& body : bodies_) body.persist(archive);
+  use_fits();
+  archive.field("the momenta", fields_.p);
+  archive.field("the last force", fields_.force_before);
+  archive.field("the last answer", fields_.answer_before);
+  archive.field("the last contact", fields_.contact.force);
+  archive.field("how much touched", fields_.contact.touching);
 }
 
 template <class B>

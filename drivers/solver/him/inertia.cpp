@@ -47,11 +47,12 @@ std::vector<double> weights_of(const std::vector<double>& alpha) {
 }  // namespace
 
 template <class B>
-InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level,
-                                std::shared_ptr<const Elasticity<B>> elasticity, double eigenvalue,
+InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level, const RowsOfBody& rows,
+                                std::shared_ptr<const Elasticity<B>> elasticity, std::optional<double> eigenvalue,
                                 InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes)
     : exec_(exec),
       level_(level),
+      rows_(rows),
       elasticity_(std::move(elasticity)),
       inverse_mass_(inverse_mass),
       modes_(std::move(modes)) {
@@ -62,8 +63,8 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
     const auto n = static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices);
     inverse_mass_.set_answer(InverseMass<B>::to_device(Eigen::MatrixXd::Zero(n, n)));
   }
-  critical_.push_back(2 / std::sqrt(eigenvalue));
-  for (std::size_t i = 1; i + 1 < levels; ++i) {
+  if (eigenvalue) critical_.push_back(2 / std::sqrt(*eigenvalue));
+  for (std::size_t i = critical_.size(); i == 0 || i + 1 < levels; ++i) {
     std::vector<double> alone(levels, 0.0);
     alone[i] = 1;
     inverse_mass_.set_weights(alone);
@@ -73,7 +74,10 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
 
 template <class B>
 double InertiaFitter<B>::largest(const Vectors<B>& u, double tolerance) const {
-  const VectorMap<B> A = [this](const Vectors<B>& x, const Vectors<B>& y) { inverse_mass_.apply(exec_, x, y); };
+  const VectorMap<B> A = [this](const Vectors<B>& x, const Vectors<B>& y) {
+    if (rows_.count < level_.model.vertices) fill(exec_, y, typename B::Real(0));
+    inverse_mass_.apply(exec_, rows_.of(x), rows_.of(y));
+  };
   return largest_eigenvalue<B>(exec_, A, {level_, *elasticity_, u}, tolerance);
 }
 

@@ -7,6 +7,7 @@
 #include <plica/core/level.hpp>
 #include <plica/drivers/solver/elasticity.hpp>
 #include <plica/drivers/solver/him/inverse_mass.hpp>
+#include <plica/drivers/solver/him/rows_of_body.hpp>
 #include <vector>
 
 namespace plica {
@@ -20,13 +21,16 @@ struct InertiaFit {
   std::vector<double> inertia;  ///< 1 / alpha_i, finest first: how many times too heavy a level's own detail is
 };
 
-/// Fits the weights of an inverse mass to a step.
+/// Fits the weights of one body's inverse mass to a step.
 template <class B>
 class InertiaFitter {
  public:
-  /// @param eigenvalue  of the level by itself at rest, see largest_eigenvalue() [1/s^2]
-  InertiaFitter(const typename B::Exec& exec, const Level<B>& level, std::shared_ptr<const Elasticity<B>> elasticity,
-                double eigenvalue, InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
+  /// @param level       with the vertices of all bodies, as every state u below
+  /// @param rows        the body's
+  /// @param eigenvalue  of the body's part of the level by itself at rest, see largest_eigenvalue(); none: found here [1/s^2]
+  InertiaFitter(const typename B::Exec& exec, const Level<B>& level, const RowsOfBody& rows,
+                std::shared_ptr<const Elasticity<B>> elasticity, std::optional<double> eigenvalue,
+                InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes);
 
   /// Sets weights and answer so that t^2 lambda_max(A K) = 4 sigma^2 at the state u, axes turned as they are, with gamma at most 1;
   /// nothing fits: none, and the weights are of no use.
@@ -47,6 +51,7 @@ class InertiaFitter {
  private:
   typename B::Exec exec_;
   const Level<B>& level_;
+  RowsOfBody rows_;
   std::shared_ptr<const Elasticity<B>> elasticity_;
   InverseMass<B>& inverse_mass_;
   std::optional<CoarseModes> modes_;

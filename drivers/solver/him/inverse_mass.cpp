@@ -41,8 +41,8 @@ MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer, co
 }  // namespace
 
 template <class B>
-InverseMass<B>::InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes)
-    : vertices_(finest.model.vertices), inverse_mass_(finest.model.inverse_mass), weights_{1} {
+InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces, const AxesShape& axes)
+    : vertices_(static_cast<int>(inverse_mass.extent(0))), inverse_mass_(inverse_mass), weights_{1} {
   if (spaces.empty()) return;
   const Kokkos::Profiling::ScopedRegion region("plica: inverse mass");
   weights_.resize(spaces.size() + 1, 0);

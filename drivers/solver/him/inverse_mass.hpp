@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <plica/core/fields.hpp>
 #include <plica/core/inverse_mass.hpp>
-#include <plica/core/level.hpp>
 #include <plica/drivers/solver/him/turning_axes.hpp>
 #include <vector>
 
@@ -17,8 +17,9 @@ class InverseMass {
   using Count = Doubles<B>;
   using Answer = decltype(CoarseFilter<B>::matrix);
 
-  /// @param axes  of the coarsest space, where there are any
-  InverseMass(const Level<B>& finest, const std::vector<MassSpace>& spaces, const AxesShape& axes);
+  /// @param inverse_mass  of the body's vertices on the finest level [1/kg]
+  /// @param axes          of the coarsest space, where there are any
+  InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces, const AxesShape& axes);
 
   int levels() const { return static_cast<int>(coarser_.size()) + 1; }
   /// The levels' weights b, finest first; they sum to 1.

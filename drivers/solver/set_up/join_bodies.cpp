@@ -58,8 +58,6 @@ void expect_joinable(const std::vector<NamedBody>& bodies) {
           std::pair{"random", start.random.has_value()}})
       if (given)
         throw InputError(path + ".initial." + key + ": one of several bodies starts in its shape; leave it out");
-    if (body.coarsen)
-      throw InputError(path + ".levels: coarsen makes coarse spaces of a single body; expected meshes alone");
     expect_alike(bodies.front(), bodies[i]);
   }
 }
@@ -98,10 +96,33 @@ class Joiner {
     all_.material = first.material, all_.material.prony.clear();  // each part has its own
     for (const NamedBody& one : bodies) add(one.first, one.second);
   }
-  Body take() { return std::move(all_); }
+  Body take() {
+    all_.coarsen = points_of_all();
+    return std::move(all_);
+  }
 
  private:
   Body all_;
+
+  /// For methods that make spaces of all bodies together: the sums of what each asks for, the coarsest with the coarsest. Where a body asks
+  /// for no numbers, as many as it takes.
+  std::optional<std::vector<int>> points_of_all() const {
+    std::vector<int> sums;
+    bool asked = false, numbers = true;
+    for (const BodyPart& part : all_.parts) {
+      asked = asked || part.coarsen, numbers = numbers && part.coarsen && !part.coarsen->empty();
+      if (!numbers) continue;
+      sums.resize(std::max(sums.size(), part.coarsen->size()), 0);
+    }
+    if (!asked) return {};
+    if (!numbers) return std::vector<int>{};
+    for (const BodyPart& part : all_.parts)
+      for (std::size_t i = 1; i <= sums.size(); ++i) {
+        const std::vector<int>& own = *part.coarsen;
+        sums[sums.size() - i] += i <= own.size() ? own[own.size() - i] : own.front();
+      }
+    return sums;
+  }
 
   void add(const std::string& name, Body body) {
     flows_to_fields(body, "fibres of " + name);
@@ -119,7 +140,7 @@ class Joiner {
     keep_selections(name, body);
     const int points = body.surface ? static_cast<int>(body.surface->vertices.size()) : 0;
     if (body.surface) add_surface(*body.surface, shift);
-    all_.parts.push_back({name, body.material, points});
+    all_.parts.push_back({name, body.material, points, body.coarsen});
   }
 
   /// What elements have, after that of those `before`; where nothing is said, `none`.

@@ -45,20 +45,14 @@ std::vector<RowMatrix> transfers_below(const Body& body, std::size_t level) {
   for (const RestMesh& one : meshes) levels.push_back({one.mesh, one.constrained});
   SpaceOptions options{.sizes = {}, .reach = multigrid_reach};
   const RestMesh& coarsest = meshes.back();
-  std::vector<RowMatrix> transfers;
-  if (levels.size() > 1) {
-    transfers = levels_below(levels, {}, {}, options, false).transfers;
-    if (coarsest.mesh.vertices.size() <= most_in_coarsest) return transfers;
-  }
-  options.sizes = space_sizes(body, coarsest.constrained, multigrid_sizes);
+  if (levels.size() == 1 || body.coarsen || coarsest.mesh.vertices.size() > most_in_coarsest)
+    options.sizes = space_sizes(body.coarsen, coarsest.constrained, multigrid_sizes);
   if (options.sizes.empty() && unknowns(coarsest.mesh) > static_cast<std::size_t>(most_dense_unknowns))
     throw InputError("integration.implicit: multigrid makes no space of level " +
                      std::to_string(body.levels.size() - 1) + ", which has " +
                      std::to_string(coarsest.mesh.vertices.size()) +
                      " vertices, but too few that may move; expected block_jacobi or chebyshev, or a coarser mesh");
-  for (RowMatrix& further : levels_below({levels.back()}, {}, {}, options, false).transfers)
-    transfers.push_back(std::move(further));
-  return transfers;
+  return levels_below(levels, {}, {}, options, false).transfers;
 }
 
 bool has_multigrid(const Body& body, std::size_t level) {

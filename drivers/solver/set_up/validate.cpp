@@ -8,6 +8,7 @@
 #include <plica/drivers/solver/linear/linear_solver.hpp>
 #include <plica/drivers/solver/materials.hpp>
 #include <plica/drivers/solver/registry.hpp>
+#include <plica/drivers/solver/set_up/body_parts.hpp>
 #include <plica/drivers/solver/set_up/fibres.hpp>
 #include <plica/drivers/solver/set_up/selection.hpp>
 #include <plica/drivers/solver/set_up/validate.hpp>
@@ -277,17 +278,15 @@ void check_coarsen(const Problem& problem, std::size_t levels) {
   if (!problem.body.coarsen) return;
   const std::vector<int>& sizes = *problem.body.coarsen;
   const std::string& cycle = problem.integration.cycle;
-  if (levels > 1)
-    throw InputError("body.levels: coarsen makes coarse spaces of one mesh, but the body has " +
-                     std::to_string(levels) + "; expected one mesh, or no coarsen");
   if (integrates_coarse_levels(cycle))
     throw InputError("body.levels: coarsen makes spaces without elements, but cycle " + cycle +
                      " integrates its coarser levels; expected coarser meshes there, or cycle him, auto or single");
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    Count{fewest_points}.check("body.levels." + std::to_string(i + 1) + ".coarsen", sizes[i]);
+    const std::string path = "body.levels." + std::to_string(levels + i) + ".coarsen";
+    Count{fewest_points}.check(path, sizes[i]);
     if (i > 0 && sizes[i] >= sizes[i - 1])
-      throw InputError("body.levels." + std::to_string(i + 1) + ".coarsen is " + std::to_string(sizes[i]) + " after " +
-                       std::to_string(sizes[i - 1]) + "; expected fewer points from level to level");
+      throw InputError(path + " is " + std::to_string(sizes[i]) + " after " + std::to_string(sizes[i - 1]) +
+                       "; expected fewer points from level to level");
   }
 }
 
@@ -300,11 +299,20 @@ void check_fibres(const Body& body) {
   }
 }
 
-/// Once the mesh is there.
+/// Once the meshes are there: a space has no more points than the coarsest of them.
 void check_points(const Body& body) {
-  if (!body.coarsen || body.coarsen->empty()) return;
-  const auto vertices = static_cast<int>(body.levels.front().vertices.size());
-  Count{fewest_points, vertices}.check("body.levels.1.coarsen", body.coarsen->front());
+  const auto check = [&](const std::string& path, const std::optional<std::vector<int>>& sizes,
+                         std::ptrdiff_t vertices) {
+    if (sizes && !sizes->empty())
+      Count{fewest_points, static_cast<int>(vertices)}.check(path + std::to_string(body.levels.size()) + ".coarsen",
+                                                             sizes->front());
+  };
+  const TetMesh& coarsest = body.levels.back();
+  check("body.levels.", body.coarsen, std::ssize(coarsest.vertices));
+  const std::vector<int> part = parts_of_vertices(coarsest, body.parts);
+  for (std::size_t i = 0; i < body.parts.size(); ++i)
+    check("bodies." + body.parts[i].name + ".levels.", body.parts[i].coarsen,
+          std::ranges::count(part, static_cast<int>(i)));
 }
 
 }  // namespace

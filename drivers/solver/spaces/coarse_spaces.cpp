@@ -223,7 +223,7 @@ std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
   if (free_vertices < fewest_free) return {};
   const double first = rule.first * free_vertices,
                last = std::clamp(std::round(rule.last * free_vertices), 1.0 * rule.fewest, 1.0 * rule.most);
-  if (first < 1.5 * last) return {std::min(static_cast<int>(last), free_vertices / 4)};
+  if (first < 1.5 * last) return {std::min(static_cast<int>(last), static_cast<int>(free_vertices / rule.sparsest))};
   const int steps = std::max(1, static_cast<int>(std::ceil(std::log(first / last) / std::log(most_ratio))));
   std::vector<int> sizes;
   for (int i = 0; i <= steps; ++i)
@@ -231,8 +231,9 @@ std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
   return sizes;
 }
 
-std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained, SizeRule rule) {
-  if (body.coarsen && !body.coarsen->empty()) return *body.coarsen;
+std::vector<int> space_sizes(const std::optional<std::vector<int>>& asked, const std::vector<char>& constrained,
+                             SizeRule rule) {
+  if (asked && !asked->empty()) return *asked;
   return space_sizes(static_cast<int>(std::ranges::count(constrained, 0)), rule);
 }
 
@@ -291,12 +292,15 @@ LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector
     below.transfers.push_back(
         transfer(coarse.up ? *coarse.up : embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate)));
   }
+  const RestLevel& coarsest = levels.back();
+  below.made = coarse_spaces(coarsest.mesh, coarsest.constrained, {}, {}, {options.sizes, options.reach});
+  for (const CoarseSpace& space : below.made) below.transfers.push_back(space.up);
   if (!options.slivers) return below;
   if (auto slivers = slivers_of(finest.mesh, finest.constrained, mass, K)) {
     drop_constrained_rows(slivers->up, finest.constrained);
     below.transfers.front() = rows_of(below.transfers.front(), slivers->points);
     below.transfers.insert(below.transfers.begin(), slivers->up);
-    below.made.push_back(std::move(*slivers));
+    below.made.insert(below.made.begin(), std::move(*slivers));
   }
   return below;
 }

@@ -51,17 +51,22 @@ struct SizeRule {
   double first;           ///< of the free vertices, in the first
   int fewest, most;       ///< in the last; in between are even steps of at most 5
   double last = 1. / 25;  ///< of the free vertices, within these two
+  double sparsest = 4;    ///< free vertices to a point of the last, at least
 };
 inline constexpr SizeRule him_sizes{0.25, 100, 300};
 inline constexpr SizeRule him_sizes_with_contact{0.25, 300, 300};  ///< what touches is detail
+/// Below meshes: the coarsest one has few vertices already.
+inline constexpr SizeRule him_sizes_below_meshes{0.25, 300, 300, 1. / 25, 2};
 inline constexpr SizeRule multigrid_sizes{
     0.1, 200, 200};  ///< fewer: its coarse matrices cost more than what they leave to iterate
 
 /// Finest first. None for a mesh of fewer than 120 free vertices.
 std::vector<int> space_sizes(int free_vertices, SizeRule rule = him_sizes);
-/// What the body asks for, or these.
+/// Those that are asked for, or these.
+/// @param asked        see Body::coarsen
 /// @param constrained  per vertex of the mesh: its motion is given
-std::vector<int> space_sizes(const Body& body, const std::vector<char>& constrained, SizeRule rule = him_sizes);
+std::vector<int> space_sizes(const std::optional<std::vector<int>>& asked, const std::vector<char>& constrained,
+                             SizeRule rule = him_sizes);
 
 struct SpaceOptions {
   std::vector<int> sizes;  ///< numbers of free points, finest first, at least fewest_points each
@@ -90,7 +95,7 @@ struct LevelsBelow {
   std::vector<CoarseSpace> made;  ///< those of them that are no meshes
 };
 
-/// The coarser meshes, where asked for with a sliver space in front of them, or coarse_spaces() of a mesh alone.
+/// The coarser meshes, and coarse_spaces() of the last mesh where sizes are given. Where asked for, a sliver space stands in front of them.
 /// @param levels  meshes, finest first
 /// @param smooth  the transfers of meshes: see transfer_matrix()
 LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass, const BlockRows& K,

@@ -52,6 +52,22 @@ TEST(BodiesScene, IsOneBodyOfSeveralParts) {
   EXPECT_EQ(scene.levels.size(), 2u);
 }
 
+TEST(BodiesScene, HaveCoarseSpacesOfTheirOwn) {
+  const std::string cube = "{box: {size: [1, 1, 1], cells: [4, 4, 4]}}",
+                    of_left = "{box: {size: [1, 1, 1], cells: [1, 1, 1]}}";
+  std::string text = with("levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]",
+                          "levels: [" + cube + ", {coarsen: 60}, {coarsen: 30}]");
+  text.replace(text.find(of_left), of_left.size(), cube + ", {coarsen: 50}");
+  const Body body = scene_of(text + "integration: {cycle: him}").problem.body;
+  EXPECT_EQ(body.levels.size(), 2u);
+  EXPECT_EQ(body.levels[1].vertices.size(), 2 * 125u);  // right repeats its one mesh
+  EXPECT_EQ(*body.parts[0].coarsen, std::vector<int>{50});
+  EXPECT_EQ(*body.parts[1].coarsen, (std::vector<int>{60, 30}));
+  EXPECT_EQ(*body.coarsen, (std::vector<int>{110, 80}));
+  const std::string many = refusal([&] { scene_of(text.replace(text.find("{coarsen: 60}"), 13, "{coarsen: 10}")); });
+  EXPECT_NE(many.find("two.yaml:10: bodies.right.levels"), std::string::npos) << many;
+}
+
 TEST(BodiesScene, SaysWhatIsWrongAndWhere) {
   const auto said = [](const std::string& text) { return refusal([&] { scene_of(text); }); };
   EXPECT_NE(said(with("young_modulus", "young_modulos")).find("two.yaml:6: bodies.left.material: unknown key"),

@@ -4,13 +4,14 @@
 #include <nlohmann/json.hpp>
 #include <plica/drivers/app/output/contact_depth.hpp>
 #include <plica/drivers/app/output/run_files.hpp>
+#include <plica/drivers/app/output/summary.hpp>
 #include <plica/drivers/solver/registry.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 
 #include "unit/app/child.hpp"
 #include "unit/app/scene_text.hpp"
 
-// What runs write of contact.
+// What runs write of contact, and of the steps that it cuts.
 namespace plica::app::test {
 namespace {
 
@@ -76,6 +77,40 @@ TEST(ContactDepths, WarnOfWhatIsDeep) {
   EXPECT_NE(ball.warning().find("ball was 0.6 m deep in the surface, 0.6 of a mean edge"), std::string::npos);
   EXPECT_NE(needle.warning().find("needle was 0.06 m deep in the surface, 0.6 of its radius"), std::string::npos);
   EXPECT_NE(both.warning().find("at 2 s needle was 0.09 m"), std::string::npos) << both.warning();
+}
+
+// A run whose last steps are taken again replaces what it has written of them
+TEST(RunFiles, GoOnFromWhereTheyAreCutBack) {
+  const TemporaryFolder folder;
+  const Scene scene = scene_of(block);
+  RunFiles files(scene, folder.path());
+  Snapshot now;
+  now.positions = scene.problem.body.levels[0].vertices;
+  now.velocities.assign(now.positions.size(), Point::Zero());
+  std::uint64_t first = 0;
+  for (const double time : {0., 0.25, 0.5, 0.75}) {
+    now.time = time;
+    files.write(now);
+    if (time == 0) first = files.history_bytes();
+  }
+  files.cut_back(1, first);
+  EXPECT_EQ(files.frames(), 1u);
+  EXPECT_EQ(files.last_time(), 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/surface_0001.vtu"));
+  now.time = 0.3;
+  files.write(now);
+  const std::string history = content_of(folder / "history.csv"), film = content_of(folder / "frames.pvd");
+  EXPECT_EQ(std::ranges::count(history, '\n'), 3) << history;
+  EXPECT_NE(history.find("\n0.3,"), std::string::npos) << history;
+  EXPECT_NE(film.find("timestep=\"0.3\" part=\"0\" file=\"frames/surface_0001.vtu\""), std::string::npos) << film;
+  EXPECT_EQ(film.find("timestep=\"0.25\""), std::string::npos) << film;
+}
+
+TEST(Summary, SaysWhereHimWentByExplicitSteps) {
+  EXPECT_EQ(mostly_explicit_text({{"him_explicit_steps", 50}}, 100), "");
+  EXPECT_EQ(mostly_explicit_text({}, 100), "");
+  EXPECT_EQ(mostly_explicit_text({{"him_explicit_steps", 51}}, 100).substr(0, 70),
+            "cycle him: 51 of 100 macro steps were taken by explicit steps of level");
 }
 
 }  // namespace

@@ -66,6 +66,9 @@ TEST(Scene, CoarseSpacesAreNoMeshes) {
   ASSERT_TRUE(automatic.problem.body.coarsen);
   EXPECT_TRUE(automatic.problem.body.coarsen->empty());
   EXPECT_EQ(*coarsened("{coarsen: 100}, {coarsen: 40}").problem.body.coarsen, (std::vector<int>{100, 40}));
+  const Scene below = coarsened("{box: {size: [1, 1, 1], cells: [3, 3, 3]}}, {coarsen: 40}");
+  EXPECT_EQ(below.problem.body.levels.size(), 2);
+  EXPECT_EQ(*below.problem.body.coarsen, std::vector<int>{40});
   EXPECT_FALSE(scene_of(sound_scene).problem.body.coarsen);
 }
 

@@ -108,8 +108,6 @@ const Damage damages[] = {
      "a.yaml:6: body.levels.1.coarsen: expected a whole number >= 30, got '20'"},
     {"CoarsenFirst", "{box: {size: [0.1, 0.1, 0.1], cells: [4, 4, 4]}}", "{coarsen: auto}",
      "a.yaml:5: body.levels.0: coarsen makes coarse spaces of the mesh before it; expected a mesh first"},
-    {"CoarsenWithMeshes", "  material:", "    - {coarsen: auto}\n  material:",
-     "a.yaml:7: body.levels.2: coarsen makes coarse spaces of the finest mesh, but 2 meshes stand before it"},
     {"CoarsenInAPaperCycle", "{box: {size: [10 cm, 10 cm, 10 cm], cells: [2, 2, 2]}}", "{coarsen: auto}",
      "a.yaml:4: body.levels: coarsen makes spaces without elements, but cycle rsv integrates its coarser levels"},
     {"NotAFlag", "macro_step: 1 ms", "allow_unstable: yes",

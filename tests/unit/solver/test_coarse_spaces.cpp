@@ -384,8 +384,8 @@ TEST(Coarsen, RefusesWhatItCannotDo) {
   EXPECT_NE(refused().find("expected a whole number >= 30"), std::string::npos) << refused();
   p.body.coarsen = {100000};
   EXPECT_NE(refused().find("expected a whole number in [30, "), std::string::npos) << refused();
-  p = him_beam(true), p.body.coarsen.emplace();
-  EXPECT_NE(refused().find("but the body has 3"), std::string::npos) << refused();
+  p = him_beam(true), p.body.coarsen = {30};  // the coarsest mesh has 12 vertices
+  EXPECT_NE(refused().find("body.levels.3.coarsen"), std::string::npos) << refused();
 }
 
 }  // namespace

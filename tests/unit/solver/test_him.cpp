@@ -105,7 +105,9 @@ TEST(Him, IsOfSecondOrderAtAFixedInverseMass) {
   const auto end_after = [&](int steps) {
     Pieces pieces(p);
     HimParts<Host> parts;
-    parts.options.dissipation = 0;
+    parts.rows = {0, static_cast<int>(pieces.levels[0].vertices.size())};
+    HimOptions options;
+    options.dissipation = 0;
     const double duration = 10 * pieces.fitter->critical_steps()[0];
     parts.fit = pieces.fit(4).value();
     parts.inverse_mass = std::move(pieces.inverse_mass), parts.fitter = std::move(pieces.fitter);
@@ -114,7 +116,7 @@ TEST(Him, IsOfSecondOrderAtAFixedInverseMass) {
     for (std::size_t a = 0; a < pieces.levels[0].vertices.size(); ++a)
       for (int k = 0; k < 3; ++k)
         h[0].state.u(a, k) = k == 2 ? 1e-4 * std::pow(pieces.levels[0].vertices[a][0] / 0.4, 2) : 0;
-    HimStepper<Host> cycle(h, std::move(parts));
+    HimStepper<Host> cycle(h, options, std::move(parts));
     cycle.begin(h);
     for (int n = 0; n < steps; ++n) cycle.step(h, n * duration / steps, duration / steps);
     return to_host<Host>(h.exec(), h[0].state.u);
@@ -278,7 +280,11 @@ TEST(Him, RefusesWhatItCannotDo) {
   refuses([](Problem& p) { p.integration.him.dissipation = 1; }, "him.dissipation");
   refuses([](Problem& p) { p.body.levels = {p.body.levels.back()}, p.integration.macro_step = 10; },
           "no inertia makes it stable");
-  refuses([](Problem& p) { p.body.levels.back() = box_mesh(beam_box, {40, 8, 8}); }, "expected at most 1500");
+  refuses(
+      [](Problem& p) {
+        p.body.levels.back() = box_mesh(beam_box, {40, 8, 8}), p.body.coarsen = {2000};
+      },
+      "it has 2000 points, expected at most 1500");
 }
 
 }  // namespace

@@ -83,6 +83,53 @@ TEST(ShorterSteps, AreGivenBackWhereTheBodyIsCalm) {
   }
 }
 
+/// A cube that is pressed to a fifth of its length, by the cycle him.
+Problem crushed_cube() {
+  Problem p = small_cube("neo_hookean", 6);
+  p.body.damping.mass = 20;
+  p.body.fixed = {left_face()};
+  p.body.prescribed = {{Box{{0.1, -1, -1}, {1, 1, 1}}, PathMotion{{{0, {0, 0, 0}}, {0.4, {-0.08, 0, 0}}}}}};
+  p.integration.cycle = "him";
+  return p;
+}
+
+// Where a step that an inertia fits is shorter than what level 0 alone may take.
+TEST(ShorterSteps, OfHimGiveWayToExplicitOnes) {
+  Problem p = crushed_cube();
+  Simulation<Host> him(p);
+  while (him.time() < 0.4) ASSERT_FALSE(him.step_checked());
+  EXPECT_GE(him.counters().at("him_explicit_steps"), 1);
+  Simulation<Host> resumed(p);
+  resumed.restore(him.save());
+  p.integration.cycle = "single", p.integration.safety = 0.4;
+  Simulation<Host> single(p);
+  single.end_at(him.time());
+  while (single.time() < him.time()) ASSERT_FALSE(single.step_checked());
+  EXPECT_LE(largest_difference(him.positions(), single.positions()), 2e-3);
+  advance(him, 3), advance(resumed, 3);
+  EXPECT_TRUE(same_bits(resumed.positions(), him.positions()));
+}
+
+// What a driver has recorded of them is replaced step by step.
+TEST(ShorterSteps, OfHimTellWhatIsTakenAgain) {
+  Simulation<Host> him(crushed_cube());
+  std::vector<long> again;
+  him.on_repeated_step([&] { again.push_back(him.macro_steps()); });
+  long replaced = 0;
+  while (him.time() < 0.4) {
+    const long earliest = him.earliest_kept();
+    again.clear();
+    ASSERT_FALSE(him.step_checked());
+    if (again.empty()) continue;
+    replaced += std::ssize(again);
+    EXPECT_GT(again.front(), earliest);
+    EXPECT_EQ(again.back(), him.macro_steps());
+    for (std::size_t i = 1; i < again.size(); ++i)
+      EXPECT_LE(again[i], again[i - 1] + 1) << "on, or back to a kept state";
+  }
+  EXPECT_GT(replaced, 1);
+}
+
 /// A tube that is blown up slowly, whose wall stiffens beyond the limit at rest; the largest kinetic energy that a caller sees, looking
 /// at every tenth step [J].
 double most_motion(double safety, long& halvings) {

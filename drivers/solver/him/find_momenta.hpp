@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <plica/core/model.hpp>
+#include <plica/kernels/him/momentum_of.hpp>
+#include <plica/kernels/vectors.hpp>
+
+namespace plica {
+
+/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-6 of v: at most sqrt(inertia added) iterations or so. Waits.
+template <class B>
+void momentum_of(const typename B::Exec& exec, const Model<B>& model,
+                 const std::function<void(const Vectors<B>& p, const Vectors<B>& v)>& A, const Vectors<B>& v,
+                 const Vectors<B>& p) {
+  using Real = typename B::Real;
+  constexpr int most_iterations = 300;
+  constexpr double tolerance = 1e-6;
+  const int n = model.vertices;
+  const auto size = static_cast<std::size_t>(n);
+  const auto r = zeros<Vectors<B>>("plica::momentum.r", size), s = zeros<Vectors<B>>("plica::momentum.s", size),
+             As = zeros<Vectors<B>>("plica::momentum.As", size);
+  const BlockSums<B> blocks(n);
+  const auto sum = zeros<Doubles<B>>("plica::momentum.sum", 1);
+  const auto read = [&](const auto& term) {
+    reduce<B, 1>(exec, "plica::momentum", n, term, blocks, sum);
+    return host_values(exec, sum)[0];
+  };
+  weigh<B>(exec, "plica::momentum", model, 1, v, 0, v, p);
+  const double whole = read(StartResidual<B>{model, v, As, r});  // As is still 0
+  A(p, As);
+  double square = read(StartResidual<B>{model, v, As, r});
+  double beta = 0;
+  const double enough = tolerance * tolerance * whole;
+  for (int i = 0; i < most_iterations && square > enough; ++i) {
+    weigh<B>(exec, "plica::momentum", model, 1, r, static_cast<Real>(beta), s, s);
+    A(s, As);
+    dot<B>(exec, "plica::momentum", s, As, blocks, sum);
+    const double alpha = square / host_values(exec, sum)[0];
+    const double next = read(MoveAlong<B>{model, s, As, p, r, static_cast<Real>(alpha)});
+    beta = next / square, square = next;
+  }
+}
+
+}  // namespace plica
