@@ -36,7 +36,7 @@ class ImplicitStep : public Integrator<B> {
   double residual() const override { return stages_.residual(); }
   std::map<std::string, long> counters() const override { return stages_.counters(); }
   std::size_t bytes() const override { return stages_.bytes(); }
-  void persist(StateArchive<B>& archive) override { stages_.persist(archive); }
+  void persist(StateArchive<B>& archive) override { archive.number(surprised_), stages_.persist(archive); }
 
  protected:
   /// From `time` over h [s], the level's state at the start being consistent with given motions. False where a stage is not
@@ -52,6 +52,7 @@ class ImplicitStep : public Integrator<B> {
   static constexpr double notable_motion = 0.1;  ///< part of the kinetic energy
 
   StageSolver<B> stages_;
+  long surprised_ = 0;   ///< 1: the last step ended with contact that was not foreseen
   bool stops_;           ///< where a step is not solved, the run ends
   double unsolved_ = 0;  ///< of the last advance()
 
@@ -61,11 +62,14 @@ class ImplicitStep : public Integrator<B> {
     prescribe(level.exec(), level, level.state, time + h);
     if (!level.contact()) return;
     level.count_contact(time + h, impulse(h));
-    if (judges()) unsolved_ = std::max(unsolved_, unforeseen(level, time + h));
+    if (!judges()) return;
+    const double part = unforeseen(level, time + h);
+    if (surprised_ > 0) unsolved_ = std::max(unsolved_, part);
+    surprised_ = part > 0 ? 1 : 0;
   }
-  /// Contact that is found where a step ends and that the step did not know of, since the surface turned far about the places that it had
-  /// contact at: its energy over that of the contact that was solved and a tenth of the motion's; 0 where it is no more than those. It would throw the
-  /// body.
+  /// Contact that is found where a step ends, and that the step did not know of: its energy over that of the contact that was solved and a
+  /// tenth of the motion's; 0 where it is no more than those. It throws the body. One such step is what comes into touch; a second in a row
+  /// is not solved.
   double unforeseen(SolverLevel<B>& level, double time) {
     double solved = 0, found = 0;
     level.book("contact", [&] {

@@ -73,7 +73,7 @@ class StageSolver {
 
   /// Whether Newton's method ever looks at what it has not solved.
   bool judges() const { return result_.extent(0) > 0; }
-  /// Of the level's state [J]. Waits.
+  /// [J]. Waits.
   double kinetic(const SolverLevel<B>& level) const {
     reduce<B, 1>(level.exec(), "plica::kinetic_energy", level.model.vertices,
                  KineticEnergy<B>{level.model.mass, level.state.v}, blocks_, result_);
@@ -88,10 +88,8 @@ class StageSolver {
 
   std::map<std::string, long> counters() const {
     std::map<std::string, long> all = solver_->counters();
-    all.insert({{"linear_solves", solves_},
-                {"cg_iterations", iterations_},
-                {"cg_misses", misses_},
-                {"cg_indefinite", indefinite_}});
+    all.insert({{"linear_solves", solves_}, {"cg_iterations", iterations_}});
+    all.insert({{"cg_misses", misses_}, {"cg_indefinite", indefinite_}});
     if (iterates() || newtons_ > 0) all.insert({{"newton_iterations", newtons_}, {"line_searches", searches_}});
     if (carries()) all.insert({"pressure_updates", updates_});
     return all;
@@ -111,7 +109,7 @@ class StageSolver {
   static constexpr int most_halvings = 12, halvings_unprojected = 2;  // of a direction
   static constexpr double sufficient = 1e-4;                          // part of the decrease that the slope promises
   static constexpr double balanced = 3e-3, conserving = 1e-6;         // part of the forces that may be left unbalanced
-  static constexpr double still = 1e-9;                               // edges that nobody sees a body move by
+  static constexpr double still = 1e-11;                              // edges that nobody sees a body move by
   static constexpr double least_volume_part = 0.2;  // of the least volume that a change of a state must leave
   static constexpr double first_tolerance = 0.01;   // of the first system
   static constexpr int contact_iterations = 20, projections = 3;  // systems in a row whose tangents are projected

@@ -128,10 +128,13 @@ TEST(ContactBalance, ExplicitStepsKeepTheMomentumOfBodyAndTool) {
 // A step ends where what is unbalanced is 0.003 of the forces there are; that much the sum of forces may be off.
 TEST(ContactBalance, ImplicitStepsKeepItToWhatTheyLeaveUnbalanced) {
   for (const Method& m : implicit_methods) {
-    const Unexplained found = unexplained(by(under_a_tool(), m));
+    Problem p = by(under_a_tool(), m);
+    const Unexplained found = unexplained(p);
     EXPECT_EQ(found.misses, 0) << m.name;
     EXPECT_LE(found.of_body, 0.01) << m.name;
-    EXPECT_LE(found.of_both, 0.02) << m.name;  // in a halved step the tool's spring acts in parts
+    p.integration.on_failure.halvings =
+        0;  // in a halved step the tool's spring acts in parts, not as is worked out above
+    EXPECT_LE(unexplained(p).of_both, 0.01) << m.name;
   }
 }
 
