@@ -113,6 +113,10 @@ MatrixRow run_case(const MatrixCase& one);
 /// Whether turned, moved, renumbered bodies and other units of length give the same answers: a row for each of them and each method.
 std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size = MatrixSize::whole);
 
+/// Organs with tools: an irregular liver that is dropped, poked, dragged along, pierced at, grasped and swung, two organs, a folded tube; by
+/// every stepper, with linear and nodal elements, nu 0.3 to 0.49, steps of 1 to 10 ms. Each must come to its end.
+std::vector<std::function<MatrixRow()>> organ_cases(MatrixSize size = MatrixSize::whole);
+
 /// Called after every row with how many there will be; false stops it.
 using MatrixWatch = std::function<bool(const MatrixResult&, std::size_t)>;
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <iterator>
 #include <plica/drivers/app/commands/commands.hpp>
 #include <plica/drivers/app/commands/interrupt.hpp>
 #include <plica/drivers/app/commands/session.hpp>
@@ -89,7 +91,9 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
         fmt::format("{}/{}  {}, {}", result.rows.size(), of, result.rows.back().name, result.rows.back().method));
     return !interrupts.noticed() && !(budget && std::chrono::duration<double>(now - start).count() > *budget);
   };
-  const MatrixResult result = run_matrix(stability_matrix(), invariance_cases(), watch);
+  std::vector<std::function<MatrixRow()>> others = invariance_cases();
+  std::ranges::move(organ_cases(), std::back_inserter(others));
+  const MatrixResult result = run_matrix(stability_matrix(), others, watch);
   interrupts.end_in_order();
   write_files(texts(result, interrupted() ? "interrupted" : "completed"));
   line.clear();

@@ -210,6 +210,13 @@ TEST(Matrix, BodiesInOtherWordsMoveAlike) {
   }
 }
 
+TEST(Matrix, OrgansWithToolsComeToTheirEnd) {
+  for (const auto& run : organ_cases(MatrixSize::small)) {
+    const MatrixRow row = run();
+    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << ". " << row.detail;
+  }
+}
+
 TEST(Matrix, NoCaseIsThereTwice) {
   std::set<std::string> seen;
   for (const MatrixCase& one : stability_matrix())
