@@ -33,7 +33,7 @@ Body organ_of(const TetMesh& regular, double young_modulus) {
 }
 
 /// 16 cm long.
-Body liver() { return organ_of(blob_mesh({0, 0, 0}, 0.16, 8), 5e3); }
+Body liver() { return organ_of(blob_mesh({0, 0, 0}, 0.16, 8), 2e3); }
 
 Body held_liver() {
   Body body = liver();
@@ -71,7 +71,7 @@ OrganRun drop() {
   double lowest = 0;
   for (const Point& x : p.body.levels[0].vertices) lowest = std::min(lowest, x.z());
   p.contact.obstacles = {{PlaneOptions{{0, 0, lowest - 1e-3}}, rough, {}}};
-  p.body.initial.velocity = {0, 0, -0.8};
+  p.body.initial.velocity = {0, 0, -1.2};
   p.gravity = {0, 0, -9.81};
   return {p, 0.15};
 }
