@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <plica/core/error.hpp>
 #include <plica/drivers/solver/elements.hpp>
 #include <plica/drivers/solver/linear/list.hpp>
+#include <plica/drivers/solver/registry.hpp>
 #include <plica/drivers/solver/set_up/assemble_loads.hpp>
 #include <plica/drivers/solver/set_up/build_level.hpp>
 #include <plica/drivers/solver/set_up/make_linear_solver.hpp>
@@ -18,7 +20,9 @@ constexpr std::size_t fewest_coarsened = 600;  // vertices
 constexpr std::size_t most_in_coarsest =
     300;  // vertices; a space below a larger mesh costs less than its dense inverse
 constexpr double multigrid_reach = 1.3;
-constexpr double long_step = 40;  // critical steps, from which multigrid over spaces pays: cmake/docs/levels.md
+// Critical steps, from which multigrid over spaces pays: of systems that are solved exactly, and of Newton's, which are not.
+// cmake/docs/levels.md
+constexpr double long_step = 40, long_newton_step = 200;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
@@ -72,6 +76,14 @@ void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level
   }
 }
 
+/// Newton's systems are solved to a hundredth, but for those with carried pressures.
+bool solves_loosely(const Problem& problem, std::size_t level) {
+  const auto& names = problem.integration.integrator;
+  const bool carries = element_of(problem.body, level) == Element::nodal &&
+                       smooths_pressure(problem.body, rest_mesh(problem.body, level).lame);
+  return newton_iterations(problem.integration.implicit, names[std::min(level, names.size() - 1)]) > 1 && !carries;
+}
+
 }  // namespace
 
 LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level, bool on_host, std::string solver,
@@ -112,9 +124,9 @@ LinearSolverParts linear_solver_parts(const Problem& problem, std::size_t level,
   }
   if (o.preconditioner == "auto" || asked) {
     o.preconditioner = BlockJacobi::name;  // also of a level that has no coarser one, where others have
-    const bool pays = body.levels.size() == 1
-                          ? critical_step > 0 && problem.integration.macro_step.value_or(0) > long_step * critical_step
-                          : level + 1 < body.levels.size();
+    const double over = critical_step > 0 ? problem.integration.macro_step.value_or(0) / critical_step : 0;
+    const double least = solves_loosely(problem, level) ? long_newton_step : long_step;
+    const bool pays = body.levels.size() == 1 ? over > least : level + 1 < body.levels.size();
     if (multigrid && (asked || (pays && !fixed))) add_multigrid(parts, body, level, asked);
   }
   if (o.matrix == "auto")
