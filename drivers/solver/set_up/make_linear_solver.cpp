@@ -22,7 +22,7 @@ constexpr std::size_t most_in_coarsest =
 constexpr double multigrid_reach = 1.3;
 // Critical steps, from which multigrid over spaces pays: of systems that are solved exactly, and of Newton's, which are not.
 // cmake/docs/levels.md
-constexpr double long_step = 40, long_newton_step = 200;
+constexpr double long_step = 40, long_newton_step = 100;
 
 std::size_t unknowns(const TetMesh& mesh) { return 3 * mesh.vertices.size(); }
 
@@ -76,8 +76,9 @@ void add_multigrid(LinearSolverParts& parts, const Body& body, std::size_t level
   }
 }
 
-/// Newton's systems are solved to a hundredth, but for those with carried pressures.
+/// Newton's systems are solved to a hundredth, unless they carry pressures or more was asked for.
 bool solves_loosely(const Problem& problem, std::size_t level) {
+  if (problem.integration.implicit.relative_residual < ImplicitOptions().relative_residual) return false;
   const auto& names = problem.integration.integrator;
   const bool carries = element_of(problem.body, level) == Element::nodal &&
                        smooths_pressure(problem.body, rest_mesh(problem.body, level).lame);
