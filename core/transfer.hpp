@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <plica/core/backend.hpp>
-#include <plica/core/transfer.hpp>
 
 namespace plica {
 

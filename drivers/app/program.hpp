@@ -3,7 +3,7 @@
 
 namespace plica::app {
 
-/// The program plica: reads the command line, does what it says, and returns the exit status (exit_status.hpp).
+/// The program plica: reads the command line, does what it says, and returns the exit status (commands/commands.hpp).
 int program(int argc, char** argv);
 
 }  // namespace plica::app

@@ -11,9 +11,9 @@
 //
 //   Simulation::step                        this file
 //     VCycle::step                          shared_step/v_cycle.hpp
-//       restrict, finest to coarsest        kernels/transfer/map_state.hpp
+//       restrict, finest to coarsest        kernels/transfer.hpp
 //       coarsest to finest:
-//         interpolate from the coarser one  kernels/transfer/map_state.hpp
+//         interpolate from the coarser one  kernels/transfer.hpp
 //         integrate its share               shared_step/shared_step.hpp
 //           Integrator::advance             integrators/explicit.cpp
 //             SolverLevel::evaluate         solver_level.cpp

@@ -289,17 +289,6 @@ TEST(LinearSolvers, AutoChoosesBySizeAndMeshes) {
   EXPECT_EQ(describe(linear_solver_parts(p, 2, false, "auto")), "conjugate_gradients, block_jacobi, assembled");
   p.integration.implicit.iterations = 3;
   EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto")), "conjugate_gradients, block_jacobi, without a matrix");
-  p = pressed("linear");
-  p.body.levels = {box_mesh(decimetre, {8, 8, 8})}, p.integration.macro_step = 10e-3;
-  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 1e-3)), "conjugate_gradients, block_jacobi, assembled");
-  const std::string by_jacobi = "conjugate_gradients, block_jacobi, assembled",
-                    by_multigrid = "conjugate_gradients, multigrid over 2 levels, assembled";
-  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 2e-4)), by_jacobi);
-  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 9e-5)), by_multigrid);
-  p.integration.implicit.newton_iterations = 1;  // or solved further: exactly
-  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 2e-4)), by_multigrid);
-  p.integration.implicit.newton_iterations = 20, p.integration.implicit.relative_residual = 1e-8;
-  EXPECT_EQ(describe(linear_solver_parts(p, 0, true, "auto", 2e-4)), by_multigrid);
 }
 
 template <class B>

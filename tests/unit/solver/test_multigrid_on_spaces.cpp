@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <plica/drivers/solver/set_up/make_linear_solver.hpp>
 #include <plica/kernels/contact/shapes.hpp>
 #include <plica/meshes/files/mesh_files.hpp>
 #include <plica/meshes/organs.hpp>
@@ -45,6 +46,21 @@ void expect_iterations_of_an_organ(const std::string& name, const MaterialOption
   advance(simulation, 2);
   EXPECT_EQ(simulation.counters().at("cg_misses"), 0);
   EXPECT_LE(simulation.counters().at("cg_iterations"), 2 * at_most) << "nu " << material.poisson_ratio;
+}
+
+// Spaces are fitted again for tangents that change, and pay where a system takes many iterations.
+TEST(Multigrid, OverSpacesIsChosenForLongSteps) {
+  Problem p = body_of({box_mesh(decimetre, {8, 8, 8})});
+  p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 10e-3;
+  const auto chosen = [&](double critical) { return linear_solver_parts(p, 0, true, "auto", critical).options; };
+  EXPECT_EQ(chosen(1e-3).preconditioner, "block_jacobi");
+  EXPECT_EQ(chosen(2e-4).preconditioner, "block_jacobi");
+  EXPECT_EQ(chosen(9e-5).preconditioner, "multigrid");
+  p.integration.implicit.newton_iterations = 1;
+  EXPECT_EQ(chosen(1e-3).preconditioner, "block_jacobi");
+  EXPECT_EQ(chosen(2e-4).preconditioner, "multigrid");
+  p.integration.implicit.newton_iterations = 20, p.integration.implicit.relative_residual = 1e-8;
+  EXPECT_EQ(chosen(2e-4).preconditioner, "multigrid");
 }
 
 // Its few slivers have the largest eigenvalues that the smoother has to know of.
