@@ -5,6 +5,7 @@
 #include <plica/kernels/contact/explicit_contact.hpp>
 #include <plica/kernels/contact/implicit_contact.hpp>
 #include <plica/kernels/contact/wrenches.hpp>
+#include <utility>
 
 namespace plica {
 
@@ -99,8 +100,9 @@ template <class B>
 void ContactResponse<B>::resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                                  const ContactStep& step, const Vectors<B>& free, const Vectors<B>& answer,
                                  const Respond& respond) {
-  records_.long_steps = true;
+  const bool before = std::exchange(records_.long_steps, true);
   solve(exec, level, state, time, step, {level.surface, records_, state.v, free, answer, 0, 0, false}, respond, [] {});
+  records_.long_steps = before;
 }
 
 template <class B>

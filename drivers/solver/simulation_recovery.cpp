@@ -36,14 +36,14 @@ template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
   const Stepper<B>& stepper = *s.built.stepper;
-  const bool sees_late = stepper.sees_late(),
-             late = bad.kind == "stability" && sees_late;  // the last kept one is no better
+  const bool sees_late = stepper.sees_late();
+  const bool late = bad.kind == "stability" && sees_late;  // the last kept state is no better
   const double there = s.time;
   const auto go_on = [&] {
     while (s.time < there) {
       step();
-      if (s.after_repeated) s.after_repeated();
       if (const auto now = s.examine(); now && (now->kind == "non_finite" || now->kind == "inverted")) return false;
+      if (s.after_repeated) s.after_repeated();
     }
     return !s.examine();
   };

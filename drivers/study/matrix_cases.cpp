@@ -123,6 +123,13 @@ Expected of_explicit(const MatrixBody& body, bool damps, bool linear, bool forbi
   return either("strained by about its own size it stiffens by about the margin of the step; when depends on both");
 }
 
+Expected through_halved_steps() {
+  return {.complete = true,
+          .stop = true,
+          .kind = "inverted",
+          .why = "steps are halved until elements have turned back; whether that is in time depends on the shape"};
+}
+
 // Integrators that damp fast motion come to the end at any step, as long as the solver finds a state: with a material that
 // forbids inversion it may not. Those that damp but fast motion gain energy from a strong recoil; those that conserve it do so only
 // while the stiffness stays the same, and at ten times the critical step it does not.
@@ -134,17 +141,15 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
     return either("contact begins and ends within a step; what energy that adds is not damped");
   if (linear) return pierces && !damped ? stops("contact") : completes();
   if (conserving)
-    return body.start == Start::stretched ? either(
-                                                "it conserves the energy of a linear problem; how much a changing "
-                                                "stiffness adds depends on the shape")
-                                          : stops();
+    return either(
+        "it conserves the energy of a linear problem; how much a changing stiffness adds depends on the shape");
   if (!damped && pierces) return stops();
   if (!damped && body.start == Start::stretched)
     return either("it damps slow motion little, so the recoil may have more energy than was put in");
   if (nodal(body) && body.start == Start::stretched)
     return completes();  // tetrahedra turn inside out, their means do not
   const bool crushed = body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
-  return forbids && crushed ? stops("inverted") : completes();
+  return forbids && crushed ? through_halved_steps() : completes();
 }
 
 // The inertia is fitted at rest and turns with the body: it does not know which way where elements are far from their shape.
@@ -180,7 +185,8 @@ Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
 // What must become of it, and why:
 // * a step above the limit is refused; where it is allowed, the run has to be stopped, since small motions grow in every step;
 // * levels that lie apart are refused by every method that uses more than the finest one;
-// * an element that is inside out or flat from the start, where the material has no answer to that: stopped at once, as inverted;
+// * an element that is inside out or flat from the start, where the material has no answer to that: stopped at once, as inverted, unless
+//   halved steps turn it back;
 // * strains below 1 from rest, at which no material is stiffer by as much as the steps keep clear of their limit: every method
 //   comes to the end;
 // * a body mirrored whole is at rest in st_venant_kirchhoff, which has no strain there: it stays;
@@ -193,7 +199,10 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   if (body.refused || (body.apart && needs_levels)) return {.refuse = true};
   if (body.unstable) return stops();
   const bool linear = material == Linear::name, forbids = forbids_inversion(material);
-  if (body.inside_out() && forbids) return stops("inverted");
+  const bool halves = method.kind == Method::Kind::damped || method.kind == Method::Kind::half_damped ||
+                      method.kind == Method::Kind::conserving;
+  if (body.inside_out() && forbids)
+    return halves && method.name != "single/v_cycle_euler" ? through_halved_steps() : stops("inverted");
   if (body.start == Start::rest && body.strain() <= moderate_strain &&
       body.impact <= (method.name == "single/generalized_alpha" ? gentle_impact : moderate_impact))
     return completes();

@@ -100,10 +100,13 @@ class RunOutput {
     if (saving_ && saved_ < now.macro_steps && (replaces_saved_ || saving_->due(now.macro_steps))) save(now);
   }
 
-  /// After a macro step that is taken again: it replaces what was written of it, and of all that came after it.
+  /// After a macro step that is taken again: it replaces what was written of it, and of all that came after it. What a resumed run found
+  /// written stays. A checkpoint of what is replaced is replaced at once.
   void record_again(const RunEnd& now) {
+    if (now.macro_steps <= marks_.front().macro_steps) return;
     if (now.macro_steps <= recorded_) go_back(now.macro_steps - 1);
     add(now);
+    if (saving_ && replaces_saved_) save(now);
   }
 
   /// Takes what was written after so many macro steps out again.
@@ -125,7 +128,7 @@ class RunOutput {
 
   /// After the last step. The last frame comes after the last checkpoint: a longer run has it at its own time, if at all.
   void finish(const RunEnd& end, double last_time) {
-    if (saving_ && !end.diagnosis && saved_ != end.macro_steps) save(end);
+    if (saving_ && (replaces_saved_ || (!end.diagnosis && saved_ != end.macro_steps))) save(end);
     if (files_.last_time() < last_time) write_frame(last_time);
   }
 
@@ -233,20 +236,24 @@ RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOu
   if (automatic) simulation.end_at(scene.duration);
   Clock::time_point told{};
   std::size_t frames = 0;
-  const auto record = [&] {
-    const auto lock = watch.hold();
-    output.record(end);
+  const auto tell = [&](const RunEnd& state) {
     const auto now = Clock::now();
     if (frames == output.files().frames() && now - told < std::chrono::milliseconds(100)) return;
     told = now, frames = output.files().frames();
-    reached(end);
+    reached(state);
+  };
+  const auto record = [&] {
+    const auto lock = watch.hold();
+    output.record(end);
+    tell(end);
   };
   bool replaced = false;  // in the present macro step
   simulation.on_repeated_step([&] {
     const auto lock = watch.hold();
     RunEnd now = end;
-    now.time = simulation.time(), now.macro_steps = steps_to_cover(now.time, simulation.macro_step());
+    now.time = simulation.time(), now.macro_steps = simulation.macro_steps();
     output.record_again(now);
+    tell(now);
     replaced = true;
   });
   record();

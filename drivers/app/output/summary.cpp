@@ -231,7 +231,8 @@ std::string mostly_explicit_text(std::map<std::string, long> count, long macro_s
   const long level_alone = count["him_explicit_steps"];
   if (2 * level_alone <= macro_steps) return "";
   return fmt::format(
-      "cycle him: {} of {} were taken by explicit steps of level 0, since no longer step was stable as the body "
+      "cycle him: {} of {} were taken by explicit steps of level 0, since steps longer than those were not stable as "
+      "the body "
       "stiffened; expected cycle: single, which takes these without the set-up",
       level_alone, counted(macro_steps, "macro step"));
 }

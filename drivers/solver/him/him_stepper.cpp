@@ -16,7 +16,7 @@ double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 constexpr double explicit_safety = 0.9;  // of the stable explicit step
 // What a step of the inverse mass costs, in explicit steps of level 0: cmake/docs/him.md
 constexpr double cost_of_step = 3, cost_with_contact = 6;
-constexpr int most_explicit = 1 << 14;  // sub-steps in a macro step
+constexpr int most_explicit = 1 << 14;  // times the sub-steps that level 0 takes at rest
 
 }  // namespace
 

@@ -31,9 +31,11 @@ class ImplicitStep : public Integrator<B> {
   bool judges() const override { return stages_.judges(); }
   double unsolved() const override { return unsolved_; }
   std::string failure() const override {
-    return stops_ && unsolved_ > 0 ? "Newton's method has not solved a step" : std::string();
+    return stops_ && unsolved_ > 0 ? "a step was not solved, or ended in contact that it did not know of"
+                                   : std::string();
   }
   double residual() const override { return stages_.residual(); }
+  void forget() override { surprised_ = 0; }
   std::map<std::string, long> counters() const override { return stages_.counters(); }
   std::size_t bytes() const override { return stages_.bytes(); }
   void persist(StateArchive<B>& archive) override { archive.number(surprised_), stages_.persist(archive); }
@@ -78,7 +80,7 @@ class ImplicitStep : public Integrator<B> {
     });
     if (!(found > 2 * solved)) return 0;
     const double part = (found - solved) / (solved + notable_motion * stages_.kinetic(level));
-    return part > 1 ? part : 0;
+    return part > 1 ? std::min(part, 1e9) : 0;
   }
 };
 
