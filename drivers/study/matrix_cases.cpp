@@ -133,7 +133,7 @@ Expected through_halved_steps() {
 // Integrators that damp fast motion come to the end at any step, as long as the solver finds a state: with a material that
 // forbids inversion it may not. Those that damp but fast motion gain energy from a strong recoil; those that conserve it do so only
 // while the stiffness stays the same, and at ten times the critical step it does not.
-Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, bool forbids) {
+Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool halves, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
   const bool damped = kind == Method::Kind::damped, pierces = body.impact > hypersonic_impact;
   const bool conserving = kind == Method::Kind::conserving;
@@ -149,7 +149,8 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool linear, boo
   if (nodal(body) && body.start == Start::stretched)
     return completes();  // tetrahedra turn inside out, their means do not
   const bool crushed = body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
-  return forbids && crushed ? through_halved_steps() : completes();
+  if (!(forbids && crushed)) return completes();
+  return !halves ? stops("inverted") : body.impact > 0 ? through_halved_steps() : completes();
 }
 
 // The inertia is fitted at rest and turns with the body: it does not know which way where elements are far from their shape.
@@ -199,10 +200,13 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   if (body.refused || (body.apart && needs_levels)) return {.refuse = true};
   if (body.unstable) return stops();
   const bool linear = material == Linear::name, forbids = forbids_inversion(material);
-  const bool halves = method.kind == Method::Kind::damped || method.kind == Method::Kind::half_damped ||
-                      method.kind == Method::Kind::conserving;
-  if (body.inside_out() && forbids)
-    return halves && method.name != "single/v_cycle_euler" ? through_halved_steps() : stops("inverted");
+  const bool implicit = method.kind == Method::Kind::damped || method.kind == Method::Kind::half_damped;
+  const bool halves = implicit && method.name != "single/v_cycle_euler";  // steps that Newton's method does not solve
+  if (body.inside_out() && forbids) {
+    const bool turns_back = halves && body.start != Start::flat && method.name != "single/bdf2";
+    if (halves && body.start == Start::random) return through_halved_steps();
+    return turns_back ? completes() : stops("inverted");
+  }
   if (body.start == Start::rest && body.strain() <= moderate_strain &&
       body.impact <= (method.name == "single/generalized_alpha" ? gentle_impact : moderate_impact))
     return completes();
@@ -219,7 +223,7 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
     case Method::Kind::shared:
       return of_shared(body, linear, forbids);
     default:
-      return of_implicit(body, method.kind, linear, forbids);
+      return of_implicit(body, method.kind, halves, linear, forbids);
   }
 }
 

@@ -76,7 +76,7 @@ class Bdf2Step final : public ImplicitStep<B> {
         start_("bdf2.start", level.model.vertices),
         increment_("bdf2.increment", level.model.vertices) {}
 
-  void forget() override { ImplicitStep<B>::forget(), last_step_ = 0; }
+  void forget() override { last_step_ = 0; }
   std::size_t bytes() const override { return ImplicitStep<B>::bytes() + 4 * start_.u.span() * sizeof(Real); }
   void persist(StateArchive<B>& archive) override {
     ImplicitStep<B>::persist(archive);
@@ -156,7 +156,7 @@ class GeneralizedAlphaStep final : public ImplicitStep<B> {
     gamma_ = 0.5 - mass_ + force_, beta_ = 0.25 * (1 - mass_ + force_) * (1 - mass_ + force_);
   }
 
-  void forget() override { ImplicitStep<B>::forget(), carried_ = false; }
+  void forget() override { carried_ = false; }
   std::size_t bytes() const override { return ImplicitStep<B>::bytes() + 3 * start_.u.span() * sizeof(Real); }
   void persist(StateArchive<B>& archive) override {
     ImplicitStep<B>::persist(archive);

@@ -35,7 +35,6 @@ class ImplicitStep : public Integrator<B> {
                                    : std::string();
   }
   double residual() const override { return stages_.residual(); }
-  void forget() override { surprised_ = 0; }
   std::map<std::string, long> counters() const override { return stages_.counters(); }
   std::size_t bytes() const override { return stages_.bytes(); }
   void persist(StateArchive<B>& archive) override { archive.number(surprised_), stages_.persist(archive); }

@@ -236,7 +236,7 @@ TEST(Matrix, MoreThanOneOutcomeHasAReason) {
     EXPECT_EQ(outcomes > 1, !e.why.empty()) << one.name << ", " << one.method;
     several += outcomes > 1 ? 1 : 0;
   }
-  EXPECT_LT(several, all.size() / 20);
+  EXPECT_LT(several, all.size() / 12);
   MatrixCase one = all.front();
   one.expected.why = "a reason";
   EXPECT_EQ(run_case(one).why, "a reason");
