@@ -69,8 +69,10 @@ void HimStepper<B>::begin(Hierarchy<B>& h) {
 template <class B>
 void HimStepper<B>::forget(const Exec& exec) {
   for (HimBody<B>& body : bodies_) body.forget(exec);
-  for (const Vectors<B>& last : {fields_.force_before, fields_.answer_before, fields_.contact.force})
-    fill(exec, last, Real(0));  // they may be no numbers, after steps that went wrong
+  // These may be no numbers, after steps that went wrong
+  fill(exec, fields_.force_before, Real(0));
+  fill(exec, fields_.answer_before, Real(0));
+  fill(exec, fields_.contact.force, Real(0));
 }
 
 // --- Step -------------------------------------------------------------------------------------------------------------------
