@@ -9,13 +9,13 @@
 #include <plica/meshes/jitter.hpp>
 #include <plica/meshes/organs.hpp>
 
-// Organs with tools in the stability matrix: irregular meshes, rough, thin tools, folds. Every stepper comes to the end of each, by steps
+// Organs with tools in the stability matrix: irregular meshes, friction, thin tools, folds. Every stepper comes to the end of each, by steps
 // of 1 to 10 ms.
 namespace plica {
 
 namespace {
 
-constexpr double rough = 0.3;
+constexpr double rough = 0.3;  // coefficient of friction
 
 struct OrganRun {
   Problem problem;
@@ -155,7 +155,7 @@ MatrixRow run_organ(const OrganScene& scene, const std::string& element, double 
   Problem& p = run.problem;
   p.body.element = {element};
   set_ratio(p.body, ratio);
-  p.integration.macro_step = method.step;
+  p.integration.macro_step = method.step;  // with as many sub-steps as it takes
   const std::string last = method.name.substr(method.name.find('/') + 1);
   if (last == "him")
     p.integration.cycle = last;

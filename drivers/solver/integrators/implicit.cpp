@@ -8,6 +8,13 @@ namespace plica {
 
 namespace {
 
+/// Base of backward Euler over h [s].
+template <class B>
+void backward_euler_base(const SolverLevel<B>& level, double h, const State<B>& base) {
+  base.copy(level.exec(), level.state);
+  add<B>(level.exec(), "plica::implicit_euler_base", static_cast<typename B::Real>(h), base.v, base.u);
+}
+
 /// Backward Euler: order 1, dissipative at every step, no stability limit on the linear problem (L-stable).
 ///
 /// With the linear solver v_cycle, the system A = M + h^2 K is answered by exactly one V-cycle C of multigrid over the body's
@@ -21,9 +28,7 @@ class ImplicitEulerStep final : public ImplicitStep<B> {
 
  protected:
   bool step(SolverLevel<B>& level, double time, double h) override {
-    const State<B>& base = this->stages().base();
-    base.copy(level.exec(), level.state);
-    add<B>(level.exec(), "plica::implicit_euler_base", static_cast<typename B::Real>(h), base.v, base.u);
+    backward_euler_base(level, h, this->stages().base());
     return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
   }
 };
@@ -121,9 +126,7 @@ class Bdf2Step final : public ImplicitStep<B> {
   }
   /// Backward Euler: where contact sets in the trapezoidal rule rings.
   bool euler(SolverLevel<B>& level, double time, double h) {
-    const State<B>& base = this->stages().base();
-    base.copy(level.exec(), level.state);
-    add<B>(level.exec(), "plica::implicit_euler_base", static_cast<Real>(h), base.v, base.u);
+    backward_euler_base(level, h, this->stages().base());
     return this->stages().solve(level, time, h, {h * h, h}, {.span = h});
   }
   bool first(SolverLevel<B>& level, double time, double h) {
@@ -231,8 +234,7 @@ class Sdirk2Step final : public ImplicitStep<B> {
     const ImplicitWeights weights{part * part, part};
     const State<B>& base = this->stages().base();
     start_.copy(level.exec(), level.state);
-    base.copy(level.exec(), level.state);
-    add<B>(level.exec(), "plica::sdirk2_first_base", static_cast<Real>(part), base.v, base.u);
+    backward_euler_base(level, part, base);
     const bool first = this->stages().solve(level, time, part, weights, {.span = part});
     fill(level.exec(), level.f, Real(0));
     if (level.contact())

@@ -53,9 +53,9 @@ class ImplicitStep : public Integrator<B> {
   static constexpr double notable_motion = 0.1;  ///< part of the kinetic energy
 
   StageSolver<B> stages_;
-  long surprised_ = 0;   ///< 1: the last step ended with contact that was not foreseen
-  bool stops_;           ///< where a step is not solved, the run ends
-  double unsolved_ = 0;  ///< of the last advance()
+  bool surprised_ = false;  ///< the last step ended with contact that was not foreseen
+  bool stops_;              ///< where a step is not solved, the run ends
+  double unsolved_ = 0;     ///< of the last advance()
 
   void accept(SolverLevel<B>& level, double time, double h) {
     if (level.contact()) level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
@@ -65,8 +65,8 @@ class ImplicitStep : public Integrator<B> {
     level.count_contact(time + h, impulse(h));
     if (!judges()) return;
     const double part = unforeseen(level, time + h);
-    if (surprised_ > 0) unsolved_ = std::max(unsolved_, part);
-    surprised_ = part > 0 ? 1 : 0;
+    if (surprised_) unsolved_ = std::max(unsolved_, part);
+    surprised_ = part > 0;
   }
   /// Contact that is found where a step ends, and that the step did not know of: its energy over that of the contact that was solved and a
   /// tenth of the motion's; 0 where it is no more than those. It throws the body. One such step is what comes into touch; a second in a row
