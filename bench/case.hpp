@@ -21,8 +21,10 @@ void for_each_case(const F& f, const std::vector<Cells>& sizes = {small_beam, me
     Materials::for_each([&](auto material) {
       using Material = decltype(material);
       const std::string model = Material::name, tets = std::to_string(beam_tets(cells));
-      f.template operator()<Backend<double, Exec>, Material>({model + "/double/" + tets, model, cells});
-      f.template operator()<Backend<float, Exec>, Material>({model + "/float/" + tets, model, cells});
+      f.template operator()<Backend<double, Exec>, Material>(
+          {model + "/double/" + tets, model, cells});
+      f.template operator()<Backend<float, Exec>, Material>(
+          {model + "/float/" + tets, model, cells});
     });
 }
 
@@ -31,9 +33,9 @@ inline std::string name;
 inline std::shared_ptr<void> last;
 }  // namespace fixtures
 
-/// What a benchmark works on. Google Benchmark calls it several times to find how often to repeat; the last fixture is
-/// kept between the calls. `name` must tell fixtures of different types apart, too;
-/// make() returns a shared pointer.
+/// What a benchmark works on. Google Benchmark calls it several times to find how often to repeat;
+/// the last fixture is kept between the calls. `name` must tell fixtures of different types apart,
+/// too; make() returns a shared pointer.
 template <class F, class Make>
 F& fixture(const std::string& name, const Make& make) {
   if (fixtures::name != name) {

@@ -7,8 +7,9 @@
 
 namespace plica::bench {
 
-/// A number that counts the operations done on it. Pointwise physics is templated on its number type: run once on this, it
-/// says what it costs. Each of + - * / sqrt, exp and log counts as one, comparisons as none.
+/// A number that counts the operations done on it. Pointwise physics is templated on its number
+/// type: run once on this, it says what it costs. Each of + - * / sqrt, exp and log counts as one,
+/// comparisons as none.
 struct Counted {
   double value = 0;
   static inline long operations = 0;
@@ -24,17 +25,26 @@ struct Counted {
 };
 
 template <class A, class C>
-concept CountedWith = (std::same_as<A, Counted> ||
-                       std::same_as<C, Counted>)&&std::convertible_to<A, double>&& std::convertible_to<C, double>;
+concept CountedWith =
+    (std::same_as<A, Counted> ||
+     std::same_as<C, Counted>)&&std::convertible_to<A, double>&& std::convertible_to<C, double>;
 
 template <class A, class C>
-requires CountedWith<A, C> Counted operator+(A a, C b) { return Counted::done(double(a) + double(b)); }
+requires CountedWith<A, C> Counted operator+(A a, C b) {
+  return Counted::done(double(a) + double(b));
+}
 template <class A, class C>
-requires CountedWith<A, C> Counted operator-(A a, C b) { return Counted::done(double(a) - double(b)); }
+requires CountedWith<A, C> Counted operator-(A a, C b) {
+  return Counted::done(double(a) - double(b));
+}
 template <class A, class C>
-requires CountedWith<A, C> Counted operator*(A a, C b) { return Counted::done(double(a) * double(b)); }
+requires CountedWith<A, C> Counted operator*(A a, C b) {
+  return Counted::done(double(a) * double(b));
+}
 template <class A, class C>
-requires CountedWith<A, C> Counted operator/(A a, C b) { return Counted::done(double(a) / double(b)); }
+requires CountedWith<A, C> Counted operator/(A a, C b) {
+  return Counted::done(double(a) / double(b));
+}
 inline Counted operator-(Counted a) { return Counted::done(-a.value); }
 inline Counted& operator+=(Counted& a, Counted b) { return a = a + b; }
 inline Counted& operator-=(Counted& a, Counted b) { return a = a - b; }
@@ -57,8 +67,8 @@ inline Counted log(Counted a) { return Counted::done(std::log(a.value)); }
 inline Counted max(Counted a, Counted b) { return a.value < b.value ? b : a; }
 inline void set_lane(Counted& a, int, double value) { a = Counted(value); }
 
-/// Operations of one tetrahedron's corner forces (fields = 1) or of their change in a direction (2): gradients of the
-/// fields, stress, corner vectors, and the sums at the vertices.
+/// Operations of one tetrahedron's corner forces (fields = 1) or of their change in a direction
+/// (2): gradients of the fields, stress, corner vectors, and the sums at the vertices.
 template <class Material>
 double flops_per_tet(int fields) {
   ElementShape<Counted> shape;
@@ -71,9 +81,11 @@ double flops_per_tet(int fields) {
     for (int k = 0; k < 3; ++k) F[i][k] = F[i][k] + 0.05 * (i - 0.4 * k), dF[i][k] = 0.01 * (k - i);
   Vec3<Counted> corner[4];
   Counted::operations = 0;
-  stress_to_corners(fields == 1 ? Material::stress(F, c) : Material::stress_change(F, dF, c), shape, corner);
+  stress_to_corners(fields == 1 ? Material::stress(F, c) : Material::stress_change(F, dF, c), shape,
+                    corner);
   constexpr double differences = 9, products = 45, identity = 3, sums = 12;
-  return static_cast<double>(Counted::operations) + fields * (differences + products) + identity + sums;
+  return static_cast<double>(Counted::operations) + fields * (differences + products) + identity +
+         sums;
 }
 
 }  // namespace plica::bench

@@ -30,28 +30,30 @@ struct BentBeam {
       : elasticity(make_elasticity<B>(material, element)) {
     const Problem problem = beam_problem({cells}, material, name_of(element));
     const TetMesh& mesh = problem.body.levels.front();
-    level = build_level<B>(problem.body, mesh, level_constants(problem.body, mesh, Point::Zero(), 0));
+    level =
+        build_level<B>(problem.body, mesh, level_constants(problem.body, mesh, Point::Zero(), 0));
     level.state.u = direction = to_field<B>(bent(mesh, 0.1 / cells[0]));
   }
 };
 
-/// Compulsory bytes, each array once: per tetrahedron its corners and shape, or per pair of neighbours their constants; per vertex
-/// `numbers` of the precision.
+/// Compulsory bytes, each array once: per tetrahedron its corners and shape, or per pair of
+/// neighbours their constants; per vertex `numbers` of the precision.
 template <class B>
 double compulsory_bytes(const Model<B>& model, int numbers) {
   constexpr double s = sizeof(typename B::Real);
   if (const NodalRows<B>& rows = model.rows; rows.slices > 0)
-    return static_cast<double>(bytes_of_views(rows.first, rows.neighbour, rows.gradient, rows.coupling,
-                                              rows.first_surface, rows.surface_neighbour, rows.surface_gradient,
-                                              rows.inverse_volume)) +
+    return static_cast<double>(bytes_of_views(
+               rows.first, rows.neighbour, rows.gradient, rows.coupling, rows.first_surface,
+               rows.surface_neighbour, rows.surface_gradient, rows.inverse_volume)) +
            model.vertices * (numbers * s);
   return model.tets * (4 * sizeof(std::uint16_t) + 10 * s) + model.vertices * (numbers * s);
 }
 
 template <class B>
 BentBeam<B>& bent_beam(const Case& c, Element element) {
-  return fixture<BentBeam<B>>(text("bent ", name_of(element), " ", c.name),
-                              [&] { return std::make_shared<BentBeam<B>>(c.cells, c.material, element); });
+  return fixture<BentBeam<B>>(text("bent ", name_of(element), " ", c.name), [&] {
+    return std::make_shared<BentBeam<B>>(c.cells, c.material, element);
+  });
 }
 
 template <class B>
@@ -59,10 +61,11 @@ void force(benchmark::State& state, const Case& c, double flops, Element element
   auto& beam = bent_beam<B>(c, element);
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
-  measure<typename B::Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 1), tets * flops}, [&] {
-    beam.elasticity->force(beam.exec, beam.level, beam.level.state, 1);
-    gather_forces<B>(beam.exec, model, beam.level.partial, {}, beam.level.f);
-  });
+  measure<typename B::Real>(
+      state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 1), tets * flops}, [&] {
+        beam.elasticity->force(beam.exec, beam.level, beam.level.state, 1);
+        gather_forces<B>(beam.exec, model, beam.level.partial, {}, beam.level.f);
+      });
 }
 
 template <class B>
@@ -71,11 +74,13 @@ void tangent(benchmark::State& state, const Case& c, double flops, Element eleme
   auto& beam = bent_beam<B>(c, element);
   const Model<B>& model = beam.level.model;
   const double tets = model.tets;
-  measure<Real>(state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 3 + 1), tets * flops}, [&] {
-    beam.elasticity->tangent(beam.exec, beam.level, beam.level.state.u, beam.direction, 0);
-    update_vertices<B>(beam.exec, "bench::product", model.vertices,
-                       SystemProduct<B>{model, beam.direction, beam.level.partial, beam.level.f, Real(1), Real(1)});
-  });
+  measure<Real>(
+      state, beam.exec, {tets, compulsory_bytes(model, 3 + 3 + 3 + 1), tets * flops}, [&] {
+        beam.elasticity->tangent(beam.exec, beam.level, beam.level.state.u, beam.direction, 0);
+        update_vertices<B>(beam.exec, "bench::product", model.vertices,
+                           SystemProduct<B>{model, beam.direction, beam.level.partial, beam.level.f,
+                                            Real(1), Real(1)});
+      });
 }
 
 }  // namespace
@@ -84,7 +89,8 @@ void register_kernels() {
   for_each_case<Materials>([]<class B, class Material>(const Case& c) {
     for (const Element element : {Element::linear, Element::nodal}) {
       const std::string prefix = element == Element::linear ? "" : "nodal_";
-      const double by_tets = element == Element::linear ? 1 : 0;  // rows are judged by their bytes alone
+      // rows are judged by their bytes alone
+      const double by_tets = element == Element::linear ? 1 : 0;
       benchmark::RegisterBenchmark((prefix + "force/" + c.name).c_str(), force<B>, c,
                                    by_tets * flops_per_tet<Material>(1), element);
       benchmark::RegisterBenchmark((prefix + "tangent/" + c.name).c_str(), tangent<B>, c,

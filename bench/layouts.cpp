@@ -13,8 +13,9 @@
 #include "measure.hpp"
 #include "suites.hpp"
 
-// How to store elements and bring their forces to the vertices: the experiment behind kernels/patch_kernel.hpp. All ways
-// use the same pointwise materials on the same mesh, and must agree before they are timed.
+// How to store elements and bring their forces to the vertices: the experiment behind
+// kernels/patch_kernel.hpp. All ways use the same pointwise materials on the same mesh, and must
+// agree before they are timed.
 namespace plica::bench {
 
 namespace {
@@ -71,7 +72,8 @@ void run_layout(benchmark::State& state, const Case& c) {
   struct Fixture {
     LayoutProblem<B, Material> problem;
     Layout<B, Material> layout;
-    explicit Fixture(const Cells& cells) : problem(cells), layout(problem.mesh, problem.constants) {}
+    explicit Fixture(const Cells& cells)
+        : problem(cells), layout(problem.mesh, problem.constants) {}
   };
   const std::string name = std::string(Layout<B, Material>::name) + " " + c.name;
   auto& now = fixture<Fixture>(name, [&] { return std::make_shared<Fixture>(c.cells); });
@@ -85,17 +87,20 @@ void run_layout(benchmark::State& state, const Case& c) {
     return;
   }
   state.SetLabel(p.fingerprint());
-  const double tets = static_cast<double>(p.mesh.tets.size()), vertices = static_cast<double>(p.mesh.vertices.size());
+  const double tets = static_cast<double>(p.mesh.tets.size()),
+               vertices = static_cast<double>(p.mesh.vertices.size());
   const double compulsory = tets * (8 + 10 * sizeof(Real)) + vertices * 6 * sizeof(Real);
   measure<Real>(state, exec, {tets, compulsory, tets * flops_per_tet<Material>(1)},
                 [&] { now.layout(exec, p.u, p.f); });
-  state.counters["bytes_per_tet"] = now.layout.bytes_per_tet(vertices / tets);  // what this layout moves
+  // what this layout moves
+  state.counters["bytes_per_tet"] = now.layout.bytes_per_tet(vertices / tets);
 }
 
 template <template <class, class> class Layout, class B, class Material>
 void add(const Case& c) {
-  benchmark::RegisterBenchmark((std::string("layout/") + Layout<B, Material>::name + "/" + c.name).c_str(),
-                               run_layout<B, Material, Layout>, c);
+  benchmark::RegisterBenchmark(
+      (std::string("layout/") + Layout<B, Material>::name + "/" + c.name).c_str(),
+      run_layout<B, Material, Layout>, c);
 }
 
 }  // namespace

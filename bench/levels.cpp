@@ -27,7 +27,8 @@ Problem ball_problem(std::size_t levels, int subdivisions) {
   p.body.element = {"linear"};
   for (int cells : {17, 15, 12, 10})
     if (p.body.levels.size() < levels)
-      p.body.levels.push_back(box_mesh({Point::Zero(), Point::Constant(0.11)}, {cells, cells, cells}));
+      p.body.levels.push_back(
+          box_mesh({Point::Zero(), Point::Constant(0.11)}, {cells, cells, cells}));
   p.body.material = {"neo_hookean", 50e3, 0.4, 1000};
   p.body.damping.mass = 5;
   p.body.initial.position = Point(0, 0, 0.049);
@@ -43,7 +44,8 @@ Problem probe_problem() {
   Problem p = ball_problem(1, 5);
   p.body.levels = {box_mesh({Point::Zero(), Point::Constant(0.11)}, {26, 26, 26})};
   p.body.initial.position = Point::Zero();
-  p.contact.obstacles = {{CapsuleOptions{{0.055, 0.055, 0.112}, {0.055, 0.055, 0.2}, 0.008}, 0.3, {}}};
+  p.contact.obstacles = {
+      {CapsuleOptions{{0.055, 0.055, 0.112}, {0.055, 0.055, 0.2}, 0.008}, 0.3, {}}};
   return p;
 }
 
@@ -66,8 +68,8 @@ std::shared_ptr<BuiltHierarchy<B>> built(const Problem& problem) {
   return std::make_shared<BuiltHierarchy<B>>(build_hierarchy<B>(problem, {}));
 }
 
-/// The switched mapping between the two finest of four levels. Compulsory: rows, both fields of the source now and at the
-/// start, and of the target in and out, with its switching distance.
+/// The switched mapping between the two finest of four levels. Compulsory: rows, both fields of the
+/// source now and at the start, and of the target in and out, with its switching distance.
 template <class Real>
 void transfer(benchmark::State& state, bool down) {
   using B = Backend<Real, Exec>;
@@ -79,16 +81,18 @@ void transfer(benchmark::State& state, bool down) {
   const Level<B>&fine = (*b.hierarchy)[0], &coarse = (*b.hierarchy)[1];
   const Level<B>&from = down ? fine : coarse, &to = down ? coarse : fine;
   const Transfer<B>& rows = down ? coarse.from_finer : coarse.to_finer;
-  const double s = sizeof(Real), bytes = rows.rows * (4 + 16 + 4 * s + 13 * s) + from.model.vertices * 12 * s;
+  const double s = sizeof(Real),
+               bytes = rows.rows * (4 + 16 + 4 * s + 13 * s) + from.model.vertices * 12 * s;
   const double time = measure<Real>(state, b.hierarchy->exec(), {0, bytes, rows.rows * 120.0}, [&] {
-    map_fields<B, MapSwitched>(b.hierarchy->exec(), "bench::transfer", rows, from.state, from.start, to.start, to.state,
-                               to.drift_limit);
+    map_fields<B, MapSwitched>(b.hierarchy->exec(), "bench::transfer", rows, from.state, from.start,
+                               to.start, to.state, to.drift_limit);
   });
   state.counters["rows_per_second"] = rows.rows / time;
 }
 
-/// Contact of one step, from where points are to the forces on vertices; what is found is kept from call to call, as in slow steps.
-/// Compulsory: points with their rows, their transpose, displacement and velocity of the vertices touched, force in and out.
+/// Contact of one step, from where points are to the forces on vertices; what is found is kept from
+/// call to call, as in slow steps. Compulsory: points with their rows, their transpose,
+/// displacement and velocity of the vertices touched, force in and out.
 template <class Real>
 void contact(benchmark::State& state, const std::string& name, Problem (*scene)()) {
   using B = Backend<Real, Exec>;
@@ -103,12 +107,14 @@ void contact(benchmark::State& state, const std::string& name, Problem (*scene)(
   state.counters["points_per_second"] = points / time;
 }
 
-/// One macro step of the main scene on all four levels, contact included; its launches as graphs, where the device has any, or one by one.
+/// One macro step of the main scene on all four levels, contact included; its launches as graphs,
+/// where the device has any, or one by one.
 template <class Real>
 void cycle(benchmark::State& state, std::size_t levels, bool graphs) {
   using B = Backend<Real, Exec>;
-  auto& simulation = fixture<Simulation<B>>(std::string("cycle ") + precision_name<Real>() + std::to_string(levels),
-                                            [&] { return std::make_shared<Simulation<B>>(ball_problem(levels, 3)); });
+  auto& simulation = fixture<Simulation<B>>(
+      std::string("cycle ") + precision_name<Real>() + std::to_string(levels),
+      [&] { return std::make_shared<Simulation<B>>(ball_problem(levels, 3)); });
   simulation.use_graphs(graphs);
   double tets = 0;
   for (const LevelReport& level : simulation.levels()) tets += level.tets * level.substeps;
@@ -129,8 +135,10 @@ template <class Real>
 void set_up_patches(benchmark::State& state) {
   const TetMesh mesh = beam_mesh(medium_beam);
   const MaterialInfo& info = *find_material("st_venant_kirchhoff");
-  const auto constants = info.kernel_constants(parameter_values(info, {"st_venant_kirchhoff", 1e5, 0.45}, {}));
-  for (auto _ : state) benchmark::DoNotOptimize(build_patches<Backend<Real, Exec>>(mesh, {constants}).count);
+  const auto constants =
+      info.kernel_constants(parameter_values(info, {"st_venant_kirchhoff", 1e5, 0.45}, {}));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(build_patches<Backend<Real, Exec>>(mesh, {constants}).count);
 }
 
 template <class Real>
@@ -141,7 +149,8 @@ void register_precision() {
   };
   add("transfer/restrict/" + real + "/" + medium, transfer<Real>, true);
   add("transfer/interpolate/" + real + "/" + medium, transfer<Real>, false);
-  const auto add_contact = [&](const std::string& scene, const std::string& points, Problem (*make)()) {
+  const auto add_contact = [&](const std::string& scene, const std::string& points,
+                               Problem (*make)()) {
     const std::string name = "contact/" + scene + "/" + real + "/" + points;
     add(name, contact<Real>, name, make);
   };
@@ -156,7 +165,8 @@ void register_precision() {
     add("cycle/rsv/neo_hookean/" + real + "/29478" + how, cycle<Real>, std::size_t{4}, graphs);
   }
   add("set_up/patches/" + real + "/" + medium, set_up_patches<Real>);
-  add("set_up/hierarchy_of_4/" + real + "/" + medium, set_up_hierarchy<Real>)->Unit(benchmark::kMillisecond);
+  add("set_up/hierarchy_of_4/" + real + "/" + medium, set_up_hierarchy<Real>)
+      ->Unit(benchmark::kMillisecond);
 }
 
 }  // namespace

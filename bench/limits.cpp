@@ -28,7 +28,8 @@ template double fma_peak<float>();
 template double fma_peak<double>();
 
 void register_limits() {
-  const auto show = [](const std::string& name, const char* counter, double (*measure)(double), double argument) {
+  const auto show = [](const std::string& name, const char* counter, double (*measure)(double),
+                       double argument) {
     benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
       double value = 0;
       for (auto _ : state) value = measure(argument);
@@ -36,8 +37,8 @@ void register_limits() {
     })->Iterations(1);
   };
   for (const double megabytes : {0.5, 8.0, 64.0, 512.0})
-    show("limit/triad/" + std::to_string(static_cast<int>(1000 * megabytes)) + "kB", "bytes_per_second",
-         triad_bandwidth, megabytes * 1e6);
+    show("limit/triad/" + std::to_string(static_cast<int>(1000 * megabytes)) + "kB",
+         "bytes_per_second", triad_bandwidth, megabytes * 1e6);
   show(
       "limit/fma/float", "flops_per_second", [](double) { return fma_peak<float>(); }, 0);
   show(

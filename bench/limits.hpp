@@ -2,11 +2,12 @@
 #pragma once
 #include <cstddef>
 
-// What this machine can do at best, with the threads of this run: measured when first asked for, in the same process as
-// what is compared with it.
+// What this machine can do at best, with the threads of this run: measured when first asked for, in
+// the same process as what is compared with it.
 namespace plica::bench {
 
-/// Bytes per second of a(i) = b(i) + s c(i) with three arrays of `footprint` bytes in all, two read and one written.
+/// Bytes per second of a(i) = b(i) + s c(i) with three arrays of `footprint` bytes in all, two read
+/// and one written.
 double triad_bandwidth(double footprint);
 
 /// Floating-point operations per second of independent fused multiply-adds, two each.

@@ -7,9 +7,10 @@
 #include "case.hpp"
 #include "suites.hpp"
 
-// plica_bench, plica_bench_layouts [--benchmark_filter=force/.*] [--benchmark_out=FILE ...]; OMP_NUM_THREADS sets the number of threads. The
-// counters come from the median repetition; fraction_of_limit compares it with the larger of compulsory bytes over
-// triad bandwidth (at that footprint) and flops over multiply-add peak, both measured in the same run.
+// plica_bench, plica_bench_layouts [--benchmark_filter=force/.*] [--benchmark_out=FILE ...];
+// OMP_NUM_THREADS sets the number of threads. The counters come from the median repetition;
+// fraction_of_limit compares it with the larger of compulsory bytes over triad bandwidth (at that
+// footprint) and flops over multiply-add peak, both measured in the same run.
 int main(int argc, char** argv) {
   Kokkos::ScopeGuard kokkos(argc, argv);
   benchmark::Initialize(&argc, argv);

@@ -11,13 +11,14 @@ namespace plica::bench {
 
 /// What one repetition has to do at least.
 struct Cost {
-  double tets = 0;   ///< element evaluations
-  double bytes = 0;  ///< compulsory: each input read once, each output written once, no buffers of our own
+  double tets = 0;  ///< element evaluations
+  /// compulsory: each input read once, each output written once, no buffers of our own
+  double bytes = 0;
   double flops = 0;
 };
 
-/// Repeats work(), which enqueues on `exec`. All counters are of the median repetition: a neighbour on the machine
-/// disturbs some.
+/// Repeats work(), which enqueues on `exec`. All counters are of the median repetition: a neighbour
+/// on the machine disturbs some.
 template <class Real, class Exec, class Work>
 double measure(benchmark::State& state, const Exec& exec, const Cost& cost, const Work& work) {
   work();
@@ -38,7 +39,8 @@ double measure(benchmark::State& state, const Exec& exec, const Cost& cost, cons
     state.counters["bytes_per_tet"] = cost.bytes / cost.tets;
     state.counters["flops_per_tet"] = cost.flops / cost.tets;
   }
-  if (cost.bytes > 0) state.counters["fraction_of_limit"] = least_time<Real>(cost.bytes, cost.flops) / *middle;
+  if (cost.bytes > 0)
+    state.counters["fraction_of_limit"] = least_time<Real>(cost.bytes, cost.flops) / *middle;
   return *middle;
 }
 

@@ -6,15 +6,17 @@
 #include <plica/drivers/solver/busy_cores.hpp>
 #include <plica/version.hpp>
 
-// plica_step_times SCENE [--set KEY.PATH=VALUE ...] [--threads N] [--precision WORD] [--limit SECONDS]: how long each macro step of a scene
-// takes where the caller checks it and reads the obstacles' wrenches after it, as a simulator with a haptic device does. Prints JSON, writes
-// no files. Exit: 0, also where the run diverges, which `status` says; 2 for a scene that is refused.
+// plica_step_times SCENE [--set KEY.PATH=VALUE ...] [--threads N] [--precision WORD] [--limit
+// SECONDS]: how long each macro step of a scene takes where the caller checks it and reads the
+// obstacles' wrenches after it, as a simulator with a haptic device does. Prints JSON, writes no
+// files. Exit: 0, also where the run diverges, which `status` says; 2 for a scene that is refused.
 namespace plica::app {
 namespace {
 
 struct StepTimes {
-  std::vector<double> wall, waited;  // of each step; the part of it in which its threads had no core [s]
-  std::vector<bool> touches;         // whether an obstacle's force is not zero
+  // of each step; the part of it in which its threads had no core [s]
+  std::vector<double> wall, waited;
+  std::vector<bool> touches;  // whether an obstacle's force is not zero
   std::string status = "completed", diagnosis;
 };
 
@@ -33,7 +35,8 @@ StepTimes timed_steps(Simulation<B>& simulation, double duration, int threads, d
     const std::vector<Wrench> wrenches = simulation.wrenches();
     times.wall.push_back(timer.seconds());
     times.waited.push_back(wait.share(threads).value_or(0) * times.wall.back());
-    times.touches.push_back(std::ranges::any_of(wrenches, [](const Wrench& w) { return w.force.norm() > 0; }));
+    times.touches.push_back(
+        std::ranges::any_of(wrenches, [](const Wrench& w) { return w.force.norm() > 0; }));
     if (failure) {
       times.status = "diverged", times.diagnosis = failure->text();
       return times;
@@ -43,8 +46,8 @@ StepTimes timed_steps(Simulation<B>& simulation, double duration, int threads, d
 }
 
 template <class B>
-nlohmann::json measured(const Scene& scene, Simulation<B>& simulation, const Machine& machine, double set_up,
-                        double limit) {
+nlohmann::json measured(const Scene& scene, Simulation<B>& simulation, const Machine& machine,
+                        double set_up, double limit) {
   const StepTimes times = timed_steps(simulation, scene.duration, machine.threads, limit);
   const LevelReport& finest = simulation.levels().front();
   const std::vector<Wrench> wrenches = simulation.wrenches();
@@ -80,8 +83,8 @@ int print_step_times(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   for (const std::string& set : sets) arguments.overrides.push_back({set, "--set " + set});
   try {
-    std::cout << with_simulation(arguments, [&](const Scene& scene, auto& simulation, const Machine& machine,
-                                                double set_up) {
+    std::cout << with_simulation(arguments, [&](const Scene& scene, auto& simulation,
+                                                const Machine& machine, double set_up) {
       return measured(scene, simulation, machine, set_up, limit);
     }) << '\n';
   } catch (const InputError& error) {

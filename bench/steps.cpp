@@ -12,7 +12,8 @@ namespace plica::bench {
 
 namespace {
 
-constexpr int iterations = 25;           // of conjugate gradients, what other simulators are measured with
+// of conjugate gradients, what other simulators are measured with
+constexpr int iterations = 25;
 constexpr double implicit_step = 10e-3;  // [s]
 constexpr ImplicitWeights weights{implicit_step * implicit_step, implicit_step};
 
@@ -24,25 +25,28 @@ Problem implicit_beam(const Case& c) {
   return problem;
 }
 
-/// One step at 0.9 of the limit of a beam that begins to sag. Compulsory: elements, mass and its inverse, displacement and
-/// velocity in and out.
+/// One step at 0.9 of the limit of a beam that begins to sag. Compulsory: elements, mass and its
+/// inverse, displacement and velocity in and out.
 template <class B>
 void explicit_beam_step(benchmark::State& state, const Case& c, double flops) {
   constexpr double s = sizeof(typename B::Real);
-  auto& simulation = fixture<Simulation<B>>(
-      "explicit " + c.name, [&] { return std::make_shared<Simulation<B>>(beam_problem({c.cells}, c.material)); });
+  auto& simulation = fixture<Simulation<B>>("explicit " + c.name, [&] {
+    return std::make_shared<Simulation<B>>(beam_problem({c.cells}, c.material));
+  });
   const LevelReport& level = simulation.levels().front();
   const double tets = level.tets, vertices = level.vertices;
-  measure<typename B::Real>(state, typename B::Exec(),
-                            {tets, tets * (8 + 10 * s) + vertices * 14 * s, tets * flops + vertices * 12},
-                            [&] { simulation.step(); });
+  measure<typename B::Real>(
+      state, typename B::Exec(),
+      {tets, tets * (8 + 10 * s) + vertices * 14 * s, tets * flops + vertices * 12},
+      [&] { simulation.step(); });
 }
 
-/// One linearly implicit step with a fixed number of iterations, to be set beside other simulators' figures.
+/// One linearly implicit step with a fixed number of iterations, to be set beside other simulators'
+/// figures.
 template <class B>
 void implicit_beam_step(benchmark::State& state, const Case& c) {
-  auto& simulation =
-      fixture<Simulation<B>>("implicit " + c.name, [&] { return std::make_shared<Simulation<B>>(implicit_beam(c)); });
+  auto& simulation = fixture<Simulation<B>>(
+      "implicit " + c.name, [&] { return std::make_shared<Simulation<B>>(implicit_beam(c)); });
   measure<typename B::Real>(state, typename B::Exec(), {}, [&] { simulation.step(); });
   state.counters["iterations"] = iterations;
 }
@@ -56,9 +60,12 @@ struct LinearSystem {
   Krylov<B> krylov;
 
   LinearSystem(const Case& c, bool assembled)
-      : built(build_hierarchy<B>(implicit_beam(c), {})), system(level(), assembled), krylov(vertices()) {
+      : built(build_hierarchy<B>(implicit_beam(c), {})),
+        system(level(), assembled),
+        krylov(vertices()) {
     right_side = to_field<B>(bent(built.meshes.front(), 0.1 / c.cells[0]));
-    r = Vectors<B>("bench::r", right_side.extent(0)), x = Vectors<B>("bench::x", right_side.extent(0));
+    r = Vectors<B>("bench::r", right_side.extent(0)),
+    x = Vectors<B>("bench::x", right_side.extent(0));
     SolverLevel<B>& h = level();
     h.linearise(h.state, 0, weights, implicit_step, h.f);
     prepare();
@@ -77,7 +84,8 @@ LinearSystem<B>& linear_system(const Case& c, bool assembled) {
                                   [&] { return std::make_shared<LinearSystem<B>>(c, assembled); });
 }
 
-/// Compulsory per iteration: elements, mass, displacement; solution, residual and direction in and out; preconditioner.
+/// Compulsory per iteration: elements, mass, displacement; solution, residual and direction in and
+/// out; preconditioner.
 template <class B>
 void cg_iteration(benchmark::State& state, const Case& c, double flops) {
   constexpr double s = sizeof(typename B::Real);
@@ -87,8 +95,8 @@ void cg_iteration(benchmark::State& state, const Case& c, double flops) {
   const double bytes = tets * (8 + 10 * s) + vertices * 28 * s, work = tets * flops + vertices * 50;
   ImplicitOptions options;
   options.iterations = iterations;
-  const double time =
-      measure<typename B::Real>(state, exec, {tets * iterations, bytes * iterations, work * iterations}, [&] {
+  const double time = measure<typename B::Real>(
+      state, exec, {tets * iterations, bytes * iterations, work * iterations}, [&] {
         Kokkos::deep_copy(exec, system.r, system.right_side);
         system.krylov.solve(exec, system.system, nullptr, nullptr, options, system.r, system.x);
       });
@@ -101,9 +109,10 @@ void assembly(benchmark::State& state, const Case& c) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, true);
   const double tets = system.level().model.tets, stored = system.system.pattern().stored();
-  measure<typename B::Real>(state, system.built.hierarchy->exec(),
-                            {tets, tets * (8 + 10 * s) + system.vertices() * 3 * s + stored * 9 * s, 0},
-                            [&] { system.prepare(); });
+  measure<typename B::Real>(
+      state, system.built.hierarchy->exec(),
+      {tets, tets * (8 + 10 * s) + system.vertices() * 3 * s + stored * 9 * s, 0},
+      [&] { system.prepare(); });
 }
 
 /// Compulsory: the matrix and a vector in, another out.
@@ -112,9 +121,11 @@ void block_product(benchmark::State& state, const Case& c) {
   constexpr double s = sizeof(typename B::Real);
   auto& system = linear_system<B>(c, true);
   const BlockMatrix<B>& A = system.system.pattern();
-  const double tets = system.level().model.tets, blocks = A.blocks(), stored = A.stored(), vertices = system.vertices();
+  const double tets = system.level().model.tets, blocks = A.blocks(), stored = A.stored(),
+               vertices = system.vertices();
   measure<typename B::Real>(
-      state, system.built.hierarchy->exec(), {tets, stored * 9 * s + blocks * 8 + vertices * (6 * s + 8), 18 * blocks},
+      state, system.built.hierarchy->exec(),
+      {tets, stored * 9 * s + blocks * 8 + vertices * (6 * s + 8), 18 * blocks},
       [&] { system.system.product(system.built.hierarchy->exec(), system.right_side, system.x); });
 }
 
@@ -127,7 +138,8 @@ void register_steps() {
     benchmark::RegisterBenchmark(("implicit_step/" + c.name).c_str(), implicit_beam_step<B>, c);
     benchmark::RegisterBenchmark(("assembly/" + c.name).c_str(), assembly<B>, c);
     benchmark::RegisterBenchmark(("block_product/" + c.name).c_str(), block_product<B>, c);
-    benchmark::RegisterBenchmark(("cg_iteration/" + c.name).c_str(), cg_iteration<B>, c, flops_per_tet<Material>(2));
+    benchmark::RegisterBenchmark(("cg_iteration/" + c.name).c_str(), cg_iteration<B>, c,
+                                 flops_per_tet<Material>(2));
   });
 }
 

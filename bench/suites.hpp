@@ -6,7 +6,8 @@ namespace plica::bench {
 
 void register_limits();   ///< limit/...: bandwidth and arithmetic of the machine
 void register_kernels();  ///< force/, tangent/<material>/<precision>/<tets>
-void register_steps();    ///< explicit_step/, implicit_step/, assembly/, block_product/, cg_iteration/<material>/...
+/// explicit_step/, implicit_step/, assembly/, block_product/, cg_iteration/<material>/...
+void register_steps();
 void register_levels();   ///< transfer/, contact/, cycle/, set_up/
 void register_layouts();  ///< layout/<layout>/<material>/<precision>/<tets>: in plica_bench_layouts
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What most sources include, compiled once per target: the parsing of Kokkos and Eigen was most of a build's time. No source
-// relies on it: every header is also compiled alone, without it (compile.headers).
+// What most sources include, compiled once per target: the parsing of Kokkos and Eigen was most of
+// a build's time. No source relies on it: every header is also compiled alone, without it
+// (compile.headers).
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

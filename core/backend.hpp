@@ -9,7 +9,8 @@
 
 namespace plica {
 
-/// Where and in which precision the device side runs: the one template parameter of everything that touches it.
+/// Where and in which precision the device side runs: the one template parameter of everything that
+/// touches it.
 template <class RealType, class ExecType>
 struct Backend {
   using Real = RealType;                       ///< float or double
@@ -17,9 +18,11 @@ struct Backend {
   using Memory = typename Exec::memory_space;  ///< where its fields live
   /// Whether the host can read that memory.
   static constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Memory>::accessible;
-  /// Whether its kernels are shaped for a CPU, where one thread fills vector registers, or for a GPU, where many work as a team.
+  /// Whether its kernels are shaped for a CPU, where one thread fills vector registers, or for a
+  /// GPU, where many work as a team.
   static constexpr bool for_cpu = on_host && !like_device::on;
-  /// Elements that one pass of a kernel takes at a time: a vector register's worth on a CPU, one on a GPU.
+  /// Elements that one pass of a kernel takes at a time: a vector register's worth on a CPU, one on
+  /// a GPU.
   static constexpr int lanes = for_cpu && PLICA_VECTOR_BYTES > static_cast<int>(sizeof(Real))
                                    ? PLICA_VECTOR_BYTES / static_cast<int>(sizeof(Real))
                                    : 1;
@@ -58,7 +61,8 @@ struct Backend {
 #define PLICA_FOR_EACH_MEMORY(DO) DO(Kokkos::HostSpace)
 #endif
 
-/// Rows of a slice of a matrix that is stored slice by slice: a register's worth on a CPU; on a GPU a warp reads whole lines.
+/// Rows of a slice of a matrix that is stored slice by slice: a register's worth on a CPU; on a GPU
+/// a warp reads whole lines.
 template <class B>
 inline constexpr int slice_height = B::for_cpu ? B::lanes : 32;
 
@@ -77,7 +81,8 @@ KOKKOS_INLINE_FUNCTION int league_rank(const Member& team) {
 /// So many numbers of a team's scratch memory, at a level of it.
 template <class Real, class Member>
 KOKKOS_INLINE_FUNCTION Real* team_scratch(const Member& team, int level, std::size_t count) {
-  Real* const memory = static_cast<Real*>(team.team_scratch(level).get_shmem_aligned(count * sizeof(Real), 64));
+  Real* const memory =
+      static_cast<Real*>(team.team_scratch(level).get_shmem_aligned(count * sizeof(Real), 64));
   like_device::spoil(team, memory, count);
   return memory;
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eigen by another name. Everywhere else Eigen is as in a program that is built without -march: its objects may pass between this
-// library and its callers, so memory has the alignment, and functions the code, of such a program. Here it uses vector
-// instructions and aligns memory for them. Under one name the linker would take either for both.
+// Eigen by another name. Everywhere else Eigen is as in a program that is built without -march: its
+// objects may pass between this library and its callers, so memory has the alignment, and functions
+// the code, of such a program. Here it uses vector instructions and aligns memory for them. Under
+// one name the linker would take either for both.
 #undef EIGEN_DONT_VECTORIZE
 #undef EIGEN_MAX_ALIGN_BYTES
 #undef EIGEN_MAX_STATIC_ALIGN_BYTES
 #define EIGEN_DONT_PARALLELIZE  // the same bits for any number of threads
 #define Eigen plica_dense_eigen
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // false positives in GCC's own vector intrinsics
+#pragma GCC diagnostic ignored \
+    "-Wmaybe-uninitialized"  // false positives in GCC's own vector intrinsics
 #endif
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -38,14 +40,16 @@ int modes(int n, const double* K, const double* M, double* s, double* phi) {
   // T: a basis in which M is the unit matrix
   const Eigen::VectorXd diagonal = matrix(n, M).diagonal();
   const Eigen::VectorXd scale = (diagonal.array() > 0).select(diagonal.array().rsqrt(), 0.0);
-  const Eigen::SelfAdjointEigenSolver<Matrix> of_mass(scale.asDiagonal() * matrix(n, M) * scale.asDiagonal());
+  const Eigen::SelfAdjointEigenSolver<Matrix> of_mass(scale.asDiagonal() * matrix(n, M) *
+                                                      scale.asDiagonal());
   const auto small = (of_mass.eigenvalues().array() < least).count();
   const Eigen::Index kept = n - small;
   const Matrix T = scale.asDiagonal() * of_mass.eigenvectors().rightCols(kept) *
                    of_mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   Matrix T3 = Matrix::Zero(3 * n, 3 * kept);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < kept; ++j) T3.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(T(i, j));
+    for (Eigen::Index j = 0; j < kept; ++j)
+      T3.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(T(i, j));
   const Matrix KT = matrix(3 * n, K) * T3;
   const Eigen::SelfAdjointEigenSolver<Matrix> of_stiffness(T3.transpose() * KT);
   Eigen::Map<Eigen::VectorXd>(s, 3 * kept) = of_stiffness.eigenvalues();
@@ -55,16 +59,20 @@ int modes(int n, const double* K, const double* M, double* s, double* phi) {
 
 void recompose(int n, int count, const double* s, const double* phi, double* A) {
   const Eigen::Map<const Matrix> vectors(phi, n, count);
-  matrix(n, A).noalias() = vectors * Eigen::Map<const Eigen::VectorXd>(s, count).asDiagonal() * vectors.transpose();
+  matrix(n, A).noalias() =
+      vectors * Eigen::Map<const Eigen::VectorXd>(s, count).asDiagonal() * vectors.transpose();
 }
 
 void add_gram(int rows, int n, const double* B, double* A) {
-  matrix(n, A).selfadjointView<Eigen::Lower>().rankUpdate(Eigen::Map<const Matrix>(B, rows, n).transpose());
+  matrix(n, A).selfadjointView<Eigen::Lower>().rankUpdate(
+      Eigen::Map<const Matrix>(B, rows, n).transpose());
 }
 
-RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside, double next) {
+RitzBound largest_ritz_bound(const std::vector<double>& diagonal, const std::vector<double>& beside,
+                             double next) {
   const auto vector = [](const std::vector<double>& x) {
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
+    return Eigen::VectorXd(
+        Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
   };
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(vector(diagonal), vector(beside));

@@ -21,7 +21,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     row[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
       row[j + 1] = std::min({last[j + 1] + 1, row[j] + 1, last[j] + (a[i] != b[j] ? 1 : 0)});
-      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j]) row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
+      if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+        row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
     }
     before = std::exchange(last, row);
   }
@@ -32,7 +33,8 @@ std::size_t difference(std::size_t a, std::size_t b) { return a > b ? a - b : b 
 
 }  // namespace
 
-InputError::InputError(const std::string& message, const Where& where) : std::runtime_error(placed(message, where)) {}
+InputError::InputError(const std::string& message, const Where& where)
+    : std::runtime_error(placed(message, where)) {}
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& choices) {
   std::string best;
@@ -40,15 +42,18 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   for (const std::string& choice : choices) {
     const std::size_t d = edit_distance(word, choice);
     const bool nearer = d < distance || (d == distance && !best.empty() &&
-                                         difference(choice.size(), word.size()) < difference(best.size(), word.size()));
+                                         difference(choice.size(), word.size()) <
+                                             difference(best.size(), word.size()));
     if (nearer) distance = d, best = choice;
   }
   return best;
 }
 
-std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& choices) {
+std::string unknown_name(std::string_view kind, std::string_view word,
+                         const std::vector<std::string>& choices) {
   std::string text = "unknown " + std::string(kind) + " '" + std::string(word) + "'";
-  if (const std::string near = nearest_name(word, choices); !near.empty()) text += "; did you mean '" + near + "'?";
+  if (const std::string near = nearest_name(word, choices); !near.empty())
+    text += "; did you mean '" + near + "'?";
   text += " (choices:";
   for (std::size_t i = 0; i < choices.size(); ++i) text += (i > 0 ? ", " : " ") + choices[i];
   return text + ")";

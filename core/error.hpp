@@ -7,8 +7,8 @@
 
 namespace plica {
 
-/// Where in an input file something stands; no file: the input came through the interface. Lines count from 1, 0:
-/// unknown.
+/// Where in an input file something stands; no file: the input came through the interface. Lines
+/// count from 1, 0: unknown.
 struct Where {
   std::string file;  ///< as the user named it
   int line = 0;      ///< from 1
@@ -21,11 +21,13 @@ class InputError : public std::runtime_error {
   explicit InputError(const std::string& message, const Where& where = {});
 };
 
-/// The entry of `choices` with the smallest edit distance to `word`; empty when none is near (more than a third of the
-/// letters differ).
+/// The entry of `choices` with the smallest edit distance to `word`; empty when none is near (more
+/// than a third of the letters differ).
 std::string nearest_name(std::string_view word, const std::vector<std::string>& choices);
 
-/// "unknown KIND 'WORD'; did you mean 'NEAREST'? (choices: A, B, C)", the sentence every unknown name gets.
-std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& choices);
+/// "unknown KIND 'WORD'; did you mean 'NEAREST'? (choices: A, B, C)", the sentence every unknown
+/// name gets.
+std::string unknown_name(std::string_view kind, std::string_view word,
+                         const std::vector<std::string>& choices);
 
 }  // namespace plica

@@ -38,18 +38,21 @@ void ask_for_huge_pages([[maybe_unused]] void* x, [[maybe_unused]] std::size_t b
   if (bytes < 2 * huge_page) return;
   const auto begin = (reinterpret_cast<std::uintptr_t>(x) + huge_page - 1) / huge_page * huge_page;
   const auto end = (reinterpret_cast<std::uintptr_t>(x) + bytes) / huge_page * huge_page;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a hint: a system without them goes on
+  // a hint: a system without them goes on
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
 }
 
-/// By all threads of the host: pages come where they are used, and a system takes long to hand them out.
+/// By all threads of the host: pages come where they are used, and a system takes long to hand them
+/// out.
 void clear_on_host(void* x, std::size_t bytes) {
   using Exec = Kokkos::DefaultHostExecutionSpace;
-  Kokkos::parallel_for("plica::clear", Kokkos::RangePolicy<Exec>(0, (bytes + huge_page - 1) / huge_page),
-                       [=](std::size_t page) {
-                         const std::size_t begin = page * huge_page;
-                         std::memset(static_cast<char*>(x) + begin, 0, std::min(huge_page, bytes - begin));
-                       });
+  Kokkos::parallel_for(
+      "plica::clear", Kokkos::RangePolicy<Exec>(0, (bytes + huge_page - 1) / huge_page),
+      [=](std::size_t page) {
+        const std::size_t begin = page * huge_page;
+        std::memset(static_cast<char*>(x) + begin, 0, std::min(huge_page, bytes - begin));
+      });
 }
 
 template <class Exec>
@@ -63,7 +66,9 @@ struct Copy {
     using Memory = typename Exec::memory_space;
     Kokkos::deep_copy(exec, at<Memory>(to, bytes), at<Memory>(from, bytes));
   }
-  bool operator==(const Copy& other) const { return to == other.to && from == other.from && bytes == other.bytes; }
+  bool operator==(const Copy& other) const {
+    return to == other.to && from == other.from && bytes == other.bytes;
+  }
 };
 
 template <class Exec, class Number>
@@ -75,10 +80,12 @@ struct Set {
 
   void operator()() const {
     using Memory = typename Exec::memory_space;
-    Kokkos::deep_copy(exec, Kokkos::View<Number*, Kokkos::LayoutRight, Memory, Unmanaged>(x, count), value);
+    Kokkos::deep_copy(exec, Kokkos::View<Number*, Kokkos::LayoutRight, Memory, Unmanaged>(x, count),
+                      value);
   }
   bool operator==(const Set& other) const {
-    return x == other.x && count == other.count && std::memcmp(&value, &other.value, sizeof value) == 0;
+    return x == other.x && count == other.count &&
+           std::memcmp(&value, &other.value, sizeof value) == 0;
   }
 };
 
@@ -100,7 +107,8 @@ class GatheredTask final : public Launch {
 template <class Exec, class Task>
 void in_order(const Task& task) {
   if constexpr (gathers<Exec>)
-    if (auto* const queue = LaunchQueue<Exec>::now()) return queue->add(std::make_unique<GatheredTask<Task>>(task));
+    if (auto* const queue = LaunchQueue<Exec>::now())
+      return queue->add(std::make_unique<GatheredTask<Task>>(task));
   task();
 }
 
@@ -148,13 +156,14 @@ void set(const Exec& exec, Number* x, std::size_t count, Number value) {
   if (count > 0) in_order<Exec>(Set<Exec, Number>{exec, x, count, value});
 }
 
-#define PLICA_INSTANTIATE_SPACE(Exec)                                           \
-  template void copy_bytes<Exec>(const Exec&, void*, const void*, std::size_t); \
-  template void download<Exec>(const Exec&, void*, const void*, std::size_t);   \
-  template void set<Exec, float>(const Exec&, float*, std::size_t, float);      \
-  template void set<Exec, double>(const Exec&, double*, std::size_t, double);   \
-  template void set<Exec, int>(const Exec&, int*, std::size_t, int);            \
-  template void set<Exec, unsigned long long>(const Exec&, unsigned long long*, std::size_t, unsigned long long);
+#define PLICA_INSTANTIATE_SPACE(Exec)                                                        \
+  template void copy_bytes<Exec>(const Exec&, void*, const void*, std::size_t);              \
+  template void download<Exec>(const Exec&, void*, const void*, std::size_t);                \
+  template void set<Exec, float>(const Exec&, float*, std::size_t, float);                   \
+  template void set<Exec, double>(const Exec&, double*, std::size_t, double);                \
+  template void set<Exec, int>(const Exec&, int*, std::size_t, int);                         \
+  template void set<Exec, unsigned long long>(const Exec&, unsigned long long*, std::size_t, \
+                                              unsigned long long);
 PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE_SPACE)
 
 #define PLICA_INSTANTIATE_MEMORY(Memory)                         \

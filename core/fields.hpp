@@ -7,8 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-// What is done with whole fields: memory, equal values, copies, the way to the host. Kokkos's own functions for this are large
-// templates, which every source would compile again for every kind of field: here they are compiled once, in fields.cpp.
+// What is done with whole fields: memory, equal values, copies, the way to the host. Kokkos's own
+// functions for this are large templates, which every source would compile again for every kind of
+// field: here they are compiled once, in fields.cpp.
 namespace plica {
 
 namespace fields {
@@ -16,8 +17,8 @@ namespace fields {
 /// Copies bytes within the memory of an execution space, in the order of `exec`.
 template <class Exec>
 void copy_bytes(const Exec& exec, void* to, const void* from, std::size_t bytes);
-/// New memory, before it is first written: where it is large and the host's, huge pages are asked for. Kernels that read it in order then
-/// wait less.
+/// New memory, before it is first written: where it is large and the host's, huge pages are asked
+/// for. Kernels that read it in order then wait less.
 template <class Memory>
 void prepare_new(void* x, std::size_t bytes);
 /// New memory is 0.
@@ -26,7 +27,8 @@ void clear_new(void* x, std::size_t bytes);
 /// Bytes from the host to a memory space. Waits for all work.
 template <class Memory>
 void upload(void* to, const void* from, std::size_t bytes);
-/// Bytes from an execution space's memory to the host, when `exec` has done all it was given. Waits for that.
+/// Bytes from an execution space's memory to the host, when `exec` has done all it was given. Waits
+/// for that.
 template <class Exec>
 void download(const Exec& exec, void* to, const void* from, std::size_t bytes);
 /// Sets numbers, in the order of `exec`. For float, double, int and unsigned long long.
@@ -35,7 +37,8 @@ void set(const Exec& exec, Number* x, std::size_t count, Number value);
 
 template <class View>
 std::size_t bytes_of(const View& x) {
-  static_assert(std::is_same_v<typename View::array_layout, Kokkos::LayoutRight> || View::rank() <= 1);
+  static_assert(std::is_same_v<typename View::array_layout, Kokkos::LayoutRight> ||
+                View::rank() <= 1);
   return x.span() * sizeof(typename View::value_type);
 }
 
@@ -57,7 +60,8 @@ View zeros(const std::string& label, std::size_t n) {
   return view;
 }
 
-/// A field whose memory another one owns, which outlives it. Copies of it cost nothing, those of an owner count how many there are.
+/// A field whose memory another one owns, which outlives it. Copies of it cost nothing, those of an
+/// owner count how many there are.
 template <class View>
 View lent(const View& x) {
   return View(x.data(), x.extent(0));
@@ -89,20 +93,24 @@ auto on_host(const View& x) {
   return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), x);
 }
 
-/// A field named "plica::NAME" with the values of a host vector, whose elements are rows of the field: an element of
-/// std::array<T, N> for a View<T*[N]>. Fields of other number types are converted by the caller.
+/// A field named "plica::NAME" with the values of a host vector, whose elements are rows of the
+/// field: an element of std::array<T, N> for a View<T*[N]>. Fields of other number types are
+/// converted by the caller.
 template <class View, class Element>
 View to_device(const std::string& name, const std::vector<Element>& values) {
-  static_assert(std::is_trivially_copyable_v<Element> && alignof(typename View::value_type) <= alignof(Element) &&
+  static_assert(std::is_trivially_copyable_v<Element> &&
+                alignof(typename View::value_type) <= alignof(Element) &&
                 sizeof(Element) % sizeof(typename View::value_type) == 0);
   const View view = unset<View>("plica::" + name, values.size());
   const std::size_t bytes = values.size() * sizeof(Element);
-  if (fields::bytes_of(view) != bytes) throw std::logic_error("to_device: rows of " + name + " differ in size");
+  if (fields::bytes_of(view) != bytes)
+    throw std::logic_error("to_device: rows of " + name + " differ in size");
   fields::upload<typename View::memory_space>(view.data(), values.data(), bytes);
   return view;
 }
 
-/// A large field that the host writes: in its place where host and device share their memory, else in a copy that upload() takes there.
+/// A large field that the host writes: in its place where host and device share their memory, else
+/// in a copy that upload() takes there.
 template <class B, class View>
 class HostWritten {
  public:
@@ -113,7 +121,8 @@ class HostWritten {
   Number* data() const { return B::for_cpu ? view_.data() : copy_.get(); }
   View upload() const {
     if constexpr (!B::for_cpu)
-      fields::upload<typename View::memory_space>(view_.data(), copy_.get(), fields::bytes_of(view_));
+      fields::upload<typename View::memory_space>(view_.data(), copy_.get(),
+                                                  fields::bytes_of(view_));
     return view_;
   }
 
@@ -123,9 +132,10 @@ class HostWritten {
 };
 
 // The kinds of fields that are common. Others work as well: they are compiled where they are used.
-#define PLICA_FIELD(EXTERN, Memory, ...)                                 \
-  EXTERN template Kokkos::View<__VA_ARGS__, Kokkos::LayoutRight, Memory> \
-  zeros<Kokkos::View<__VA_ARGS__, Kokkos::LayoutRight, Memory>>(const std::string& label, std::size_t n);
+#define PLICA_FIELD(EXTERN, Memory, ...)                                                  \
+  EXTERN template Kokkos::View<__VA_ARGS__, Kokkos::LayoutRight, Memory>                  \
+  zeros<Kokkos::View<__VA_ARGS__, Kokkos::LayoutRight, Memory>>(const std::string& label, \
+                                                                std::size_t n);
 #define PLICA_FIELDS_OF(EXTERN, Memory, Number) \
   PLICA_FIELD(EXTERN, Memory, Number*)          \
   PLICA_FIELD(EXTERN, Memory, Number* [2])      \

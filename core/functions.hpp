@@ -8,8 +8,8 @@ namespace plica {
 
 namespace functions {
 
-/// The bits of x^(-1/3) to 3 % from those of x > 0, a number or a pack: a third of the exponent. By shifts, as packs have no division of
-/// integers.
+/// The bits of x^(-1/3) to 3 % from those of x > 0, a number or a pack: a third of the exponent. By
+/// shifts, as packs have no division of integers.
 template <class Bits, class Start>
 KOKKOS_INLINE_FUNCTION void guess_inverse_cube_root(Bits& x, Start start) {
   x = (x >> 2) + (x >> 4);
@@ -34,7 +34,8 @@ KOKKOS_INLINE_FUNCTION Pack<T, N> inverse_cube_root_guess(const Pack<T, N>& x) {
   using Number = std::conditional_t<sizeof(T) == 8, unsigned long long, unsigned>;
   typedef Number Bits __attribute__((vector_size(sizeof(T) * N)));
   Bits bits = reinterpret_cast<Bits>(x.v);
-  guess_inverse_cube_root(bits, sizeof(T) == 8 ? static_cast<Number>(0x553ef0ff289dd796ULL) : Number{0x54a21d2aU});
+  guess_inverse_cube_root(
+      bits, sizeof(T) == 8 ? static_cast<Number>(0x553ef0ff289dd796ULL) : Number{0x54a21d2aU});
   Pack<T, N> guess;
   guess.v = reinterpret_cast<typename Pack<T, N>::Lanes>(bits);
   return guess;
@@ -68,7 +69,8 @@ KOKKOS_INLINE_FUNCTION float exp(float x) { return Kokkos::exp(x); }
 
 /// b where a > 0, else c
 template <class T, int N>
-KOKKOS_INLINE_FUNCTION Pack<T, N> where_positive(const Pack<T, N>& a, const Pack<T, N>& b, const Pack<T, N>& c = {}) {
+KOKKOS_INLINE_FUNCTION Pack<T, N> where_positive(const Pack<T, N>& a, const Pack<T, N>& b,
+                                                 const Pack<T, N>& c = {}) {
   Pack<T, N> r;
 #if defined(__GNUC__) && !defined(__CUDACC__)
   r.v = a.v > 0 ? b.v : c.v;
@@ -77,14 +79,17 @@ KOKKOS_INLINE_FUNCTION Pack<T, N> where_positive(const Pack<T, N>& a, const Pack
 #endif
   return r;
 }
-KOKKOS_INLINE_FUNCTION double where_positive(double a, double b, double c = 0) { return a > 0 ? b : c; }
+KOKKOS_INLINE_FUNCTION double where_positive(double a, double b, double c = 0) {
+  return a > 0 ? b : c;
+}
 KOKKOS_INLINE_FUNCTION float where_positive(float a, float b, float c = 0) { return a > 0 ? b : c; }
 
 /// Whether every lane is positive; a NaN is not.
 template <class T, int N>
 KOKKOS_INLINE_FUNCTION bool all_positive(const Pack<T, N>& a) {
 #if defined(__GNUC__) && !defined(__CUDACC__)
-  const auto positive = a.v > 0;  // numbers of bits that are all set or all 0: a branch a lane would be foreseen badly
+  // numbers of bits that are all set or all 0: a branch a lane would be foreseen badly
+  const auto positive = a.v > 0;
   auto all = positive[0];
   for (int i = 1; i < N; ++i) all &= positive[i];
   return all != 0;
@@ -115,7 +120,8 @@ KOKKOS_INLINE_FUNCTION float max(float a, float b) { return a < b ? b : a; }
 template <class T>
 KOKKOS_INLINE_FUNCTION T inverse_cube_root(const T& x) {
   using Real = typename LaneOf<T>::type;
-  T y = where_positive(x, functions::inverse_cube_root_guess(x), T(Kokkos::Experimental::quiet_NaN_v<Real>));
+  T y = where_positive(x, functions::inverse_cube_root_guess(x),
+                       T(Kokkos::Experimental::quiet_NaN_v<Real>));
   for (int n = 0; n < 3; ++n) {  // third order: 3 steps take the guess's 3 % to 1e-16 and below
     const T e = T(1) - x * y * y * y;
     y = y + y * e * (T(Real(1) / 3) + T(Real(2) / 9) * e);

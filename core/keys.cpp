@@ -24,23 +24,24 @@ struct Named {
   const char* plural;
   const char* unit;
 };
-constexpr std::array named_dimensions = {Named{plain, "a number", "numbers", ""},
-                                         Named{length, "a length", "lengths", "m"},
-                                         Named{duration, "a time", "times", "s"},
-                                         Named{rate, "a rate", "rates", "1/s"},
-                                         Named{velocity, "a velocity", "velocities", "m/s"},
-                                         Named{acceleration, "an acceleration", "accelerations", "m/s^2"},
-                                         Named{angular_velocity, "an angular velocity", "angular velocities", "rad/s"},
-                                         Named{pressure, "a pressure", "pressures", "Pa"},
-                                         Named{density, "a density", "densities", "kg/m^3"},
-                                         Named{angle, "an angle", "angles", "rad"},
-                                         Named{{.mass = 1}, "a mass", "masses", "kg"},
-                                         Named{{.length = 2}, "an area", "areas", "m^2"},
-                                         Named{{.length = 3}, "a volume", "volumes", "m^3"},
-                                         Named{force, "a force", "forces", "N"},
-                                         Named{{.mass = 1, .time = -2}, "a stiffness", "stiffnesses", "N/m"},
-                                         Named{{.mass = 1, .time = -1}, "a damping", "dampings", "kg/s"},
-                                         Named{{.mass = 1, .length = 2, .time = -2}, "an energy", "energies", "J"}};
+constexpr std::array named_dimensions = {
+    Named{plain, "a number", "numbers", ""},
+    Named{length, "a length", "lengths", "m"},
+    Named{duration, "a time", "times", "s"},
+    Named{rate, "a rate", "rates", "1/s"},
+    Named{velocity, "a velocity", "velocities", "m/s"},
+    Named{acceleration, "an acceleration", "accelerations", "m/s^2"},
+    Named{angular_velocity, "an angular velocity", "angular velocities", "rad/s"},
+    Named{pressure, "a pressure", "pressures", "Pa"},
+    Named{density, "a density", "densities", "kg/m^3"},
+    Named{angle, "an angle", "angles", "rad"},
+    Named{{.mass = 1}, "a mass", "masses", "kg"},
+    Named{{.length = 2}, "an area", "areas", "m^2"},
+    Named{{.length = 3}, "a volume", "volumes", "m^3"},
+    Named{force, "a force", "forces", "N"},
+    Named{{.mass = 1, .time = -2}, "a stiffness", "stiffnesses", "N/m"},
+    Named{{.mass = 1, .time = -1}, "a damping", "dampings", "kg/s"},
+    Named{{.mass = 1, .length = 2, .time = -2}, "an energy", "energies", "J"}};
 
 const Named* find_name(const Dimension& dimension) {
   const auto found = std::ranges::find(named_dimensions, dimension, &Named::dimension);
@@ -67,11 +68,13 @@ std::string with_unit(const std::string& text, const Dimension& dimension) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& expected) {
+[[noreturn]] void refuse(const std::string& path, const std::string& value,
+                         const std::string& expected) {
   throw InputError(path + " is " + value + "; expected " + expected);
 }
 
-void check_number(const std::string& path, double value, const Quantity& kind, const std::string& expected) {
+void check_number(const std::string& path, double value, const Quantity& kind,
+                  const std::string& expected) {
   if (!kind.range.contains(value))
     refuse(path, kind.shown(value, 9), expected + (std::isfinite(value) ? "" : ", finite"));
 }
@@ -96,7 +99,8 @@ std::string unit_of(const Dimension& dimension) {
     text += (text.empty() ? "" : " ") + std::string(symbol);
     if (exponent != 1) text += "^" + std::to_string(exponent);
   };
-  add("kg", dimension.mass), add("m", dimension.length), add("s", dimension.time), add("rad", dimension.angle);
+  add("kg", dimension.mass), add("m", dimension.length), add("s", dimension.time),
+      add("rad", dimension.angle);
   return text;
 }
 
@@ -116,17 +120,25 @@ std::string Bounds::text(const std::string& unit) const {
 }
 
 std::string Quantity::expects() const { return name_of(dimension) + in_words(dimension, range); }
-std::string Quantity::shown(double value, int digits) const { return with_unit(number(value, digits), dimension); }
-void Quantity::check(const std::string& path, double value) const { check_number(path, value, *this, expects()); }
+std::string Quantity::shown(double value, int digits) const {
+  return with_unit(number(value, digits), dimension);
+}
+void Quantity::check(const std::string& path, double value) const {
+  check_number(path, value, *this, expects());
+}
 
 void AutoQuantity::check(const std::string& path, const std::optional<double>& value) const {
   if (value) check_number(path, *value, quantity, expects());
 }
 
-std::string Vector::expects() const { return "a list of 3 " + plural_of(dimension) + in_words(dimension, range); }
+std::string Vector::expects() const {
+  return "a list of 3 " + plural_of(dimension) + in_words(dimension, range);
+}
 
 std::string Vector::shown(const Point& value) const {
-  return with_unit("[" + number(value.x()) + ", " + number(value.y()) + ", " + number(value.z()) + "]", dimension);
+  return with_unit(
+      "[" + number(value.x()) + ", " + number(value.y()) + ", " + number(value.z()) + "]",
+      dimension);
 }
 
 void Vector::check(const std::string& path, const Point& value) const {
@@ -163,7 +175,9 @@ void Name::check(const std::string& path, const std::string& value) const {
     throw InputError(path + ": " + unknown_name(family, value, known));
 }
 
-std::string NamePerLevel::shown(const std::vector<std::string>& value) const { return listed(value); }
+std::string NamePerLevel::shown(const std::vector<std::string>& value) const {
+  return listed(value);
+}
 
 void NamePerLevel::check(const std::string& path, const std::vector<std::string>& value) const {
   for (const std::string& one : value) name.check(path, one);

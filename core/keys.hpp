@@ -20,20 +20,21 @@ struct Choice {
 std::vector<std::string> names(const std::vector<Choice>& choices);
 
 /// The families that names come from. Each walks its own list (drivers/solver/registry.cpp).
-std::vector<Choice> materials();               ///< constitutive laws
-std::vector<Choice> volumes();                 ///< what laws of tissue have for the volume
-std::vector<Choice> ogden_conventions();       ///< of the mu in Ogden's terms
-std::vector<Choice> tissues();                 ///< materials by the name of a tissue
-std::vector<Choice> presets();                 ///< published methods, as what they consist of here
-std::vector<Choice> elements();                ///< how strains follow from the vertices, and auto
-std::vector<Choice> pressures();               ///< of nodal elements, and auto
-std::vector<Choice> integrators();             ///< one-level ODE solvers
-std::vector<Choice> cycle_choices();           ///< ways to share a macro step, and auto
-std::vector<Choice> error_classes();           ///< of cycle auto
-std::vector<Choice> distributions();           ///< sizes of the shares
-std::vector<Choice> outside_rules();           ///< for vertices outside the other level's mesh
-std::vector<Choice> relaxation_rules();        ///< how Prony series go on in time
-std::vector<Choice> whole_surface_rules();     ///< which obstacles touch the surface between its points, too
+std::vector<Choice> materials();          ///< constitutive laws
+std::vector<Choice> volumes();            ///< what laws of tissue have for the volume
+std::vector<Choice> ogden_conventions();  ///< of the mu in Ogden's terms
+std::vector<Choice> tissues();            ///< materials by the name of a tissue
+std::vector<Choice> presets();            ///< published methods, as what they consist of here
+std::vector<Choice> elements();           ///< how strains follow from the vertices, and auto
+std::vector<Choice> pressures();          ///< of nodal elements, and auto
+std::vector<Choice> integrators();        ///< one-level ODE solvers
+std::vector<Choice> cycle_choices();      ///< ways to share a macro step, and auto
+std::vector<Choice> error_classes();      ///< of cycle auto
+std::vector<Choice> distributions();      ///< sizes of the shares
+std::vector<Choice> outside_rules();      ///< for vertices outside the other level's mesh
+std::vector<Choice> relaxation_rules();   ///< how Prony series go on in time
+/// which obstacles touch the surface between its points, too
+std::vector<Choice> whole_surface_rules();
 std::vector<Choice> linear_solver_choices();   ///< of implicit levels, and auto
 std::vector<Choice> preconditioner_choices();  ///< of conjugate gradients, and auto
 std::vector<Choice> matrix_choices();          ///< of linear systems, and auto
@@ -42,13 +43,14 @@ std::vector<Choice> unsolved_outcomes();       ///< of steps that Newton's metho
 
 }  // namespace plica
 
-/// What an option may be: its kind, with unit and range. The tables of describe.hpp give every option one of these kinds.
-/// A kind can say what is expected, show a value as a scene would have it, and check one: expects(), shown(), check().
-/// check() throws InputError "PATH is VALUE; expected WHAT".
+/// What an option may be: its kind, with unit and range. The tables of describe.hpp give every
+/// option one of these kinds. A kind can say what is expected, show a value as a scene would have
+/// it, and check one: expects(), shown(), check(). check() throws InputError "PATH is VALUE;
+/// expected WHAT".
 namespace plica::keys {
 
-/// Exponents of kilogram, metre, second and radian. An angle counts as a dimension of its own, so that a frequency is
-/// not taken for an angular velocity.
+/// Exponents of kilogram, metre, second and radian. An angle counts as a dimension of its own, so
+/// that a frequency is not taken for an angular velocity.
 struct Dimension {
   int mass = 0, length = 0, time = 0, angle = 0;
   bool operator==(const Dimension&) const = default;
@@ -78,16 +80,21 @@ struct Bounds {
   double max = std::numeric_limits<double>::infinity();
   bool min_excluded = false;
   bool max_excluded = false;
-  bool contains(double value) const;                     ///< never what is not finite
-  std::string text(const std::string& unit = {}) const;  ///< "> 0", "in [0, 0.5)"; empty when all values are in it
+  bool contains(double value) const;  ///< never what is not finite
+  /// "> 0", "in [0, 0.5)"; empty when all values are in it
+  std::string text(const std::string& unit = {}) const;
 };
 inline constexpr Bounds any_value{};
 inline constexpr Bounds positive{.min = 0, .min_excluded = true};
 inline constexpr Bounds not_negative{.min = 0};
 inline constexpr Bounds zero_to_one{.min = 0, .max = 1};
-inline constexpr Bounds below_one{.min = 0, .max = 1, .max_excluded = true};                              ///< from 0
-inline constexpr Bounds up_to_one{.min = 0, .max = 1, .min_excluded = true};                              ///< above 0
-inline constexpr Bounds inside_zero_one{.min = 0, .max = 1, .min_excluded = true, .max_excluded = true};  ///< neither
+/// from 0
+inline constexpr Bounds below_one{.min = 0, .max = 1, .max_excluded = true};
+/// above 0
+inline constexpr Bounds up_to_one{.min = 0, .max = 1, .min_excluded = true};
+/// neither
+inline constexpr Bounds inside_zero_one{
+    .min = 0, .max = 1, .min_excluded = true, .max_excluded = true};
 
 /// A number with a unit.
 struct Quantity {
@@ -102,7 +109,9 @@ struct Quantity {
 struct AutoQuantity {
   Quantity quantity;
   std::string expects() const { return quantity.expects() + ", or auto"; }
-  std::string shown(const std::optional<double>& value) const { return value ? quantity.shown(*value) : "auto"; }
+  std::string shown(const std::optional<double>& value) const {
+    return value ? quantity.shown(*value) : "auto";
+  }
   void check(const std::string& path, const std::optional<double>& value) const;
 };
 
@@ -205,7 +214,9 @@ struct NamePerLevel {
 
 /// One count for all levels, or one for each; `auto` is 0.
 struct AutoCountPerLevel {
-  std::string expects() const { return AutoCount{}.expects() + "; or a list of them, finest level first"; }
+  std::string expects() const {
+    return AutoCount{}.expects() + "; or a list of them, finest level first";
+  }
   std::string shown(const std::vector<int>& value) const;
   void check(const std::string& path, const std::vector<int>& value) const;
 };
@@ -218,7 +229,9 @@ struct Shares {
   };
   Name name;
   static constexpr Quantity share{plain, positive};
-  std::string expects() const { return name.expects() + "; or a list of shares, finest level first"; }
+  std::string expects() const {
+    return name.expects() + "; or a list of shares, finest level first";
+  }
   std::string shown(const Target& value) const { return value.rule; }
   void check(const std::string& path, const Target& value) const;
 };
@@ -236,7 +249,8 @@ struct ListOf {
   }
   template <class T>
   void check(const std::string& path, const std::vector<T>& value) const {
-    for (std::size_t i = 0; i < value.size(); ++i) kind.check(path + "." + std::to_string(i), value[i]);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      kind.check(path + "." + std::to_string(i), value[i]);
   }
 };
 
@@ -246,7 +260,9 @@ struct Entry {
   Quantity quantity;
   using Map = std::map<std::string, double>;
   std::string expects() const { return quantity.expects(); }
-  std::string shown(const Map& values) const { return values.contains(name) ? quantity.shown(values.at(name)) : ""; }
+  std::string shown(const Map& values) const {
+    return values.contains(name) ? quantity.shown(values.at(name)) : "";
+  }
   void check(const std::string& path, const Map& values) const {
     if (values.contains(name)) quantity.check(path, values.at(name));
   }
@@ -287,7 +303,8 @@ struct CaseList : MemberOf<Member> {};
 
 namespace plica {
 
-/// A number that a material asks for: body.material.NAME in a scene, and body.regions.REGION.NAME for a region of its own.
+/// A number that a material asks for: body.material.NAME in a scene, and body.regions.REGION.NAME
+/// for a region of its own.
 struct MaterialParameter {
   const char* name;
   keys::Quantity kind;  ///< its unit and range

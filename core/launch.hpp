@@ -3,9 +3,10 @@
 #include <plica/core/launch_queue.hpp>
 #include <type_traits>
 
-// Every kernel goes through launch(), every argument that changes from step to step is a Changing. A GPU takes a few microseconds for each
-// launch by itself, and a step has dozens of short ones; so there a step's launches are gathered, and those that come again just as
-// before go out as one graph (launch_queue.hpp). A CPU launches at once, and nothing of this is left.
+// Every kernel goes through launch(), every argument that changes from step to step is a Changing.
+// A GPU takes a few microseconds for each launch by itself, and a step has dozens of short ones; so
+// there a step's launches are gathered, and those that come again just as before go out as one
+// graph (launch_queue.hpp). A CPU launches at once, and nothing of this is left.
 namespace plica {
 
 /// Whether Kokkos lends the kernel global memory, which may be elsewhere the next time.
@@ -17,7 +18,8 @@ bool takes_pooled_memory(const Policy& policy) {
     return false;
 }
 
-/// Kokkos::parallel_for, at once or when the queue is emptied. What the kernel points to lives until then.
+/// Kokkos::parallel_for, at once or when the queue is emptied. What the kernel points to lives
+/// until then.
 template <class Policy, class Work>
 void launch(const char* label, const Policy& policy, const Work& work) {
   using Exec = typename Policy::execution_space;
@@ -53,14 +55,16 @@ void fence(const Exec& exec, const char* label) {
   exec.fence(label);
 }
 
-/// An argument of a kernel that may be another in the next step: a place, a time, a factor. In gathered launches it lies in device memory,
-/// so that the launch stays the same. It is made for one launch, which comes at once: when the queue is emptied, its place is used again.
-/// Within a step only kernels read it.
+/// An argument of a kernel that may be another in the next step: a place, a time, a factor. In
+/// gathered launches it lies in device memory, so that the launch stays the same. It is made for
+/// one launch, which comes at once: when the queue is emptied, its place is used again. Within a
+/// step only kernels read it.
 template <class B, class T, bool = gathers<typename B::Exec>>
 class Changing {
  public:
   Changing() = default;
-  Changing(const T& value) : value_(value) {}  // NOLINT(google-explicit-constructor): as if it were the value
+  Changing(const T& value)
+      : value_(value) {}  // NOLINT(google-explicit-constructor): as if it were the value
   KOKKOS_INLINE_FUNCTION const T& operator*() const { return value_; }
   KOKKOS_INLINE_FUNCTION const T* operator->() const { return &value_; }
 
@@ -80,16 +84,20 @@ class Changing<B, T, true> {
     std::memcpy(bytes_, &value, sizeof value);
   }
   Changing(const T& value) {  // NOLINT(google-explicit-constructor): as if it were the value
-    if (auto* const queue = Queue::now()) place_ = static_cast<const T*>(queue->put(&value, sizeof value));
+    if (auto* const queue = Queue::now())
+      place_ = static_cast<const T*>(queue->put(&value, sizeof value));
     if (!place_) std::memcpy(bytes_, &value, sizeof value);
   }
-  KOKKOS_INLINE_FUNCTION const T& operator*() const { return place_ ? *place_ : *reinterpret_cast<const T*>(bytes_); }
+  KOKKOS_INLINE_FUNCTION const T& operator*() const {
+    return place_ ? *place_ : *reinterpret_cast<const T*>(bytes_);
+  }
   KOKKOS_INLINE_FUNCTION const T* operator->() const { return &**this; }
 
  private:
   const T* place_ = nullptr;
   // the value where it has no place, in whole words
-  alignas(Word) unsigned char bytes_[(sizeof(T) + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word)] = {};
+  alignas(
+      Word) unsigned char bytes_[(sizeof(T) + sizeof(Word) - 1) / sizeof(Word) * sizeof(Word)] = {};
 };
 
 }  // namespace plica

@@ -14,7 +14,8 @@ constexpr std::size_t room = 2048;  // words for values
 constexpr long shortest = 3;        // launches that are worth a graph
 constexpr std::size_t most_known = 64;
 
-/// Values as arguments: they are on the way when the launch returns, and the host may change its own.
+/// Values as arguments: they are on the way when the launch returns, and the host may change its
+/// own.
 template <class Memory>
 struct PutWords {
   static constexpr std::size_t most = 400;
@@ -48,10 +49,12 @@ class Graph {
 template <>
 class Graph<Kokkos::Cuda> {
  public:
-  /// Captures launches, which does not run them; none where CUDA refuses, as in a stream that the caller captures. Only this thread is held to
-  /// what a capture allows; Kokkos's own cuda_capture() holds all threads to it.
+  /// Captures launches, which does not run them; none where CUDA refuses, as in a stream that the
+  /// caller captures. Only this thread is held to what a capture allows; Kokkos's own
+  /// cuda_capture() holds all threads to it.
   static std::unique_ptr<Graph> capture(const Kokkos::Cuda& exec, const Launches& launches) {
-    if (cudaStreamBeginCapture(exec.cuda_stream(), cudaStreamCaptureModeThreadLocal) != cudaSuccess) return refused();
+    if (cudaStreamBeginCapture(exec.cuda_stream(), cudaStreamCaptureModeThreadLocal) != cudaSuccess)
+      return refused();
     bool sound = true;
     try {
       plica::go(launches);
@@ -72,8 +75,10 @@ class Graph<Kokkos::Cuda> {
   Graph(const Graph&) = delete;
   Graph& operator=(const Graph&) = delete;
   void go() const {
-    if (const cudaError_t result = cudaGraphLaunch(graph_, exec_.cuda_stream()); result != cudaSuccess)
-      throw std::runtime_error(std::string("launch of a CUDA graph: ") + cudaGetErrorString(result));
+    if (const cudaError_t result = cudaGraphLaunch(graph_, exec_.cuda_stream());
+        result != cudaSuccess)
+      throw std::runtime_error(std::string("launch of a CUDA graph: ") +
+                               cudaGetErrorString(result));
   }
 
  private:
@@ -103,12 +108,14 @@ struct LaunchQueue<Exec, on>::Sequence {
   bool refused = false;  // it cannot be a graph
 
   bool is(const Launches& others) const {
-    return std::ranges::equal(launches, others, [](const auto& a, const auto& b) { return a->same(*b); });
+    return std::ranges::equal(launches, others,
+                              [](const auto& a, const auto& b) { return a->same(*b); });
   }
 };
 
 template <class Exec, bool on>
-LaunchQueue<Exec, on>::LaunchQueue(const Exec& exec) : exec_(exec), place_("plica::changing_values", room) {}
+LaunchQueue<Exec, on>::LaunchQueue(const Exec& exec)
+    : exec_(exec), place_("plica::changing_values", room) {}
 template <class Exec, bool on>
 LaunchQueue<Exec, on>::~LaunchQueue() = default;
 

@@ -10,12 +10,14 @@
 
 namespace plica {
 
-/// Whether launches on an execution space are gathered, and for which spaces of this build they are.
+/// Whether launches on an execution space are gathered, and for which spaces of this build they
+/// are.
 #if defined(PLICA_LIKE_DEVICE)
 template <class Exec>
 inline constexpr bool gathers = true;
 #define PLICA_FOR_EACH_GATHERING_SPACE(DO) DO(Kokkos::OpenMP)
-#elif defined(KOKKOS_ENABLE_CUDA) && defined(KOKKOS_IMPL_CUDA_USE_GRID_CONSTANT)  // arguments go along with a launch
+#elif defined(KOKKOS_ENABLE_CUDA) && \
+    defined(KOKKOS_IMPL_CUDA_USE_GRID_CONSTANT)  // arguments go along with a launch
 template <class Exec>
 inline constexpr bool gathers = std::is_same_v<Exec, Kokkos::Cuda>;
 #define PLICA_FOR_EACH_GATHERING_SPACE(DO) DO(Kokkos::Cuda)
@@ -43,17 +45,20 @@ class Launch {
 template <class Policy, class Work>
 class Gathered final : public Launch {
  public:
-  static_assert(sizeof(Work) < 3500, "arguments are copied and compared in every step: take those that are read");
+  static_assert(sizeof(Work) < 3500,
+                "arguments are copied and compared in every step: take those that are read");
   static_assert(alignof(Work) <= alignof(std::max_align_t));
 
-  Gathered(const char* label, const Policy& policy, const Work& work) : label_(label), policy_(policy), work_(work) {
+  Gathered(const char* label, const Policy& policy, const Work& work)
+      : label_(label), policy_(policy), work_(work) {
     if constexpr (std::is_trivially_copyable_v<Work>) clear_padding();  // or it is the caller's
   }
 
   void go() const override { Kokkos::parallel_for(label_, policy_, work_); }
   bool same(const Launch& other) const override {
     const auto* const its = dynamic_cast<const Gathered*>(&other);
-    return its && is_same_range(policy_, its->policy_) && std::memcmp(&work_, &its->work_, sizeof work_) == 0;
+    return its && is_same_range(policy_, its->policy_) &&
+           std::memcmp(&work_, &its->work_, sizeof work_) == 0;
   }
 
  private:
@@ -77,9 +82,10 @@ class Gathered final : public Launch {
   }
 };
 
-/// Launches of one simulation, from the start of a step to its end or to where the host waits in it. A sequence that comes for the second
-/// time is made a graph (on CUDA: captured), which is replayed from then on: one launch in place of many. Any other goes out launch by
-/// launch. So what is computed is the same in any case.
+/// Launches of one simulation, from the start of a step to its end or to where the host waits in
+/// it. A sequence that comes for the second time is made a graph (on CUDA: captured), which is
+/// replayed from then on: one launch in place of many. Any other goes out launch by launch. So what
+/// is computed is the same in any case.
 ///
 ///   launch(), launch(), ...   waiting_: kernels and their arguments    values_: what Changing ones are now
 ///   launch_all()              the values to the device; then, of a sequence that is known_, its graph,
@@ -97,7 +103,8 @@ class LaunchQueue {
   /// While it lives, launches of this thread are gathered.
   class Scope {
    public:
-    explicit Scope(LaunchQueue* queue) : before_(now_) { now_ = queue; }  ///< none: they go out at once
+    /// none: they go out at once
+    explicit Scope(LaunchQueue* queue) : before_(now_) { now_ = queue; }
     /// Sends out what an exception left. Else launch_all() comes before it, since that may throw.
     ~Scope() {
       try {

@@ -10,14 +10,17 @@
 
 namespace plica {
 
-/// The first inverted element of each patch since the last clear, where none is allowed: of several in one evaluation, whose threads may all
-/// come at once on a GPU, the one with the smallest slot. So what is kept does not depend on the threads.
+/// The first inverted element of each patch since the last clear, where none is allowed: of several
+/// in one evaluation, whose threads may all come at once on a GPU, the one with the smallest slot.
+/// So what is kept does not depend on the threads.
 template <class B>
 struct ElementFlags {
   using Word = unsigned long long;
   Kokkos::View<int, typename B::Memory> raised;  ///< 0: none anywhere
-  Indices<B> evaluation;                         ///< [patches] of the force, counted from 1; 0: none
-  Kokkos::View<Word*, typename B::Memory> word;  ///< [patches] slot and volume ratio in one, to be replaced at once
+  /// [patches] of the force, counted from 1; 0: none
+  Indices<B> evaluation;
+  /// [patches] slot and volume ratio in one, to be replaced at once
+  Kokkos::View<Word*, typename B::Memory> word;
 
   KOKKOS_INLINE_FUNCTION void raise(int patch, int now, int slot, typename B::Real ratio) const {
     Kokkos::atomic_store(&raised(), 1);
@@ -67,9 +70,10 @@ struct Load {
 
 /// What triangles enclose where its volume is given, see EnclosedVolume.
 struct Cavity {
-  int load = 0;                  ///< of the body's loads
-  double rest = 0;               ///< volume at rest [m^3]
-  double caps = 0;               ///< the part of it that closes the rims, which does not change [m^3]
+  int load = 0;     ///< of the body's loads
+  double rest = 0;  ///< volume at rest [m^3]
+  /// the part of it that closes the rims, which does not change [m^3]
+  double caps = 0;
   double ratio = 1;              ///< of the volume at rest
   double bulk_modulus = 0;       ///< [Pa]
   Point origin = Point::Zero();  ///< of the vertices' places at rest [m]
@@ -81,29 +85,35 @@ struct Cavity {
 /// A pressure on triangles of the boundary, wherever they are.
 template <class B>
 struct FollowerLoad {
-  int count = 0;             ///< of vertices
-  Indices<B> vertex;         ///< [count]
-  Vectors<B> rest;           ///< [count][3] m
-  Indices<B> first;          ///< [count + 1] of the corners of triangles at each
-  Indices<B> second, third;  ///< [corners] the other two, counterclockwise from outside, as places in `vertex`
-  double pressure = 0;       ///< [Pa]
+  int count = 0;      ///< of vertices
+  Indices<B> vertex;  ///< [count]
+  Vectors<B> rest;    ///< [count][3] m
+  Indices<B> first;   ///< [count + 1] of the corners of triangles at each
+  /// [corners] the other two, counterclockwise from outside, as places in `vertex`
+  Indices<B> second, third;
+  double pressure = 0;  ///< [Pa]
   LoadCourse course;
   std::optional<Cavity> cavity = {};  ///< its fluid has the pressure then
-  Doubles<B> volume = {};  ///< [1] that they enclose, up to a constant, as last measured [m^3]; [0]: rims move
+  /// [1] that they enclose, up to a constant, as last measured [m^3]; [0]: rims move
+  Doubles<B> volume = {};
 };
 
-/// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A symmetric matrix is xx yy zz xy xz yz.
+/// What a viscous material remembers of its elements: packs of linear ones, rows of nodal ones. A
+/// symmetric matrix is xx yy zz xy xz yz.
 template <class B>
 struct StressMemory {
   int terms = 0;      ///< of the longest Prony series of a region
   Indices<B> region;  ///< [slots / lanes]
-  Scalars<B> step;    ///< [regions][terms][2] keep and gain of H_i <- keep H_i + gain (S - S before) over a step
-  Scalars<B> memory;  ///< [slots][1 + terms][6] isochoric second Piola stress: elastic, and of each term [Pa]
-  Scalars<B> lost;    ///< [slots][6] what relaxation takes off the second Piola stress where it is looked at [Pa]
+  /// [regions][terms][2] keep and gain of H_i <- keep H_i + gain (S - S before) over a step
+  Scalars<B> step;
+  /// [slots][1 + terms][6] isochoric second Piola stress: elastic, and of each term [Pa]
+  Scalars<B> memory;
+  /// [slots][6] what relaxation takes off the second Piola stress where it is looked at [Pa]
+  Scalars<B> lost;
 };
 
-/// One resolution of the body: what is constant, its state, what is needed to integrate it, and how it exchanges states with
-/// its neighbours. Members that a scene does not need stay empty.
+/// One resolution of the body: what is constant, its state, what is needed to integrate it, and how
+/// it exchanges states with its neighbours. Members that a scene does not need stay empty.
 template <class B>
 struct Level {
   Model<B> model;
@@ -121,7 +131,8 @@ struct Level {
 
   Transfer<B> from_finer;  ///< R: level i-1 -> i, empty on the finest
   Transfer<B> to_finer;    ///< P: level i -> i-1, likewise
-  Restriction<B> adjoint;  ///< of the finer level's to_finer, where a cycle conserves what it hands down
+  /// of the finer level's to_finer, where a cycle conserves what it hands down
+  Restriction<B> adjoint;
   State<B> start;          ///< at the start of this cycle, where variations are mapped
   State<B> previous;       ///< at the start of the last cycle, likewise
   Scalars<B> drift_limit;  ///< [vertices] m, where mappings are switched

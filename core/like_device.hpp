@@ -3,22 +3,25 @@
 #include <Kokkos_Core.hpp>
 #include <cmath>
 
-// A build for tests alone (tests/like_device) gives a CPU the kernels of a GPU: one element a thread, teams of several threads. Its teams
-// and work items are done in an order that the tests choose, because a GPU promises none. In all other builds nothing is left of this.
+// A build for tests alone (tests/like_device) gives a CPU the kernels of a GPU: one element a
+// thread, teams of several threads. Its teams and work items are done in an order that the tests
+// choose, because a GPU promises none. In all other builds nothing is left of this.
 namespace plica::like_device {
 
 #ifdef PLICA_LIKE_DEVICE
 
 inline constexpr bool on = true;
-inline int team = 4;        ///< threads of a team
-inline unsigned order = 0;  ///< in which a league's teams and a range's items are done; 0: one after the other
+inline int team = 4;  ///< threads of a team
+/// in which a league's teams and a range's items are done; 0: one after the other
+inline unsigned order = 0;
 
 template <class Exec>
 int team_size(int) {
   return Kokkos::min(team, Exec().concurrency());
 }
 
-/// Which of n things is done in place i: start + i * stride modulo n, for a stride that has no factor in common with n.
+/// Which of n things is done in place i: start + i * stride modulo n, for a stride that has no
+/// factor in common with n.
 inline int place(int i, int n) {
   if (order == 0 || n < 2) return i;
   const auto factor = [](unsigned a, unsigned b) {
@@ -31,7 +34,8 @@ inline int place(int i, int n) {
   const unsigned hash = order * 2654435769u, size = static_cast<unsigned>(n);
   unsigned stride = 1 + (hash >> 8) % (size - 1);
   while (factor(stride, size) > 1) stride = stride % (size - 1) + 1;
-  return static_cast<int>((hash % size + static_cast<unsigned long long>(stride) * static_cast<unsigned>(i)) % size);
+  return static_cast<int>(
+      (hash % size + static_cast<unsigned long long>(stride) * static_cast<unsigned>(i)) % size);
 }
 
 template <class Work>
@@ -49,7 +53,8 @@ Shuffled<Work> shuffled(int n, const Work& work) {
 /// Fills a team's memory with NaN, which it must not read before it writes.
 template <class Member, class Real>
 void spoil(const Member& member, Real* memory, std::size_t count) {
-  Kokkos::parallel_for(Kokkos::TeamThreadRange(member, count), [&](std::size_t i) { memory[i] = Real(NAN); });
+  Kokkos::parallel_for(Kokkos::TeamThreadRange(member, count),
+                       [&](std::size_t i) { memory[i] = Real(NAN); });
   member.team_barrier();
 }
 

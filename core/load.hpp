@@ -4,7 +4,8 @@
 #include <variant>
 #include <vector>
 
-/// Forces from outside: those that keep their size and direction whatever the body does (dead loads), and pressures that follow it.
+/// Forces from outside: those that keep their size and direction whatever the body does (dead
+/// loads), and pressures that follow it.
 namespace plica {
 
 /// On the boundary triangles at rest all of whose vertices are chosen.
@@ -17,13 +18,15 @@ struct TotalForce {
   Point value = Point::Zero();  ///< [N]
 };
 
-/// On the boundary triangles all of whose vertices are chosen, against their sides as they are now: it turns and grows with them.
+/// On the boundary triangles all of whose vertices are chosen, against their sides as they are now:
+/// it turns and grows with them.
 struct FollowerPressure {
   double value = 0;  ///< [Pa]; above 0 it pushes into the body
 };
 
-/// On the same triangles, the pressure of a fluid that fills what they enclose on their outer side: K (V given - V now) / V at rest. The
-/// volume given goes from that at rest, where the course is 0, to `ratio` times that, where it is 1.
+/// On the same triangles, the pressure of a fluid that fills what they enclose on their outer side:
+/// K (V given - V now) / V at rest. The volume given goes from that at rest, where the course is 0,
+/// to `ratio` times that, where it is 1.
 struct EnclosedVolume {
   double ratio = 1;         ///< above 0
   double bulk_modulus = 0;  ///< K [Pa]

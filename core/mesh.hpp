@@ -16,15 +16,19 @@ struct Box {
   Point max = Point::Zero();  ///< highest corner [m]
 };
 
-/// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver every tetrahedron
-/// with positive volume (vertex 3 on the side that (1-0)x(2-0) points to) and every vertex used.
+/// A tetrahedral mesh at rest, on the host. Sound by construction: readers and generators deliver
+/// every tetrahedron with positive volume (vertex 3 on the side that (1-0)x(2-0) points to) and
+/// every vertex used.
 struct TetMesh {
-  std::vector<Point> vertices;            ///< [m]
-  std::vector<std::array<int, 4>> tets;   ///< vertex indices
-  std::vector<int> region;                ///< per tet an index into region_names; empty: one nameless region
+  std::vector<Point> vertices;           ///< [m]
+  std::vector<std::array<int, 4>> tets;  ///< vertex indices
+  /// per tet an index into region_names; empty: one nameless region
+  std::vector<int> region;
   std::vector<std::string> region_names;  ///< unique
-  std::map<std::string, std::vector<int>> vertex_sets;  ///< named vertices (surface, line and point groups), ascending
-  std::vector<double> filled = {};  ///< per tet the part of it that is body, in (0, 1]; empty: all of each
+  /// named vertices (surface, line and point groups), ascending
+  std::map<std::string, std::vector<int>> vertex_sets;
+  /// per tet the part of it that is body, in (0, 1]; empty: all of each
+  std::vector<double> filled = {};
   std::map<std::string, std::vector<Point>> tet_vectors =
       {};  ///< named vectors, one per tet: such as directions of fibres
 

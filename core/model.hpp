@@ -25,15 +25,17 @@ struct VertexModel {
   VertexShares<B> shares;  ///< in which the elements' forces are left, linear or nodal
 };
 
-/// What stays constant on one level. Kernels take the parts that they read: the whole is long to copy.
+/// What stays constant on one level. Kernels take the parts that they read: the whole is long to
+/// copy.
 template <class B>
 struct Model : VertexModel<B> {
   int vertices = 0;
   int tets = 0;
-  Patches<B>
-      patches;  ///< of linear elements; also where nodal ones of an implicit level are preconditioned by linear ones
-  NodalRows<B> rows;                                       ///< of nodal elements
-  NodalRows<Backend<float, typename B::Exec>> float_rows;  ///< the same for a preconditioner, no pressures smoothed
+  Patches<B> patches;  ///< of linear elements; also where nodal ones of an implicit level are
+                       ///< preconditioned by linear ones
+  NodalRows<B> rows;   ///< of nodal elements
+  /// the same for a preconditioner, no pressures smoothed
+  NodalRows<Backend<float, typename B::Exec>> float_rows;
 };
 
 /// Displacement from rest u [m] and velocity v [m/s], each [vertices][3].

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-/// Given translations, of vertices or obstacles: displacement from where they are at rest, as a function of time. And turns of
-/// obstacles: an angle as a function of time.
+/// Given translations, of vertices or obstacles: displacement from where they are at rest, as a
+/// function of time. And turns of obstacles: an angle as a function of time.
 namespace plica {
 
 /// With one velocity from the start.
@@ -28,8 +28,8 @@ struct PathMotion {
   std::vector<Knot> knots;  ///< at least one
 };
 
-/// amplitude * (sin(2 pi frequency t + phase) - sin(phase)). The displacement is zero at t = 0 for any phase. With phase -pi/2
-/// the velocity is also zero then.
+/// amplitude * (sin(2 pi frequency t + phase) - sin(phase)). The displacement is zero at t = 0 for
+/// any phase. With phase -pi/2 the velocity is also zero then.
 struct SineMotion {
   Point amplitude = Point::Zero();  ///< [m]
   double frequency = 1;             ///< [1/s]
@@ -61,10 +61,13 @@ struct SineTurn {
   double phase = 0;      ///< [rad]
 };
 
-/// By an angle about an axis, which goes along with the translation: x = about + R (X - about) + displacement.
+/// By an angle about an axis, which goes along with the translation: x = about + R (X - about) +
+/// displacement.
 struct Turn {
-  Point axis = Point::UnitZ();      ///< counter-clockwise where it points at the eye; its length does not matter
-  std::optional<Point> about = {};  ///< on the axis, at t = 0 [m]; none: what torques on the obstacle are about
+  /// counter-clockwise where it points at the eye; its length does not matter
+  Point axis = Point::UnitZ();
+  /// on the axis, at t = 0 [m]; none: what torques on the obstacle are about
+  std::optional<Point> about = {};
   /// Before the angle, about the same point: its direction is the axis, its length the angle [rad].
   Point rotation = Point::Zero();
   std::variant<SteadyTurn, PathTurn, SineTurn> angle = {};  ///< how far it has turned

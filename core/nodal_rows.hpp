@@ -4,19 +4,23 @@
 
 namespace plica {
 
-/// The elements `nodal` of one mesh: constants of the mesh at rest, by rows of domains. A domain is what one region has around one
-/// vertex, a quarter of each of its tetrahedra there; a vertex between regions has several. Neighbours are domains of one region
-/// that share a tetrahedron. With V_t a tetrahedron's volume and N_b its shape functions, sums over the tetrahedra t of the pair:
+/// The elements `nodal` of one mesh: constants of the mesh at rest, by rows of domains. A domain is
+/// what one region has around one vertex, a quarter of each of its tetrahedra there; a vertex
+/// between regions has several. Neighbours are domains of one region that share a tetrahedron. With
+/// V_t a tetrahedron's volume and N_b its shape functions, sums over the tetrahedra t of the pair:
 ///
 ///   C_ab = sum V_t/4 grad N_b     w_ab = sum V_t grad N_a . grad N_b     s_ab = sum V_t/16     V_a = sum V_t/4
 ///
-/// Those of a domain with itself follow from the rest: over b, C_ab and w_ab add up to 0, s_ab to V_a. C_ba = -C_ab, unless both lie
-/// on the surface of the region: C_ab + C_ba = S_ab is kept for these pairs.
+/// Those of a domain with itself follow from the rest: over b, C_ab and w_ab add up to 0, s_ab to
+/// V_a. C_ba = -C_ab, unless both lie on the surface of the region: C_ab + C_ba = S_ab is kept for
+/// these pairs.
 ///
-/// Rows are stored in slices of `height` beside each other (sliced ELLPACK, Monakov, Lokhmotov & Avetisyan 2010), a lane of a
-/// register or a thread each. A slice has the rows of one region only; what fills it up has volume 0 and points to itself.
+/// Rows are stored in slices of `height` beside each other (sliced ELLPACK, Monakov, Lokhmotov &
+/// Avetisyan 2010), a lane of a register or a thread each. A slice has the rows of one region only;
+/// what fills it up has volume 0 and points to itself.
 ///
-/// * slice q: entries [first(q), first(q+1)) of neighbour, gradient (C_ab, row a), coupling (w_ab), smoothing (s_ab);
+/// * slice q: entries [first(q), first(q+1)) of neighbour, gradient (C_ab, row a), coupling (w_ab),
+/// smoothing (s_ab);
 ///   surface entries [first_surface(q), first_surface(q+1)) of surface_neighbour, surface_gradient (S_ab)
 /// * slot = slice * height + row of the slice: vertex, volume, inverse_volume
 template <class B>
@@ -42,11 +46,13 @@ struct NodalRows {
   Indices<B> first_surface;
   Array<int* [height]> surface_neighbour;
   Array<Real* [3][height]> surface_gradient;
-  Scalars<B> constants;   ///< [regions * n] of the material
-  Scalars<B> fibres;      ///< [slots * 6] axis and sheet of each domain, instead of its region's; empty: none
+  Scalars<B> constants;  ///< [regions * n] of the material
+  /// [slots * 6] axis and sheet of each domain, instead of its region's; empty: none
+  Scalars<B> fibres;
   Scalars<B> stabiliser;  ///< [regions] beta mu [Pa]
-  Scalars<B> excess;      ///< [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
-  Scalars<B> damping;     ///< [regions] by stiffness [s]; empty: none anywhere
+  /// [regions] the part of lambda that acts on smoothed volumes [Pa]; empty: none
+  Scalars<B> excess;
+  Scalars<B> damping;  ///< [regions] by stiffness [s]; empty: none anywhere
   VertexShares<B> shares;
 
   int slots() const { return slices * height; }
@@ -55,12 +61,15 @@ struct NodalRows {
 /// What the kernels of nodal elements pass on to each other; rows of slots.
 template <class B>
 struct NodalWork {
-  Scalars<B> near;      ///< [slots * 8] up to two fields in the order of the slots, x y z 0 each
-  Scalars<B> records;   ///< [slots * 12] of each column j of the stress Q_0j Q_1j Q_2j, and component j of the field
-  Scalars<B> ratio;     ///< [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
+  Scalars<B> near;  ///< [slots * 8] up to two fields in the order of the slots, x y z 0 each
+  /// [slots * 12] of each column j of the stress Q_0j Q_1j Q_2j, and component j of the field
+  Scalars<B> records;
+  /// [slots * 2] volume ratios and their changes; empty: pressures are not smoothed
+  Scalars<B> ratio;
   Scalars<B> pressure;  ///< likewise, what follows from them
-  Scalars<B> gradient;  ///< [slots * 9] G of the state that tangents are about, see packed(); empty: not kept
-  Scalars<B> tangent;   ///< [slots * 45] projected tangents there, likewise; empty: none yet
+  /// [slots * 9] G of the state that tangents are about, see packed(); empty: not kept
+  Scalars<B> gradient;
+  Scalars<B> tangent;  ///< [slots * 45] projected tangents there, likewise; empty: none yet
 };
 
 }  // namespace plica

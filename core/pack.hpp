@@ -2,9 +2,10 @@
 #pragma once
 #include <Kokkos_Core.hpp>
 
-// A few values that one instruction handles together. Pointwise physics is written once on a type T that is either a
-// plain number (GPUs, tests) or a Pack of numbers (CPUs). The compiler's own vector extension is used where there is
-// one: it keeps packs in registers, which a struct with an array and loops does not.
+// A few values that one instruction handles together. Pointwise physics is written once on a type T
+// that is either a plain number (GPUs, tests) or a Pack of numbers (CPUs). The compiler's own
+// vector extension is used where there is one: it keeps packs in registers, which a struct with an
+// array and loops does not.
 namespace plica {
 
 template <class T, int N>
@@ -112,7 +113,8 @@ KOKKOS_INLINE_FUNCTION T load_lanes(const Number* from) {
   T to;
 #if defined(__GNUC__) && !defined(__CUDACC__)
   if constexpr (lanes > 1) {
-    typedef Number Together __attribute__((vector_size(lanes * sizeof(Number)), may_alias, aligned(alignof(Number))));
+    typedef Number Together
+        __attribute__((vector_size(lanes * sizeof(Number)), may_alias, aligned(alignof(Number))));
     to.v = __builtin_convertvector(*reinterpret_cast<const Together*>(from), typename T::Lanes);
     return to;
   }

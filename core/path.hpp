@@ -2,7 +2,8 @@
 #pragma once
 #include <plica/core/small.hpp>
 
-// A Motion as the device holds it, always double: a time of many steps and a displacement from it keep their digits.
+// A Motion as the device holds it, always double: a time of many steps and a displacement from it
+// keep their digits.
 namespace plica {
 
 struct PathKnot {

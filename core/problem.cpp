@@ -40,18 +40,20 @@ Problem& Problem::operator=(Problem&&) noexcept = default;
 Problem::~Problem() = default;
 
 bool damps_by_mass(const Body& body) {
-  return body.damping.mass > 0 || std::any_of(body.regions.begin(), body.regions.end(), [](const auto& region) {
-           return region.second.damping.mass.value_or(0) > 0;
-         });
+  return body.damping.mass > 0 ||
+         std::any_of(body.regions.begin(), body.regions.end(),
+                     [](const auto& region) { return region.second.damping.mass.value_or(0) > 0; });
 }
 
 bool is_viscous(const Body& body) {
-  return !body.material.prony.empty() ||
-         std::ranges::any_of(body.regions, [](const auto& region) { return !region.second.prony.empty(); });
+  return !body.material.prony.empty() || std::ranges::any_of(body.regions, [](const auto& region) {
+    return !region.second.prony.empty();
+  });
 }
 
 bool damps_by_stiffness(const Body& body) {
-  return body.damping.stiffness > 0 || std::any_of(body.regions.begin(), body.regions.end(), [](const auto& region) {
+  return body.damping.stiffness > 0 ||
+         std::any_of(body.regions.begin(), body.regions.end(), [](const auto& region) {
            return region.second.damping.stiffness.value_or(0) > 0;
          });
 }
@@ -63,10 +65,13 @@ std::string obstacle_name(const ContactOptions& contact, std::size_t obstacle) {
 
 bool has_pairs(const Problem& problem) {
   const ContactOptions& contact = problem.contact;
-  return contact.self || !contact.attachments.empty() || (contact.bodies && problem.body.parts.size() > 1);
+  return contact.self || !contact.attachments.empty() ||
+         (contact.bodies && problem.body.parts.size() > 1);
 }
 
-bool has_contact(const Problem& problem) { return !problem.contact.obstacles.empty() || has_pairs(problem); }
+bool has_contact(const Problem& problem) {
+  return !problem.contact.obstacles.empty() || has_pairs(problem);
+}
 
 void remove_contact(Problem& problem) {
   problem.contact.obstacles.clear(), problem.contact.attachments.clear();
@@ -77,7 +82,8 @@ void remove_contact(Problem& problem) {
 
 std::vector<std::string> wrench_names(const Problem& problem) {
   std::vector<std::string> names;
-  for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o) names.push_back(obstacle_name(problem.contact, o));
+  for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
+    names.push_back(obstacle_name(problem.contact, o));
   if (problem.body.parts.size() > 1 && has_pairs(problem))
     for (const BodyPart& part : problem.body.parts) names.push_back(part.name);
   return names;

@@ -4,8 +4,8 @@
 #include <string>
 #include <variant>
 
-/// Parts of a body, chosen at rest and before it is placed, anew on every level: vertices, or the elements whose centroid
-/// is there. Choosing nothing on a level is an error.
+/// Parts of a body, chosen at rest and before it is placed, anew on every level: vertices, or the
+/// elements whose centroid is there. Choosing nothing on a level is an error.
 namespace plica {
 
 /// What lies in a ball.
@@ -36,7 +36,7 @@ struct NearestSelection {
 };
 
 /// Any of them.
-using Selection =
-    std::variant<Box, BallSelection, HalfSpaceSelection, GroupSelection, RegionSelection, NearestSelection>;
+using Selection = std::variant<Box, BallSelection, HalfSpaceSelection, GroupSelection,
+                               RegionSelection, NearestSelection>;
 
 }  // namespace plica

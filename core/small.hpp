@@ -17,7 +17,9 @@ struct Vec3 {
   friend KOKKOS_INLINE_FUNCTION Vec3 operator-(const Vec3& x, const Vec3& y) {
     return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
   }
-  friend KOKKOS_INLINE_FUNCTION Vec3 operator*(const T& s, const Vec3& x) { return {s * x[0], s * x[1], s * x[2]}; }
+  friend KOKKOS_INLINE_FUNCTION Vec3 operator*(const T& s, const Vec3& x) {
+    return {s * x[0], s * x[1], s * x[2]};
+  }
   KOKKOS_INLINE_FUNCTION Vec3& operator+=(const Vec3& y) { return *this = *this + y; }
   KOKKOS_INLINE_FUNCTION Vec3& operator-=(const Vec3& y) { return *this = *this - y; }
 };
@@ -44,7 +46,9 @@ struct Mat3 {
   friend KOKKOS_INLINE_FUNCTION Mat3 operator-(const Mat3& A, const Mat3& B) {
     return {A[0] - B[0], A[1] - B[1], A[2] - B[2]};
   }
-  friend KOKKOS_INLINE_FUNCTION Mat3 operator*(const T& s, const Mat3& A) { return {s * A[0], s * A[1], s * A[2]}; }
+  friend KOKKOS_INLINE_FUNCTION Mat3 operator*(const T& s, const Mat3& A) {
+    return {s * A[0], s * A[1], s * A[2]};
+  }
   static KOKKOS_INLINE_FUNCTION Mat3 identity() { return diagonal(T(1)); }
   static KOKKOS_INLINE_FUNCTION Mat3 diagonal(const T& s) {
     return {Vec3<T>{s, T(0), T(0)}, Vec3<T>{T(0), s, T(0)}, Vec3<T>{T(0), T(0), s}};
@@ -58,7 +62,8 @@ KOKKOS_INLINE_FUNCTION Vec3<T> operator*(const Mat3<T>& A, const Vec3<T>& x) {
 
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> transpose(const Mat3<T>& A) {
-  return {Vec3<T>{A[0][0], A[1][0], A[2][0]}, Vec3<T>{A[0][1], A[1][1], A[2][1]}, Vec3<T>{A[0][2], A[1][2], A[2][2]}};
+  return {Vec3<T>{A[0][0], A[1][0], A[2][0]}, Vec3<T>{A[0][1], A[1][1], A[2][1]},
+          Vec3<T>{A[0][2], A[1][2], A[2][2]}};
 }
 
 template <class T>
@@ -134,7 +139,8 @@ KOKKOS_INLINE_FUNCTION SymMat3<T> six_of(const Mat3<T>& M) {
 }
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> matrix_of(const SymMat3<T>& m) {
-  return {Vec3<T>{m.a[0], m.a[3], m.a[4]}, Vec3<T>{m.a[3], m.a[1], m.a[5]}, Vec3<T>{m.a[4], m.a[5], m.a[2]}};
+  return {Vec3<T>{m.a[0], m.a[3], m.a[4]}, Vec3<T>{m.a[3], m.a[1], m.a[5]},
+          Vec3<T>{m.a[4], m.a[5], m.a[2]}};
 }
 
 /// Whether A is positive definite, and then its inverse.
@@ -145,7 +151,8 @@ KOKKOS_INLINE_FUNCTION bool invert_positive(const SymMat3<T>& A, SymMat3<T>& inv
   const T det = xx * cx + xy * cxy + xz * cxz;
   if (!(xx > 0 && xx * yy - xy * xy > 0 && det > 0)) return false;
   const T s = 1 / det;
-  inverse = {{s * cx, s * (xx * zz - xz * xz), s * (xx * yy - xy * xy), s * cxy, s * cxz, s * (xy * xz - xx * yz)}};
+  inverse = {{s * cx, s * (xx * zz - xz * xz), s * (xx * yy - xy * xy), s * cxy, s * cxz,
+              s * (xy * xz - xx * yz)}};
   return true;
 }
 

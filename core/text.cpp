@@ -11,7 +11,8 @@ namespace plica {
 std::string number(double value, int digits) {
   std::array<char, 48> buffer;  // at most 17 digits, sign, point, leading zeros and exponent
   char* const end = buffer.data() + buffer.size();
-  const auto written = std::to_chars(buffer.data(), end, value, std::chars_format::general, std::clamp(digits, 1, 17));
+  const auto written = std::to_chars(buffer.data(), end, value, std::chars_format::general,
+                                     std::clamp(digits, 1, 17));
   return {buffer.data(), written.ptr};
 }
 
@@ -19,8 +20,8 @@ namespace {
 
 constexpr const char* replacement = "\xEF\xBF\xBD";  // U+FFFD
 
-// What a first byte says: how many bytes follow it, and the range of the second. That range leaves out overlong forms, the
-// surrogates, and what lies beyond U+10FFFF.
+// What a first byte says: how many bytes follow it, and the range of the second. That range leaves
+// out overlong forms, the surrogates, and what lies beyond U+10FFFF.
 struct Lead {
   int following = -1;  // not a first byte
   unsigned char lowest = 0x80, highest = 0xBF;
@@ -67,7 +68,8 @@ std::map<std::string, std::string> valid_names(const std::vector<std::string>& n
     if (result.contains(name)) continue;
     const std::string valid = valid_utf8(name);
     std::string distinct = valid;
-    for (int n = 2; !taken.insert(distinct).second; ++n) distinct = valid + " (" + std::to_string(n) + ")";
+    for (int n = 2; !taken.insert(distinct).second; ++n)
+      distinct = valid + " (" + std::to_string(n) + ")";
     result[name] = distinct;
   }
   return result;

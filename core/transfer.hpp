@@ -4,18 +4,23 @@
 
 namespace plica {
 
-/// Values at some points (a mesh's vertices, a surface's) as weighted sums of four vertices of another mesh. A target
-/// without a row keeps its own value: constrained vertices, and those outside the other mesh where that is asked for.
+/// Values at some points (a mesh's vertices, a surface's) as weighted sums of four vertices of
+/// another mesh. A target without a row keeps its own value: constrained vertices, and those
+/// outside the other mesh where that is asked for.
 template <class B>
 struct Transfer {
-  int rows = 0;                                                                         ///< targets that have one
-  Indices<B> target;                                                                    ///< [rows]
-  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> source;               ///< vertices of the other mesh
-  Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> weight;  ///< each row sums to 1
+  /// targets that have one
+  int rows = 0;
+  Indices<B> target;  ///< [rows]
+  /// vertices of the other mesh
+  Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> source;
+  /// each row sums to 1
+  Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> weight;
 };
 
-/// The adjoint of an interpolation, in gather form: to every coarse vertex the finer ones in its elements, in order. Forces
-/// take the interpolation's own weights; states their averages by mass, which keep momentum where masses are inherited.
+/// The adjoint of an interpolation, in gather form: to every coarse vertex the finer ones in its
+/// elements, in order. Forces take the interpolation's own weights; states their averages by mass,
+/// which keep momentum where masses are inherited.
 template <class B>
 struct Restriction {
   int rows = 0;        ///< coarse vertices, one row each
@@ -25,8 +30,8 @@ struct Restriction {
   Scalars<B> average;  ///< of its state; each row sums to 1
 };
 
-/// The body's surface points in one level: x = rest + sum of weight * u, and the transpose for forces, in gather form
-/// so that every vertex adds its points in a fixed order.
+/// The body's surface points in one level: x = rest + sum of weight * u, and the transpose for
+/// forces, in gather form so that every vertex adds its points in a fixed order.
 template <class B>
 struct EmbeddedSurface {
   int points = 0;         ///< of the surface; 0: the level carries none

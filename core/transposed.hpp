@@ -6,12 +6,13 @@
 namespace plica {
 
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
-/// Four packs of N numbers from N rows of four in memory, and back: rows are loaded whole and transposed in registers, a third of the
-/// instructions that number by number would take. Packs may be wider than the registers of the machine; bare vectors of that width are
-/// never passed by value, as the calling convention would then depend on the processor.
+/// Four packs of N numbers from N rows of four in memory, and back: rows are loaded whole and
+/// transposed in registers, a third of the instructions that number by number would take. Packs may
+/// be wider than the registers of the machine; bare vectors of that width are never passed by
+/// value, as the calling convention would then depend on the processor.
 ///
-/// Each step mixes two packs. That is one cheap instruction where numbers stay within their 16 bytes, or where 16 bytes move as a whole.
-/// 16 bytes are four floats or two doubles:
+/// Each step mixes two packs. That is one cheap instruction where numbers stay within their 16
+/// bytes, or where 16 bytes move as a whole. 16 bytes are four floats or two doubles:
 ///
 ///   floats, in every four                           doubles
 ///   a0 a1 a2 a3 -.  a0 a2 b0 b2 -.                  a0 a1 a2 a3 -.  a0 b0 a2 b2 -.
@@ -25,9 +26,11 @@ class Transposed {
   /// Lane l of v is the four numbers at row(l).
   template <class Row>
   static void load(const Row& row, Packed (&v)[4]) {
-    const Packed a = gather(0, row), b = gather(1, row), c = gather(third, row), d = gather(third + 1, row);
+    const Packed a = gather(0, row), b = gather(1, row), c = gather(third, row),
+                 d = gather(third + 1, row);
     if constexpr (by_pairs) {
-      const Packed even = mix<evens>(a, b), odd = mix<odds>(a, b), even2 = mix<evens>(c, d), odd2 = mix<odds>(c, d);
+      const Packed even = mix<evens>(a, b), odd = mix<odds>(a, b), even2 = mix<evens>(c, d),
+                   odd2 = mix<odds>(c, d);
       v[0] = mix<even_pairs>(even, even2), v[2] = mix<odd_pairs>(even, even2);
       v[1] = mix<even_pairs>(odd, odd2), v[3] = mix<odd_pairs>(odd, odd2);
     } else {
@@ -43,8 +46,10 @@ class Transposed {
     if constexpr (by_pairs) {
       const Packed even = mix<evens>(v[0], v[1]), even2 = mix<evens>(v[2], v[3]);
       const Packed odd = mix<odds>(v[0], v[1]), odd2 = mix<odds>(v[2], v[3]);
-      scatter(0, mix<first_pairs>(even, even2), row), scatter(third, mix<last_pairs>(even, even2), row);
-      scatter(1, mix<first_pairs>(odd, odd2), row), scatter(third + 1, mix<last_pairs>(odd, odd2), row);
+      scatter(0, mix<first_pairs>(even, even2), row),
+          scatter(third, mix<last_pairs>(even, even2), row);
+      scatter(1, mix<first_pairs>(odd, odd2), row),
+          scatter(third + 1, mix<last_pairs>(odd, odd2), row);
     } else {
       const Packed a = mix<fours<0, 1, 0, 1>>(v[0], v[1]), b = mix<fours<0, 1, 0, 1>>(v[2], v[3]);
       const Packed c = mix<fours<2, 3, 2, 3>>(v[0], v[1]), d = mix<fours<2, 3, 2, 3>>(v[2], v[3]);
@@ -55,7 +60,8 @@ class Transposed {
 
  private:
   static constexpr bool by_pairs = sizeof(T) == 8;
-  static constexpr int step = by_pairs ? 2 : 4;       ///< of the rows that lie side by side in a pack
+  /// of the rows that lie side by side in a pack
+  static constexpr int step = by_pairs ? 2 : 4;
   static constexpr int third = by_pairs ? N / 2 : 2;  ///< the first row of the third of four packs
   typedef T Quarter __attribute__((vector_size(4 * sizeof(T))));
   struct __attribute__((packed, may_alias)) Four {  ///< in memory, wherever it begins
@@ -68,11 +74,13 @@ class Transposed {
     const auto four = [&](int j) { return reinterpret_cast<const Four*>(row(first + step * j)); };
     Packed p;
     if constexpr (N == 4) p.v = four(0)->v;
-    if constexpr (N == 8) p.v = __builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7);
+    if constexpr (N == 8)
+      p.v = __builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7);
     if constexpr (N == 16)
-      p.v = __builtin_shufflevector(__builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7),
-                                    __builtin_shufflevector(four(2)->v, four(3)->v, 0, 1, 2, 3, 4, 5, 6, 7), 0, 1, 2, 3,
-                                    4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      p.v = __builtin_shufflevector(
+          __builtin_shufflevector(four(0)->v, four(1)->v, 0, 1, 2, 3, 4, 5, 6, 7),
+          __builtin_shufflevector(four(2)->v, four(3)->v, 0, 1, 2, 3, 4, 5, 6, 7), 0, 1, 2, 3, 4, 5,
+          6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     return p;
   }
   template <class Row>
@@ -103,9 +111,11 @@ class Transposed {
   }
   static constexpr int evens(int i) { return i % 2 * N + i - i % 2; }  ///< x0 y0 x2 y2 ...
   static constexpr int odds(int i) { return evens(i) + 1; }
-  static constexpr int even_pairs(int i) { return 2 * i - i % 2; }  ///< x0 x1 x4 x5 ... y0 y1 y4 y5 ...
+  /// x0 x1 x4 x5 ... y0 y1 y4 y5 ...
+  static constexpr int even_pairs(int i) { return 2 * i - i % 2; }
   static constexpr int odd_pairs(int i) { return even_pairs(i) + 2; }
-  static constexpr int first_pairs(int i) { return i / 2 % 2 * N + i / 4 * 2 + i % 2; }  ///< x0 x1 y0 y1 x2 x3 ...
+  /// x0 x1 y0 y1 x2 x3 ...
+  static constexpr int first_pairs(int i) { return i / 2 % 2 * N + i / 4 * 2 + i % 2; }
   static constexpr int last_pairs(int i) { return first_pairs(i) + N / 2; }
 };
 #endif
@@ -121,7 +131,8 @@ KOKKOS_INLINE_FUNCTION void load_fours(const Row& row, T (&v)[4]) {
     for (int k = 0; k < 4; ++k) set_lane(v[k], l, row(l)[k]);
 }
 
-/// Lane l of v is the vector at row(l), where a pack is read four numbers at a time, the last of them not used.
+/// Lane l of v is the vector at row(l), where a pack is read four numbers at a time, the last of
+/// them not used.
 template <class T, class Row>
 KOKKOS_INLINE_FUNCTION void load_vectors(const Row& row, Vec3<T>& v) {
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)

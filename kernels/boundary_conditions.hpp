@@ -7,7 +7,8 @@
 // What is given from outside: vertices that follow a path, and loads.
 namespace plica {
 
-/// Where a path has got to at a time, and how fast it moves from there on. `knots` are those of all paths.
+/// Where a path has got to at a time, and how fast it moves from there on. `knots` are those of all
+/// paths.
 KOKKOS_INLINE_FUNCTION PathPoint path_at(const Path& path, const PathKnot* knots, double time) {
   PathPoint p{time * path.velocity, path.velocity};
   if (path.rate > 0) {
@@ -37,14 +38,18 @@ KOKKOS_INLINE_FUNCTION PathPoint path_at(const Path& path, const PathKnot* knots
   return p;
 }
 
-/// The same with, for ahead > 0 [s], the mean velocity from there to time + ahead: an implicit step ends where the path does.
-KOKKOS_INLINE_FUNCTION PathPoint path_step(const Path& path, const PathKnot* knots, double time, double ahead) {
+/// The same with, for ahead > 0 [s], the mean velocity from there to time + ahead: an implicit step
+/// ends where the path does.
+KOKKOS_INLINE_FUNCTION PathPoint path_step(const Path& path, const PathKnot* knots, double time,
+                                           double ahead) {
   PathPoint p = path_at(path, knots, time);
-  if (ahead > 0) p.velocity = (1 / ahead) * (path_at(path, knots, time + ahead).displacement - p.displacement);
+  if (ahead > 0)
+    p.velocity = (1 / ahead) * (path_at(path, knots, time + ahead).displacement - p.displacement);
   return p;
 }
 
-/// Vertices whose motion is given are where their path says, with its velocity: nothing is integrated, so nothing drifts.
+/// Vertices whose motion is given are where their path says, with its velocity: nothing is
+/// integrated, so nothing drifts.
 template <class B>
 struct PrescribeMotion {
   PrescribedVertices<B> given;
@@ -64,8 +69,8 @@ struct PrescribeMotion {
 
 /// Puts them into a level's state at a time [s]; see path_step() for `ahead`.
 template <class B>
-void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<B>& state, double time,
-               double ahead = 0) {
+void prescribe(const typename B::Exec& exec, const Level<B>& level, const State<B>& state,
+               double time, double ahead = 0) {
   if (level.prescribed.count > 0)
     update_vertices<B>(exec, "plica::prescribe", level.prescribed.count,
                        PrescribeMotion<B>{level.prescribed, state, time, ahead});
@@ -85,7 +90,8 @@ struct AddLoad {
 };
 
 template <class B>
-void add_load(const typename B::Exec& exec, const Load<B>& load, double factor, const Vectors<B>& f) {
+void add_load(const typename B::Exec& exec, const Load<B>& load, double factor,
+              const Vectors<B>& f) {
   update_vertices<B>(exec, "plica::load", load.count,
                      AddLoad<B>{load.vertex, load.force, f, static_cast<typename B::Real>(factor)});
 }

@@ -4,8 +4,9 @@
 
 namespace plica {
 
-/// Sums over the vertices of a moving body, in one pass: kinetic energy, gravity's potential energy [J], zero at rest, momentum
-/// [kg m/s], and the largest (v - drift)^2 over the squared local edge [1/s^2]. Sums are not finite where u or v is not.
+/// Sums over the vertices of a moving body, in one pass: kinetic energy, gravity's potential energy
+/// [J], zero at rest, momentum [kg m/s], and the largest (v - drift)^2 over the squared local edge
+/// [1/s^2]. Sums are not finite where u or v is not.
 using MotionSums = Sums<6, 1>;
 
 template <class B>
@@ -36,7 +37,9 @@ struct MotionEnergies {
 template <class B>
 struct FirstComponent {
   Vectors<B> field;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const { return {{static_cast<double>(field(i, 0))}}; }
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
+    return {{static_cast<double>(field(i, 0))}};
+  }
 };
 
 }  // namespace plica

@@ -3,14 +3,15 @@
 #include <plica/core/transfer.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// What a simulation gives to and takes from its caller's arrays, whatever their precision and layout. Per vertex 3 or 6 values
-// in and 3 out.
+// What a simulation gives to and takes from its caller's arrays, whatever their precision and
+// layout. Per vertex 3 or 6 values in and 3 out.
 namespace plica {
 
 /// Position x and velocity of surface point p, from a level's state.
 template <class B>
-KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u, const Vectors<B>& v, int p,
-                                          Vec3<typename B::Real>& x, Vec3<typename B::Real>& speed) {
+KOKKOS_INLINE_FUNCTION void surface_point(const EmbeddedSurface<B>& s, const Vectors<B>& u,
+                                          const Vectors<B>& v, int p, Vec3<typename B::Real>& x,
+                                          Vec3<typename B::Real>& speed) {
   x = value_at<B>(s.embedding, u, p, vector_at<B>(s.rest, p));
   speed = value_at<B>(s.embedding, v, p);
 }
@@ -43,7 +44,8 @@ struct WritePositions {
   Vectors<B> rest, u;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     using T = typename In::non_const_value_type;
-    for (int k = 0; k < 3; ++k) u(a, k) = static_cast<typename B::Real>(x(a, k) - static_cast<T>(rest(a, k)));
+    for (int k = 0; k < 3; ++k)
+      u(a, k) = static_cast<typename B::Real>(x(a, k) - static_cast<T>(rest(a, k)));
   }
 };
 
@@ -67,7 +69,8 @@ struct ReadSurfacePoints {
   KOKKOS_INLINE_FUNCTION void operator()(int p) const {
     Vec3<typename B::Real> x, v;
     surface_point(surface, state.u, state.v, p, x, v);
-    for (int k = 0; k < 3; ++k) out(p, k) = static_cast<typename Out::value_type>(velocity ? v[k] : x[k]);
+    for (int k = 0; k < 3; ++k)
+      out(p, k) = static_cast<typename Out::value_type>(velocity ? v[k] : x[k]);
   }
 };
 

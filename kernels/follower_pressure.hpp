@@ -16,8 +16,8 @@ struct FollowerPlaces {
     const int a = load.vertex(i);
     return {load.rest(i, 0) + u(a, 0), load.rest(i, 1) + u(a, 1), load.rest(i, 2) + u(a, 2)};
   }
-  /// A third of the area vectors A n of a vertex' triangles, n outwards [m^2]: A n = (x_1 - x_0) x (x_2 - x_0) / 2. Over its own triangles
-  /// in a stored order.
+  /// A third of the area vectors A n of a vertex' triangles, n outwards [m^2]: A n = (x_1 - x_0) x
+  /// (x_2 - x_0) / 2. Over its own triangles in a stored order.
   KOKKOS_INLINE_FUNCTION Vec3<Real> area(int i) const {
     const Vec3<Real> own = (*this)(i);
     Vec3<Real> twice;
@@ -59,10 +59,12 @@ struct AddFollowerPressure {
   }
 };
 
-/// q += scale K d, with K the symmetric part of minus the derivative of these forces at a given p. A triangle's area vector changes by
-/// half the sum over its corners of d_j x e_j, e_j = x_{j+1} - x_{j-1} its side opposite j, so that its corners' blocks are
-/// K_ij = -p/6 [e_j]x. Their symmetric parts are -p/12 [e_j - e_i]x, 0 for i = j. Where the triangles close a surface, or end in rims that
-/// do not move, the sum over them is symmetric: the forces are p times the derivative of a volume there (Bufler 1984, ZAMM 64:287).
+/// q += scale K d, with K the symmetric part of minus the derivative of these forces at a given p.
+/// A triangle's area vector changes by half the sum over its corners of d_j x e_j, e_j = x_{j+1} -
+/// x_{j-1} its side opposite j, so that its corners' blocks are K_ij = -p/6 [e_j]x. Their symmetric
+/// parts are -p/12 [e_j - e_i]x, 0 for i = j. Where the triangles close a surface, or end in rims
+/// that do not move, the sum over them is symmetric: the forces are p times the derivative of a
+/// volume there (Bufler 1984, ZAMM 64:287).
 template <class B, class Pressure>
 struct AddFollowerProduct {
   using Real = typename B::Real;
@@ -95,7 +97,8 @@ struct VolumeRateOfCorner {
   }
 };
 
-/// q += scale k g (g . d): that the pressure of a fluid falls where the volume grows, g the derivative of the volume.
+/// q += scale k g (g . d): that the pressure of a fluid falls where the volume grows, g the
+/// derivative of the volume.
 template <class B>
 struct AddFluidProduct {
   using Real = typename B::Real;
@@ -106,11 +109,13 @@ struct AddFluidProduct {
 
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = place.load.vertex(i);
-    set_vector<B>(q, a, vector_at<B>(q, a) + static_cast<Real>(scale * stiffness * rate(0)) * place.area(i));
+    set_vector<B>(
+        q, a, vector_at<B>(q, a) + static_cast<Real>(scale * stiffness * rate(0)) * place.area(i));
   }
 };
 
-/// A vertex's part of the volume on the outer side of its triangles, a third of - x_0 . (x_1 x x_2) / 6 of each [m^3].
+/// A vertex's part of the volume on the outer side of its triangles, a third of - x_0 . (x_1 x x_2)
+/// / 6 of each [m^3].
 template <class B>
 struct VolumeOfCorner {
   FollowerPlaces<B> place;
@@ -118,7 +123,9 @@ struct VolumeOfCorner {
     const FollowerLoad<B>& load = place.load;
     Sums<1> part;
     for (int t = load.first(i); t < load.first(i + 1); ++t)
-      part[0] -= static_cast<double>(dot(place(i), cross(place(load.second(t)), place(load.third(t))))) / 18;
+      part[0] -=
+          static_cast<double>(dot(place(i), cross(place(load.second(t)), place(load.third(t))))) /
+          18;
     return part;
   }
 };

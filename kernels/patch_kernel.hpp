@@ -12,25 +12,30 @@ namespace plica {
 /// What an integrand is given of the elements of one pack.
 template <class T>
 struct ElementShape {
-  Vec3<T> gradient[3];  ///< of the shape functions of corners 1, 2, 3 [1/m]; corner 0's is minus their sum
-  T volume;             ///< [m^3]
+  /// of the shape functions of corners 1, 2, 3 [1/m]; corner 0's is minus their sum
+  Vec3<T> gradient[3];
+  T volume;  ///< [m^3]
 };
 
 /// Where a pack's numbers lie in scratch.
 template <class B>
-inline constexpr int patch_stride = B::lanes >= 4 ? 4 : 3;  ///< of vectors: whole quarters of a register
+inline constexpr int patch_stride =
+    B::lanes >= 4 ? 4 : 3;  ///< of vectors: whole quarters of a register
 
-/// What the pack after next but one reads: a patch's streams are too many and too short for the hardware to foresee.
+/// What the pack after next but one reads: a patch's streams are too many and too short for the
+/// hardware to foresee.
 template <int lanes, class Number>
-KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from, [[maybe_unused]] int count) {
+KOKKOS_INLINE_FUNCTION void prefetch_pack([[maybe_unused]] const Number* from,
+                                          [[maybe_unused]] int count) {
 #if defined(__GNUC__) && !defined(__CUDACC__)
   if constexpr (lanes > 1)
-    for (int i = 0; i < count; i += 64 / static_cast<int>(sizeof(Number))) __builtin_prefetch(from + i);
+    for (int i = 0; i < count; i += 64 / static_cast<int>(sizeof(Number)))
+      __builtin_prefetch(from + i);
 #endif
 }
 
-/// The vectors that a patch's vertices have in some fields, into `local`. A CPU reads four numbers at once, except at the greatest vertex, behind
-/// which there may be nothing to read.
+/// The vectors that a patch's vertices have in some fields, into `local`. A CPU reads four numbers
+/// at once, except at the greatest vertex, behind which there may be nothing to read.
 template <class B, int fields, class Member>
 KOKKOS_INLINE_FUNCTION void load_patch(const Member& team, const Patches<B>& patches, int patch,
                                        const Vectors<B> (&field)[fields], typename B::Real* local) {
@@ -53,13 +58,15 @@ KOKKOS_INLINE_FUNCTION void load_patch(const Member& team, const Patches<B>& pat
 
 /// A pack's elements, and the gradients G of the vertex fields in `local`.
 template <class B, int fields, class T>
-KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const typename B::Real* local,
-                                      ElementShape<T>& shape, Mat3<T> (&G)[fields]) {
+KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack,
+                                      const typename B::Real* local, ElementShape<T>& shape,
+                                      Mat3<T> (&G)[fields]) {
   using Real = typename B::Real;
   constexpr int lanes = B::lanes;
   const Real* const stored = &patches.shape(pack, 0, 0);
   const std::uint16_t* const corner_of = &patches.corner(pack, 0, 0);
-  prefetch_pack<lanes>(stored + 3 * 10 * lanes, 10 * lanes), prefetch_pack<lanes>(corner_of + 3 * 4 * lanes, 4 * lanes);
+  prefetch_pack<lanes>(stored + 3 * 10 * lanes, 10 * lanes),
+      prefetch_pack<lanes>(corner_of + 3 * 4 * lanes, 4 * lanes);
   // written out: a loop that the compiler does not unroll would keep packs in memory
   const auto number = [&](int k) { return load_lanes<T>(stored + k * lanes); };
   const auto vector = [&](int k) { return Vec3<T>{number(k), number(k + 1), number(k + 2)}; };
@@ -69,23 +76,27 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
     const auto corner = [&](int c) {
       Vec3<T> u;
       const std::uint16_t* const at = corner_of + c * lanes;
-      load_vectors([=](int l) { return local + (std::size_t{at[l]} * fields + f) * patch_stride<B>; }, u);
+      load_vectors(
+          [=](int l) { return local + (std::size_t{at[l]} * fields + f) * patch_stride<B>; }, u);
       return u;
     };
     const Vec3<T> u0 = corner(0), d[3] = {corner(1) - u0, corner(2) - u0, corner(3) - u0};
     for (int r = 0; r < 3; ++r)
-      G[f][r] = d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
+      G[f][r] =
+          d[0][r] * shape.gradient[0] + d[1][r] * shape.gradient[1] + d[2][r] * shape.gradient[2];
   }
 }
 
-// How nodal forces are summed without a conflict and in the same order on any number of threads. The mesh is cut into patches of
-// at most 256 neighbouring tetrahedra (core/patches.hpp). One team of threads works on one patch, in memory that is its own: the
-// first-level cache of a CPU, the shared memory of a GPU. It gathers the displacements of the patch's vertices once. It computes
-// the elements a pack at a time: one element in each lane of a vector register, so that each instruction serves 2 to 16 elements.
-// Each element writes the forces at its four corners to a place of its own, and nobody else writes there. Then each vertex of the
-// patch adds up the places that belong to it, in a stored order; a CPU does so for four vertices at once. A vertex on the border of
-// patches has such a sum in each of them; a second kernel, gather_forces, adds these up. No two threads ever write to one number, so
-// no atomics are needed.
+// How nodal forces are summed without a conflict and in the same order on any number of threads.
+// The mesh is cut into patches of at most 256 neighbouring tetrahedra (core/patches.hpp). One team
+// of threads works on one patch, in memory that is its own: the first-level cache of a CPU, the
+// shared memory of a GPU. It gathers the displacements of the patch's vertices once. It computes
+// the elements a pack at a time: one element in each lane of a vector register, so that each
+// instruction serves 2 to 16 elements. Each element writes the forces at its four corners to a
+// place of its own, and nobody else writes there. Then each vertex of the patch adds up the places
+// that belong to it, in a stored order; a CPU does so for four vertices at once. A vertex on the
+// border of patches has such a sum in each of them; a second kernel, gather_forces, adds these up.
+// No two threads ever write to one number, so no atomics are needed.
 //
 //   u [vertices][3]                                      one patch, in scratch
 //     | 1. gather by `vertex`          .--------------------------------------------------------------.
@@ -101,13 +112,15 @@ KOKKOS_INLINE_FUNCTION void load_pack(const Patches<B>& patches, int pack, const
 //     v
 //   f [vertices][3]
 
-/// Runs an integrand over all elements and adds its corner vectors up per patch vertex, one team per patch:
-/// 1. the patch's vertex fields into scratch, 2. the corner vectors of its elements into scratch, 3. their sums per
-/// patch vertex into `partial`. An integrand has
+/// Runs an integrand over all elements and adds its corner vectors up per patch vertex, one team
+/// per patch:
+/// 1. the patch's vertex fields into scratch, 2. the corner vectors of its elements into
+/// scratch, 3. their sums per patch vertex into `partial`. An integrand has
 ///   static constexpr int fields;   Vectors<B> field[fields];        what it reads, [vertices][3]
 ///   void operator()(const Mat3<T> (&G)[fields], const ElementShape<T>&, Vec3<T> (&corner)[4], int patch, int pack)
-/// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`. Bytes that must move per element,
-/// s = sizeof(Real): 8 (corners) + 10 s (shape) + 8 (slots), and per patch vertex 7 + 3 s fields + 3 s.
+/// with G the gradients of the fields. One that has a member `adds` adds to what is in `partial`.
+/// Bytes that must move per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 8 (slots), and
+/// per patch vertex 7 + 3 s fields + 3 s.
 template <class B, class Integrand>
 struct PatchKernel {
   using Real = typename B::Real;
@@ -120,7 +133,8 @@ struct PatchKernel {
   static constexpr int at_once = Patches<B>::at_once;
   static constexpr int force_slots = Patches<B>::nothing + 3 * lanes;
   static KOKKOS_FUNCTION constexpr std::size_t scratch_bytes() {
-    return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * stride * fields) * sizeof(Real);
+    return (static_cast<std::size_t>(force_slots) + Patches<B>::vertex_capacity * stride * fields) *
+           sizeof(Real);
   }
   using T = typename PackOf<Real, lanes>::type;
 
@@ -130,7 +144,8 @@ struct PatchKernel {
 
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int p = league_rank(team);
-    const int first_vertex = patches.first_vertex(p), vertices = patches.first_vertex(p + 1) - first_vertex;
+    const int first_vertex = patches.first_vertex(p),
+              vertices = patches.first_vertex(p + 1) - first_vertex;
     const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
     Real* const forces = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     Real* const local = forces + force_slots;
@@ -138,8 +153,9 @@ struct PatchKernel {
       for (int k = 0; k < 3; ++k) forces[Patches<B>::nothing + k * lanes] = 0;
 
     load_patch<B>(team, patches, p, integrand.field, local);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
-                         [&](int q) { element(p, first_pack + q, local, forces + q * 12 * lanes); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs), [&](int q) {
+      element(p, first_pack + q, local, forces + q * 12 * lanes);
+    });
     team.team_barrier();
     const int first_sum = patches.first_sum(p), sums = patches.first_sum(p + 1) - first_sum;
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, sums), [&](int i) {
@@ -158,7 +174,8 @@ struct PatchKernel {
     });
   }
 
-  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* forces) const {
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local,
+                                                    Real* forces) const {
     ElementShape<T> shape;
     Mat3<T> G[fields];
     load_pack<B, fields>(patches, pack, local, shape, G);
@@ -171,7 +188,8 @@ struct PatchKernel {
 
 /// Corner vectors of a stress: minus volume * P * gradient, balanced.
 template <class T>
-KOKKOS_INLINE_FUNCTION void stress_to_corners(const Mat3<T>& P, const ElementShape<T>& shape, Vec3<T> (&corner)[4]) {
+KOKKOS_INLINE_FUNCTION void stress_to_corners(const Mat3<T>& P, const ElementShape<T>& shape,
+                                              Vec3<T> (&corner)[4]) {
   const T minus_volume = -shape.volume;
   for (int c = 0; c < 3; ++c) corner[c + 1] = minus_volume * (P * shape.gradient[c]);
   corner[0] = T(-1) * (corner[1] + corner[2] + corner[3]);

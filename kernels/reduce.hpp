@@ -6,7 +6,8 @@
 
 namespace plica {
 
-/// N sums at once, always in double; the last `Maxima` of them are the largest instead, of values not below 0.
+/// N sums at once, always in double; the last `Maxima` of them are the largest instead, of values
+/// not below 0.
 template <int N, int Maxima = 0>
 struct Sums {
   static constexpr int maxima = Maxima;
@@ -15,7 +16,8 @@ struct Sums {
   KOKKOS_INLINE_FUNCTION double operator[](int i) const { return value[i]; }
   KOKKOS_INLINE_FUNCTION Sums& operator+=(const Sums& other) {
     for (int i = 0; i < N - Maxima; ++i) value[i] += other.value[i];
-    for (int i = N - Maxima; i < N; ++i) value[i] = value[i] < other.value[i] ? other.value[i] : value[i];
+    for (int i = N - Maxima; i < N; ++i)
+      value[i] = value[i] < other.value[i] ? other.value[i] : value[i];
     return *this;
   }
 };
@@ -37,7 +39,8 @@ class BlockSums {
   static constexpr int widest = 16;
   using View = Kokkos::View<double* [widest], Kokkos::LayoutRight, typename B::Memory>;
   BlockSums() = default;
-  explicit BlockSums(int items) : sums_(zeros<View>("plica::block_sums", (items + block - 1) / block + 1)) {}
+  explicit BlockSums(int items)
+      : sums_(zeros<View>("plica::block_sums", (items + block - 1) / block + 1)) {}
   const View& view() const { return sums_; }
 
  private:
@@ -49,7 +52,8 @@ struct Nothing {
   KOKKOS_INLINE_FUNCTION void operator()() const {}
 };
 
-/// blocks(b, k) = the sum of term(i)[k] over the items i of block b; a CPU's thread takes a block at a time, a GPU's team.
+/// blocks(b, k) = the sum of term(i)[k] over the items i of block b; a CPU's thread takes a block
+/// at a time, a GPU's team.
 template <class B, int N, class Term, class Tally, class Then>
 struct SumOfBlock {
   using Member = typename Kokkos::TeamPolicy<typename B::Exec>::member_type;
@@ -100,13 +104,15 @@ void launch_blocks(const typename B::Exec& exec, const char* label, int count, c
     launch(label, Kokkos::TeamPolicy<Exec>(exec, count, team_size<B>(256)), sum);
 }
 
-/// result(k) = sum over b < count of blocks(b, k) for k < n; the last `maxima` of them the largest instead.
+/// result(k) = sum over b < count of blocks(b, k) for k < n; the last `maxima` of them the largest
+/// instead.
 template <class B>
 void sum_blocks(const typename B::Exec& exec, const char* label, int count, int n, int maxima,
                 const typename BlockSums<B>::View& blocks, const Doubles<B>& result);
 
-/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally operator()(int) const. What is worked
-/// out from the result alone may follow without a launch of its own. then: void operator()() const.
+/// result(k) = sum over i < n of term(i)[k]; the order of additions depends on n alone. term: Tally
+/// operator()(int) const. What is worked out from the result alone may follow without a launch of
+/// its own. then: void operator()() const.
 ///
 ///   items    0 ............. 511 | 512 ........... 1023 | 1024 ...     one after the other in each block
 ///                  |                      |                  |
@@ -114,20 +120,22 @@ void sum_blocks(const typename B::Exec& exec, const char* label, int count, int 
 ///                  \_______________________|__________________/
 ///   result                       their sum, then `then`
 template <class B, int N, class Term, class Tally = Sums<N>, class Then = Nothing>
-void reduce(const typename B::Exec& exec, const char* label, int n, const Term& term, const BlockSums<B>& blocks,
-            const Doubles<B>& result, const Then& then = {}) {
+void reduce(const typename B::Exec& exec, const char* label, int n, const Term& term,
+            const BlockSums<B>& blocks, const Doubles<B>& result, const Then& then = {}) {
   static_assert(N <= BlockSums<B>::widest);
   constexpr int block = BlockSums<B>::block;
   const int count = (n + block - 1) / block;
   const bool alone = count == 1;  // then the block's sum is the result
   const typename BlockSums<B>::View whole(result.data(), 1), &parts = alone ? whole : blocks.view();
-  launch_blocks<B>(exec, label, count, SumOfBlock<B, N, Term, Tally, Then>{n, block, term, parts, alone, then});
+  launch_blocks<B>(exec, label, count,
+                   SumOfBlock<B, N, Term, Tally, Then>{n, block, term, parts, alone, then});
   if (alone) return;
   if constexpr (std::is_same_v<Then, Nothing>)
     sum_blocks<B>(exec, label, count, N, Tally::maxima, parts, result);
   else
     launch_blocks<B>(exec, label, 1,
-                     SumOfBlock<B, N, BlockTotal<B, N, Tally>, Tally, Then>{count, count, {parts}, whole, true, then});
+                     SumOfBlock<B, N, BlockTotal<B, N, Tally>, Tally, Then>{
+                         count, count, {parts}, whole, true, then});
 }
 
 }  // namespace plica

@@ -30,9 +30,11 @@ struct SumBlocks {
           Kokkos::Sum<double, typename B::Memory>(total));
     else
       Kokkos::parallel_reduce(
-          Kokkos::TeamThreadRange(team, count), [&](int b, double& most) { add(k, blocks(b, k), most); },
+          Kokkos::TeamThreadRange(team, count),
+          [&](int b, double& most) { add(k, blocks(b, k), most); },
           Kokkos::Max<double, typename B::Memory>(total));
-    Kokkos::single(Kokkos::PerTeam(team), [&]() { result(k) = k < n - maxima ? total : Kokkos::max(total, 0.0); });
+    Kokkos::single(Kokkos::PerTeam(team),
+                   [&]() { result(k) = k < n - maxima ? total : Kokkos::max(total, 0.0); });
   }
 };
 
@@ -81,14 +83,17 @@ struct Weigh {
   Vectors<B> x, y, out;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const Real m = a * mass(i);
-    for (int k = 0; k < 3; ++k) out(i, k) = inverse_mass(i) > 0 ? m * x(i, k) + b * y(i, k) : Real(0);
+    for (int k = 0; k < 3; ++k)
+      out(i, k) = inverse_mass(i) > 0 ? m * x(i, k) + b * y(i, k) : Real(0);
   }
 };
 
 template <class B>
 struct First {
   Vectors<B> x;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const { return {{static_cast<double>(x(i, 0))}}; }
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int i) const {
+    return {{static_cast<double>(x(i, 0))}};
+  }
 };
 
 template <class B>
@@ -101,7 +106,8 @@ struct FillFromHash {
       unsigned h = static_cast<unsigned>(3 * a + k) * 2654435769u + 12345u;
       h = (h ^ (h >> 15)) * 2246822519u;
       h = (h ^ (h >> 13)) * 3266489917u;
-      const double value = inverse_mass(a) > 0 ? static_cast<double>(h >> 8) / (1 << 23) - 1.0 : 0.0;
+      const double value =
+          inverse_mass(a) > 0 ? static_cast<double>(h >> 8) / (1 << 23) - 1.0 : 0.0;
       x(a, k) = static_cast<typename B::Real>(value);
       sum += value * value;
     }
@@ -138,7 +144,8 @@ void add(const typename B::Exec& exec, const char* label, std::size_t count, typ
 
 template <class B>
 void combine(const typename B::Exec& exec, const char* label, std::size_t count, typename B::Real a,
-             const typename B::Real* x, typename B::Real b, const typename B::Real* y, typename B::Real* out) {
+             const typename B::Real* x, typename B::Real b, const typename B::Real* y,
+             typename B::Real* out) {
   each(exec, label, count, Combine<B>{a, b, x, y, out});
 }
 
@@ -150,15 +157,18 @@ void convert(const Exec& exec, const char* label, std::size_t count, const From*
 }  // namespace vectors
 
 template <class B>
-void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass, typename B::Real a,
-                  const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out) {
+void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
+                  typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
+                  const Vectors<B>& out) {
   update_vertices<B>(exec, label, rows<B>(out), CombineFree<B>{inverse_mass, a, b, x, y, out});
 }
 
 template <class B>
-void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model, typename B::Real a,
-           const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out) {
-  update_vertices<B>(exec, label, rows<B>(out), Weigh<B>{model.mass, model.inverse_mass, a, b, x, y, out});
+void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model,
+           typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
+           const Vectors<B>& out) {
+  update_vertices<B>(exec, label, rows<B>(out),
+                     Weigh<B>{model.mass, model.inverse_mass, a, b, x, y, out});
 }
 
 template <class B>
@@ -168,8 +178,8 @@ void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, c
 }
 
 template <class B>
-void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const BlockSums<B>& blocks,
-               const Doubles<B>& result) {
+void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x,
+               const BlockSums<B>& blocks, const Doubles<B>& result) {
   reduce<B, 1>(exec, label, rows<B>(x), First<B>{x}, blocks, result);
 }
 
@@ -179,30 +189,37 @@ void fill_from_hash(const typename B::Exec& exec, const char* label, const Scala
   reduce<B, 1>(exec, label, rows<B>(x), FillFromHash<B>{inverse_mass, x}, blocks, result);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                                 \
-  template void sum_blocks<Backend<Real, Exec>>(const Exec&, const char*, int, int, int,                              \
-                                                const BlockSums<Backend<Real, Exec>>::View&,                          \
-                                                const Doubles<Backend<Real, Exec>>&);                                 \
-  template void vectors::add<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real, const Real*, Real*);   \
-  template void vectors::combine<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real, const Real*, Real, \
-                                                      const Real*, Real*);                                            \
-  template void vectors::convert<Exec, Real, float>(const Exec&, const char*, std::size_t, const Real*, float*);      \
-  template void vectors::convert<Exec, Real, double>(const Exec&, const char*, std::size_t, const Real*, double*);    \
-  template void combine_free<Backend<Real, Exec>>(                                                                    \
-      const Exec&, const char*, const Scalars<Backend<Real, Exec>>&, Real, const Vectors<Backend<Real, Exec>>&, Real, \
-      const Vectors<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&);                                      \
-  template void weigh<Backend<Real, Exec>>(const Exec&, const char*, const Model<Backend<Real, Exec>>&, Real,         \
-                                           const Vectors<Backend<Real, Exec>>&, Real,                                 \
-                                           const Vectors<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&); \
-  template void dot<Backend<Real, Exec>>(const Exec&, const char*, const Vectors<Backend<Real, Exec>>&,               \
-                                         const Vectors<Backend<Real, Exec>>&, const BlockSums<Backend<Real, Exec>>&,  \
-                                         const Doubles<Backend<Real, Exec>>&);                                        \
-  template void sum_first<Backend<Real, Exec>>(const Exec&, const char*, const Vectors<Backend<Real, Exec>>&,         \
-                                               const BlockSums<Backend<Real, Exec>>&,                                 \
-                                               const Doubles<Backend<Real, Exec>>&);                                  \
-  template void fill_from_hash<Backend<Real, Exec>>(                                                                  \
-      const Exec&, const char*, const Scalars<Backend<Real, Exec>>&, const Vectors<Backend<Real, Exec>>&,             \
-      const BlockSums<Backend<Real, Exec>>&, const Doubles<Backend<Real, Exec>>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                              \
+  template void sum_blocks<Backend<Real, Exec>>(const Exec&, const char*, int, int, int,           \
+                                                const BlockSums<Backend<Real, Exec>>::View&,       \
+                                                const Doubles<Backend<Real, Exec>>&);              \
+  template void vectors::add<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real,     \
+                                                  const Real*, Real*);                             \
+  template void vectors::combine<Backend<Real, Exec>>(const Exec&, const char*, std::size_t, Real, \
+                                                      const Real*, Real, const Real*, Real*);      \
+  template void vectors::convert<Exec, Real, float>(const Exec&, const char*, std::size_t,         \
+                                                    const Real*, float*);                          \
+  template void vectors::convert<Exec, Real, double>(const Exec&, const char*, std::size_t,        \
+                                                     const Real*, double*);                        \
+  template void combine_free<Backend<Real, Exec>>(                                                 \
+      const Exec&, const char*, const Scalars<Backend<Real, Exec>>&, Real,                         \
+      const Vectors<Backend<Real, Exec>>&, Real, const Vectors<Backend<Real, Exec>>&,              \
+      const Vectors<Backend<Real, Exec>>&);                                                        \
+  template void weigh<Backend<Real, Exec>>(                                                        \
+      const Exec&, const char*, const Model<Backend<Real, Exec>>&, Real,                           \
+      const Vectors<Backend<Real, Exec>>&, Real, const Vectors<Backend<Real, Exec>>&,              \
+      const Vectors<Backend<Real, Exec>>&);                                                        \
+  template void dot<Backend<Real, Exec>>(                                                          \
+      const Exec&, const char*, const Vectors<Backend<Real, Exec>>&,                               \
+      const Vectors<Backend<Real, Exec>>&, const BlockSums<Backend<Real, Exec>>&,                  \
+      const Doubles<Backend<Real, Exec>>&);                                                        \
+  template void sum_first<Backend<Real, Exec>>(                                                    \
+      const Exec&, const char*, const Vectors<Backend<Real, Exec>>&,                               \
+      const BlockSums<Backend<Real, Exec>>&, const Doubles<Backend<Real, Exec>>&);                 \
+  template void fill_from_hash<Backend<Real, Exec>>(                                               \
+      const Exec&, const char*, const Scalars<Backend<Real, Exec>>&,                               \
+      const Vectors<Backend<Real, Exec>>&, const BlockSums<Backend<Real, Exec>>&,                  \
+      const Doubles<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -7,12 +7,13 @@
 #include <plica/core/transfer.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// The vocabulary of the vertex kernels: what one vertex, surface point or block is asked for, and the updates and sums of whole
-// fields. A kernel of its own is for what these do not say, or for what would read a field once more. Labels name a launch to
-// profilers; the caller passes them.
+// The vocabulary of the vertex kernels: what one vertex, surface point or block is asked for, and
+// the updates and sums of whole fields. A kernel of its own is for what these do not say, or for
+// what would read a field once more. Labels name a launch to profilers; the caller passes them.
 namespace plica {
 
-// ---- launches -----------------------------------------------------------------------------------------------------------
+// ---- launches
+// -----------------------------------------------------------------------------------------------------------
 
 /// work(i) for i < n
 template <class B, class Work>
@@ -20,7 +21,8 @@ void update_vertices(const typename B::Exec& exec, const char* label, int n, con
   launch(label, Kokkos::RangePolicy<typename B::Exec>(exec, 0, n), like_device::shuffled(n, work));
 }
 
-/// Work that is left out where a count on the device is 0, without the host knowing; an empty count: always done.
+/// Work that is left out where a count on the device is 0, without the host knowing; an empty
+/// count: always done.
 template <class B, class Work>
 struct WhereTouching {
   const double* count;
@@ -31,7 +33,8 @@ struct WhereTouching {
 };
 
 template <class B, class Work>
-void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label, int n, const Work& work) {
+void where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label, int n,
+                    const Work& work) {
   update_vertices<B>(exec, label, n, WhereTouching<B, Work>{count.data(), work});
 }
 
@@ -40,16 +43,20 @@ template <class B, class Term>
 struct TermWhereTouching {
   const double* count;
   Term term;
-  KOKKOS_INLINE_FUNCTION auto operator()(int i) const { return !count || *count > 0 ? term(i) : decltype(term(i)){}; }
+  KOKKOS_INLINE_FUNCTION auto operator()(int i) const {
+    return !count || *count > 0 ? term(i) : decltype(term(i)){};
+  }
 };
 
 template <class B, int N, class Term>
-void sum_where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label, int n,
-                        const Term& term, const BlockSums<B>& blocks, const Doubles<B>& result) {
+void sum_where_touching(const typename B::Exec& exec, const Doubles<B>& count, const char* label,
+                        int n, const Term& term, const BlockSums<B>& blocks,
+                        const Doubles<B>& result) {
   reduce<B, N>(exec, label, n, TermWhereTouching<B, Term>{count.data(), term}, blocks, result);
 }
 
-// ---- of one vertex, point or block --------------------------------------------------------------------------------------
+// ---- of one vertex, point or block
+// --------------------------------------------------------------------------------------
 
 // By the stride that all of them have; a view's own index takes a multiplication.
 template <class B>
@@ -58,7 +65,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> vector_at(const Vectors<B>& x, int
   return {at[0], at[1], at[2]};
 }
 template <class B>
-KOKKOS_INLINE_FUNCTION void set_vector(const Vectors<B>& x, int a, const Vec3<typename B::Real>& value) {
+KOKKOS_INLINE_FUNCTION void set_vector(const Vectors<B>& x, int a,
+                                       const Vec3<typename B::Real>& value) {
   auto* const at = x.data() + 3 * static_cast<std::ptrdiff_t>(a);
   at[0] = value[0], at[1] = value[1], at[2] = value[2];
 }
@@ -68,7 +76,8 @@ KOKKOS_INLINE_FUNCTION SymMat3<typename B::Real> block_at(const Blocks<B>& d, in
   return {{d(a, 0), d(a, 1), d(a, 2), d(a, 3), d(a, 4), d(a, 5)}};
 }
 template <class B>
-KOKKOS_INLINE_FUNCTION void set_block(const Blocks<B>& d, int a, const SymMat3<typename B::Real>& value) {
+KOKKOS_INLINE_FUNCTION void set_block(const Blocks<B>& d, int a,
+                                      const SymMat3<typename B::Real>& value) {
   for (int k = 0; k < 6; ++k) d(a, k) = value[k];
 }
 /// A row's own block of a matrix.
@@ -85,15 +94,17 @@ KOKKOS_INLINE_FUNCTION void add_block(const BlockMatrix<B>& A, int s, typename B
   for (int k = 0; k < 9; ++k) A.value(at, k) += weight * C[SymMat3<typename B::Real>::place(k)];
 }
 
-/// start + the sum of the shares that patches or regions have in vertex a, in their order. A kernel of linear elements leaves a
-/// vertex's sum in every patch that the vertex is in, one of nodal elements in every region; this adds them up:
+/// start + the sum of the shares that patches or regions have in vertex a, in their order. A kernel
+/// of linear elements leaves a vertex's sum in every patch that the vertex is in, one of nodal
+/// elements in every region; this adds them up:
 ///
 ///   patch 0 |. . x . .|  patch 1 |. x . .|  patch 2 |. . . x|      partial
 ///                 \______________  |  ___________________/
 ///                                  a                               start + x + x + x
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B>& shares, const Vectors<B>& partial,
-                                                            int a, Vec3<typename B::Real> start = {}) {
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B>& shares,
+                                                            const Vectors<B>& partial, int a,
+                                                            Vec3<typename B::Real> start = {}) {
   for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
     const int i = shares.row(s);
     for (int k = 0; k < 3; ++k) start[k] += partial(i, k);
@@ -101,7 +112,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_shares(const VertexShares<B
   return start;
 }
 
-/// x - x0, which is stored nowhere. For within a kernel: a copy of a view costs more than reading it.
+/// x - x0, which is stored nowhere. For within a kernel: a copy of a view costs more than reading
+/// it.
 template <class B>
 struct Difference {
   const Vectors<B>&x, &x0;
@@ -121,10 +133,11 @@ KOKKOS_INLINE_FUNCTION Pack<typename B::Real, 4> four_at(const Difference<B>& d,
   return four_at<B>(d.x, a) - four_at<B>(d.x0, a);
 }
 
-/// Sum of weight(s) * x at vertex(s), over s from first to before last, x Vectors or a Difference. The greatest vertex is the last: behind it
-/// there may be nothing to read.
+/// Sum of weight(s) * x at vertex(s), over s from first to before last, x Vectors or a Difference.
+/// The greatest vertex is the last: behind it there may be nothing to read.
 template <class B, class Field, class Vertex, class Weight>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> weighted_sum(const Field& x, int first, int last, const Vertex& vertex,
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> weighted_sum(const Field& x, int first, int last,
+                                                           const Vertex& vertex,
                                                            const Weight& weight) {
   using Four = Pack<typename B::Real, 4>;
   Vec3<typename B::Real> sum;
@@ -138,23 +151,30 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> weighted_sum(const Field& x, int f
   return sum;
 }
 
-/// start + the value of a field at point p, which lies in a tetrahedron: the sum of weight * x over its four vertices.
+/// start + the value of a field at point p, which lies in a tetrahedron: the sum of weight * x over
+/// its four vertices.
 template <class B, class Field>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points, const Field& x, int p,
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> value_at(const Transfer<B>& points, const Field& x,
+                                                       int p,
                                                        const Vec3<typename B::Real>& start = {}) {
   return start + weighted_sum<B>(
-                     x, 0, 4, [&](int c) { return points.source(p, c); }, [&](int c) { return points.weight(p, c); });
+                     x, 0, 4, [&](int c) { return points.source(p, c); },
+                     [&](int c) { return points.weight(p, c); });
 }
 
-/// The same with the weights' absolute values, which are not all positive where the point is outside.
+/// The same with the weights' absolute values, which are not all positive where the point is
+/// outside.
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_parts_at(const Transfer<B>& points, const Vectors<B>& x, int p) {
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> sum_of_parts_at(const Transfer<B>& points,
+                                                              const Vectors<B>& x, int p) {
   Vec3<typename B::Real> sum;
-  for (int c = 0; c < 4; ++c) sum += Kokkos::abs(points.weight(p, c)) * vector_at<B>(x, points.source(p, c));
+  for (int c = 0; c < 4; ++c)
+    sum += Kokkos::abs(points.weight(p, c)) * vector_at<B>(x, points.source(p, c));
   return sum;
 }
 
-// ---- of whole fields, compiled once in vectors.cpp ----------------------------------------------------------------------
+// ---- of whole fields, compiled once in vectors.cpp
+// ----------------------------------------------------------------------
 
 namespace vectors {
 
@@ -163,7 +183,8 @@ void add(const typename B::Exec& exec, const char* label, std::size_t count, typ
          const typename B::Real* x, typename B::Real* y);
 template <class B>
 void combine(const typename B::Exec& exec, const char* label, std::size_t count, typename B::Real a,
-             const typename B::Real* x, typename B::Real b, const typename B::Real* y, typename B::Real* out);
+             const typename B::Real* x, typename B::Real b, const typename B::Real* y,
+             typename B::Real* out);
 template <class Exec, class From, class To>
 void convert(const Exec& exec, const char* label, std::size_t count, const From* from, To* to);
 
@@ -171,19 +192,20 @@ void convert(const Exec& exec, const char* label, std::size_t count, const From*
 
 /// y += a x, number by number, of fields of one kind.
 template <class B, class View>
-void add(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x, const View& y) {
+void add(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x,
+         const View& y) {
   vectors::add<B>(exec, label, y.span(), a, x.data(), y.data());
 }
 /// out = a x + b y, number by number; out may be one of them.
 template <class B, class View, class Number = typename View::value_type>
-void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x, typename B::Real b,
-             const View& y, const View& out) {
+void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const View& x,
+             typename B::Real b, const View& y, const View& out) {
   vectors::combine<B>(exec, label, out.span(), a, x.data(), b, y.data(), out.data());
 }
 /// The same for displacements and velocities.
 template <class B>
-void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const State<B>& x, typename B::Real b,
-             const State<B>& y, const State<B>& out) {
+void combine(const typename B::Exec& exec, const char* label, typename B::Real a, const State<B>& x,
+             typename B::Real b, const State<B>& y, const State<B>& out) {
   combine<B>(exec, label, a, x.u, b, y.u, out.u);
   combine<B>(exec, label, a, x.v, b, y.v, out.v);
 }
@@ -195,17 +217,20 @@ void scale(const typename B::Exec& exec, const char* label, typename B::Real a, 
 /// The same values in another precision.
 template <class Exec, class From, class To>
 void convert(const Exec& exec, const char* label, const From& from, const To& to) {
-  vectors::convert(exec, label, to.span(), static_cast<const typename From::value_type*>(from.data()), to.data());
+  vectors::convert(exec, label, to.span(),
+                   static_cast<const typename From::value_type*>(from.data()), to.data());
 }
 
 /// out = a x + b y at vertices that forces move; the others keep theirs.
 template <class B>
-void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass, typename B::Real a,
-                  const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out);
+void combine_free(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
+                  typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
+                  const Vectors<B>& out);
 /// out = a m x + b y at vertices that forces move, 0 at the others; m their masses.
 template <class B>
-void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model, typename B::Real a,
-           const Vectors<B>& x, typename B::Real b, const Vectors<B>& y, const Vectors<B>& out);
+void weigh(const typename B::Exec& exec, const char* label, const Model<B>& model,
+           typename B::Real a, const Vectors<B>& x, typename B::Real b, const Vectors<B>& y,
+           const Vectors<B>& out);
 
 /// x . y at a vertex, in double.
 template <class B>
@@ -223,9 +248,10 @@ void dot(const typename B::Exec& exec, const char* label, const Vectors<B>& x, c
          const BlockSums<B>& blocks, const Doubles<B>& result);
 /// result(0) = the sum of the x components.
 template <class B>
-void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x, const BlockSums<B>& blocks,
-               const Doubles<B>& result);
-/// A start vector with a part in every mode: a hash of the index, in [-1, 1); 0 where the inverse mass is. result(0) = x . x.
+void sum_first(const typename B::Exec& exec, const char* label, const Vectors<B>& x,
+               const BlockSums<B>& blocks, const Doubles<B>& result);
+/// A start vector with a part in every mode: a hash of the index, in [-1, 1); 0 where the inverse
+/// mass is. result(0) = x . x.
 template <class B>
 void fill_from_hash(const typename B::Exec& exec, const char* label, const Scalars<B>& inverse_mass,
                     const Vectors<B>& x, const BlockSums<B>& blocks, const Doubles<B>& result);

@@ -9,15 +9,17 @@ namespace plica {
 namespace {
 
 // Outward of a tetrahedron whose vertex 3 lies on the side of (1-0)x(2-0)
-constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+constexpr std::array<std::array<std::size_t, 3>, 4> outward_faces = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct Face {
   std::array<int, 2> others;  // its vertices but the lowest, ascending: the same from both sides
   std::size_t number;         // 4 * tetrahedron + corner across
 };
 
-// Calls visit(its faces, ascending by number) for every three vertices that tetrahedra have a face of. Put beside each other by the lowest vertex by counting, then
-// sorted for each vertex: several times faster than one sort of all
+// Calls visit(its faces, ascending by number) for every three vertices that tetrahedra have a face
+// of. Put beside each other by the lowest vertex by counting, then sorted for each vertex: several
+// times faster than one sort of all
 template <class Visit>
 void for_faces(const TetMesh& mesh, const Visit& visit) {
   std::vector<std::size_t> start(mesh.vertices.size() + 1, 0);
@@ -40,7 +42,8 @@ void for_faces(const TetMesh& mesh, const Visit& visit) {
     const auto first = faces.begin() + static_cast<std::ptrdiff_t>(start[v]);
     const auto last = faces.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
     std::sort(first, last, [](const Face& a, const Face& b) {
-      return a.others != b.others ? a.others < b.others : a.number < b.number;  // the same order everywhere
+      // the same order everywhere
+      return a.others != b.others ? a.others < b.others : a.number < b.number;
     });
     for (auto face = first; face != last;) {
       auto other = face + 1;
@@ -51,14 +54,17 @@ void for_faces(const TetMesh& mesh, const Visit& visit) {
   }
 }
 
-/// Whether a face's vertices, counter-clockwise seen from outside its tetrahedron, are an even permutation of the ascending ones.
+/// Whether a face's vertices, counter-clockwise seen from outside its tetrahedron, are an even
+/// permutation of the ascending ones.
 bool is_even(const TetMesh& mesh, const Face& face) {
   const auto& tet = mesh.tets[face.number / 4];
   const auto& [i, j, k] = outward_faces[face.number % 4];
   return ((tet[i] < tet[j]) + (tet[j] < tet[k]) + (tet[k] < tet[i])) == 2;
 }
 
-const Point& vertex(const TriangleSurface& surface, int v) { return surface.vertices[static_cast<std::size_t>(v)]; }
+const Point& vertex(const TriangleSurface& surface, int v) {
+  return surface.vertices[static_cast<std::size_t>(v)];
+}
 
 }  // namespace
 
@@ -67,7 +73,8 @@ std::vector<std::size_t> overlap_at_a_face(const TetMesh& mesh) {
   for_faces(mesh, [&](std::span<const Face> same) {
     if (same.size() > 2 && crowd.empty())
       crowd = {same[0].number / 4, same[1].number / 4, same[2].number / 4};
-    else if (same.size() == 2 && same_side.empty() && is_even(mesh, same[0]) == is_even(mesh, same[1]))
+    else if (same.size() == 2 && same_side.empty() &&
+             is_even(mesh, same[0]) == is_even(mesh, same[1]))
       same_side = {same[0].number / 4, same[1].number / 4};
   });
   return crowd.empty() ? same_side : crowd;
@@ -125,7 +132,8 @@ double enclosed_volume(const TriangleSurface& surface) {
 }
 
 void count_edges(const TriangleSurface& surface, SurfaceReport& report) {
-  std::vector<std::pair<std::array<int, 2>, bool>> edges;  // ascending; whether the triangle runs so
+  // ascending; whether the triangle runs so
+  std::vector<std::pair<std::array<int, 2>, bool>> edges;
   edges.reserve(surface.triangles.size() * 3);
   for (const std::array<int, 3>& t : surface.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -137,7 +145,8 @@ void count_edges(const TriangleSurface& surface, SurfaceReport& report) {
     while (end < edges.size() && edges[end].first == edges[e].first) ++end;
     const bool sound = end == e + 2 && edges[e].second != edges[e + 1].second;
     if (!sound && report.closed())
-      report.open_at = (vertex(surface, edges[e].first[0]) + vertex(surface, edges[e].first[1])) / 2;
+      report.open_at =
+          (vertex(surface, edges[e].first[0]) + vertex(surface, edges[e].first[1])) / 2;
     if (end == e + 1) ++report.open_edges;
     if (end > e + 2) ++report.crowded_edges;
     if (end == e + 2 && edges[e].second == edges[e + 1].second) ++report.inconsistent_edges;

@@ -9,12 +9,12 @@
 
 namespace plica {
 
-/// Three tetrahedra with a face in common, if there are any, else two on the same side of one: some of them overlap. Else none. Of
-/// tetrahedra with positive volumes.
+/// Three tetrahedra with a face in common, if there are any, else two on the same side of one: some
+/// of them overlap. Else none. Of tetrahedra with positive volumes.
 std::vector<std::size_t> overlap_at_a_face(const TetMesh& mesh);
 
-/// The faces that belong to one tetrahedron only, counter-clockwise seen from outside; mesh vertex numbers, in the
-/// order of the tetrahedra.
+/// The faces that belong to one tetrahedron only, counter-clockwise seen from outside; mesh vertex
+/// numbers, in the order of the tetrahedra.
 std::vector<std::array<int, 3>> boundary_triangles(const TetMesh& mesh);
 
 /// The boundary as a surface of its own.
@@ -33,18 +33,21 @@ double enclosed_volume(const TriangleSurface& surface);
 
 /// What a reader of surfaces found, repaired and left out.
 struct SurfaceReport {
-  std::string format;                     ///< like "STL binary"
-  int unreferenced = 0;                   ///< vertices of no triangle, dropped
-  int collapsed = 0;                      ///< triangles with a vertex twice, dropped
-  int repeated = 0;                       ///< triangles with the vertices of another one in the same turn, dropped
-  int left_out = 0;                       ///< faces that are none, at most one of a hundred
-  std::map<std::string, int> linearised;  ///< faces of higher order, of which the corners were taken: kind -> how many
-  int open_edges = 0;                     ///< of one triangle only
-  int crowded_edges = 0;                  ///< of more than two: the surface is no manifold there
-  int inconsistent_edges = 0;             ///< of two triangles that look to different sides
-  int parts = 0;                          ///< that share no vertex
-  Point open_at = Point::Zero();          ///< the middle of the first edge that keeps it from being closed [m]
-  bool turned = false;                    ///< closed, but inside out: all triangles were turned
+  std::string format;    ///< like "STL binary"
+  int unreferenced = 0;  ///< vertices of no triangle, dropped
+  int collapsed = 0;     ///< triangles with a vertex twice, dropped
+  /// triangles with the vertices of another one in the same turn, dropped
+  int repeated = 0;
+  int left_out = 0;  ///< faces that are none, at most one of a hundred
+  /// faces of higher order, of which the corners were taken: kind -> how many
+  std::map<std::string, int> linearised;
+  int open_edges = 0;          ///< of one triangle only
+  int crowded_edges = 0;       ///< of more than two: the surface is no manifold there
+  int inconsistent_edges = 0;  ///< of two triangles that look to different sides
+  int parts = 0;               ///< that share no vertex
+  /// the middle of the first edge that keeps it from being closed [m]
+  Point open_at = Point::Zero();
+  bool turned = false;  ///< closed, but inside out: all triangles were turned
 
   /// Whether it has an inside.
   bool closed() const { return open_edges == 0 && crowded_edges == 0 && inconsistent_edges == 0; }

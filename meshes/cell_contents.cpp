@@ -19,8 +19,8 @@ struct Crossing {
   int turns;  // 1: into the body, upwards; -1: out of it
 };
 
-// Seen from above: twice the area of an edge and the line, positive to the edge's left. It is computed from the lower vertex to the
-// higher one, so that both triangles at an edge get the same.
+// Seen from above: twice the area of an edge and the line, positive to the edge's left. It is
+// computed from the lower vertex to the higher one, so that both triangles at an edge get the same.
 struct Side {
   double area;
   bool left;
@@ -35,8 +35,8 @@ Side side_of(const TriangleSurface& surface, int from, int to, double x, double 
 
 // Calls visit(i, j) for the lines that a triangle is over or under, by its box
 template <class Visit>
-void for_lines(const std::array<const Point*, 3>& t, const Point& low, double spacing, const std::array<int, 2>& counts,
-               const Visit& visit) {
+void for_lines(const std::array<const Point*, 3>& t, const Point& low, double spacing,
+               const std::array<int, 2>& counts, const Visit& visit) {
   std::array<int, 2> first, last;
   for (int a = 0; a < 2; ++a) {
     const auto [from, to] = std::minmax({(*t[0])[a], (*t[1])[a], (*t[2])[a]});
@@ -66,11 +66,13 @@ std::vector<Crossing> crossings_of(const TriangleSurface& surface, const Point& 
       }
       if (left != 0 && left != 3) return;
       const double height = sum != 0 ? z / sum : (*at[0])[2];
-      const auto line = static_cast<std::size_t>(j) * static_cast<std::size_t>(counts[0]) + static_cast<std::size_t>(i);
+      const auto line = static_cast<std::size_t>(j) * static_cast<std::size_t>(counts[0]) +
+                        static_cast<std::size_t>(i);
       crossings.push_back({line, height, left == 3 ? -1 : 1});
     });
   }
-  std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::tuple(c.line, c.z, -c.turns); });
+  std::ranges::sort(crossings, {},
+                    [](const Crossing& c) { return std::tuple(c.line, c.z, -c.turns); });
   return crossings;
 }
 
@@ -81,7 +83,8 @@ InsideLines::InsideLines(const TriangleSurface& surface, const Point& low, doubl
     : counts_(counts) {
   const std::vector<Crossing> crossings = crossings_of(surface, low, spacing, counts);
   auto next = crossings.begin();
-  const std::size_t lines = static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);
+  const std::size_t lines =
+      static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);
   for (std::size_t line = 0; line < lines; ++line) {
     double from = 0;
     for (int turns = 0; next != crossings.end() && next->line == line; ++next) {
@@ -101,7 +104,8 @@ double common(const InsideLines::Interval& a, const InsideLines::Interval& b) {
   return std::max(0.0, std::min(a.to, b.to) - std::max(a.from, b.from));
 }
 
-// Where a line along z is in a tetrahedron: where none of its barycentric weights, linear in z, is below zero
+// Where a line along z is in a tetrahedron: where none of its barycentric weights, linear in z, is
+// below zero
 InsideLines::Interval along(double x, double y, const std::array<Point, 4>& corners) {
   InsideLines::Interval inside{0, 1};
   const Weights low = barycentric({x, y, 0}, corners), high = barycentric({x, y, 1}, corners);
@@ -118,14 +122,17 @@ InsideLines::Interval along(double x, double y, const std::array<Point, 4>& corn
 
 CellContents::CellContents(const TriangleSurface& surface, const Point& low, double size,
                            const std::array<int, 3>& cells)
-    : low_(low), size_(size), inside_(surface, low, size / lines, {lines * cells[0], lines * cells[1]}) {
+    : low_(low),
+      size_(size),
+      inside_(surface, low, size / lines, {lines * cells[0], lines * cells[1]}) {
   const TetMesh cell = box_mesh({Point::Zero(), Point::Ones()}, {1, 1, 1});
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     Line& line = lines_[l];
     const auto i = static_cast<int>(l) % lines, j = static_cast<int>(l) / lines;
     double sum = 0;
     for (std::size_t t = 0; t < 6; ++t) {
-      line.tets[t] = along((i + 0.5) / lines, (j + 0.5) / lines, corners_of(cell, static_cast<int>(t)));
+      line.tets[t] =
+          along((i + 0.5) / lines, (j + 0.5) / lines, corners_of(cell, static_cast<int>(t)));
       sum += common(line.tets[t], {0, 1});
     }
     line.weight = 1 / sum;
@@ -140,7 +147,8 @@ CellContents::Contents CellContents::of(int i, int j, int k) const {
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     const int a = static_cast<int>(l) % lines, b = static_cast<int>(l) / lines;
     for (const auto& [from, to] : inside_.at(lines * i + a, lines * j + b)) {
-      const Interval here{std::max(0.0, (from - bottom) / size_), std::min(1.0, (to - bottom) / size_)};
+      const Interval here{std::max(0.0, (from - bottom) / size_),
+                          std::min(1.0, (to - bottom) / size_)};
       if (!(here.to > here.from)) continue;
       pieces.push_back({a, b, here, pieces.size()});
       for (std::size_t t = 0; t < 6; ++t)
@@ -160,8 +168,10 @@ int CellContents::parts_of(std::vector<Piece> pieces) {
   };
   for (std::size_t p = 0; p < pieces.size(); ++p)
     for (std::size_t q = p + 1; q < pieces.size(); ++q) {
-      const bool beside = std::abs(pieces[p].i - pieces[q].i) + std::abs(pieces[p].j - pieces[q].j) == 1;
-      if (beside && common(pieces[p].along, pieces[q].along) > 0) pieces[part_of(p)].part = part_of(q);
+      const bool beside =
+          std::abs(pieces[p].i - pieces[q].i) + std::abs(pieces[p].j - pieces[q].j) == 1;
+      if (beside && common(pieces[p].along, pieces[q].along) > 0)
+        pieces[part_of(p)].part = part_of(q);
     }
   std::map<std::size_t, double> volume;  // of a part, in cells
   for (std::size_t p = 0; p < pieces.size(); ++p)

@@ -25,7 +25,8 @@ double checked_size(const std::string& what, double value) {
 }
 
 Point checked_point(const std::string& what, const Point& point) {
-  if (!point.allFinite()) refuse(what, point.transpose().format({12, Eigen::DontAlignCols, ", "}), "finite");
+  if (!point.allFinite())
+    refuse(what, point.transpose().format({12, Eigen::DontAlignCols, ", "}), "finite");
   return point;
 }
 

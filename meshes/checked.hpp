@@ -14,8 +14,8 @@ Point checked_point(const std::string& what, const Point& point);
 /// `cells` when it is at least 1; else an InputError.
 int checked_cells(const std::string& what, int cells);
 
-/// Refuses what an int cannot number, before anything of that size is allocated. The count is a double, as the product
-/// of counts may not fit an integer.
+/// Refuses what an int cannot number, before anything of that size is allocated. The count is a
+/// double, as the product of counts may not fit an integer.
 void checked_count(const std::string& what, double count);
 
 }  // namespace plica

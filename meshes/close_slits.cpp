@@ -11,7 +11,8 @@ namespace {
 
 using Loop = std::vector<int>;  // points, in the order in which the triangles beside them go
 
-/// The open edges, one after the other. Where more than two meet in a point, what begins there is left out.
+/// The open edges, one after the other. Where more than two meet in a point, what begins there is
+/// left out.
 std::vector<Loop> open_loops(const TriangleSurface& surface) {
   std::map<std::array<int, 2>, int> uses;
   for (const auto& t : surface.triangles)
@@ -19,7 +20,8 @@ std::vector<Loop> open_loops(const TriangleSurface& surface) {
   std::map<int, int> next;
   std::vector<int> crowded;
   for (const auto& [edge, count] : uses)
-    if (!uses.contains({edge[1], edge[0]}) && !next.emplace(edge[0], edge[1]).second) crowded.push_back(edge[0]);
+    if (!uses.contains({edge[1], edge[0]}) && !next.emplace(edge[0], edge[1]).second)
+      crowded.push_back(edge[0]);
   for (const int p : crowded) next.erase(p);
   std::vector<Loop> loops;
   while (!next.empty()) {

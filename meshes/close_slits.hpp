@@ -4,8 +4,9 @@
 
 namespace plica {
 
-/// Closes the holes of a surface that are narrower than `width` [m] in the mean, each by triangles from its edges to their middle: a slit
-/// that a CAD program left, a sliver that is missing. Returns how many. Wider ones stay.
+/// Closes the holes of a surface that are narrower than `width` [m] in the mean, each by triangles
+/// from its edges to their middle: a slit that a CAD program left, a sliver that is missing.
+/// Returns how many. Wider ones stay.
 int close_slits(TriangleSurface& surface, double width);
 
 }  // namespace plica

@@ -31,15 +31,17 @@ double relative_shift(const MeshSize& finest, const MeshSize& coarse) {
 }
 
 bool beyond(const Limits& limits, const MeshSize& finest, const MeshSize& coarse) {
-  return largest_factor(finest, coarse) > limits.length || factor(finest.volume, coarse.volume) > limits.volume ||
-         factor(finest.mass, coarse.mass) > limits.volume || relative_shift(finest, coarse) > limits.shift;
+  return largest_factor(finest, coarse) > limits.length ||
+         factor(finest.volume, coarse.volume) > limits.volume ||
+         factor(finest.mass, coarse.mass) > limits.volume ||
+         relative_shift(finest, coarse) > limits.shift;
 }
 
 std::string measures(const MeshSize& size) {
   const Point e = extent(size), &c = size.centroid;
-  return text(number(e[0], 4), " x ", number(e[1], 4), " x ", number(e[2], 4), " m, ", number(size.volume, 4), " m^3, ",
-              number(size.mass, 4), " kg, centroid [", number(c[0], 4), ", ", number(c[1], 4), ", ", number(c[2], 4),
-              "]");
+  return text(number(e[0], 4), " x ", number(e[1], 4), " x ", number(e[2], 4), " m, ",
+              number(size.volume, 4), " m^3, ", number(size.mass, 4), " kg, centroid [",
+              number(c[0], 4), ", ", number(c[1], 4), ", ", number(c[2], 4), "]");
 }
 
 // The unit of a mesh file without a scale, where the ratio of the lengths is about a power of ten
@@ -73,7 +75,8 @@ MeshSize mesh_size(const TetMesh& mesh, const std::vector<double>& density) {
     };
     const double volume = mesh.part(e) * tet_volume(at(0), at(1), at(2), at(3));
     size.volume += volume;
-    size.mass += volume * density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])];
+    size.mass +=
+        volume * density[mesh.region.empty() ? 0 : static_cast<std::size_t>(mesh.region[e])];
     size.centroid += volume / 4 * (at(0) + at(1) + at(2) + at(3));
   }
   if (size.volume > 0) size.centroid /= size.volume;
@@ -84,7 +87,8 @@ LevelComparison compare_levels(const MeshSize& finest, const MeshSize& coarse, s
   if (!beyond(doubtful, finest, coarse)) return {};
   const bool no = beyond(wrong, finest, coarse);
   return {no ? SameBody::no : SameBody::doubtful,
-          text("level ", level, no ? " is not the body of level 0: " : " differs from level 0: ", measures(coarse),
+          text("level ", level,
+               no ? " is not the body of level 0: " : " differs from level 0: ", measures(coarse),
                " instead of ", measures(finest), no ? likely_cause(finest, coarse, level) : "")};
 }
 

@@ -8,8 +8,9 @@ namespace plica {
 
 /// A mesh as a whole.
 struct MeshSize {
-  Box box;                         ///< around its vertices [m]
-  bool around = false;             ///< cells that the body fills in part: larger than it, not to be compared
+  Box box;  ///< around its vertices [m]
+  /// cells that the body fills in part: larger than it, not to be compared
+  bool around = false;
   double volume = 0;               ///< [m^3]
   double mass = 0;                 ///< [kg]
   Point centroid = Point::Zero();  ///< of the volume [m]
@@ -21,9 +22,12 @@ MeshSize mesh_size(const TetMesh& mesh, const std::vector<double>& density);
 
 /// How far a coarse level is from the same body as the finest one.
 enum class SameBody {
-  yes,       ///< every length within 5 %, volume and mass within 25 %, the centroid within 3 % of the extent
+  /// every length within 5 %, volume and mass within 25 %, the centroid within 3 % of the extent
+  yes,
   doubtful,  ///< further apart, as coarse meshes of round bodies may be
-  no  ///< a length differs by a factor above 2, volume or mass by more than 4, or the centroid by a quarter of the extent
+  /// a length differs by a factor above 2, volume or mass by more than 4, or the centroid by a
+  /// quarter of the extent
+  no
 };
 
 /// The judgement, and a sentence with the numbers and the likely cause where it is not `yes`.
@@ -32,8 +36,9 @@ struct LevelComparison {
   std::string sentence;           ///< "level 1 is not the size of level 0: it measures ..."
 };
 
-/// Compares a coarse level with the finest: extent along each axis, volume, mass and centroid. A mesh that was read with the
-/// wrong scale, or lies elsewhere, still has an embedding in the finest level, and the cycle would only be wrong.
+/// Compares a coarse level with the finest: extent along each axis, volume, mass and centroid. A
+/// mesh that was read with the wrong scale, or lies elsewhere, still has an embedding in the finest
+/// level, and the cycle would only be wrong.
 LevelComparison compare_levels(const MeshSize& finest, const MeshSize& coarse, std::size_t level);
 
 }  // namespace plica

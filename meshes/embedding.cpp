@@ -13,8 +13,10 @@ namespace plica {
 
 namespace {
 
-// Weights of the nearest point of a triangle. Names: ab_p is the product of edge ab with the way from a to p.
-std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
+// Weights of the nearest point of a triangle. Names: ab_p is the product of edge ab with the way
+// from a to p.
+std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const Point& b,
+                                          const Point& c) {
   const Point ab = b - a, ac = c - a;
   const double ab_p = ab.dot(p - a), ac_p = ac.dot(p - a);
   if (ab_p <= 0.0 && ac_p <= 0.0) return {1.0, 0.0, 0.0};
@@ -37,7 +39,8 @@ std::array<double, 3> nearest_in_triangle(const Point& p, const Point& a, const 
     const double t = (ac_q - ab_q) / ((ac_q - ab_q) + (ab_r - ac_r));
     return {0.0, 1.0 - t, t};
   }
-  const double v = over_ac / (over_ab + over_ac + over_bc), w = over_ab / (over_ab + over_ac + over_bc);
+  const double v = over_ac / (over_ab + over_ac + over_bc),
+               w = over_ab / (over_ab + over_ac + over_bc);
   return {1.0 - v - w, v, w};
 }
 
@@ -48,20 +51,23 @@ Weights barycentric(const Point& p, const std::array<Point, 4>& corners) {
   const Point bc = b.cross(c), r = p - corners[0];
   const Point ar = a.cross(r);
   const double six_volumes = a.dot(bc);
-  const double w1 = r.dot(bc) / six_volumes, w2 = ar.dot(c) / six_volumes, w3 = -ar.dot(b) / six_volumes;
+  const double w1 = r.dot(bc) / six_volumes, w2 = ar.dot(c) / six_volumes,
+               w3 = -ar.dot(b) / six_volumes;
   return {1.0 - w1 - w2 - w3, w1, w2, w3};
 }
 
 bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x) {
   for (int k = 0; k < 3; ++k) {  // most are beside it
-    const auto [least, most] = std::ranges::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
+    const auto [least, most] =
+        std::ranges::minmax({corners[0][k], corners[1][k], corners[2][k], corners[3][k]});
     if (x[k] < least || x[k] > most) return false;
   }
   return std::ranges::all_of(barycentric(x, corners), [](double weight) { return weight >= 0; });
 }
 
 Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners) {
-  static constexpr std::array<std::array<std::size_t, 3>, 4> faces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  static constexpr std::array<std::array<std::size_t, 3>, 4> faces = {
+      {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   const Weights own = barycentric(p, corners);
   Weights best = own;
   double nearest = std::numeric_limits<double>::infinity();
@@ -79,8 +85,8 @@ Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners) {
 
 Point weighted(const Weights& weights, const std::array<Point, 4>& corners) {
   // From corner 0, as coordinates far from the origin would round more than the edges do
-  return corners[0] + weights[1] * (corners[1] - corners[0]) + weights[2] * (corners[2] - corners[0]) +
-         weights[3] * (corners[3] - corners[0]);
+  return corners[0] + weights[1] * (corners[1] - corners[0]) +
+         weights[2] * (corners[2] - corners[0]) + weights[3] * (corners[3] - corners[0]);
 }
 
 std::array<Point, 4> corners_of(const TetMesh& mesh, int tet) {
@@ -101,7 +107,9 @@ constexpr double inside_tolerance = 1e-9;  // of an edge
 constexpr double tie_tolerance = 1e-9;     // of the distance
 constexpr double farthest = 1e100;         // products of distances still fit a double
 
-double smallest(const Weights& weights) { return *std::min_element(weights.begin(), weights.end()); }
+double smallest(const Weights& weights) {
+  return *std::min_element(weights.begin(), weights.end());
+}
 
 // Keeps the tetrahedron with the largest smallest weight; done when that is not negative
 struct Containing {
@@ -178,7 +186,8 @@ TetLocator& TetLocator::operator=(TetLocator&&) noexcept = default;
 
 Located TetLocator::locate(const Point& point) const {
   checked_point("a point to locate", point);
-  if (point.lpNorm<Eigen::Infinity>() > farthest) throw InputError("a point is more than 1e100 m away from the origin");
+  if (point.lpNorm<Eigen::Infinity>() > farthest)
+    throw InputError("a point is more than 1e100 m away from the origin");
   Containing containing{*mesh_, point};
   Eigen::BVIntersect(*tree_, containing);
   if (containing.found.tet >= 0) return containing.found;
@@ -186,10 +195,12 @@ Located TetLocator::locate(const Point& point) const {
   Nearest nearest{*mesh_, point};
   Eigen::BVMinimize(*tree_, nearest);
   LeastExtrapolated choice{*mesh_, point, nearest.least * (1.0 + tie_tolerance), {}};
-  choice.found = {nearest.tet, barycentric(point, corners_of(*mesh_, nearest.tet)), std::sqrt(nearest.least)};
+  choice.found = {nearest.tet, barycentric(point, corners_of(*mesh_, nearest.tet)),
+                  std::sqrt(nearest.least)};
   Eigen::BVIntersect(*tree_, choice);
   Located& found = choice.found;
-  if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet)) found.distance = 0.0;
+  if (found.distance <= inside_tolerance * mean_edge_length(*mesh_, found.tet))
+    found.distance = 0.0;
   return found;
 }
 
@@ -205,7 +216,8 @@ Weights cut(Weights weights) {
   return weights;
 }
 
-// Pulled towards the centroid (weights 1/4) until no weight is below the bound: all linear in the pull
+// Pulled towards the centroid (weights 1/4) until no weight is below the bound: all linear in the
+// pull
 bool hold(Weights& weights) {
   const double least = *std::min_element(weights.begin(), weights.end());
   if (least >= lowest_weight) return false;
@@ -227,7 +239,8 @@ Embedding embed(const std::vector<Point>& points, const TetLocator& locator, Out
     const Located at = locator.locate(points[i]);
     const bool miss = at.distance > 0.0;
     Weights weights = at.weights;
-    if (outside == Outside::clamp) weights = miss ? nearest_inside(points[i], corners_of(mesh, at.tet)) : cut(weights);
+    if (outside == Outside::clamp)
+      weights = miss ? nearest_inside(points[i], corners_of(mesh, at.tet)) : cut(weights);
     if (outside == Outside::extrapolate && hold(weights)) ++result.held;
     if (outside == Outside::keep && miss) weights = {};
     if (miss) {

@@ -17,8 +17,9 @@ Weights barycentric(const Point& p, const std::array<Point, 4>& corners);
 /// Whether x is in a tetrahedron, its faces included.
 bool is_in_tetrahedron(const std::array<Point, 4>& corners, const Point& x);
 
-/// The weights of the point of the tetrahedron that is nearest to `p`, none below zero; those of `p` when it is inside.
-/// A triangle's nearest point after C. Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+/// The weights of the point of the tetrahedron that is nearest to `p`, none below zero; those of
+/// `p` when it is inside. A triangle's nearest point after C. Ericson, Real-Time Collision
+/// Detection (2005), section 5.1.5.
 Weights nearest_inside(const Point& p, const std::array<Point, 4>& corners);
 
 /// The point with these weights. [m]
@@ -34,13 +35,16 @@ struct Located {
   double distance = 0.0;  ///< to that tetrahedron, 0 inside [m]
 };
 
-/// Finds the tetrahedron that contains a point, or the nearest one, by a tree of bounding boxes (Eigen's KdBVH).
+/// Finds the tetrahedron that contains a point, or the nearest one, by a tree of bounding boxes
+/// (Eigen's KdBVH).
 ///
-/// A point counts as inside up to 1e-9 of an edge beyond a face. Of several nearest tetrahedra (a point that faces an
-/// edge or a corner) it takes the one that is extrapolated least, then the first: never a matter of the tree's order.
+/// A point counts as inside up to 1e-9 of an edge beyond a face. Of several nearest tetrahedra (a
+/// point that faces an edge or a corner) it takes the one that is extrapolated least, then the
+/// first: never a matter of the tree's order.
 class TetLocator {
  public:
-  /// Keeps a reference to `mesh`, which must have a tetrahedron (InputError) and outlive the locator.
+  /// Keeps a reference to `mesh`, which must have a tetrahedron (InputError) and outlive the
+  /// locator.
   explicit TetLocator(const TetMesh& mesh);
   explicit TetLocator(TetMesh&&) = delete;
   ~TetLocator();
@@ -66,21 +70,24 @@ enum class Outside {
   keep          ///< it has no counterpart: a row of zero weights, for the caller to leave out
 };
 
-/// Points embedded in a mesh: one row per point, value(point) = sum over k of weights[k] * value(vertices[k]).
+/// Points embedded in a mesh: one row per point, value(point) = sum over k of weights[k] *
+/// value(vertices[k]).
 ///
-/// Rows sum to 1 (but kept ones), so translations are exact; linear fields are exact inside to rounding and, unless a
-/// weight was held, where extrapolated.
+/// Rows sum to 1 (but kept ones), so translations are exact; linear fields are exact inside to
+/// rounding and, unless a weight was held, where extrapolated.
 struct Embedding {
   std::vector<std::array<int, 4>> vertices;  ///< of the tetrahedron, also in kept rows
   std::vector<Weights> weights;              ///< of these vertices
   std::vector<char> outside;                 ///< 1 for a miss
   int misses = 0;                            ///< points outside
   int held = 0;                              ///< misses whose weights were held back (extrapolate)
-  double largest_distance_over_edge = 0.0;   ///< of a miss to the mesh, over the mean edge of its tetrahedron
+  /// of a miss to the mesh, over the mean edge of its tetrahedron
+  double largest_distance_over_edge = 0.0;
 };
 
 /// @param points   finite [m]; InputError otherwise, with the point's index
-/// @param locator  of the mesh; build it once when several sets of points are embedded in the same mesh
+/// @param locator  of the mesh; build it once when several sets of points are embedded in the same
+/// mesh
 /// @param outside  what becomes of points outside it
 Embedding embed(const std::vector<Point>& points, const TetLocator& locator, Outside outside);
 

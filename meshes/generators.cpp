@@ -11,11 +11,13 @@
 namespace plica {
 
 Point rounded(const Point& p) {
-  // The cube at the centre, relative to the ball. Found by trial: 0.57 to 0.9 give sound meshes, 0.8 the best ones.
+  // The cube at the centre, relative to the ball. Found by trial: 0.57 to 0.9 give sound meshes,
+  // 0.8 the best ones.
   constexpr double core = 0.8;
   const double shell = p.lpNorm<Eigen::Infinity>();
   if (shell == 0.0) return Point::Zero();
-  const Point even = (p / shell).unaryExpr([](double c) { return std::tan(c * std::numbers::pi / 4.0); });
+  const Point even =
+      (p / shell).unaryExpr([](double c) { return std::tan(c * std::numbers::pi / 4.0); });
   return shell * (shell * even.normalized()) + (1.0 - shell) * (core * p);
 }
 
@@ -35,7 +37,8 @@ void for_each(const Index& counts, Visit visit) {
       for (int i = 0; i < counts[0]; ++i) visit(Index{i, j, k});
 }
 
-// The six ways along the edges of a cell from one end of its diagonal to the other; `even` ones turn right-handed
+// The six ways along the edges of a cell from one end of its diagonal to the other; `even` ones
+// turn right-handed
 struct Walk {
   Index axes;
   bool even;
@@ -43,7 +46,8 @@ struct Walk {
 constexpr Walk walks[6] = {{{0, 1, 2}, true}, {{0, 2, 1}, false}, {{1, 0, 2}, false},
                            {{1, 2, 0}, true}, {{2, 0, 1}, true},  {{2, 1, 0}, false}};
 
-void cut_cell(const Index& cells, const std::array<bool, 3>& mirrored, const Index& cell, TetMesh& mesh) {
+void cut_cell(const Index& cells, const std::array<bool, 3>& mirrored, const Index& cell,
+              TetMesh& mesh) {
   Index start = cell, step = {1, 1, 1};
   bool right_handed = true;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -93,7 +97,8 @@ TetMesh box_mesh(const Box& box, const std::array<int, 3>& cells) {
   for (int a = 0; a < 3; ++a)
     checked_size(std::string("the size of the box along ") + axes[a], box.max[a] - box.min[a]);
   return grid_mesh(cells, {false, false, false}, [&](const Point& unit) {
-    return Point(std::lerp(box.min.x(), box.max.x(), unit.x()), std::lerp(box.min.y(), box.max.y(), unit.y()),
+    return Point(std::lerp(box.min.x(), box.max.x(), unit.x()),
+                 std::lerp(box.min.y(), box.max.y(), unit.y()),
                  std::lerp(box.min.z(), box.max.z(), unit.z()));
   });
 }
@@ -101,8 +106,9 @@ TetMesh box_mesh(const Box& box, const std::array<int, 3>& cells) {
 TetMesh ball_mesh(const Point& centre, double radius, int cells) {
   checked_point("the centre of the ball", centre);
   checked_size("the radius of the ball", radius);
-  return grid_mesh({cells, cells, cells}, {true, true, true},
-                   [&](const Point& unit) -> Point { return centre + radius * rounded(2.0 * unit - Point::Ones()); });
+  return grid_mesh({cells, cells, cells}, {true, true, true}, [&](const Point& unit) -> Point {
+    return centre + radius * rounded(2.0 * unit - Point::Ones());
+  });
 }
 
 TetMesh cylinder_mesh(const Point& base, double radius, double length, int across, int along) {
@@ -126,9 +132,10 @@ TriangleSurface icosahedron() {
   surface.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                       {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   for (Point& p : surface.vertices) p.normalize();
-  surface.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  surface.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                       {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                       {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                       {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   return surface;
 }
 
@@ -139,9 +146,11 @@ void subdivide(TriangleSurface& surface) {
   const auto middle = [&](int a, int b) {
     const auto [low, high] = std::minmax(a, b);
     const auto key = (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint64_t>(high);
-    const auto [entry, is_new] = middles.try_emplace(key, static_cast<int>(surface.vertices.size()));
+    const auto [entry, is_new] =
+        middles.try_emplace(key, static_cast<int>(surface.vertices.size()));
     if (is_new) {
-      const Point sum = surface.vertices[static_cast<std::size_t>(a)] + surface.vertices[static_cast<std::size_t>(b)];
+      const Point sum = surface.vertices[static_cast<std::size_t>(a)] +
+                        surface.vertices[static_cast<std::size_t>(b)];
       surface.vertices.push_back(sum.normalized());
     }
     return entry->second;
@@ -150,7 +159,8 @@ void subdivide(TriangleSurface& surface) {
   finer.reserve(surface.triangles.size() * 4);
   for (const auto& [a, b, c] : surface.triangles) {
     const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    finer.insert(finer.end(), {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc}, Triangle{ab, bc, ca}});
+    finer.insert(finer.end(), {Triangle{a, ab, ca}, Triangle{b, bc, ab}, Triangle{c, ca, bc},
+                               Triangle{ab, bc, ca}});
   }
   surface.triangles = std::move(finer);
 }
@@ -161,7 +171,8 @@ TriangleSurface sphere_surface(const Point& centre, double radius, int subdivisi
   checked_point("the centre of the sphere", centre);
   checked_size("the radius of the sphere", radius);
   if (subdivisions < 0)
-    throw InputError("the number of subdivisions is " + std::to_string(subdivisions) + "; it must be 0 or more");
+    throw InputError("the number of subdivisions is " + std::to_string(subdivisions) +
+                     "; it must be 0 or more");
   checked_count("the number of triangles", 20.0 * std::pow(4.0, subdivisions));
 
   TriangleSurface surface = icosahedron();

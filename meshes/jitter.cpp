@@ -86,11 +86,14 @@ std::vector<Point> moves_of(const TetMesh& mesh, double amount, unsigned seed) {
 }  // namespace
 
 TetMesh jittered(TetMesh mesh, double amount, unsigned seed) {
-  if (!(amount >= 0 && amount < 0.5)) throw InputError(text("jitter is ", number(amount), "; expected in [0, 0.5)"));
+  if (!(amount >= 0 && amount < 0.5))
+    throw InputError(text("jitter is ", number(amount), "; expected in [0, 0.5)"));
   std::vector<Point> moves = moves_of(mesh, amount, seed);
   const std::vector<Point> rest = mesh.vertices;
   const auto volume = [&mesh](const std::vector<Point>& x, std::size_t t) {
-    const auto at = [&](std::size_t k) -> const Point& { return x[static_cast<std::size_t>(mesh.tets[t][k])]; };
+    const auto at = [&](std::size_t k) -> const Point& {
+      return x[static_cast<std::size_t>(mesh.tets[t][k])];
+    };
     return tet_volume(at(0), at(1), at(2), at(3));
   };
   for (int halvings = 0;; ++halvings) {
@@ -101,7 +104,8 @@ TetMesh jittered(TetMesh mesh, double amount, unsigned seed) {
         for (const int v : mesh.tets[t]) too_far[static_cast<std::size_t>(v)] = 1;
     if (std::ranges::count(too_far, 1) == 0) return mesh;
     for (std::size_t v = 0; v < moves.size(); ++v)
-      if (too_far[v] != 0) moves[v] = halvings < most_halvings ? Point(moves[v] / 2) : Point::Zero();
+      if (too_far[v] != 0)
+        moves[v] = halvings < most_halvings ? Point(moves[v] / 2) : Point::Zero();
   }
 }
 

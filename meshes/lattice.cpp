@@ -17,15 +17,18 @@ namespace plica {
 namespace {
 
 constexpr double most_cells = 8e6;
-constexpr double inner_part = 1 - 1e-6;  // of a cube's edge: a face that only touches a cube is not in it
+// of a cube's edge: a face that only touches a cube is not in it
+constexpr double inner_part = 1 - 1e-6;
 constexpr int fewest_vertices = 30;
 constexpr double least_part = 0.02;  // of a tetrahedron that is body
 
-// Whether a triangle reaches into a cube around the origin with edges of 2 half: no plane of 13 keeps them apart (Akenine-Moeller,
-// Fast 3D triangle-box overlap testing, Journal of Graphics Tools 6, 2001)
+// Whether a triangle reaches into a cube around the origin with edges of 2 half: no plane of 13
+// keeps them apart (Akenine-Moeller, Fast 3D triangle-box overlap testing, Journal of Graphics
+// Tools 6, 2001)
 bool reaches_into(const std::array<Point, 3>& t, double half) {
   const auto apart = [&](const Point& axis) {
-    const double a = t[0].dot(axis), b = t[1].dot(axis), c = t[2].dot(axis), reach = half * axis.lpNorm<1>();
+    const double a = t[0].dot(axis), b = t[1].dot(axis), c = t[2].dot(axis),
+                 reach = half * axis.lpNorm<1>();
     return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
   };
   for (int i = 0; i < 3; ++i)
@@ -42,15 +45,17 @@ void check_cell_size(const std::vector<Point>& points, double size) {
   const Box box = bounding_box(points);
   const Point extent = box.max - box.min;
   if (size > extent.maxCoeff())
-    throw InputError(text("the size of cells, ", number(size), " m, is larger than the body, ", number(extent[0], 4),
-                          " x ", number(extent[1], 4), " x ", number(extent[2], 4), " m"));
+    throw InputError(text("the size of cells, ", number(size), " m, is larger than the body, ",
+                          number(extent[0], 4), " x ", number(extent[1], 4), " x ",
+                          number(extent[2], 4), " m"));
 }
 
 namespace {
 
 class Lattice {
  public:
-  Lattice(const std::vector<Point>& points, double size) : size_(checked_size("the size of cells", size)) {
+  Lattice(const std::vector<Point>& points, double size)
+      : size_(checked_size("the size of cells", size)) {
     const Box box = bounding_box(points);
     const Point extent = box.max - box.min;
     check_cell_size(points, size);
@@ -62,7 +67,8 @@ class Lattice {
     }
     if (all > most_cells)
       throw InputError(text("the size of cells, ", number(size), " m, makes ", number(all),
-                            " of them in the body's bounding box; ", number(most_cells), " at most"));
+                            " of them in the body's bounding box; ", number(most_cells),
+                            " at most"));
     const Point edges = size * Point(cells_[0], cells_[1], cells_[2]);
     low_ = (box.min + box.max - edges) / 2;
     marked_.assign(static_cast<std::size_t>(all), false);
@@ -73,17 +79,22 @@ class Lattice {
       std::array<Point, 3> t;
       for (std::size_t k = 0; k < 3; ++k)
         t[k] = (surface.vertices[static_cast<std::size_t>(triangle[k])] - low_) / size_;
-      const Point from = t[0].cwiseMin(t[1]).cwiseMin(t[2]), to = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+      const Point from = t[0].cwiseMin(t[1]).cwiseMin(t[2]),
+                  to = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
       std::array<int, 3> first, last;
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto cell = [&](double x) { return std::clamp(static_cast<int>(std::floor(x)), 0, cells_[a] - 1); };
-        first[a] = cell(from[static_cast<int>(a)] - 1e-6), last[a] = cell(to[static_cast<int>(a)] + 1e-6);
+        const auto cell = [&](double x) {
+          return std::clamp(static_cast<int>(std::floor(x)), 0, cells_[a] - 1);
+        };
+        first[a] = cell(from[static_cast<int>(a)] - 1e-6),
+        last[a] = cell(to[static_cast<int>(a)] + 1e-6);
       }
       for (int k = first[2]; k <= last[2]; ++k)
         for (int j = first[1]; j <= last[1]; ++j)
           for (int i = first[0]; i <= last[0]; ++i) {
             const Point centre(i + 0.5, j + 0.5, k + 0.5);
-            if (!marked_[index(i, j, k)] && reaches_into({t[0] - centre, t[1] - centre, t[2] - centre}, inner_part / 2))
+            if (!marked_[index(i, j, k)] &&
+                reaches_into({t[0] - centre, t[1] - centre, t[2] - centre}, inner_part / 2))
               marked_[index(i, j, k)] = true;
           }
     }
@@ -95,12 +106,14 @@ class Lattice {
     for_cells([&](int i, int j, int k) {
       const std::size_t c = index(i, j, k);
       if (marked_[c]) return;
-      kept_[c] = i > 0 && !marked_[c - 1] ? kept_[c - 1] : inside(low_ + size_ * Point(i + 0.5, j + 0.5, k + 0.5));
+      kept_[c] = i > 0 && !marked_[c - 1] ? kept_[c - 1]
+                                          : inside(low_ + size_ * Point(i + 0.5, j + 0.5, k + 0.5));
     });
   }
 
-  // The body's part of each tetrahedron of mesh(), without cells that are all but empty: what hangs on them alone would turn inside out
-  // long before the body does. Counts the cells that hold several parts of the body
+  // The body's part of each tetrahedron of mesh(), without cells that are all but empty: what hangs
+  // on them alone would turn inside out long before the body does. Counts the cells that hold
+  // several parts of the body
   std::vector<double> filled(const TriangleSurface& surface, int& shared) {
     const CellContents contents(surface, low_, size_, cells_);
     std::vector<double> parts;
@@ -110,12 +123,13 @@ class Lattice {
       if (!marked_[c]) return void(parts.insert(parts.end(), 6, 1.0));
       const CellContents::Contents here = contents.of(i, j, k);
       double whole = 0, above = 0;  // of the cell; above what each gets at least
-      for (const double part : here.filled) whole += part, above += std::max(part - least_part, 0.0);
+      for (const double part : here.filled)
+        whole += part, above += std::max(part - least_part, 0.0);
       kept_[c] = whole > 6 * least_part;
       if (!kept_[c]) return;
       for (const double part : here.filled)  // the cell's whole is kept
-        parts.push_back(
-            std::min(1.0, least_part + std::max(part - least_part, 0.0) * (whole - 6 * least_part) / above));
+        parts.push_back(std::min(
+            1.0, least_part + std::max(part - least_part, 0.0) * (whole - 6 * least_part) / above));
       shared += here.parts > 1;
     });
     return parts;
@@ -123,7 +137,8 @@ class Lattice {
 
   // Six tetrahedra of each cell that is kept, cell after cell
   TetMesh mesh() const {
-    const TetMesh box = box_mesh({low_, low_ + size_ * Point(cells_[0], cells_[1], cells_[2])}, cells_);
+    const TetMesh box =
+        box_mesh({low_, low_ + size_ * Point(cells_[0], cells_[1], cells_[2])}, cells_);
     TetMesh mesh;
     std::vector<int> number(box.vertices.size(), -1);
     for (std::size_t t = 0; t < box.tets.size(); ++t) {
@@ -143,7 +158,8 @@ class Lattice {
 
  private:
   std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells_[1]) + static_cast<std::size_t>(j)) *
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(cells_[1]) +
+            static_cast<std::size_t>(j)) *
                static_cast<std::size_t>(cells_[0]) +
            static_cast<std::size_t>(i);
   }
@@ -175,7 +191,9 @@ Lattice lattice_over(const TriangleSurface& surface, double size) {
 
 }  // namespace
 
-TetMesh lattice_mesh(const TriangleSurface& surface, double size) { return lattice_over(surface, size).mesh(); }
+TetMesh lattice_mesh(const TriangleSurface& surface, double size) {
+  return lattice_over(surface, size).mesh();
+}
 
 WeightedLattice weighted_lattice(const TriangleSurface& surface, double size) {
   Lattice lattice = lattice_over(surface, size);
@@ -189,10 +207,11 @@ WeightedLattice weighted_lattice(const TriangleSurface& surface, double size) {
 TetMesh coarse_lattice(const TetMesh& mesh, int vertices) {
   const auto most = static_cast<int>(mesh.vertices.size());
   if (most < fewest_vertices)
-    throw InputError(text("the mesh has ", most, " vertices; a coarser one has at least ", fewest_vertices));
+    throw InputError(
+        text("the mesh has ", most, " vertices; a coarser one has at least ", fewest_vertices));
   if (vertices < fewest_vertices || vertices > most)
-    throw InputError(text("the number of vertices of a coarser mesh is ", vertices, "; it must be ", fewest_vertices,
-                          " to ", most, ", which the mesh has"));
+    throw InputError(text("the number of vertices of a coarser mesh is ", vertices, "; it must be ",
+                          fewest_vertices, " to ", most, ", which the mesh has"));
   const TriangleSurface surface = boundary_surface(mesh).surface;
   const TetLocator locator(mesh);
   const auto lattice_of = [&](double size) {
@@ -202,7 +221,8 @@ TetMesh coarse_lattice(const TetMesh& mesh, int vertices) {
     return lattice.mesh();
   };
   const Box box = bounding_box(mesh.vertices);
-  double large = (box.max - box.min).maxCoeff(), small = std::cbrt(enclosed_volume(surface) / (4.0 * vertices));
+  double large = (box.max - box.min).maxCoeff(),
+         small = std::cbrt(enclosed_volume(surface) / (4.0 * vertices));
   TetMesh best = lattice_of(large);
   for (int i = 0; i < 16; ++i) {
     const double size = std::sqrt(small * large);
@@ -219,7 +239,8 @@ TetMesh coarse_lattice(const TetMesh& mesh, int vertices) {
     }
     const std::array<Point, 4> corners = corners_of(best, static_cast<int>(t));
     Box cube = bounding_box({corners.begin(), corners.end()});  // each of the six spans all of it
-    best.region.push_back(mesh.region[static_cast<std::size_t>(locator.locate((cube.min + cube.max) / 2).tet)]);
+    best.region.push_back(
+        mesh.region[static_cast<std::size_t>(locator.locate((cube.min + cube.max) / 2).tet)]);
   }
   return best;
 }

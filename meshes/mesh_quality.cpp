@@ -14,20 +14,25 @@ namespace plica {
 
 namespace {
 
-constexpr std::array<std::array<std::size_t, 2>, 6> corner_pairs = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, 6> corner_pairs = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 double length(const TetMesh& mesh, int a, int b) {
-  return (mesh.vertices[static_cast<std::size_t>(b)] - mesh.vertices[static_cast<std::size_t>(a)]).norm();
+  return (mesh.vertices[static_cast<std::size_t>(b)] - mesh.vertices[static_cast<std::size_t>(a)])
+      .norm();
 }
 
-// Sorted by the lower vertex by counting, then within each vertex: several times faster than one sort of all
+// Sorted by the lower vertex by counting, then within each vertex: several times faster than one
+// sort of all
 template <std::size_t corners>
-std::vector<std::array<int, 2>> edges_of(const std::vector<std::array<int, corners>>& cells, std::size_t vertices) {
+std::vector<std::array<int, 2>> edges_of(const std::vector<std::array<int, corners>>& cells,
+                                         std::size_t vertices) {
   std::vector<std::size_t> start(vertices + 1, 0);
   const auto for_each = [&](auto visit) {
     for (const auto& cell : cells)
       for (std::size_t i = 0; i < corners; ++i)
-        for (std::size_t j = i + 1; j < corners; ++j) visit(std::min(cell[i], cell[j]), std::max(cell[i], cell[j]));
+        for (std::size_t j = i + 1; j < corners; ++j)
+          visit(std::min(cell[i], cell[j]), std::max(cell[i], cell[j]));
   };
   for_each([&](int low, int) { ++start[static_cast<std::size_t>(low) + 1]; });
   for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
@@ -41,14 +46,18 @@ std::vector<std::array<int, 2>> edges_of(const std::vector<std::array<int, corne
     const auto first = highs.begin() + static_cast<std::ptrdiff_t>(start[v]);
     const auto last = highs.begin() + static_cast<std::ptrdiff_t>(start[v + 1]);
     std::sort(first, last);
-    std::for_each(first, std::unique(first, last), [&](int high) { edges.push_back({static_cast<int>(v), high}); });
+    std::for_each(first, std::unique(first, last), [&](int high) {
+      edges.push_back({static_cast<int>(v), high});
+    });
   }
   return edges;
 }
 
 }  // namespace
 
-std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh) { return edges_of(mesh.tets, mesh.vertices.size()); }
+std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh) {
+  return edges_of(mesh.tets, mesh.vertices.size());
+}
 
 std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface) {
   return edges_of(surface.triangles, surface.vertices.size());
@@ -59,7 +68,8 @@ std::vector<double> local_edge_lengths(const TetMesh& mesh) {
   std::vector<int> counts(mesh.vertices.size(), 0);
   for (const auto& edge : mesh_edges(mesh)) {
     const double l = length(mesh, edge[0], edge[1]);
-    for (const int v : edge) sums[static_cast<std::size_t>(v)] += l, ++counts[static_cast<std::size_t>(v)];
+    for (const int v : edge)
+      sums[static_cast<std::size_t>(v)] += l, ++counts[static_cast<std::size_t>(v)];
   }
   for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= std::max(1, counts[v]);
   return sums;
@@ -91,7 +101,8 @@ int root(std::vector<int>& parent, int v) {
 }
 
 template <std::size_t corners>
-std::vector<int> parts_of(std::size_t vertices, const std::vector<std::array<int, corners>>& elements) {
+std::vector<int> parts_of(std::size_t vertices,
+                          const std::vector<std::array<int, corners>>& elements) {
   std::vector<int> parent(vertices);
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& element : elements)
@@ -119,11 +130,13 @@ struct LowerTwin {
   int found = -1;
 
   bool intersectVolume(const Volume& box) const {
-    return box.squaredExteriorDistance(points[static_cast<std::size_t>(self)]) <= tolerance * tolerance;
+    return box.squaredExteriorDistance(points[static_cast<std::size_t>(self)]) <=
+           tolerance * tolerance;
   }
   bool intersectObject(int other) {
     const Point& p = points[static_cast<std::size_t>(self)];
-    if (other >= self || (points[static_cast<std::size_t>(other)] - p).norm() > tolerance) return false;
+    if (other >= self || (points[static_cast<std::size_t>(other)] - p).norm() > tolerance)
+      return false;
     found = other;
     return true;
   }
@@ -135,14 +148,17 @@ std::vector<int> parts_of(const TetMesh& mesh) { return parts_of(mesh.vertices.s
 
 int count_parts(const TetMesh& mesh) { return count_parts(mesh.vertices.size(), mesh.tets); }
 
-int count_parts(const TriangleSurface& surface) { return count_parts(surface.vertices.size(), surface.triangles); }
+int count_parts(const TriangleSurface& surface) {
+  return count_parts(surface.vertices.size(), surface.triangles);
+}
 
 std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance) {
   std::vector<int> vertices(points.size());
   std::iota(vertices.begin(), vertices.end(), 0);
   std::vector<Volume> boxes;
   for (const Point& p : points) boxes.emplace_back(p, p);
-  const Eigen::KdBVH<double, 3, int> tree(vertices.begin(), vertices.end(), boxes.begin(), boxes.end());
+  const Eigen::KdBVH<double, 3, int> tree(vertices.begin(), vertices.end(), boxes.begin(),
+                                          boxes.end());
   std::vector<int> twins;
   for (const int v : vertices) {
     LowerTwin twin{points, v, tolerance};
@@ -154,7 +170,8 @@ std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance)
 
 int count_duplicate_vertices(const TetMesh& mesh, double tolerance) {
   const std::vector<int> twins = lower_twins(mesh.vertices, tolerance);
-  return static_cast<int>(std::count_if(twins.begin(), twins.end(), [](int twin) { return twin >= 0; }));
+  return static_cast<int>(
+      std::count_if(twins.begin(), twins.end(), [](int twin) { return twin >= 0; }));
 }
 
 namespace {
@@ -162,7 +179,8 @@ namespace {
 constexpr std::size_t worst_count = 10;
 constexpr double duplicate_tolerance = 1e-9;  // of the mean edge
 
-// The angles between the faces at the six edges [degree], from the outward area vectors of the faces across each corner
+// The angles between the faces at the six edges [degree], from the outward area vectors of the
+// faces across each corner
 std::array<double, 6> dihedral_angles(const std::array<Point, 4>& areas) {
   std::array<double, 6> angles;
   std::size_t n = 0;
@@ -176,8 +194,11 @@ std::array<double, 6> dihedral_angles(const std::array<Point, 4>& areas) {
 
 // Outward, as long as the area of the face across corner k
 std::array<Point, 4> face_areas(const std::array<Point, 4>& c) {
-  const auto area = [&](const Point& p, const Point& q, const Point& r) -> Point { return (q - p).cross(r - p) / 2.0; };
-  return {area(c[1], c[2], c[3]), area(c[0], c[3], c[2]), area(c[0], c[1], c[3]), area(c[0], c[2], c[1])};
+  const auto area = [&](const Point& p, const Point& q, const Point& r) -> Point {
+    return (q - p).cross(r - p) / 2.0;
+  };
+  return {area(c[1], c[2], c[3]), area(c[0], c[3], c[2]), area(c[0], c[1], c[3]),
+          area(c[0], c[2], c[1])};
 }
 
 struct Shape {
@@ -191,13 +212,15 @@ Shape shape_of(const TetMesh& mesh, int tet) {
   double longest = 0.0, largest_face = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     largest_face = std::max(largest_face, areas[i].norm());
-    for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, (corners[j] - corners[i]).norm());
+    for (std::size_t j = i + 1; j < 4; ++j)
+      longest = std::max(longest, (corners[j] - corners[i]).norm());
   }
   Shape shape = {{}, dihedral_angles(areas)};
   TetShape& s = shape.summary;
   s.tet = tet;
   s.volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
-  s.height_ratio = longest * largest_face / (3.0 * s.volume);  // the smallest height stands on the largest face
+  // the smallest height stands on the largest face
+  s.height_ratio = longest * largest_face / (3.0 * s.volume);
   const auto [least, most] = std::minmax_element(shape.angles.begin(), shape.angles.end());
   s.smallest_angle = *least, s.largest_angle = *most;
   s.centroid = (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
@@ -211,7 +234,9 @@ class Extent {
     min_ = std::min(min_, value), max_ = std::max(max_, value);
     sum_ += value, ++count_;
   }
-  Range range() const { return count_ == 0 ? Range{} : Range{min_, sum_ / static_cast<double>(count_), max_}; }
+  Range range() const {
+    return count_ == 0 ? Range{} : Range{min_, sum_ / static_cast<double>(count_), max_};
+  }
 
  private:
   double min_ = std::numeric_limits<double>::infinity(), max_ = -min_, sum_ = 0.0;
@@ -243,7 +268,8 @@ void measure_tets(const TetMesh& mesh, MeshQuality& quality) {
     const Shape shape = shape_of(mesh, t);
     ratios.add(shape.summary.height_ratio);
     quality.height_ratio_counts.add(shape.summary.height_ratio);
-    for (const double angle : shape.angles) angles.add(angle), quality.dihedral_angle_counts.add(angle);
+    for (const double angle : shape.angles)
+      angles.add(angle), quality.dihedral_angle_counts.add(angle);
     quality.volume += shape.summary.volume;
     const int region = mesh.region.empty() ? 0 : mesh.region[static_cast<std::size_t>(t)];
     RegionSize& size = quality.regions[static_cast<std::size_t>(region)];
@@ -266,7 +292,9 @@ void Histogram::add(double value) {
 
 Range edge_range(const TetMesh& mesh) { return range_of(mesh_edges(mesh), mesh.vertices); }
 
-Range edge_range(const TriangleSurface& surface) { return range_of(mesh_edges(surface), surface.vertices); }
+Range edge_range(const TriangleSurface& surface) {
+  return range_of(mesh_edges(surface), surface.vertices);
+}
 
 TetShape tet_shape(const TetMesh& mesh, int tet) { return shape_of(mesh, tet).summary; }
 
@@ -280,7 +308,8 @@ MeshQuality mesh_quality(const TetMesh& mesh) {
   quality.box = bounding_box(mesh.vertices);
   quality.edges = edge_range(mesh);
   quality.parts = count_parts(mesh);
-  quality.duplicate_vertices = count_duplicate_vertices(mesh, duplicate_tolerance * quality.edges.mean);
+  quality.duplicate_vertices =
+      count_duplicate_vertices(mesh, duplicate_tolerance * quality.edges.mean);
   measure_tets(mesh, quality);
   return quality;
 }

@@ -9,7 +9,8 @@ namespace plica {
 
 /// The edges of a mesh, each once, lower vertex first, ascending.
 std::vector<std::array<int, 2>> mesh_edges(const TetMesh& mesh);
-std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface);  ///< the same of a surface
+/// the same of a surface
+std::vector<std::array<int, 2>> mesh_edges(const TriangleSurface& surface);
 
 /// Per vertex the mean length of the edges that meet there [m]; 0 for a vertex of no tetrahedron.
 std::vector<double> local_edge_lengths(const TetMesh& mesh);
@@ -30,11 +31,12 @@ int count_parts(const TriangleSurface& surface);  ///< the same of a surface
 /// Per point one with a lower number within `tolerance` [m], from zero; -1: there is none.
 std::vector<int> lower_twins(const std::vector<Point>& points, double tolerance);
 
-/// The number of vertices within `tolerance` [m] of one with a lower number. Two meshes glued together
-/// without merging their common vertices show up here: they come apart when simulated.
+/// The number of vertices within `tolerance` [m] of one with a lower number. Two meshes glued
+/// together without merging their common vertices show up here: they come apart when simulated.
 int count_duplicate_vertices(const TetMesh& mesh, double tolerance);
 
-/// How many values lie in each interval [bounds[i], bounds[i + 1]); the last one takes its end as well.
+/// How many values lie in each interval [bounds[i], bounds[i + 1]); the last one takes its end as
+/// well.
 struct Histogram {
   std::vector<double> bounds;  ///< ascending, one more than counts
   std::vector<int> counts;     ///< one per interval
@@ -52,8 +54,9 @@ struct Range {
   double max = 0.0;   ///< the largest
 };
 
-/// A tetrahedron with its shape. The height ratio is the longest edge over the smallest height, sqrt(3/2) = 1.22 at
-/// best (regular); an explicit step is about as short as the smallest height allows.
+/// A tetrahedron with its shape. The height ratio is the longest edge over the smallest height,
+/// sqrt(3/2) = 1.22 at best (regular); an explicit step is about as short as the smallest height
+/// allows.
 struct TetShape {
   int tet = -1;                    ///< its number
   double volume = 0.0;             ///< [m^3]
@@ -86,7 +89,8 @@ struct MeshQuality {
   /// Of height ratios.
   Histogram height_ratio_counts{{1, 1.5, 2, 3, 4, 6, 10, 20, 50, 100}};
   /// Of angles between faces [degree].
-  Histogram dihedral_angle_counts{{0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130, 140, 150, 160, 170, 180}};
+  Histogram dihedral_angle_counts{
+      {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 120, 130, 140, 150, 160, 170, 180}};
   std::vector<TetShape> worst;      ///< the ten largest height ratios, worst first
   std::vector<RegionSize> regions;  ///< in the mesh's order
 };

@@ -15,11 +15,13 @@ namespace {
 
 constexpr double inclusion = 0.5;  // of the cube's half edge
 
-// Carries the unit ball to a lump with x in [-1, 1]. First the inside moves towards the thick end, the surface stays: 1 - 2 s.p > 0.
-// Then y depends on x and y, and z on x and z only, each growing with its own coordinate: orientation stays too.
+// Carries the unit ball to a lump with x in [-1, 1]. First the inside moves towards the thick end,
+// the surface stays: 1 - 2 s.p > 0. Then y depends on x and y, and z on x and z only, each growing
+// with its own coordinate: orientation stays too.
 Point lump(const Point& ball) {
   const Point p = ball + (1 - ball.squaredNorm()) * Point(-0.25, 0, 0);
-  return {p.x(), 0.7 * p.y() * (1 - 0.2 * p.x()), 0.5 * p.z() * (1 - 0.45 * p.x()) - 0.18 * p.x() * p.x()};
+  return {p.x(), 0.7 * p.y() * (1 - 0.2 * p.x()),
+          0.5 * p.z() * (1 - 0.45 * p.x()) - 0.18 * p.x() * p.x()};
 }
 
 }  // namespace
@@ -28,11 +30,13 @@ TetMesh blob_mesh(const Point& centre, double length, int cells) {
   checked_point("the centre of the blob", centre);
   checked_size("the length of the blob", length);
   if (cells < 4 || cells % 4 != 0)
-    throw InputError(text("the number of cells across the blob is ", cells, "; it must be a multiple of 4"));
+    throw InputError(
+        text("the number of cells across the blob is ", cells, "; it must be a multiple of 4"));
   TetMesh mesh = ball_mesh(Point::Zero(), 1, cells);
   mesh.region_names = {"tissue", "inclusion"};
   mesh.region.reserve(mesh.tets.size());
-  const int first = static_cast<int>((1 - inclusion) / 2 * cells), last = cells - first;  // six tetrahedra per cell
+  // six tetrahedra per cell
+  const int first = static_cast<int>((1 - inclusion) / 2 * cells), last = cells - first;
   const auto inside = [&](int at) { return first <= at && at < last; };
   for (int k = 0; k < cells; ++k)
     for (int j = 0; j < cells; ++j)
@@ -52,7 +56,8 @@ void check(const Tube& t) {
   checked_size("the wall of the tube", t.wall);
   checked_size("the length of the tube", t.length);
   if (t.around < 3)
-    throw InputError(text("the number of cells around the tube is ", t.around, "; it must be 3 or more"));
+    throw InputError(
+        text("the number of cells around the tube is ", t.around, "; it must be 3 or more"));
   const double most = t.length / (t.radius + t.wall);
   if (!(t.bend >= 0 && t.bend < most))
     throw InputError(text("the tube bends by ", number(t.bend),
@@ -64,7 +69,8 @@ void check(const Tube& t) {
 Point on_tube(const Tube& t, const Point& unit) {
   const double r = t.radius + t.wall * unit.x(), angle = 2 * std::numbers::pi * unit.y();
   const double turned = t.bend * unit.z(), side = r * std::cos(angle), y = r * std::sin(angle);
-  // The circle's radius is length / bend: its chord by functions that have a limit where there is no bend
+  // The circle's radius is length / bend: its chord by functions that have a limit where there is
+  // no bend
   const double half = std::sin(turned / 2), arc = t.length * unit.z();
   const double sinc = turned > 0 ? half / (turned / 2) : 1;
   const Point axis(arc * sinc * half, 0, arc * sinc * std::cos(turned / 2));
@@ -85,7 +91,8 @@ TetMesh tube_mesh(const Tube& tube) {
     const int i = v % across, j = v / across % around, k = v / across / around;
     const bool again = j == tube.around;
     place[static_cast<std::size_t>(v)] =
-        again ? place[static_cast<std::size_t>(v - tube.around * across)] : static_cast<int>(vertices.size());
+        again ? place[static_cast<std::size_t>(v - tube.around * across)]
+              : static_cast<int>(vertices.size());
     if (again) continue;
     const int here = static_cast<int>(vertices.size());
     vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);

@@ -24,15 +24,18 @@ std::uint64_t edge_key(int a, int b) {
 
 // The middles of a tetrahedron's edges, by the places of their ends
 enum Middle : std::size_t { m01, m02, m03, m12, m13, m23 };
-constexpr std::array<std::array<std::size_t, 2>, 6> ends = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, 6> ends = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-// A diagonal of the octahedron, and the other four corners in the order in which they surround it: right-handed
+// A diagonal of the octahedron, and the other four corners in the order in which they surround it:
+// right-handed
 struct Diagonal {
   Middle from, to;
   std::array<Middle, 4> ring;
 };
-constexpr std::array<Diagonal, 3> diagonals = {
-    {{m01, m23, {m02, m03, m13, m12}}, {m02, m13, {m03, m01, m12, m23}}, {m03, m12, {m01, m02, m23, m13}}}};
+constexpr std::array<Diagonal, 3> diagonals = {{{m01, m23, {m02, m03, m13, m12}},
+                                                {m02, m13, {m03, m01, m12, m23}},
+                                                {m03, m12, {m01, m02, m23, m13}}}};
 
 class Refinement {
  public:
@@ -57,7 +60,8 @@ class Refinement {
   const Point& at(int v) const { return finer_.vertices[static_cast<std::size_t>(v)]; }
 
   int middle(int a, int b) {
-    const auto [entry, is_new] = middles_.try_emplace(edge_key(a, b), static_cast<int>(finer_.vertices.size()));
+    const auto [entry, is_new] =
+        middles_.try_emplace(edge_key(a, b), static_cast<int>(finer_.vertices.size()));
     if (is_new) finer_.vertices.push_back((at(a) + at(b)) / 2), edges_.push_back({a, b});
     return entry->second;
   }
@@ -86,7 +90,8 @@ class Refinement {
       const Point one = along(diagonals[i]), other = along(diagonals[best]);
       const double length = one.squaredNorm(), least = other.squaredNorm();
       const bool as_good = std::abs(length - least) <= as_short * least;
-      if (as_good ? std::abs(one.dot(longest)) > std::abs(other.dot(longest)) * (1 + as_short) : length < least)
+      if (as_good ? std::abs(one.dot(longest)) > std::abs(other.dot(longest)) * (1 + as_short)
+                  : length < least)
         best = i;
     }
     return best;
@@ -104,8 +109,8 @@ class Refinement {
     for (auto& [name, set] : finer_.vertex_sets) {
       std::vector<char> in(mesh_.vertices.size(), 0);
       for (const int v : set) in[static_cast<std::size_t>(v)] = 1;
-      const bool surface =
-          std::ranges::all_of(set, [&](int v) { return on_boundary[static_cast<std::size_t>(v)] != 0; });
+      const bool surface = std::ranges::all_of(
+          set, [&](int v) { return on_boundary[static_cast<std::size_t>(v)] != 0; });
       for (std::size_t e = 0; e < edges_.size(); ++e) {
         const auto [a, b] = edges_[e];
         if (in[static_cast<std::size_t>(a)] == 0 || in[static_cast<std::size_t>(b)] == 0) continue;
@@ -138,7 +143,8 @@ bool is_refinement_of(const TetMesh& fine, const TetMesh& coarse) {
   if (fine.tets.size() != 8 * coarse.tets.size()) return false;
   if (std::abs(volume(fine) - volume(coarse)) > same_volume * volume(coarse)) return false;
   const Embedding in = embed(coarse.vertices, fine, Outside::clamp);
-  return std::ranges::all_of(in.weights, [](const Weights& w) { return std::ranges::max(w) > 1 - same_place; }) &&
+  return std::ranges::all_of(
+             in.weights, [](const Weights& w) { return std::ranges::max(w) > 1 - same_place; }) &&
          in.largest_distance_over_edge < same_place;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int bits = 21;  // per axis: 63 in all
 
-// From a cell of the cube with 2^21 cells along an edge to its number on the Hilbert curve (J. Skilling: Programming the
-// Hilbert curve. AIP Conf. Proc. 707, 2004)
+// From a cell of the cube with 2^21 cells along an edge to its number on the Hilbert curve (J.
+// Skilling: Programming the Hilbert curve. AIP Conf. Proc. 707, 2004)
 std::uint64_t hilbert_number(std::array<std::uint32_t, 3> x) {
   for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
     const std::uint32_t p = q - 1;
@@ -39,14 +39,16 @@ std::uint64_t key_of(const Point& p, const Box& box, double size) {
   std::array<std::uint32_t, 3> cell;
   for (int a = 0; a < 3; ++a) {
     const double at = size > 0.0 ? (p[a] - box.min[a]) / size : 0.0;
-    cell[static_cast<std::size_t>(a)] = static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0) * ((1u << bits) - 1));
+    cell[static_cast<std::size_t>(a)] =
+        static_cast<std::uint32_t>(std::clamp(at, 0.0, 1.0) * ((1u << bits) - 1));
   }
   return hilbert_number(cell);
 }
 
 std::vector<int> inverse(const std::vector<int>& order) {
   std::vector<int> back(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) back[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    back[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
   return back;
 }
 
@@ -65,8 +67,9 @@ Reordering locality_order(const TetMesh& mesh) {
   Reordering order;
   order.tets.resize(mesh.tets.size());
   std::iota(order.tets.begin(), order.tets.end(), 0);
-  std::stable_sort(order.tets.begin(), order.tets.end(),
-                   [&](int a, int b) { return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)]; });
+  std::stable_sort(order.tets.begin(), order.tets.end(), [&](int a, int b) {
+    return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
+  });
   std::vector<bool> taken(mesh.vertices.size(), false);
   const auto take = [&](int v) {
     if (!taken[static_cast<std::size_t>(v)]) order.vertices.push_back(v);
@@ -78,7 +81,9 @@ Reordering locality_order(const TetMesh& mesh) {
   return order;
 }
 
-Reordering inverse(const Reordering& order) { return {inverse(order.vertices), inverse(order.tets)}; }
+Reordering inverse(const Reordering& order) {
+  return {inverse(order.vertices), inverse(order.tets)};
+}
 
 TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
   const std::vector<int> new_number = inverse(order.vertices);
@@ -88,7 +93,8 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
   result.region = permuted(mesh.region, order.tets);
   result.filled = permuted(mesh.filled, order.tets);
   result.region_names = mesh.region_names;
-  for (const auto& [name, vectors] : mesh.tet_vectors) result.tet_vectors[name] = permuted(vectors, order.tets);
+  for (const auto& [name, vectors] : mesh.tet_vectors)
+    result.tet_vectors[name] = permuted(vectors, order.tets);
   result.vertex_sets = mesh.vertex_sets;
   for (auto& tet : result.tets)
     for (int& v : tet) v = new_number[static_cast<std::size_t>(v)];

@@ -11,8 +11,8 @@ struct Reordering {
   std::vector<int> tets;      ///< old numbers
 };
 
-/// Neighbours in space become neighbours in memory: tetrahedra along a Hilbert curve through their centroids, vertices as
-/// these first use them. The same for the same mesh on every machine.
+/// Neighbours in space become neighbours in memory: tetrahedra along a Hilbert curve through their
+/// centroids, vertices as these first use them. The same for the same mesh on every machine.
 Reordering locality_order(const TetMesh& mesh);
 
 /// The way back: per old number the new one.
@@ -31,8 +31,8 @@ std::vector<Value> permuted(const std::vector<Value>& values, const std::vector<
   return result;
 }
 
-/// The mean over all tetrahedra of the difference of their largest and smallest vertex number: what locality_order()
-/// makes small.
+/// The mean over all tetrahedra of the difference of their largest and smallest vertex number: what
+/// locality_order() makes small.
 double mean_vertex_span(const TetMesh& mesh);
 
 }  // namespace plica

@@ -36,7 +36,8 @@ constexpr std::array<double, 4> fractions = {1, 0.5, 0.25, 0.1};  // of a step t
 
 class Improver {
  public:
-  explicit Improver(TetMesh& mesh) : mesh_(mesh), star_(mesh.vertices.size()), stays_(mesh.vertices.size(), false) {
+  explicit Improver(TetMesh& mesh)
+      : mesh_(mesh), star_(mesh.vertices.size()), stays_(mesh.vertices.size(), false) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
       for (const int v : mesh.tets[t]) star(v).push_back(static_cast<int>(t));
     alive.assign(mesh.tets.size(), true);
@@ -83,7 +84,8 @@ class Improver {
   bool improve(std::size_t t) {
     const std::array<int, 4> corners = mesh_.tets[t];
     for (const int v : corners)
-      if (!stays_[static_cast<std::size_t>(v)] && (move(v, mean_of_neighbours(v)) || move(v, away(v, corners))))
+      if (!stays_[static_cast<std::size_t>(v)] &&
+          (move(v, mean_of_neighbours(v)) || move(v, away(v, corners))))
         return true;
     for (const int v : corners)
       for (const int to : corners)
@@ -106,7 +108,8 @@ class Improver {
     for (const int other : corners)
       if (other != v) face.push_back(at(other));
     const Point normal = (face[1] - face[0]).cross(face[2] - face[0]);
-    const double length = normal.norm(), height = length > 0 ? (at(v) - face[0]).dot(normal) / length : 0;
+    const double length = normal.norm(),
+                 height = length > 0 ? (at(v) - face[0]).dot(normal) / length : 0;
     if (!(length > 0)) return at(v);
     const double wanted = std::copysign(std::sqrt(length) / 2, height);
     return at(v) + (wanted - height) / length * normal;
@@ -123,7 +126,8 @@ class Improver {
     return false;
   }
 
-  // The elements around an inner vertex fill the same space from any point that sees all of their outer faces
+  // The elements around an inner vertex fill the same space from any point that sees all of their
+  // outer faces
   bool collapse(int v, int to) {
     const double before = worst_around(v);
     for (const int t : star(v)) {
@@ -157,7 +161,9 @@ class Improver {
 }  // namespace
 
 double height_ratio(const TetMesh& mesh, const std::array<int, 4>& tet) {
-  const auto at = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(tet[k])]; };
+  const auto at = [&](std::size_t k) -> const Point& {
+    return mesh.vertices[static_cast<std::size_t>(tet[k])];
+  };
   const double volume = tet_volume(at(0), at(1), at(2), at(3));
   if (!(volume > 0)) return std::numeric_limits<double>::infinity();
   double longest = 0, largest = 0;  // edge and twice the area of a face
@@ -199,7 +205,8 @@ class Peeler {
   explicit Peeler(const TetMesh& mesh) : mesh_(mesh), touched_(mesh.vertices.size(), false) {
     for (const auto& triangle : boundary_triangles(mesh)) {
       faces_.push_back(sorted(triangle));
-      for (std::size_t k = 0; k < 3; ++k) edges_.push_back(edge(triangle[k], triangle[(k + 1) % 3]));
+      for (std::size_t k = 0; k < 3; ++k)
+        edges_.push_back(edge(triangle[k], triangle[(k + 1) % 3]));
     }
     std::sort(faces_.begin(), faces_.end()), std::sort(edges_.begin(), edges_.end());
   }
@@ -209,10 +216,13 @@ class Peeler {
     if (!(height_ratio(mesh_, tet) > thin)) return false;
     std::vector<int> ends;  // corners across from faces of the boundary
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::array<int, 3> face = sorted<3>({tet[(k + 1) % 4], tet[(k + 2) % 4], tet[(k + 3) % 4]});
+      const std::array<int, 3> face =
+          sorted<3>({tet[(k + 1) % 4], tet[(k + 2) % 4], tet[(k + 3) % 4]});
       if (std::binary_search(faces_.begin(), faces_.end(), face)) ends.push_back(tet[k]);
     }
-    if (ends.size() != 2 || std::binary_search(edges_.begin(), edges_.end(), edge(ends[0], ends[1]))) return false;
+    if (ends.size() != 2 ||
+        std::binary_search(edges_.begin(), edges_.end(), edge(ends[0], ends[1])))
+      return false;
     for (const int v : tet)
       if (touched_[static_cast<std::size_t>(v)]) return false;
     for (const int v : tet) touched_[static_cast<std::size_t>(v)] = true;
@@ -246,16 +256,20 @@ constexpr double loose_part = 0.01;  // of the volume
 constexpr double flat_ratio = 1e8;   // height ratio that counts as no volume
 
 double tet_volume_of(const TetMesh& mesh, const std::array<int, 4>& tet) {
-  const auto at = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(tet[k])]; };
+  const auto at = [&](std::size_t k) -> const Point& {
+    return mesh.vertices[static_cast<std::size_t>(tet[k])];
+  };
   return tet_volume(at(0), at(1), at(2), at(3));
 }
 
-// Tetrahedra name the first of the vertices at a place; those that lose a corner by that, or repeat another, are dropped
+// Tetrahedra name the first of the vertices at a place; those that lose a corner by that, or repeat
+// another, are dropped
 void merge(MeshRepair& repair) {
   TetMesh& mesh = repair.mesh;
   const std::vector<int> twins = lower_twins(mesh.vertices, same_place * mean_edge_length(mesh));
   for (std::size_t v = 0; v < twins.size(); ++v)
-    if (twins[v] >= 0) repair.vertex[v] = repair.vertex[static_cast<std::size_t>(twins[v])], ++repair.merged;
+    if (twins[v] >= 0)
+      repair.vertex[v] = repair.vertex[static_cast<std::size_t>(twins[v])], ++repair.merged;
   if (repair.merged == 0) return;
   std::set<std::array<int, 4>> seen;
   for (auto& tet : mesh.tets)
@@ -271,7 +285,8 @@ void drop_loose_parts(MeshRepair& repair) {
   const std::vector<int> part = parts_of(mesh);
   std::vector<double> volume(mesh.vertices.size(), 0);
   for (const auto& tet : mesh.tets)
-    volume[static_cast<std::size_t>(part[static_cast<std::size_t>(tet[0])])] += tet_volume_of(mesh, tet);
+    volume[static_cast<std::size_t>(part[static_cast<std::size_t>(tet[0])])] +=
+        tet_volume_of(mesh, tet);
   const double least = loose_part * std::accumulate(volume.begin(), volume.end(), 0.0);
   std::set<int> dropped;
   const auto keep = [&](std::size_t t) {
@@ -333,10 +348,12 @@ MeshRepair repair_mesh(const TetMesh& mesh) {
   repair.moved = improved.moved, repair.collapsed = improved.collapsed;
   for (int& v : repair.vertex) v = improved.vertex[static_cast<std::size_t>(v)];
   const std::size_t before = repair.mesh.tets.size();
-  filter(repair.mesh, repair.original_tet,
-         [&](std::size_t t) { return height_ratio(repair.mesh, repair.mesh.tets[t]) < flat_ratio; });
+  filter(repair.mesh, repair.original_tet, [&](std::size_t t) {
+    return height_ratio(repair.mesh, repair.mesh.tets[t]) < flat_ratio;
+  });
   repair.flat = static_cast<int>(before - repair.mesh.tets.size());
-  if (repair.mesh.tets.empty()) throw InputError("nothing is left of the mesh: no tetrahedron has a volume");
+  if (repair.mesh.tets.empty())
+    throw InputError("nothing is left of the mesh: no tetrahedron has a volume");
   renumber(repair);
   repair.worst_after = worst_of(repair.mesh);
   return repair;

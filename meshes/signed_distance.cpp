@@ -12,7 +12,8 @@ namespace plica {
 namespace {
 
 using Volume = Eigen::AlignedBox3d;
-using Normals = std::array<Point, 7>;  // of a triangle's vertices 0 1 2, its edges 01 12 20, and its face
+// of a triangle's vertices 0 1 2, its edges 01 12 20, and its face
+using Normals = std::array<Point, 7>;
 
 struct Closest {
   Point point;
@@ -33,7 +34,8 @@ Closest closest_on_triangle(const Point& p, const Point& a, const Point& b, cons
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return {a + d2 / (d2 - d6) * ac, 5};
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 4};
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 4};
   return {a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc)), 6};
 }
 
@@ -47,7 +49,9 @@ std::vector<Normals> normals_of(const TriangleSurface& surface) {
   const auto edge = [](int a, int b) { return std::array<int, 2>{std::min(a, b), std::max(a, b)}; };
   std::vector<Point> face;
   for (const auto& t : surface.triangles) {
-    const auto x = [&](std::size_t k) -> const Point& { return surface.vertices[static_cast<std::size_t>(t[k % 3])]; };
+    const auto x = [&](std::size_t k) -> const Point& {
+      return surface.vertices[static_cast<std::size_t>(t[k % 3])];
+    };
     face.push_back((x(1) - x(0)).cross(x(2) - x(0)).normalized());
     for (std::size_t k = 0; k < 3; ++k) {
       at_vertex[static_cast<std::size_t>(t[k])] += angle_at(x(k), x(k + 1), x(k + 2)) * face.back();
@@ -77,11 +81,14 @@ struct Nearest {
 
   double minimumOnVolume(const Volume& box) const {
     const double d = box.squaredExteriorDistance(p);
-    return d <= reach ? d : std::numeric_limits<double>::max();  // the search leaves out what is not below that
+    // the search leaves out what is not below that
+    return d <= reach ? d : std::numeric_limits<double>::max();
   }
   double minimumOnObject(int candidate) {
     const auto& t = surface.triangles[static_cast<std::size_t>(candidate)];
-    const auto x = [&](std::size_t k) -> const Point& { return surface.vertices[static_cast<std::size_t>(t[k])]; };
+    const auto x = [&](std::size_t k) -> const Point& {
+      return surface.vertices[static_cast<std::size_t>(t[k])];
+    };
     const Closest c = closest_on_triangle(p, x(0), x(1), x(2));
     const double d = (c.point - p).squaredNorm();
     if (d < least) least = d, triangle = candidate, closest = c;
@@ -103,7 +110,8 @@ SignedDistance::SignedDistance(const TriangleSurface& surface)
   std::iota(triangles.begin(), triangles.end(), 0);
   std::vector<Volume> boxes(triangles.size());
   for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (int v : surface.triangles[i]) boxes[i].extend(surface.vertices[static_cast<std::size_t>(v)]);
+    for (int v : surface.triangles[i])
+      boxes[i].extend(surface.vertices[static_cast<std::size_t>(v)]);
   tree_->boxes.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
@@ -112,8 +120,10 @@ SignedDistance::~SignedDistance() = default;
 double SignedDistance::operator()(const Point& point, double bound) const {
   Nearest nearest{tree_->surface, point, bound * bound * (1 + 1e-9)};
   Eigen::BVMinimize(tree_->boxes, nearest);
-  if (nearest.least > nearest.reach) return (*this)(point);  // a bound that was not one, by a rounding
-  const Point& normal = tree_->normals[static_cast<std::size_t>(nearest.triangle)][nearest.closest.feature];
+  // a bound that was not one, by a rounding
+  if (nearest.least > nearest.reach) return (*this)(point);
+  const Point& normal =
+      tree_->normals[static_cast<std::size_t>(nearest.triangle)][nearest.closest.feature];
   const double d = std::sqrt(nearest.least);
   return (point - nearest.closest.point).dot(normal) < 0 ? -d : d;
 }

@@ -6,9 +6,10 @@
 
 namespace plica {
 
-/// The signed distance to a closed surface, exact: to the nearest triangle found in a tree of bounding boxes (Eigen's KdBVH),
-/// with the sign of the angle-weighted normal of its nearest face, edge or vertex (Baerentzen & Aanaes, Signed distance
-/// computation using the angle weighted pseudonormal, IEEE TVCG 11, 2005).
+/// The signed distance to a closed surface, exact: to the nearest triangle found in a tree of
+/// bounding boxes (Eigen's KdBVH), with the sign of the angle-weighted normal of its nearest face,
+/// edge or vertex (Baerentzen & Aanaes, Signed distance computation using the angle weighted
+/// pseudonormal, IEEE TVCG 11, 2005).
 class SignedDistance {
  public:
   /// Keeps a reference to `surface`: closed, counter-clockwise seen from outside, outliving this.
@@ -17,7 +18,8 @@ class SignedDistance {
   ~SignedDistance();
 
   /// [m], below zero inside. `bound`: a distance the point is known to be within, to search less.
-  double operator()(const Point& point, double bound = std::numeric_limits<double>::infinity()) const;
+  double operator()(const Point& point,
+                    double bound = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Tree;

@@ -5,8 +5,8 @@
 // Three ways for an element to add its forces to its vertices.
 namespace plica::bench {
 
-/// Every element adds to its vertices with atomic instructions: the least data, and sums in whatever order the threads
-/// come.
+/// Every element adds to its vertices with atomic instructions: the least data, and sums in
+/// whatever order the threads come.
 template <class B, class Material>
 class Atomic {
   using Real = typename B::Real;
@@ -20,7 +20,8 @@ class Atomic {
       packs.template forces<Material>(q, u, corner);
       for (int l = 0; l < B::lanes; ++l)
         for (int c = 0; c < 4; ++c)
-          for (int k = 0; k < 3; ++k) Kokkos::atomic_add(&f(packs.corner(q, c, l), k), lane(corner[c][k], l));
+          for (int k = 0; k < 3; ++k)
+            Kokkos::atomic_add(&f(packs.corner(q, c, l), k), lane(corner[c][k], l));
     }
   };
 
@@ -29,7 +30,8 @@ class Atomic {
  public:
   static constexpr const char* name = "atomic";
 
-  Atomic(const TetMesh& mesh, const std::vector<double>& constants) : packs_(mesh, constants, mesh_order(mesh)) {}
+  Atomic(const TetMesh& mesh, const std::vector<double>& constants)
+      : packs_(mesh, constants, mesh_order(mesh)) {}
 
   void operator()(const typename B::Exec& exec, const Vectors<B>& u, const Vectors<B>& f) const {
     Kokkos::deep_copy(exec, f, 0);
@@ -43,8 +45,8 @@ class Atomic {
   }
 };
 
-/// Elements of one colour share no vertex: they add to the vertices directly, one launch per colour. The same bits for any
-/// number of threads, as a vertex meets the colours in their order.
+/// Elements of one colour share no vertex: they add to the vertices directly, one launch per
+/// colour. The same bits for any number of threads, as a vertex meets the colours in their order.
 template <class B, class Material>
 class Coloured {
   using Real = typename B::Real;
@@ -96,18 +98,20 @@ class Coloured {
   void operator()(const typename B::Exec& exec, const Vectors<B>& u, const Vectors<B>& f) const {
     Kokkos::deep_copy(exec, f, 0);
     for (std::size_t c = 0; c + 1 < first_.size(); ++c)
-      launch<B>(exec, "bench::scatter", first_[c + 1] - first_[c], Scatter{packs_, u, f, first_[c]});
+      launch<B>(exec, "bench::scatter", first_[c + 1] - first_[c],
+                Scatter{packs_, u, f, first_[c]});
   }
 
-  /// Per tetrahedron: corners, shape; u in, f in and out for each of its own corners, as no two of a colour share one.
+  /// Per tetrahedron: corners, shape; u in, f in and out for each of its own corners, as no two of
+  /// a colour share one.
   static double bytes_per_tet(double) {
     const double s = sizeof(Real);
     return 16 + 10 * s + 12 * s + 24 * s;
   }
 };
 
-/// Every element's four corner forces into a buffer as large as the mesh; then every vertex gathers its own from it. Two
-/// passes without conflicts, and the same bits for any number of threads.
+/// Every element's four corner forces into a buffer as large as the mesh; then every vertex gathers
+/// its own from it. Two passes without conflicts, and the same bits for any number of threads.
 template <class B, class Material>
 class Buffered {
   using Real = typename B::Real;
@@ -151,7 +155,8 @@ class Buffered {
         packs_(mesh, constants, mesh_order(mesh)),
         buffer_("bench::buffer", packs_.packs) {
     VertexElements elements(mesh);
-    for (int& i : elements.entry) i = (i / 4 / B::lanes * 4 + i % 4) * 3 * B::lanes + i / 4 % B::lanes;
+    for (int& i : elements.entry)
+      i = (i / 4 / B::lanes * 4 + i % 4) * 3 * B::lanes + i / 4 % B::lanes;
     first_ = to_device<Indices<B>>("bench.first", elements.first);
     slot_ = to_device<Indices<B>>("bench.slot", elements.entry);
   }
@@ -161,7 +166,8 @@ class Buffered {
     launch<B>(exec, "bench::gather", vertices_, Gather{first_, slot_, buffer_, f});
   }
 
-  /// Moved when a vertex is fetched once, per tetrahedron: corners, shape, buffer out and in, slots; u and f.
+  /// Moved when a vertex is fetched once, per tetrahedron: corners, shape, buffer out and in,
+  /// slots; u and f.
   static double bytes_per_tet(double vertices_per_tet) {
     const double s = sizeof(Real);
     return 16 + 10 * s + 24 * s + 16 + vertices_per_tet * (6 * s + 4);

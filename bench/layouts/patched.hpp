@@ -8,8 +8,8 @@
 
 namespace plica::bench {
 
-/// The library's own: patches whose element forces stay in the nearest memory, and a gather of what neighbouring patches
-/// have for a vertex. The same bits for any number of threads.
+/// The library's own: patches whose element forces stay in the nearest memory, and a gather of what
+/// neighbouring patches have for a vertex. The same bits for any number of threads.
 template <class B, class Material>
 class Patched {
   using Real = typename B::Real;
@@ -34,10 +34,11 @@ class Patched {
     gather_forces<B>(exec, model_, partial_, {}, f);
   }
 
-  /// Per tetrahedron: corners and slots of 2 bytes, shape; per patch vertex (a bit over two per vertex) its number, u, the
-  /// sum out and in, the copy list; f and mass.
+  /// Per tetrahedron: corners and slots of 2 bytes, shape; per patch vertex (a bit over two per
+  /// vertex) its number, u, the sum out and in, the copy list; f and mass.
   double bytes_per_tet(double vertices_per_tet) const {
-    const double s = sizeof(Real), copies = static_cast<double>(partial_.extent(0)) / model_.vertices;
+    const double s = sizeof(Real),
+                 copies = static_cast<double>(partial_.extent(0)) / model_.vertices;
     const double padding = model_.patches.packs * B::lanes * vertices_per_tet / model_.vertices;
     return padding * (8 + 10 * s) + 8 + vertices_per_tet * (copies * (12 + 9 * s) + 4 + 4 * s);
   }

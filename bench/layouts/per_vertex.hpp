@@ -4,8 +4,9 @@
 
 namespace plica::bench {
 
-/// Every vertex evaluates all its elements, in packs, and keeps only its own corner of them: nothing is stored between, each
-/// element is evaluated four times. The same bits for any number of threads.
+/// Every vertex evaluates all its elements, in packs, and keeps only its own corner of them:
+/// nothing is stored between, each element is evaluated four times. The same bits for any number of
+/// threads.
 template <class B, class Material>
 class PerVertex {
   using Real = typename B::Real;
@@ -16,7 +17,8 @@ class PerVertex {
   struct Vertices {
     Indices<B> first, entry;  // 4 * element + corner
     Kokkos::View<int* [4], Kokkos::LayoutRight, typename B::Memory> corner;
-    Kokkos::View<Real* [10], Kokkos::LayoutRight, typename B::Memory> shape;  // one element after the other
+    // one element after the other
+    Kokkos::View<Real* [10], Kokkos::LayoutRight, typename B::Memory> shape;
     Scalars<B> constants;
     Vectors<B> u, f;
 
@@ -26,7 +28,9 @@ class PerVertex {
         ElementShape<T> s;
         Vec3<T> x[4], own;
         for (int l = 0; l < lanes && i + l < first(a + 1); ++l) load(entry(i + l), l, s, x, own);
-        sum -= s.volume * (Material::stress(Packs::deformation(x, s), load_constants<Material, T>(constants, 0)) * own);
+        sum -= s.volume * (Material::stress(Packs::deformation(x, s),
+                                            load_constants<Material, T>(constants, 0)) *
+                           own);
       }
       for (int k = 0; k < 3; ++k) {
         Real total = 0;
@@ -34,8 +38,10 @@ class PerVertex {
         f(a, k) = total;
       }
     }
-    /// Lane l: element shape, displacements, and the gradient of the vertex's own corner. Lanes left out have volume 0.
-    KOKKOS_INLINE_FUNCTION void load(int at, int l, ElementShape<T>& s, Vec3<T> (&x)[4], Vec3<T>& own) const {
+    /// Lane l: element shape, displacements, and the gradient of the vertex's own corner. Lanes
+    /// left out have volume 0.
+    KOKKOS_INLINE_FUNCTION void load(int at, int l, ElementShape<T>& s, Vec3<T> (&x)[4],
+                                     Vec3<T>& own) const {
       const int e = at / 4, c = at % 4;
       for (int j = 0; j < 3; ++j)
         for (int k = 0; k < 3; ++k) set_lane(s.gradient[j][k], l, shape(e, 3 * j + k));
@@ -43,7 +49,9 @@ class PerVertex {
       for (int j = 0; j < 4; ++j)
         for (int k = 0; k < 3; ++k) set_lane(x[j][k], l, u(corner(e, j), k));
       for (int k = 0; k < 3; ++k)
-        set_lane(own[k], l, c > 0 ? shape(e, 3 * (c - 1) + k) : -(shape(e, k) + shape(e, 3 + k) + shape(e, 6 + k)));
+        set_lane(
+            own[k], l,
+            c > 0 ? shape(e, 3 * (c - 1) + k) : -(shape(e, k) + shape(e, 3 + k) + shape(e, 6 + k)));
     }
   };
 
@@ -80,7 +88,8 @@ class PerVertex {
     launch<B>(exec, "bench::vertices", vertices_, kernel);
   }
 
-  /// Per tetrahedron, when a vertex's elements stay near for its neighbours: corners, shape, lists; u and f.
+  /// Per tetrahedron, when a vertex's elements stay near for its neighbours: corners, shape, lists;
+  /// u and f.
   static double bytes_per_tet(double vertices_per_tet) {
     const double s = sizeof(Real);
     return 16 + 10 * s + 16 + vertices_per_tet * (6 * s + 4);

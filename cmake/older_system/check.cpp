@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether Kokkos runs with symbols.cpp in the place of what this system lacks, and whether these do what they should: 0 or 1.
+// Whether Kokkos runs with symbols.cpp in the place of what this system lacks, and whether these do
+// what they should: 0 or 1.
 #include <Kokkos_Core.hpp>
 #include <cstdlib>
 #include <iostream>
@@ -19,7 +20,8 @@ void expect(bool good, const std::string& what) {
   ++failures;
 }
 
-/// Every part of a string in the place of every other, before, behind and across it, longer and shorter.
+/// Every part of a string in the place of every other, before, behind and across it, longer and
+/// shorter.
 void check_replace() {
   const std::string letters = "abcdefgh";
   const std::size_t n = letters.size();
@@ -32,14 +34,16 @@ void check_replace() {
           char* p = text.data();
           _ZNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEE15_M_replace_coldEPcmPKcmm(
               &text, p + place, old_size, p + source, size, n - place - old_size);
-          const std::string right = std::string(letters).replace(place, old_size, letters.substr(source, size));
+          const std::string right =
+              std::string(letters).replace(place, old_size, letters.substr(source, size));
           text.resize(right.size());
           expect(text == right, "replace: " + text + " instead of " + right);
         }
 }
 
 void check_kokkos() {
-  Kokkos::initialize(Kokkos::InitializationSettings().set_num_threads(2).set_disable_warnings(true));
+  Kokkos::initialize(
+      Kokkos::InitializationSettings().set_num_threads(2).set_disable_warnings(true));
   {
     const Kokkos::View<long*> values("values", 1000);
     Kokkos::parallel_for(

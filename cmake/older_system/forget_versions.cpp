@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// forget_versions LIBRARY VERSION...: a library (ELF, 64 bits) no longer asks for these versions of others' symbols. The loader
-// then takes such a symbol from whoever defines it. To mark the versions weak would do for the loader, too, but at every start of
-// a program it says that they are not there.
-// The tables: https://refspecs.linuxfoundation.org/LSB_5.0.0/LSB-Core-generic/LSB-Core-generic/symversion.html
+// forget_versions LIBRARY VERSION...: a library (ELF, 64 bits) no longer asks for these versions of
+// others' symbols. The loader then takes such a symbol from whoever defines it. To mark the
+// versions weak would do for the loader, too, but at every start of a program it says that they are
+// not there. The tables:
+// https://refspecs.linuxfoundation.org/LSB_5.0.0/LSB-Core-generic/LSB-Core-generic/symversion.html
 #include <elf.h>
 
 #include <algorithm>
@@ -58,7 +59,8 @@ class Library {
     need.vn_cnt = static_cast<Elf64_Half>(kept.size());
     need.vn_aux = static_cast<Elf64_Word>(kept.front() - file);
     for (std::size_t i = 0; i < kept.size(); ++i)
-      at<Elf64_Vernaux>(kept[i]).vna_next = i + 1 < kept.size() ? static_cast<Elf64_Word>(kept[i + 1] - kept[i]) : 0;
+      at<Elf64_Vernaux>(kept[i]).vna_next =
+          i + 1 < kept.size() ? static_cast<Elf64_Word>(kept[i + 1] - kept[i]) : 0;
   }
 
   // The symbols of this version are symbols of no version
@@ -74,7 +76,8 @@ class Library {
 
   template <class T>
   T& at(std::size_t offset) {
-    if (offset > bytes_.size() || bytes_.size() - offset < sizeof(T)) throw std::runtime_error("the file is cut off");
+    if (offset > bytes_.size() || bytes_.size() - offset < sizeof(T))
+      throw std::runtime_error("the file is cut off");
     return *reinterpret_cast<T*>(bytes_.data() + offset);
   }
 

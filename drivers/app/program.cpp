@@ -27,12 +27,14 @@ class CommandLine {
     app_.set_version_flag("--version", version_text);
     app_.failure_message(fault_of_words);
     app_.footer(
-        "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the standard error.\n"
+        "--kokkos-* is handed to Kokkos. Results go to the standard output, messages to the "
+        "standard error.\n"
         "Exit: 0 done, 1 failure, 2 bad input, 3 diverged, 130 interrupted.");
     add_run();
-    add_study_option(
-        add_scene_command("explain", "say what a run of the scene would do", [this] { return explain(arguments_); }));
-    add_scene_command("check", "check the scene, run nothing", [this] { return check(arguments_); });
+    add_study_option(add_scene_command("explain", "say what a run of the scene would do",
+                                       [this] { return explain(arguments_); }));
+    add_scene_command("check", "check the scene, run nothing",
+                      [this] { return check(arguments_); });
     add_study();
     add_stability();
     add_verify();
@@ -49,18 +51,22 @@ class CommandLine {
   ExitStatus execute(std::vector<std::string> words) {
     arguments_.words = words;
     const auto is_kokkos = [](const std::string& word) { return word.starts_with("--kokkos-"); };
-    std::copy_if(words.begin() + 1, words.end(), std::back_inserter(arguments_.kokkos.pass_through), is_kokkos);
+    std::copy_if(words.begin() + 1, words.end(), std::back_inserter(arguments_.kokkos.pass_through),
+                 is_kokkos);
     std::erase_if(words, is_kokkos);
     if (words.size() > 1 && words[1] == "help") words[1] = "--help";
     check_command(words);
-    app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));  // CLI11 takes them from the back
+    // CLI11 takes them from the back
+    app_.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
     for (const std::string& set : sets_) arguments_.overrides.push_back({set, "--set " + set});
-    if (!duration_.empty()) arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
+    if (!duration_.empty())
+      arguments_.overrides.push_back({"duration=" + duration_, "--duration " + duration_});
     if (app_.got_subcommand("run") && arguments_.scene.empty() && arguments_.resume.empty())
       throw CLI::RequiredError("SCENE, or --resume FOLDER,");
     if (app_.got_subcommand("stability")) check_stability();
     if (!study_folder_.empty())
-      for (const Override& chosen : settings_of_study(study_folder_, arguments_.scene, arguments_.overrides))
+      for (const Override& chosen :
+           settings_of_study(study_folder_, arguments_.scene, arguments_.overrides))
         arguments_.overrides.push_back(chosen);
     return action_();
   }
@@ -71,19 +77,23 @@ class CommandLine {
   }
 
  private:
-  CLI::App* add(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
+  CLI::App* add(const std::string& name, const std::string& help,
+                std::function<ExitStatus()> action) {
     CLI::App* command = app_.add_subcommand(name, help);
     command->footer(manual_of(name));
     command->callback([this, action] { action_ = action; });
     return command;
   }
 
-  /// What CLI11 says; of an unknown option the nearest one, and where a command is missing all that there are.
+  /// What CLI11 says; of an unknown option the nearest one, and where a command is missing all that
+  /// there are.
   static std::string fault_of_words(const CLI::App* app, const CLI::Error& error) {
     const std::vector<std::string> extra = app->remaining(true);
     std::string text = error.what(), command = app->get_name();
-    for (; !app->get_subcommands().empty(); command += " " + app->get_name()) app = app->get_subcommands().front();
-    const auto option = std::ranges::find_if(extra, [](const std::string& word) { return word.starts_with('-'); });
+    for (; !app->get_subcommands().empty(); command += " " + app->get_name())
+      app = app->get_subcommands().front();
+    const auto option =
+        std::ranges::find_if(extra, [](const std::string& word) { return word.starts_with('-'); });
     const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
     if (option != extra.end()) {
       std::vector<std::string> known;
@@ -92,7 +102,8 @@ class CommandLine {
       text = unknown_name("option", option->substr(0, option->find('=')), known);
     } else if (!commands.empty()) {
       text = "expected a command: ";
-      for (const CLI::App* one : commands) text += (one == commands.front() ? "" : ", ") + one->get_name();
+      for (const CLI::App* one : commands)
+        text += (one == commands.front() ? "" : ", ") + one->get_name();
     }
     return coloured("error: ", Colour::red) + text + "\nsee " + command + " --help\n";
   }
@@ -112,7 +123,8 @@ class CommandLine {
     }
   }
 
-  CLI::App* add_scene_command(const std::string& name, const std::string& help, std::function<ExitStatus()> action) {
+  CLI::App* add_scene_command(const std::string& name, const std::string& help,
+                              std::function<ExitStatus()> action) {
     CLI::App* command = add(name, help, std::move(action));
     command->add_option("SCENE", arguments_.scene, "the scene, a YAML file")
         ->required(name != "run" && name != "stability");
@@ -120,77 +132,92 @@ class CommandLine {
         ->type_name("KEY.PATH=VALUE")
         ->allow_extra_args(false)
         ->take_all();
-    command->add_option("--duration", duration_, "simulated time [s], instead of the scene's")->type_name("TIME");
+    command->add_option("--duration", duration_, "simulated time [s], instead of the scene's")
+        ->type_name("TIME");
     command->add_option("--precision", arguments_.precision, "float or double (double)")
         ->type_name("WORD")
         ->check(CLI::IsMember(names(precisions())));
     add_threads(command);
-    if (name == "explain" || name == "check") command->add_flag("--json", arguments_.json, "print JSON");
+    if (name == "explain" || name == "check")
+      command->add_flag("--json", arguments_.json, "print JSON");
     return command;
   }
 
   void add_threads(CLI::App* command) {
-    command->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
+    command
+        ->add_option("--threads", arguments_.kokkos.threads, "threads to use (all that there are)")
         ->type_name("N")
         ->check(CLI::Range(thread_count.min, thread_count.max));
   }
 
   void add_run() {
-    CLI::App* command =
-        add_scene_command("run", "simulate the scene and write its files", [this] { return run(arguments_); });
+    CLI::App* command = add_scene_command("run", "simulate the scene and write its files",
+                                          [this] { return run(arguments_); });
     CLI::Option* folder = add_output(command, "out/SCENE");
     command
         ->add_option("--checkpoint", arguments_.checkpoint,
-                     "save a checkpoint to resume from, every N macro steps or every TIME [s] of simulated time")
+                     "save a checkpoint to resume from, every N macro steps or every TIME [s] of "
+                     "simulated time")
         ->type_name("every=N|TIME");
-    CLI::Option* resume =
-        command->add_option("--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint");
+    CLI::Option* resume = command->add_option(
+        "--resume", arguments_.resume, "go on with the run in this folder, from its checkpoint");
     takes_folder(resume)->excludes(folder)->excludes(add_study_option(command));
-    command->add_flag("--force", arguments_.force, "replace the run that is in the folder")->excludes(resume);
+    command->add_flag("--force", arguments_.force, "replace the run that is in the folder")
+        ->excludes(resume);
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
-    command->add_flag("--time-stages", arguments_.time_stages, "time each stage on a GPU too, which slows the run");
+    command->add_flag("--time-stages", arguments_.time_stages,
+                      "time each stage on a GPU too, which slows the run");
   }
 
   CLI::Option* add_study_option(CLI::App* command) {
-    return takes_folder(command->add_option(
-        "--study", study_folder_,
-        "as the study of the scene in this folder chose for integration.error_class, by error and time"));
+    return takes_folder(command->add_option("--study", study_folder_,
+                                            "as the study of the scene in this folder chose for "
+                                            "integration.error_class, by error and time"));
   }
 
   CLI::Option* add_output(CLI::App* command, const std::string& otherwise) {
-    return takes_folder(
-        command->add_option("-o,--output", arguments_.folder, "folder for the files (" + otherwise + ")"));
+    return takes_folder(command->add_option("-o,--output", arguments_.folder,
+                                            "folder for the files (" + otherwise + ")"));
   }
 
   /// Nothing, as of a variable of the shell that is not set, is no folder.
   static CLI::Option* takes_folder(CLI::Option* option) {
-    return option->type_name("FOLDER")->check(
-        [](const std::string& text) { return std::string(text.empty() ? "expected a folder, got ''" : ""); });
+    return option->type_name("FOLDER")->check([](const std::string& text) {
+      return std::string(text.empty() ? "expected a folder, got ''" : "");
+    });
   }
 
   void add_study() {
-    CLI::App* command = add_scene_command("study", "measure methods' errors against their run times",
-                                          [this] { return study(arguments_, study_); });
+    CLI::App* command =
+        add_scene_command("study", "measure methods' errors against their run times",
+                          [this] { return study(arguments_, study_); });
     add_output(command, "out/SCENE");
     command
         ->add_option("--budget", study_.budget,
-                     "wall time of all runs [s]; what does not fit is left out and listed, but for the reference and "
+                     "wall time of all runs [s]; what does not fit is left out and listed, but for "
+                     "the reference and "
                      "every level "
                      "alone")
         ->type_name("TIME");
-    CLI::Option* space = command->add_flag("--space", study_.space,
-                                           "a second reference on a mesh twice as fine, for the error in space");
-    command->add_flag("--truth", study_.truth, "errors against the limit of refined meshes, in space and in time")
+    CLI::Option* space =
+        command->add_flag("--space", study_.space,
+                          "a second reference on a mesh twice as fine, for the error in space");
+    command
+        ->add_flag("--truth", study_.truth,
+                   "errors against the limit of refined meshes, in space and in time")
         ->excludes(space);
-    command->add_flag("--growth", study_.growth, "the growth of small motions by each cycle, linearised about rest");
+    command->add_flag("--growth", study_.growth,
+                      "the growth of small motions by each cycle, linearised about rest");
     command->add_flag("--quiet", arguments_.quiet, "say nothing unless something is wrong");
   }
 
   void add_stability() {
-    CLI::App* command = add_scene_command("stability", "search the largest stable macro step of each method",
-                                          [this] { return stability(arguments_, stability_); });
-    command->add_flag("--matrix", stability_.matrix,
-                      "no scene: all stiff and extreme cases, each with the outcome that it must have");
+    CLI::App* command =
+        add_scene_command("stability", "search the largest stable macro step of each method",
+                          [this] { return stability(arguments_, stability_); });
+    command->add_flag(
+        "--matrix", stability_.matrix,
+        "no scene: all stiff and extreme cases, each with the outcome that it must have");
     add_output(command, "out/SCENE, out/stability");
     command
         ->add_option("--budget", stability_.budget,
@@ -200,15 +227,19 @@ class CommandLine {
   }
 
   void check_stability() const {
-    if (!stability_.matrix && arguments_.scene.empty()) throw CLI::RequiredError("SCENE, or --matrix,");
-    const bool of_scene = !arguments_.scene.empty() || !arguments_.overrides.empty() || !arguments_.precision.empty();
+    if (!stability_.matrix && arguments_.scene.empty())
+      throw CLI::RequiredError("SCENE, or --matrix,");
+    const bool of_scene =
+        !arguments_.scene.empty() || !arguments_.overrides.empty() || !arguments_.precision.empty();
     if (stability_.matrix && of_scene)
-      throw InputError("--matrix has its own bodies, in double: leave SCENE, --set, --duration and --precision out");
+      throw InputError(
+          "--matrix has its own bodies, in double: leave SCENE, --set, --duration and --precision "
+          "out");
   }
 
   void add_verify() {
-    CLI::App* command =
-        add("verify", "solve problems with known answers", [this] { return verify(arguments_, verify_); });
+    CLI::App* command = add("verify", "solve problems with known answers",
+                            [this] { return verify(arguments_, verify_); });
     command->add_option("PROBLEM", verify_.problems, "only these (all)");
     add_output(command, "out/verify");
     command->add_flag("--small", verify_.small, "on coarser meshes, in seconds");
@@ -217,7 +248,8 @@ class CommandLine {
   }
 
   void add_report() {
-    CLI::App* command = add("report", "write a page that shows a run or a study", [this] { return report(report_); });
+    CLI::App* command = add("report", "write a page that shows a run or a study",
+                            [this] { return report(report_); });
     command->add_option("FOLDER", report_.folder, "the folder of the run or study")->required();
     command->add_option("--frames", report_.frames, "show at most so many frames, evenly (200)")
         ->type_name("N")
@@ -226,8 +258,9 @@ class CommandLine {
   }
 
   void add_view() {
-    CLI::App* command = add_scene_command("view", "watch the scene live in a browser, and pull at the body",
-                                          [this] { return view(arguments_, view_); });
+    CLI::App* command =
+        add_scene_command("view", "watch the scene live in a browser, and pull at the body",
+                          [this] { return view(arguments_, view_); });
     command->add_option("--port", view_.port, "of the page's address (8642); 0: any free one")
         ->type_name("N")
         ->check(CLI::Range(0, 65535));
@@ -242,16 +275,19 @@ class CommandLine {
   }
 
   void add_mesh() {
-    CLI::App* mesh = app_.add_subcommand("mesh", "look at mesh files, convert, repair and make them");
+    CLI::App* mesh =
+        app_.add_subcommand("mesh", "look at mesh files, convert, repair and make them");
     mesh->require_subcommand(1);
-    CLI::App* info = mesh->add_subcommand("info", "what a mesh file holds and how well its tetrahedra are shaped");
+    CLI::App* info = mesh->add_subcommand(
+        "info", "what a mesh file holds and how well its tetrahedra are shaped");
     info->add_option("FILE", mesh_.file, "the mesh, or a surface")->required();
     info->add_flag("--json", mesh_.json, "print JSON, in SI units");
     info->add_option("--scale", mesh_.scale, "metres per unit of the file, such as 0.001");
-    const auto add = [this, info](const std::string& option, const std::string& key, const std::string& expects,
-                                  const std::string& help) {
+    const auto add = [this, info](const std::string& option, const std::string& key,
+                                  const std::string& expects, const std::string& help) {
       info->add_option_function<std::string>(
-          option, [this, key](const std::string& text) { mesh_.material[key] = text; }, help + ": " + expects);
+          option, [this, key](const std::string& text) { mesh_.material[key] = text; },
+          help + ": " + expects);
     };
     MaterialOptions material;
     OptionList list(add);
@@ -263,32 +299,40 @@ class CommandLine {
       };
     });
     add_convert(mesh);
-    add_making(mesh, "repair", "merge duplicates, drop loose parts, shape slivers better", "a mesh", mesh_repair);
-    CLI::App* fill =
-        add_making(mesh, "fill", "make a mesh of a closed surface's inside", "a closed surface", mesh_fill);
+    add_making(mesh, "repair", "merge duplicates, drop loose parts, shape slivers better", "a mesh",
+               mesh_repair);
+    CLI::App* fill = add_making(mesh, "fill", "make a mesh of a closed surface's inside",
+                                "a closed surface", mesh_fill);
     fill->add_option("--size", make_.size, "its edges, such as 2mm")->required();
     fill->add_option("--with", make_.with,
-                     "gmsh: it fits the surface; lattice: of cubes over it; left out: Gmsh where it is installed")
+                     "gmsh: it fits the surface; lattice: of cubes over it; left out: Gmsh where "
+                     "it is installed")
         ->check(CLI::IsMember({"gmsh", "lattice"}));
     fill->add_option("--time-limit", make_.time_limit, "stop Gmsh after this time (10 min)");
-    CLI::App* coarsen = add_making(mesh, "coarsen", "make a coarser lattice mesh over a mesh", "a mesh", mesh_coarsen);
+    CLI::App* coarsen = add_making(mesh, "coarsen", "make a coarser lattice mesh over a mesh",
+                                   "a mesh", mesh_coarsen);
     coarsen->add_option("--vertices", make_.vertices, "it has at most, and about")->required();
   }
 
-  CLI::App* add_making(CLI::App* mesh, const std::string& name, const std::string& help, const std::string& in,
-                       ExitStatus (*make)(const MakeMeshArguments&)) {
+  CLI::App* add_making(CLI::App* mesh, const std::string& name, const std::string& help,
+                       const std::string& in, ExitStatus (*make)(const MakeMeshArguments&)) {
     CLI::App* command = mesh->add_subcommand(name, help);
     command->add_option("FILE", make_.in, in)->required();
-    command->add_option("-o,--output", make_.out, "the mesh file to write, in the format of its extension")->required();
+    command
+        ->add_option("-o,--output", make_.out,
+                     "the mesh file to write, in the format of its extension")
+        ->required();
     command->add_option("--scale", make_.scale, "metres per unit of FILE, such as 0.001");
     command->callback([this, make] { action_ = [this, make] { return make(make_); }; });
     return command;
   }
 
   void add_convert(CLI::App* mesh) {
-    CLI::App* convert = mesh->add_subcommand("convert", "write a mesh or surface in another format");
+    CLI::App* convert =
+        mesh->add_subcommand("convert", "write a mesh or surface in another format");
     convert->add_option("IN", convert_.in, "the file to read")->required();
-    convert->add_option("OUT", convert_.out, "the file to write, in the format of its extension")->required();
+    convert->add_option("OUT", convert_.out, "the file to write, in the format of its extension")
+        ->required();
     convert->add_option("--format", convert_.format, "which one, where the extension has several");
     convert->add_flag("--binary", convert_.binary, "its binary form");
     convert->add_option("--scale", convert_.scale, "all lengths times this, such as 0.001");
@@ -322,8 +366,10 @@ class CommandLine {
     command->add_option("SHELL", shell_, "bash or zsh")->required();
   }
 
-  CLI::App app_{"Plica: soft-tissue simulation with nonlinear tetrahedral finite elements, contact and surgical tools",
-                "plica"};
+  CLI::App app_{
+      "Plica: soft-tissue simulation with nonlinear tetrahedral finite elements, contact and "
+      "surgical tools",
+      "plica"};
   RunArguments arguments_;
   StudyArguments study_;
   StabilityArguments stability_;

@@ -41,14 +41,16 @@ class SimulationOf final : public AnySimulation {
     simulation_.share_cores();
   }
 
-  std::optional<Diagnosis> advance(double until, long at_most, const std::function<void()>& between) override {
+  std::optional<Diagnosis> advance(double until, long at_most,
+                                   const std::function<void()>& between) override {
     const double rounding = 1e-9 * simulation_.macro_step();
     std::optional<Diagnosis> bad;
     try {
       for (; at_most > 0 && !bad && simulation_.time() < until - rounding; --at_most) {
         const auto start = std::chrono::steady_clock::now();
         bad = step();
-        wall_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        wall_time_ +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         between();
       }
     } catch (...) {
@@ -66,7 +68,8 @@ class SimulationOf final : public AnySimulation {
   void grasp(int obstacle) override { simulation_.grasp(obstacle); }
   void release(int obstacle) override { simulation_.release(obstacle); }
   std::vector<CavityState> cavities() const override { return simulation_.cavities(); }
-  void move_obstacle(int obstacle, const Point& displacement, const std::optional<Point>& rotation) override {
+  void move_obstacle(int obstacle, const Point& displacement,
+                     const std::optional<Point>& rotation) override {
     if (rotation)
       simulation_.move_obstacle(obstacle, displacement, *rotation);
     else
@@ -78,16 +81,21 @@ class SimulationOf final : public AnySimulation {
     ElementFields fields = simulation_.element_fields(level);
     const Reordering& order = numbering(level).input;
     const auto& rows = fields.per_vertex ? order.vertices : order.tets;
-    return {fields.per_vertex, app::in_input_order(fields.von_mises, rows), app::in_input_order(fields.J, rows)};
+    return {fields.per_vertex, app::in_input_order(fields.von_mises, rows),
+            app::in_input_order(fields.J, rows)};
   }
 
   double time() const override { return simulation_.time(); }
   double macro_step() const override { return simulation_.macro_step(); }
   long macro_steps() const override { return simulation_.macro_steps(); }
   Energies energies() const override { return simulation_.energies(); }
-  std::vector<LevelReport> levels() const override { return app::in_input_numbers(simulation_.levels(), *scene_); }
+  std::vector<LevelReport> levels() const override {
+    return app::in_input_numbers(simulation_.levels(), *scene_);
+  }
   std::map<std::string, long> counters() const override { return simulation_.counters(); }
-  std::string precision() const override { return std::is_same_v<typename B::Real, float> ? "float" : "double"; }
+  std::string precision() const override {
+    return std::is_same_v<typename B::Real, float> ? "float" : "double";
+  }
 
   void set_state(const Values& positions, const Values& velocities) override {
     const std::vector<int> order = numbering(0).input.vertices;
@@ -101,7 +109,9 @@ class SimulationOf final : public AnySimulation {
     if constexpr (!B::on_host) throw InputError("forces of one's own need a back end on the host");
     forces_ = {};
     if (forces)
-      forces_ = [this, forces = std::move(forces)](const ForceRequest<B>& request) { add_forces(request, forces); };
+      forces_ = [this, forces = std::move(forces)](const ForceRequest<B>& request) {
+        add_forces(request, forces);
+      };
     simulation_.set_external_forces(forces_);
   }
 
@@ -127,10 +137,12 @@ class SimulationOf final : public AnySimulation {
     summary.precision = precision(), summary.backend = B::Exec::name(),
     summary.threads = typename B::Exec().concurrency();
     summary.choice = choice_, summary.cycle = app::cycle_name(*scene_, choice_);
-    summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches(), summary.tools = tools();
+    summary.levels = levels(), summary.counters = counters(), summary.wrenches = wrenches(),
+    summary.tools = tools();
     summary.held = held();
     summary.residual = simulation_.worst_residual();
-    app::write_file(folder_ / "summary.json", app::summary_json(*scene_, summary, {"import plica"}));
+    app::write_file(folder_ / "summary.json",
+                    app::summary_json(*scene_, summary, {"import plica"}));
   }
 
   void show_live(app::LiveOptions options) override {
@@ -141,8 +153,8 @@ class SimulationOf final : public AnySimulation {
 
  private:
   using Rows = Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory>;
-  using HostRows =
-      Kokkos::View<double* [3], Kokkos::LayoutRight, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  using HostRows = Kokkos::View<double* [3], Kokkos::LayoutRight, Kokkos::HostSpace,
+                                Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
   std::optional<Diagnosis> step() {
     try {
@@ -158,8 +170,9 @@ class SimulationOf final : public AnySimulation {
   const app::Numbering& numbering(int level) const {
     const std::size_t meshes = std::min(simulation_.levels().size(), scene_->numbering.size());
     if (level < 0 || static_cast<std::size_t>(level) >= meshes)
-      throw InputError("level: there is no level " + std::to_string(level) + "; the simulation has " +
-                       std::to_string(meshes) + ", counted from 0, the finest");
+      throw InputError("level: there is no level " + std::to_string(level) +
+                       "; the simulation has " + std::to_string(meshes) +
+                       ", counted from 0, the finest");
     return scene_->numbering[static_cast<std::size_t>(level)];
   }
 
@@ -168,19 +181,22 @@ class SimulationOf final : public AnySimulation {
     const std::vector<int>& order = numbering(level).input.vertices;
     const std::size_t rows =
         of_surface ? surface_points_
-                   : static_cast<std::size_t>(simulation_.levels()[static_cast<std::size_t>(level)].vertices);
+                   : static_cast<std::size_t>(
+                         simulation_.levels()[static_cast<std::size_t>(level)].vertices);
     to.resize(3 * rows);
     if (of_surface || order.empty()) return read_rows(field, level, to);
     Values here(to.size());
     read_rows(field, level, here);
-    for (std::size_t i = 0; i < rows; ++i) std::copy_n(&here[3 * static_cast<std::size_t>(order[i])], 3, &to[3 * i]);
+    for (std::size_t i = 0; i < rows; ++i)
+      std::copy_n(&here[3 * static_cast<std::size_t>(order[i])], 3, &to[3 * i]);
   }
 
   /// In the simulation's own order
   void read_rows(Field field, int level, Values& to) const {
     if (to.empty()) return;
     const HostRows host(to.data(), to.size() / 3);
-    const auto rows = Kokkos::create_mirror_view(Kokkos::WithoutInitializing, typename B::Memory(), host);
+    const auto rows =
+        Kokkos::create_mirror_view(Kokkos::WithoutInitializing, typename B::Memory(), host);
     const DeviceOutput<B> output(rows);
     if (field == Field::positions) simulation_.read_positions(output, level);
     if (field == Field::velocities) simulation_.read_velocities(output, level);
@@ -205,18 +221,21 @@ class SimulationOf final : public AnySimulation {
     using Real = typename B::Real;
     request.exec.fence("plica::forces");
     const std::vector<int>& order = numbering(request.level).input.vertices;
-    const auto here = [&](std::size_t i) { return order.empty() ? i : static_cast<std::size_t>(order[i]); };
+    const auto here = [&](std::size_t i) {
+      return order.empty() ? i : static_cast<std::size_t>(order[i]);
+    };
     const std::size_t n = request.rest.extent(0);
     Values x(3 * n), v(3 * n), f(3 * n);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < 3; ++k) {
-        x[3 * i + k] =
-            static_cast<double>(request.rest(here(i), k)) + static_cast<double>(request.displacement(here(i), k));
+        x[3 * i + k] = static_cast<double>(request.rest(here(i), k)) +
+                       static_cast<double>(request.displacement(here(i), k));
         v[3 * i + k] = static_cast<double>(request.velocity(here(i), k));
       }
     forces(request.level, request.time, x, v, f);
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < 3; ++k) request.force(here(i), k) += static_cast<Real>(f[3 * i + k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        request.force(here(i), k) += static_cast<Real>(f[3 * i + k]);
   }
 
   std::shared_ptr<const app::Scene> scene_;
@@ -232,7 +251,8 @@ class SimulationOf final : public AnySimulation {
 template <class B>
 std::unique_ptr<AnySimulation> make(std::shared_ptr<const app::Scene> scene) {
   try {
-    return std::make_unique<SimulationOf<B>>(scene, choose_cycle<B>(scene->problem, {scene->duration, {}}));
+    return std::make_unique<SimulationOf<B>>(
+        scene, choose_cycle<B>(scene->problem, {scene->duration, {}}));
   } catch (const SubstepRefused& error) {
     throw app::located(app::in_input_numbers(error, *scene), scene->source);
   } catch (const InputError& error) {
@@ -242,7 +262,8 @@ std::unique_ptr<AnySimulation> make(std::shared_ptr<const app::Scene> scene) {
 
 }  // namespace
 
-std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene, const std::string& precision) {
+std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene,
+                                               const std::string& precision) {
   if (precision != "float" && precision != "double")
     throw InputError(unknown_name("precision", precision, {"float", "double"}));
   start_kokkos();

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-/// A scene in motion as Python sees it: in either precision behind one type, arrays on the host in double, rows in the order of
-/// the meshes' files.
+/// A scene in motion as Python sees it: in either precision behind one type, arrays on the host in
+/// double, rows in the order of the meshes' files.
 namespace plica::python {
 
 /// Numbers row after row.
@@ -21,16 +21,17 @@ using Values = std::vector<double>;
 enum class Field { positions, velocities, surface_positions, surface_velocities };
 
 /// Adds to `forces` [N]; all three are [vertices][3].
-using HostForces =
-    std::function<void(int level, double time, const Values& positions, const Values& velocities, Values& forces)>;
+using HostForces = std::function<void(int level, double time, const Values& positions,
+                                      const Values& velocities, Values& forces)>;
 
 class AnySimulation {
  public:
   virtual ~AnySimulation() = default;
 
-  /// Checked macro steps until this time, at most so many. Calls between() after each. A diagnosis: the state is the last good one.
-  /// Where something throws within a step, too.
-  virtual std::optional<Diagnosis> advance(double until, long at_most, const std::function<void()>& between) = 0;
+  /// Checked macro steps until this time, at most so many. Calls between() after each. A diagnosis:
+  /// the state is the last good one. Where something throws within a step, too.
+  virtual std::optional<Diagnosis> advance(double until, long at_most,
+                                           const std::function<void()>& between) = 0;
   /// See Simulation::end_at().
   virtual void end_at(double time) = 0;
 
@@ -46,7 +47,8 @@ class AnySimulation {
   virtual void release(int obstacle) = 0;
   virtual std::vector<CavityState> cavities() const = 0;
   /// See Simulation::move_obstacle().
-  virtual void move_obstacle(int obstacle, const Point& displacement, const std::optional<Point>& rotation) = 0;
+  virtual void move_obstacle(int obstacle, const Point& displacement,
+                             const std::optional<Point>& rotation) = 0;
 
   virtual double time() const = 0;
   virtual double macro_step() const = 0;
@@ -63,8 +65,10 @@ class AnySimulation {
 
   /// From now on the files of a run in this folder, as those of `plica run`.
   virtual void start_files(const std::filesystem::path& folder) = 0;
-  /// Writes the state as a frame, and the summary, with what a run is like so far: running, completed, diverged.
-  virtual void write_frame(const std::string& status, const std::optional<Diagnosis>& diagnosis) = 0;
+  /// Writes the state as a frame, and the summary, with what a run is like so far: running,
+  /// completed, diverged.
+  virtual void write_frame(const std::string& status,
+                           const std::optional<Diagnosis>& diagnosis) = 0;
 
   /// See app::show_live(); the method is filled in.
   virtual void show_live(app::LiveOptions options) = 0;
@@ -83,7 +87,9 @@ class AnySimulation {
   std::vector<Live> lives_;
 };
 
-/// Sets the scene up; precision: float or double. InputError with the place in the scene. Starts Kokkos.
-std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene, const std::string& precision);
+/// Sets the scene up; precision: float or double. InputError with the place in the scene. Starts
+/// Kokkos.
+std::unique_ptr<AnySimulation> make_simulation(std::shared_ptr<const app::Scene> scene,
+                                               const std::string& precision);
 
 }  // namespace plica::python

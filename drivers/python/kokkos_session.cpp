@@ -23,7 +23,8 @@ std::set<std::string> copies() {
   dl_iterate_phdr(
       [](dl_phdr_info* info, std::size_t, void* names) {
         const std::string file = info->dlpi_name;
-        if (file.find("libkokkoscore") != std::string::npos) static_cast<std::set<std::string>*>(names)->insert(file);
+        if (file.find("libkokkoscore") != std::string::npos)
+          static_cast<std::set<std::string>*>(names)->insert(file);
         return 0;
       },
       &found);
@@ -33,18 +34,21 @@ std::set<std::string> copies() {
 }  // namespace
 
 void start_kokkos(int threads) {
-  if (Kokkos::is_finalized()) throw InputError("Kokkos has come to its end in this process and cannot start again");
+  if (Kokkos::is_finalized())
+    throw InputError("Kokkos has come to its end in this process and cannot start again");
   if (Kokkos::is_initialized()) {
     if (threads > 0 && threads != Exec().concurrency())
-      throw InputError(
-          fmt::format("threads: {} asked for, but Kokkos already runs with {}; call plica.init(threads={}) "
-                      "before anything else",
-                      threads, Exec().concurrency(), threads));
+      throw InputError(fmt::format(
+          "threads: {} asked for, but Kokkos already runs with {}; call plica.init(threads={}) "
+          "before anything else",
+          threads, Exec().concurrency(), threads));
     return;
   }
   if (const auto files = copies(); files.size() > 1)
-    throw InputError(fmt::format("two copies of Kokkos are in this process: {}", fmt::join(files, " and ")));
-  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too late from here.
+    throw InputError(
+        fmt::format("two copies of Kokkos are in this process: {}", fmt::join(files, " and ")));
+  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too
+  // late from here.
   setenv("OMP_PROC_BIND", "false", 0);
   Kokkos::InitializationSettings settings;
   if (threads > 0) settings.set_num_threads(threads);
@@ -59,7 +63,8 @@ void finalize_kokkos() {
 
 KokkosInfo kokkos_info() {
   start_kokkos();
-  return {fmt::format("{}.{}.{}", KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100, KOKKOS_VERSION % 100),
+  return {fmt::format("{}.{}.{}", KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100,
+                      KOKKOS_VERSION % 100),
           Exec::name(), Exec().concurrency()};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The module plica._plica: what C++ has, as it is. The package plica around it, in Python, is what users see.
+// The module plica._plica: what C++ has, as it is. The package plica around it, in Python, is what
+// users see.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -43,8 +44,9 @@ template <class T>
 nb::object array(std::shared_ptr<std::vector<T>> values, std::size_t columns = 0) {
   T* data = values->data();
   const std::size_t size = values->size(), shape[] = {columns > 0 ? size / columns : size, columns};
-  const nb::capsule owner(new std::shared_ptr<std::vector<T>>(std::move(values)),
-                          [](void* p) noexcept { delete static_cast<std::shared_ptr<std::vector<T>>*>(p); });
+  const nb::capsule owner(
+      new std::shared_ptr<std::vector<T>>(std::move(values)),
+      [](void* p) noexcept { delete static_cast<std::shared_ptr<std::vector<T>>*>(p); });
   return nb::cast(nb::ndarray<nb::numpy, T>(data, columns > 0 ? 2 : 1, shape, owner));
 }
 template <class T>
@@ -67,7 +69,8 @@ nb::object vector_of(const Point& p) { return array(Values{p.x(), p.y(), p.z()})
 Values values_of(const Table<double>& table) { return {table.data(), table.data() + table.size()}; }
 std::vector<Point> points_of(const Table<double>& table) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < table.shape(0); ++i) points.emplace_back(table(i, 0), table(i, 1), table(i, 2));
+  for (std::size_t i = 0; i < table.shape(0); ++i)
+    points.emplace_back(table(i, 0), table(i, 1), table(i, 2));
   return points;
 }
 
@@ -89,21 +92,25 @@ class Signals {
 nb::tuple parts_of(const TetMesh& mesh) {
   nb::dict sets;
   for (const auto& [name, vertices] : mesh.vertex_sets) sets[name.c_str()] = array(vertices);
-  return nb::make_tuple(array(mesh.vertices), array(mesh.tets), array(mesh.region), mesh.region_names, sets);
+  return nb::make_tuple(array(mesh.vertices), array(mesh.tets), array(mesh.region),
+                        mesh.region_names, sets);
 }
 
 void write_mesh_file(const std::string& file, const Table<double>& points, const Table<int>& tets,
                      const std::vector<int>& region, const std::vector<std::string>& region_names,
                      const std::map<std::string, std::vector<int>>& vertex_sets) {
   TetMesh mesh{points_of(points), {}, region, region_names, vertex_sets};
-  for (std::size_t i = 0; i < tets.shape(0); ++i) mesh.tets.push_back({tets(i, 0), tets(i, 1), tets(i, 2), tets(i, 3)});
+  for (std::size_t i = 0; i < tets.shape(0); ++i)
+    mesh.tets.push_back({tets(i, 0), tets(i, 1), tets(i, 2), tets(i, 3)});
   app::write_files(write_mesh(file, mesh).files);
 }
 
 ScenePtr load(const std::string& file, const std::string& json, const std::string& name,
               const std::vector<std::pair<std::string, std::string>>& overrides) {
-  app::Tree tree = file.empty() ? app::tree_of(nlohmann::ordered_json::parse(json), name) : app::read_tree(file);
-  for (const auto& [path, value] : overrides) app::override_value(tree, path + "=" + value, path + "=" + value);
+  app::Tree tree =
+      file.empty() ? app::tree_of(nlohmann::ordered_json::parse(json), name) : app::read_tree(file);
+  for (const auto& [path, value] : overrides)
+    app::override_value(tree, path + "=" + value, path + "=" + value);
   return std::make_shared<app::Scene>(app::load_scene(tree));
 }
 
@@ -111,11 +118,13 @@ ScenePtr load(const std::string& file, const std::string& json, const std::strin
 std::string study_of(const ScenePtr& scene, std::optional<double> budget) {
   start_kokkos();
   StudyOptions options = scene->study;
-  options.duration = scene->duration, options.probes = scene->output.probes, options.budget = budget;
+  options.duration = scene->duration, options.probes = scene->output.probes,
+  options.budget = budget;
   Signals signals;
   const nb::gil_scoped_release release;
   try {
-    const StudyResult result = study(scene->problem, options, [&](const StudyProgress&) { return signals(), true; });
+    const StudyResult result =
+        study(scene->problem, options, [&](const StudyProgress&) { return signals(), true; });
     return app::study_csv(result.rows);
   } catch (const InputError& error) {
     throw app::located(error, scene->source);
@@ -123,9 +132,11 @@ std::string study_of(const ScenePtr& scene, std::optional<double> budget) {
 }
 
 void bind_results(nb::module_& m) {
-  nb::class_<Diagnosis>(m, "Diagnosis",
-                        "Why a run cannot go on. Indices count as the mesh's file does; -1: does not apply.")
-      .def_ro("kind", &Diagnosis::kind, "non_finite, inverted, energy, speed, contact, solver or stability")
+  nb::class_<Diagnosis>(
+      m, "Diagnosis",
+      "Why a run cannot go on. Indices count as the mesh's file does; -1: does not apply.")
+      .def_ro("kind", &Diagnosis::kind,
+              "non_finite, inverted, energy, speed, contact, solver or stability")
       .def_ro("level", &Diagnosis::level, "0: the finest")
       .def_ro("element", &Diagnosis::element, "tetrahedron of that level")
       .def_ro("vertex", &Diagnosis::vertex, "vertex of that level")
@@ -142,8 +153,10 @@ void bind_results(nb::module_& m) {
       .def_ro("contact", &Energies::contact, "of the penalties [J]")
       .def_prop_ro("total", &Energies::total, "their sum [J]")
       .def("__repr__", [](const Energies& e) {
-        return "Energies(kinetic=" + std::to_string(e.kinetic) + ", elastic=" + std::to_string(e.elastic) +
-               ", potential=" + std::to_string(e.potential) + ", contact=" + std::to_string(e.contact) + ")";
+        return "Energies(kinetic=" + std::to_string(e.kinetic) +
+               ", elastic=" + std::to_string(e.elastic) +
+               ", potential=" + std::to_string(e.potential) +
+               ", contact=" + std::to_string(e.contact) + ")";
       });
 }
 
@@ -153,7 +166,8 @@ void bind_scene(nb::module_& m) {
       .def_ro("name", &app::Scene::name)
       .def_ro("duration", &app::Scene::duration)
       .def_ro("warnings", &app::Scene::warnings)
-      .def_prop_ro("automatic_step", [](const app::Scene& s) { return !s.problem.integration.macro_step; })
+      .def_prop_ro("automatic_step",
+                   [](const app::Scene& s) { return !s.problem.integration.macro_step; })
       .def_prop_ro("levels", [](const app::Scene& s) { return s.problem.body.levels.size(); })
       .def_prop_ro("placement",
                    [](const app::Scene& s) {
@@ -163,8 +177,9 @@ void bind_scene(nb::module_& m) {
       .def("mesh",
            [](const app::Scene& s, std::size_t level) {
              if (level >= s.problem.body.levels.size())
-               throw InputError("level: there is no level " + std::to_string(level) + "; the scene has " +
-                                std::to_string(s.problem.body.levels.size()) + ", counted from 0, the finest");
+               throw InputError("level: there is no level " + std::to_string(level) +
+                                "; the scene has " + std::to_string(s.problem.body.levels.size()) +
+                                ", counted from 0, the finest");
              return parts_of(app::in_input_order(s.problem.body.levels[level], s.numbering[level]));
            })
       .def("surface", [](const app::Scene& s) {
@@ -175,7 +190,8 @@ void bind_scene(nb::module_& m) {
   m.def("study", &study_of, "scene"_a, "budget"_a.none());
 }
 
-/// A simulation that can be closed while Python still refers to it: in a traceback, say, when the interpreter ends.
+/// A simulation that can be closed while Python still refers to it: in a traceback, say, when the
+/// interpreter ends.
 class Handle {
  public:
   explicit Handle(std::shared_ptr<AnySimulation> simulation) : simulation_(std::move(simulation)) {}
@@ -190,7 +206,9 @@ class Handle {
   std::shared_ptr<AnySimulation> simulation_;
 };
 
-nb::object live(const Handle& simulation, Field field, int level) { return array(simulation->live(field, level), 3); }
+nb::object live(const Handle& simulation, Field field, int level) {
+  return array(simulation->live(field, level), 3);
+}
 
 void set_forces(const Handle& simulation, const nb::object& callback) {
   if (callback.is_none()) return simulation->set_forces({});
@@ -198,17 +216,19 @@ void set_forces(const Handle& simulation, const nb::object& callback) {
     const nb::gil_scoped_acquire gil;  // of whichever thread drops it
     delete object;
   });
-  simulation->set_forces([held](int level, double time, const Values& x, const Values& v, Values& f) {
-    const nb::gil_scoped_acquire gil;
-    const auto forces = std::make_shared<Values>(f);
-    (*held)(level, time, array(Values(x), 3), array(Values(v), 3), array(forces, 3));
-    if (const auto bad = std::ranges::find_if_not(*forces, [](double x) { return std::isfinite(x); });
-        bad != forces->end())
-      throw InputError("forces: level " + std::to_string(level) + ", vertex " +
-                       std::to_string((bad - forces->begin()) / 3) + ": " + std::to_string(*bad) +
-                       "; expected finite numbers [N]");
-    f = *forces;
-  });
+  simulation->set_forces(
+      [held](int level, double time, const Values& x, const Values& v, Values& f) {
+        const nb::gil_scoped_acquire gil;
+        const auto forces = std::make_shared<Values>(f);
+        (*held)(level, time, array(Values(x), 3), array(Values(v), 3), array(forces, 3));
+        if (const auto bad =
+                std::ranges::find_if_not(*forces, [](double x) { return std::isfinite(x); });
+            bad != forces->end())
+          throw InputError("forces: level " + std::to_string(level) + ", vertex " +
+                           std::to_string((bad - forces->begin()) / 3) + ": " +
+                           std::to_string(*bad) + "; expected finite numbers [N]");
+        f = *forces;
+      });
 }
 
 /// Until Ctrl-C, which raises KeyboardInterrupt. listening(address) is called once.
@@ -244,7 +264,8 @@ void bind_simulation(nb::module_& m) {
       .def("element_fields",
            [](const H& s, int level) {
              ElementFields fields = s->element_fields(level);
-             return nb::make_tuple(fields.per_vertex, array(std::move(fields.von_mises)), array(std::move(fields.J)));
+             return nb::make_tuple(fields.per_vertex, array(std::move(fields.von_mises)),
+                                   array(std::move(fields.J)));
            })
       .def("wrenches",
            [](const H& s) {
@@ -258,8 +279,9 @@ void bind_simulation(nb::module_& m) {
            [](const H& s) {
              std::vector<nb::object> all;
              for (const ToolState& t : s->tools())
-               all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement), vector_of(t.velocity),
-                                            vector_of(t.rotation), vector_of(t.angular_velocity)));
+               all.push_back(nb::make_tuple(t.obstacle, vector_of(t.displacement),
+                                            vector_of(t.velocity), vector_of(t.rotation),
+                                            vector_of(t.angular_velocity)));
              return all;
            })
       .def("held",
@@ -273,14 +295,19 @@ void bind_simulation(nb::module_& m) {
       .def("cavities",
            [](const H& s) {
              std::vector<nb::object> all;
-             for (const CavityState& c : s->cavities()) all.push_back(nb::make_tuple(c.load, c.volume, c.pressure));
+             for (const CavityState& c : s->cavities())
+               all.push_back(nb::make_tuple(c.load, c.volume, c.pressure));
              return all;
            })
       .def(
           "move_obstacle",
-          [](const H& s, int obstacle, const std::array<double, 3>& d, const std::optional<std::array<double, 3>>& r) {
-            const auto point = [](const std::array<double, 3>& p) { return Point(p[0], p[1], p[2]); };
-            s->move_obstacle(obstacle, point(d), r ? std::optional<Point>(point(*r)) : std::nullopt);
+          [](const H& s, int obstacle, const std::array<double, 3>& d,
+             const std::optional<std::array<double, 3>>& r) {
+            const auto point = [](const std::array<double, 3>& p) {
+              return Point(p[0], p[1], p[2]);
+            };
+            s->move_obstacle(obstacle, point(d),
+                             r ? std::optional<Point>(point(*r)) : std::nullopt);
           },
           "obstacle"_a, "displacement"_a, "rotation"_a.none())
       .def("start_files", [](const H& s, const std::string& folder) { s->start_files(folder); })
@@ -291,8 +318,8 @@ void bind_simulation(nb::module_& m) {
           },
           "status"_a, "diagnosis"_a.none())
       .def("show_live", &show_live)
-      .def("set_state",
-           [](const H& s, const Table<double>& x, const Table<double>& v) { s->set_state(values_of(x), values_of(v)); })
+      .def("set_state", [](const H& s, const Table<double>& x,
+                           const Table<double>& v) { s->set_state(values_of(x), values_of(v)); })
       .def("set_forces", &set_forces, nb::arg("callback").none())
       .def("save",
            [](const H& s) {
@@ -302,7 +329,8 @@ void bind_simulation(nb::module_& m) {
       .def("restore",
            [](const H& s, const nb::object& given) {
              nb::bytes saved;
-             if (!nb::try_cast(given, saved)) throw InputError("restore: expected the bytes that save() has returned");
+             if (!nb::try_cast(given, saved))
+               throw InputError("restore: expected the bytes that save() has returned");
              const auto* bytes = static_cast<const unsigned char*>(saved.data());
              s->restore({{bytes, bytes + saved.size()}});
            })
@@ -342,7 +370,8 @@ NB_MODULE(_plica, m) {
   m.def("version", [] { return std::string(version()); });
   m.def("keys", [] {
     std::vector<std::vector<std::string>> rows;
-    for (const app::KeyInfo& key : app::scene_keys()) rows.push_back({key.path, key.expects, key.otherwise, key.help});
+    for (const app::KeyInfo& key : app::scene_keys())
+      rows.push_back({key.path, key.expects, key.otherwise, key.help});
     return rows;
   });
   m.def("parse_every", [](const std::string& name, const std::string& text) {
@@ -351,12 +380,13 @@ NB_MODULE(_plica, m) {
       return std::pair(interval.time, interval.steps);
     } catch (const std::invalid_argument& problem) {
       throw InputError(name + ": expected a time such as '20 ms'" +
-                       (name == "every" ? " or macro steps such as '10 steps'" : "") + ", got '" + text + "', " +
-                       problem.what());
+                       (name == "every" ? " or macro steps such as '10 steps'" : "") + ", got '" +
+                       text + "', " + problem.what());
     }
   });
   m.def("read_mesh", [](const std::string& file) { return parts_of(read_mesh(file)); });
-  m.def("write_mesh", &write_mesh_file, "file"_a, "points"_a, "tets"_a, "region"_a, "region_names"_a, "vertex_sets"_a);
+  m.def("write_mesh", &write_mesh_file, "file"_a, "points"_a, "tets"_a, "region"_a,
+        "region_names"_a, "vertex_sets"_a);
   m.def("former_run", [](const std::string& folder) { return app::former_run(folder); });
   m.def("report", [](const std::string& folder, std::size_t frames) {
     const app::Report made = app::make_report(folder, frames);

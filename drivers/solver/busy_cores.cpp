@@ -39,7 +39,8 @@ std::optional<double> CoreWait::share(int threads) const {
   return std::clamp((*now - *waited_) / (threads * wall.count()), 0.0, 1.0);
 }
 
-// --- ThreadChoice -----------------------------------------------------------------------------------------------------------
+// --- ThreadChoice
+// -----------------------------------------------------------------------------------------------------------
 
 ThreadChoice::ThreadChoice(int all) : rungs_{std::max(all, 1)} {
   if (all > 2) rungs_.push_back(all - 1);
@@ -47,7 +48,9 @@ ThreadChoice::ThreadChoice(int all) : rungs_{std::max(all, 1)} {
     if (n < rungs_.back()) rungs_.push_back(n);
 }
 
-void ThreadChoice::try_out(std::size_t rung, double per_step) { came_from_ = at_, before_ = per_step, at_ = rung; }
+void ThreadChoice::try_out(std::size_t rung, double per_step) {
+  came_from_ = at_, before_ = per_step, at_ = rung;
+}
 
 void ThreadChoice::look(double now, double per_step, double waited) {
   if (came_from_) {
@@ -64,7 +67,8 @@ void ThreadChoice::look(double now, double per_step, double waited) {
   }
 }
 
-// --- SharedCores ------------------------------------------------------------------------------------------------------------
+// --- SharedCores
+// ------------------------------------------------------------------------------------------------------------
 
 template <class B>
 SharedCores<B>::SharedCores(const Exec& all) : all_(all), choice_(all.concurrency()) {}

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a simulation does where other work takes cores from it.
 //
-// The threads of a kernel end together. Where one of two has no core, every launch waits until it gets one, which takes milliseconds: a
-// step of 50 launches takes many times as long as with the one thread that has a core. So a simulation that shares its cores looks at
-// how long its threads waited for one, tries fewer threads where they did, and more again from time to time:
+// The threads of a kernel end together. Where one of two has no core, every launch waits until it
+// gets one, which takes milliseconds: a step of 50 launches takes many times as long as with the
+// one thread that has a core. So a simulation that shares its cores looks at how long its threads
+// waited for one, tries fewer threads where they did, and more again from time to time:
 //
 //     threads   waited > 1/20              waited less
 //        2      o----.                      .--------o-------
@@ -20,12 +21,13 @@
 
 namespace plica {
 
-/// How much of this process's time other work takes from it: the time in which its threads were ready to run and had no core.
+/// How much of this process's time other work takes from it: the time in which its threads were
+/// ready to run and had no core.
 class CoreWait {
  public:
   CoreWait();
-  /// Part of the time of so many threads since the construction, from 0 to 1. None where the system does not tell it: Linux does,
-  /// in /proc/self/task/*/schedstat.
+  /// Part of the time of so many threads since the construction, from 0 to 1. None where the system
+  /// does not tell it: Linux does, in /proc/self/task/*/schedstat.
   std::optional<double> share(int threads) const;
 
  private:
@@ -40,7 +42,8 @@ class ThreadChoice {
   int threads() const { return rungs_[at_]; }
   bool tries() const { return came_from_.has_value(); }  ///< whether this number is on trial
 
-  /// To be told after some steps: the time now, that of a step [s], and which part of it the threads waited for cores.
+  /// To be told after some steps: the time now, that of a step [s], and which part of it the
+  /// threads waited for cores.
   void look(double now, double per_step, double waited);
 
  private:
@@ -54,7 +57,8 @@ class ThreadChoice {
   void try_out(std::size_t rung, double per_step);
 };
 
-/// The execution space of a simulation, with as many threads as are good for it. Only OpenMP's is ever changed.
+/// The execution space of a simulation, with as many threads as are good for it. Only OpenMP's is
+/// ever changed.
 template <class B>
 class SharedCores {
  public:

@@ -18,8 +18,9 @@ namespace {
 // Over the layer of elements under the surface: what keeps a body visibly outside.
 constexpr double stiffening = 64;
 
-// In mean edges of the surface, the radius from which on an obstacle is left to the points. A tool that is pressed in by its radius
-// spreads the points under it and comes between them, however fine the mesh is.
+// In mean edges of the surface, the radius from which on an obstacle is left to the points. A tool
+// that is pressed in by its radius spreads the points under it and comes between them, however fine
+// the mesh is.
 constexpr double wide = 16;
 
 constexpr double pair_reach = 0.5, pair_margin = 0.25;  // of an edge
@@ -28,7 +29,9 @@ template <class Use>
 void each_side(const TriangleSurface& surface, const Use& use) {
   for (const auto& t : surface.triangles)
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto x = [&](std::size_t k) { return surface.vertices[static_cast<std::size_t>(t[k % 3])]; };
+      const auto x = [&](std::size_t k) {
+        return surface.vertices[static_cast<std::size_t>(t[k % 3])];
+      };
       use((x(c + 1) - x(c)).norm());
     }
 }
@@ -54,7 +57,8 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
       bodies_(static_cast<int>(surface.parts.size())),
       pairs_(pairs),
       rubs_((pairs && options.friction.value_or(0) > 0) ||
-            std::ranges::any_of(options.obstacles, [](const auto& o) { return o.friction.value_or(0) > 0; })),
+            std::ranges::any_of(options.obstacles,
+                                [](const auto& o) { return o.friction.value_or(0) > 0; })),
       reach_(surface.edge),
       deepest_(surface.size),
       lost_(zeros<Indices<B>>("plica::contact.lost", 1)) {
@@ -63,14 +67,16 @@ Contact<B>::Contact(const ContactOptions& options, const TouchingSurface& surfac
   const double longest = longest_surface_edge(surface.surface);
   for (const ObstacleOptions& o : all) options_.push_back(o.grasp);
   make_memory(options);
-  for (const ObstacleOptions& o : all) obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles(), longest));
+  for (const ObstacleOptions& o : all)
+    obstacles_.push_back(make_obstacle<B>(o, watch, memory_, obstacles(), longest));
   choose_held(surface.held);
   make_laws(options, surface);
   choose_whole(options.whole_surface, surface.surface);
   if (couples()) connect(surface.surface);
   if (!pairs) return;
-  limits_ = {static_cast<Real>(pair_reach * surface.edge), static_cast<Real>(pair_margin * surface.edge),
-             static_cast<Real>(surface.edge), options.bodies, options.self};
+  limits_ = {static_cast<Real>(pair_reach * surface.edge),
+             static_cast<Real>(pair_margin * surface.edge), static_cast<Real>(surface.edge),
+             options.bodies, options.self};
 }
 
 /// | tools with mass | what obstacles hold | attached points that are torn |
@@ -78,7 +84,8 @@ template <class B>
 void Contact<B>::make_memory(const ContactOptions& options) {
   const auto& all = options.obstacles;
   const bool tools = std::ranges::any_of(all, [](const auto& o) { return o.mass.has_value(); });
-  const bool tear = std::ranges::any_of(options.attachments, [](const auto& a) { return a.strength.has_value(); });
+  const bool tear = std::ranges::any_of(options.attachments,
+                                        [](const auto& a) { return a.strength.has_value(); });
   if (tools) grasps_.first = ObstaclePlace<B>::numbers * static_cast<int>(all.size());
   if (std::ranges::any_of(all, [](const auto& o) { return o.grasp.has_value(); }))
     grasps_.places = static_cast<int>(all.size()) * points_;
@@ -89,7 +96,8 @@ void Contact<B>::make_memory(const ContactOptions& options) {
     const double half = turned.norm() / 2;
     double* const attitude = &start[o * ObstaclePlace<B>::numbers + ObstaclePlace<B>::attitude];
     attitude[0] = std::cos(half);
-    for (int k = 0; k < 3; ++k) attitude[1 + k] = half > 0 ? std::sin(half) / (2 * half) * turned[k] : 0;
+    for (int k = 0; k < 3; ++k)
+      attitude[1 + k] = half > 0 ? std::sin(half) / (2 * half) * turned[k] : 0;
   }
   if (start.empty()) return;
   grasps_.memory = memory_ = to_device<Doubles<B>>("contact.memory", start);
@@ -121,8 +129,9 @@ int Contact<B>::whole() const {
   return static_cast<int>(std::count(whole_.begin(), whole_.end(), true));
 }
 
-/// Laws of obstacles and bodies, of what obstacles hold, of pairs of bodies, of attachments. What gives way is the layer of elements under
-/// the surface, with an area A for each point: E A / h. Of two bodies both layers, in series, with the smaller area.
+/// Laws of obstacles and bodies, of what obstacles hold, of pairs of bodies, of attachments. What
+/// gives way is the layer of elements under the surface, with an area A for each point: E A / h. Of
+/// two bodies both layers, in series, with the smaller area.
 template <class B>
 void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface& of) {
   struct Layer {
@@ -134,28 +143,32 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
   };
   for (int p = 0; p < points_; ++p) ++points[part(p)];
   for (const auto& t : of.surface.triangles) {
-    const auto x = [&](std::size_t c) { return of.surface.vertices[static_cast<std::size_t>(t[c])]; };
+    const auto x = [&](std::size_t c) {
+      return of.surface.vertices[static_cast<std::size_t>(t[c])];
+    };
     area[part(t[0])] += 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   }
   std::vector<Layer> layers;
   for (std::size_t b = 0; b < of.parts.size(); ++b)
-    layers.push_back({area[b] / std::max(points[b], 1.0), of.parts[b].edge, stiffness_at_rest(*of.parts[b].material),
-                      of.parts[b].material->density});
+    layers.push_back({area[b] / std::max(points[b], 1.0), of.parts[b].edge,
+                      stiffness_at_rest(*of.parts[b].material), of.parts[b].material->density});
   const double scale = stiffening * options.stiffness_scale;
-  const auto critical = [](double k, double mass) { return std::sqrt(k * mass); };  // 2 * 0.5 sqrt(k m)
+  // 2 * 0.5 sqrt(k m)
+  const auto critical = [](double k, double mass) { return std::sqrt(k * mass); };
   const auto law = [&](double k, double mass, const std::optional<double>& friction) {
     ContactLaw<Real> made;
     made.stiffness = static_cast<Real>(k);
     made.damping = static_cast<Real>(options.damping_scale * critical(k, mass));
     if (friction) {
       made.shear_stiffness = static_cast<Real>(options.friction_stiffness_scale * k);
-      made.shear_damping =
-          static_cast<Real>(options.tangential_damping_scale * critical(options.friction_stiffness_scale * k, mass));
+      made.shear_damping = static_cast<Real>(options.tangential_damping_scale *
+                                             critical(options.friction_stiffness_scale * k, mass));
       made.friction = static_cast<Real>(*friction);
     }
     return made;
   };
-  const auto tie = [&](ContactLaw<Real> made, const std::optional<double>& k, const std::optional<double>& strength) {
+  const auto tie = [&](ContactLaw<Real> made, const std::optional<double>& k,
+                       const std::optional<double>& strength) {
     if (k) made.damping *= static_cast<Real>(std::sqrt(*k / static_cast<double>(made.stiffness)));
     if (k) made.stiffness = static_cast<Real>(*k);
     made.strength = strength ? static_cast<Real>(*strength) : std::numeric_limits<Real>::infinity();
@@ -170,24 +183,29 @@ void Contact<B>::make_laws(const ContactOptions& options, const TouchingSurface&
   grasps_.first_law = static_cast<int>(laws.size());
   for (const ObstacleOptions& o : options.obstacles)
     for (const Layer& l : layers)
-      laws.push_back(o.grasp ? tie(of_layer(l, {}), o.grasp->stiffness, o.grasp->strength) : of_layer(l, {}));
+      laws.push_back(o.grasp ? tie(of_layer(l, {}), o.grasp->stiffness, o.grasp->strength)
+                             : of_layer(l, {}));
   const std::size_t first_pair = laws.size();
   for (const Layer& a : layers)
     for (const Layer& b : layers) {
-      const double least = std::min(a.area, b.area), k = scale * least / (a.edge / a.modulus + b.edge / b.modulus);
-      laws.push_back(law(k, least * std::min(a.density * a.edge, b.density * b.edge), options.friction));
+      const double least = std::min(a.area, b.area),
+                   k = scale * least / (a.edge / a.modulus + b.edge / b.modulus);
+      laws.push_back(
+          law(k, least * std::min(a.density * a.edge, b.density * b.edge), options.friction));
     }
   attached_.first_law = static_cast<int>(laws.size());
   for (std::size_t a = 0; a < options.attachments.size(); ++a) {
-    const auto one = std::ranges::find(of.attached, static_cast<int>(a), &AttachedPoint::attachment);
+    const auto one =
+        std::ranges::find(of.attached, static_cast<int>(a), &AttachedPoint::attachment);
     const auto [own, other] =
         one == of.attached.end()
             ? std::pair<std::size_t, std::size_t>{0, 0}
-            : std::pair{
-                  static_cast<std::size_t>(part(one->point)),
-                  static_cast<std::size_t>(part(of.surface.triangles[static_cast<std::size_t>(one->triangle)][0]))};
+            : std::pair{static_cast<std::size_t>(part(one->point)),
+                        static_cast<std::size_t>(part(
+                            of.surface.triangles[static_cast<std::size_t>(one->triangle)][0]))};
     const AttachmentOptions& its = options.attachments[a];
-    laws.push_back(tie(laws[first_pair + own * layers.size() + other], its.stiffness, its.strength));
+    laws.push_back(
+        tie(laws[first_pair + own * layers.size() + other], its.stiffness, its.strength));
   }
   const Layer& first = layers.front();
   stiffness_ = scale * first.modulus * first.area / first.edge;
@@ -241,7 +259,8 @@ void Contact<B>::connect(const TriangleSurface& surface) {
 template <class B>
 void Contact<B>::connect_edges(const TriangleSurface& surface) {
   struct Edge {
-    std::array<int, 2> opposite{-1, -1};  // left and right of the way from its first end to the second
+    // left and right of the way from its first end to the second
+    std::array<int, 2> opposite{-1, -1};
     int number = 0;
   };
   std::map<std::array<int, 2>, Edge> edges;  // by their ends
@@ -267,9 +286,11 @@ void Contact<B>::connect_edges(const TriangleSurface& surface) {
 }
 
 template <class B>
-ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, int vertices, bool implicit) const {
+ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, int vertices,
+                                           bool implicit) const {
   ContactRecords<B> records;
-  records.points = points_, records.obstacles = obstacles(), records.bodies = bodies_, records.pairs = pairs_;
+  records.points = points_, records.obstacles = obstacles(), records.bodies = bodies_,
+  records.pairs = pairs_;
   records.faces = whole() > 0 ? mesh_.triangles : 0;
   records.reach = records.edge = static_cast<Real>(reach_);
   records.law = laws_, records.body = body_;
@@ -290,9 +311,11 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   records.weight = zeros<typename ContactRecords<B>::Weights>("plica::contact.weight", slots);
   records.law_of = zeros<Indices<B>>("plica::contact.law_of", slots);
   records.normal = vectors("plica::contact.normal"), records.way = vectors("plica::contact.way");
-  records.stretch = vectors("plica::contact.stretch"), records.force = vectors("plica::contact.force");
+  records.stretch = vectors("plica::contact.stretch"),
+  records.force = vectors("plica::contact.force");
   records.drift = vectors("plica::contact.drift");
-  records.depth = to_device<Scalars<B>>("contact.depth", std::vector<Real>(slots, -records.nowhere()));
+  records.depth =
+      to_device<Scalars<B>>("contact.depth", std::vector<Real>(slots, -records.nowhere()));
   if (implicit) {
     records.cap = zeros<Scalars<B>>("plica::contact.cap", slots);
     records.block = zeros<Blocks<B>>("plica::contact.block", slots);
@@ -301,11 +324,13 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
   }
   records.response = zeros<Scalars<B>>("plica::contact.response", slots);
   if (pairs_)
-    records.partner = to_device<Indices<B>>("contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
+    records.partner = to_device<Indices<B>>(
+        "contact.partner", std::vector<int>(static_cast<std::size_t>(points_), -1));
   // a record has at most as many entries as its points have vertices
   std::vector<int> place(static_cast<std::size_t>(vertices), -1);
   const auto touched = host_values(Exec(), surface.vertex);
-  for (std::size_t i = 0; i < touched.size(); ++i) place[static_cast<std::size_t>(touched[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < touched.size(); ++i)
+    place[static_cast<std::size_t>(touched[i])] = static_cast<int>(i);
   std::size_t of_points = 0;
   std::size_t most = 0;
   const auto weights = host_values(Exec(), surface.embedding.weight);
@@ -314,15 +339,16 @@ ContactRecords<B> Contact<B>::make_records(const EmbeddedSurface<B>& surface, in
     for (std::size_t c = 0; c < 4; ++c) own += weights[4 * p + c] != 0;
     of_points += own, most = std::max(most, own);
   }
-  const std::size_t entries =
-      static_cast<std::size_t>(records.obstacles) * (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
-      (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(points_) : 0);
+  const std::size_t entries = static_cast<std::size_t>(records.obstacles) *
+                                  (of_points + 3 * most * static_cast<std::size_t>(records.faces)) +
+                              (pairs_ ? 2 * 4 * most * static_cast<std::size_t>(points_) : 0);
   ContactTranspose<B>& W = records.transpose;
   W.vertices = list("plica::contact.vertices", surface.touched);
   W.place = to_device<Indices<B>>("contact.place", place);
   const auto n = static_cast<std::size_t>(surface.touched);
   W.filled = zeros<Indices<B>>("plica::contact.filled", n);
-  W.first = zeros<Indices<B>>("plica::contact.first", n), W.last = zeros<Indices<B>>("plica::contact.last", n);
+  W.first = zeros<Indices<B>>("plica::contact.first", n),
+  W.last = zeros<Indices<B>>("plica::contact.last", n);
   W.record = zeros<Indices<B>>("plica::contact.record", entries);
   W.weight = zeros<Scalars<B>>("plica::contact.entry", entries);
   return records;
@@ -336,20 +362,23 @@ void Contact<B>::find(const Exec& exec, const Level<B>& level, const State<B>& s
 }
 
 template <class B>
-void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double end, double span) const {
-  for (int o = 0; o < obstacles(); ++o) obstacles_[static_cast<std::size_t>(o)]->move(exec, wrench, o, end, span);
+void Contact<B>::move_tools(const Exec& exec, const Doubles<B>& wrench, double end,
+                            double span) const {
+  for (int o = 0; o < obstacles(); ++o)
+    obstacles_[static_cast<std::size_t>(o)]->move(exec, wrench, o, end, span);
 }
 
 template <class B>
 void Contact<B>::grasp(const Exec& exec, const Level<B>& level, double time, int obstacle,
                        const ContactRecords<B>& records) const {
-  obstacles_[static_cast<std::size_t>(obstacle)]->grasp(exec, level.surface, level.state, time, obstacle,
-                                                        grasp_options(obstacle)->reach, records);
+  obstacles_[static_cast<std::size_t>(obstacle)]->grasp(
+      exec, level.surface, level.state, time, obstacle, grasp_options(obstacle)->reach, records);
 }
 
 template <class B>
 void Contact<B>::release(const Exec& exec, int obstacle) const {
-  update_vertices<B>(exec, "plica::contact_release", points_, LetGo<B>{grasps_, obstacle * points_});
+  update_vertices<B>(exec, "plica::contact_release", points_,
+                     LetGo<B>{grasps_, obstacle * points_});
 }
 
 template <class B>
@@ -357,14 +386,17 @@ std::vector<int> Contact<B>::held_by(const Exec& exec, int obstacle) const {
   const std::vector<double> all = host_values(exec, memory_);
   std::vector<int> held;
   for (int p = 0; p < points_; ++p)
-    if (all[static_cast<std::size_t>(grasps_.at(obstacle * points_ + p) + 3)] > 0) held.push_back(p);
+    if (all[static_cast<std::size_t>(grasps_.at(obstacle * points_ + p) + 3)] > 0)
+      held.push_back(p);
   return held;
 }
 
 template <class B>
 int Contact<B>::torn(const Exec& exec) const {
   const std::vector<double> all = host_values(exec, attached_.memory);
-  return all.empty() ? 0 : static_cast<int>(std::ranges::count(all.begin() + attached_.first, all.end(), 1.0));
+  return all.empty()
+             ? 0
+             : static_cast<int>(std::ranges::count(all.begin() + attached_.first, all.end(), 1.0));
 }
 
 template <class B>

@@ -17,19 +17,20 @@ class Obstacle {
  public:
   using Exec = typename B::Exec;
   virtual ~Obstacle() = default;
-  /// Its slots of every point of a state, where it is now, and of the triangles if `faces`; with the way that it goes in the records'
-  /// step. `number`: which of the obstacles it is.
-  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number, bool faces,
-                    const ContactRecords<B>&) const = 0;
+  /// Its slots of every point of a state, where it is now, and of the triangles if `faces`; with
+  /// the way that it goes in the records' step. `number`: which of the obstacles it is.
+  virtual void find(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time,
+                    int number, bool faces, const ContactRecords<B>&) const = 0;
   /// Takes hold of what is no further than `reach` [m] from it.
-  virtual void grasp(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time, int number, double reach,
-                     const ContactRecords<B>&) const = 0;
+  virtual void grasp(const Exec&, const EmbeddedSurface<B>&, const State<B>&, double time,
+                     int number, double reach, const ContactRecords<B>&) const = 0;
   virtual ObstaclePlace<B> place(double time, double ahead) const = 0;
   /// From now on it moves so.
   virtual void set_motion(const Motion& motion) = 0;
   virtual void set_turn(const std::optional<Turn>& turn) = 0;
   /// One with mass takes a macro step that ends at `end`, pushed by the opposite of its wrench.
-  virtual void move(const Exec&, const Doubles<B>& wrench, int number, double end, double span) const = 0;
+  virtual void move(const Exec&, const Doubles<B>& wrench, int number, double end,
+                    double span) const = 0;
   /// Of the largest ball in it [m].
   virtual double radius() const = 0;
   /// Whether it has no hollows.
@@ -38,11 +39,12 @@ class Obstacle {
   virtual std::size_t bytes() const = 0;
 };
 
-/// Launches the kernels of the shape that the options name. `memory`: see Contact::memory(); this is number `number`. `longest` edge of
-/// the surface [m].
+/// Launches the kernels of the shape that the options name. `memory`: see Contact::memory(); this
+/// is number `number`. `longest` edge of the surface [m].
 template <class B>
-std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
-                                           const Doubles<B>& memory, int number, double longest);
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options,
+                                           const DepthWatch<B>& watch, const Doubles<B>& memory,
+                                           int number, double longest);
 
 /// What contact needs to know of the surface, and of the bodies that it belongs to.
 struct TouchingSurface {
@@ -55,9 +57,10 @@ struct TouchingSurface {
   std::vector<Part> parts;
   std::vector<int> body;                ///< of each point its part; empty: there is one
   std::vector<AttachedPoint> attached;  ///< to another of its bodies
-  std::vector<std::vector<int>> held;   ///< of each obstacle the points that it may hold; empty: all
-  double edge = 0;                      ///< mean, of all [m]
-  double size = 0;                      ///< of the whole: a point deeper than that is lost [m]
+  /// of each obstacle the points that it may hold; empty: all
+  std::vector<std::vector<int>> held;
+  double edge = 0;  ///< mean, of all [m]
+  double size = 0;  ///< of the whole: a point deeper than that is lost [m]
 };
 
 /// Contact of the body's surface with all obstacles, and with itself: what all levels share of it.
@@ -71,11 +74,14 @@ class Contact {
   Contact(const ContactOptions& options, const TouchingSurface& surface, bool pairs);
 
   /// Records of one level.
-  ContactRecords<B> make_records(const EmbeddedSurface<B>& surface, int vertices, bool implicit) const;
+  ContactRecords<B> make_records(const EmbeddedSurface<B>& surface, int vertices,
+                                 bool implicit) const;
   /// The slots of obstacles at a state, for the records' step.
-  void find(const Exec&, const Level<B>&, const State<B>&, double time, const ContactRecords<B>&) const;
+  void find(const Exec&, const Level<B>&, const State<B>&, double time,
+            const ContactRecords<B>&) const;
 
-  /// A surface point that since the last call was found deeper in an obstacle than deepest(), or nowhere; -1: none. Waits.
+  /// A surface point that since the last call was found deeper in an obstacle than deepest(), or
+  /// nowhere; -1: none. Waits.
   int take_lost(const Exec&) const;
   double deepest() const { return deepest_; }  ///< [m]
 
@@ -98,11 +104,13 @@ class Contact {
   void set_turn(int obstacle, const std::optional<Turn>& turn) const {
     obstacles_[static_cast<std::size_t>(obstacle)]->set_turn(turn);
   }
-  /// What obstacles carry from one step to the next: where those with mass are, see ObstaclePlace, then what they hold, see
-  /// Grasps, then what is torn, see Attachments; empty where there is none of it.
+  /// What obstacles carry from one step to the next: where those with mass are, see ObstaclePlace,
+  /// then what they hold, see Grasps, then what is torn, see Attachments; empty where there is none
+  /// of it.
   const Doubles<B>& memory() const { return memory_; }
   /// The obstacle takes hold of what is near it in a state of level 0, whose records these are.
-  void grasp(const Exec&, const Level<B>&, double time, int obstacle, const ContactRecords<B>&) const;
+  void grasp(const Exec&, const Level<B>&, double time, int obstacle,
+             const ContactRecords<B>&) const;
   void release(const Exec&, int obstacle) const;
   const std::optional<GraspOptions>& grasp_options(int obstacle) const {
     return options_[static_cast<std::size_t>(obstacle)];

@@ -21,8 +21,8 @@ struct ExplicitContact;
 template <class B>
 struct ImplicitContact;
 
-/// How an implicit stage takes contact, which acts over the whole step h: in a stage of weights a, b the contact's impulse is h F, and
-/// its way is that to the end of the step.
+/// How an implicit stage takes contact, which acts over the whole step h: in a stage of weights a,
+/// b the contact's impulse is h F, and its way is that to the end of the step.
 struct ContactStage {
   double span = 0;    ///< h [s]
   double factor = 1;  ///< of contact's forces in the stage: h / b where they are not carried on
@@ -36,8 +36,8 @@ struct ContactBalance {
   double forces = 0;   ///< sum of their sizes [N]
 };
 
-/// Contact of one level in steps that take it implicitly: the forces on its surface points, and what obstacles do to it. Kernels
-/// alone, which the device leaves out where nothing touches.
+/// Contact of one level in steps that take it implicitly: the forces on its surface points, and
+/// what obstacles do to it. Kernels alone, which the device leaves out where nothing touches.
 template <class B>
 class ContactResponse {
  public:
@@ -49,24 +49,31 @@ class ContactResponse {
   ContactResponse() = default;
   ContactResponse(std::shared_ptr<const Contact<B>> contact, const Level<B>& level, bool implicit);
 
-  /// f += contact's forces on a state at `time`, which f are all other forces on; A is the inverse of the lumped masses.
-  void add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-                  const Vectors<B>& f);
-  /// The forces of the records, for any other A: `free` are the accelerations without contact, respond() makes those by the records'
-  /// last forces, in `answer`; `bounding`: of unit forces, by absolute weights.
-  void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-               const Vectors<B>& free, const Vectors<B>& answer, const Respond& respond);
+  /// f += contact's forces on a state at `time`, which f are all other forces on; A is the inverse
+  /// of the lumped masses.
+  void add_forces(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                  const ContactStep& step, const Vectors<B>& f);
+  /// The forces of the records, for any other A: `free` are the accelerations without contact,
+  /// respond() makes those by the records' last forces, in `answer`; `bounding`: of unit forces, by
+  /// absolute weights.
+  void resolve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+               const ContactStep& step, const Vectors<B>& free, const Vectors<B>& answer,
+               const Respond& respond);
 
-  /// Of which part of a macro step the next ones are: a shorter step takes the forces that a whole one would. Sweeps leave a contact softer
-  /// the longer the step, so that in a short one overlap that was at rest would be pushed out at once.
+  /// Of which part of a macro step the next ones are: a shorter step takes the forces that a whole
+  /// one would. Sweeps leave a contact softer the longer the step, so that in a short one overlap
+  /// that was at rest would be pushed out at once.
   void set_part(double part) { part_ = part; }
 
-  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it, or as a method carries them on.
+  /// The impulse of each obstacle: forgotten, and the last forces times `weight` [s] added to it,
+  /// or as a method carries them on.
   void forget_impulse(const Exec& exec) const;
-  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time, double weight) const;
+  void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                   double weight) const;
   void add_impulse(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
                    const CarriedImpulse& of) const;
-  const Doubles<B>& impulse() const { return impulse_; }  ///< [6 obstacles, then bodies] N s and N m s
+  /// [6 obstacles, then bodies] N s and N m s
+  const Doubles<B>& impulse() const { return impulse_; }
   /// Stored in all contact of the level's state [J]. Waits.
   double energy(const Exec& exec, const Level<B>& level, double time) const;
   /// Done by friction in all steps so far [J]. Waits.
@@ -83,11 +90,13 @@ class ContactResponse {
   // Of implicit levels, see kernels/contact/implicit_contact.hpp:
 
   /// Finds the records of a step from a state at `time`.
-  void begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStage&);
-  /// f += the records' forces at a state, `ahead` of it [s], and their blocks for a system of these weights; `secant`: see LineariseContact.
-  /// Waits.
-  ContactBalance linearise(const Exec& exec, const Level<B>& level, const State<B>& state, const ImplicitWeights&,
-                           double ahead, const Vectors<B>& f, bool secant = false);
+  void begin_stage(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+                   const ContactStage&);
+  /// f += the records' forces at a state, `ahead` of it [s], and their blocks for a system of these
+  /// weights; `secant`: see LineariseContact. Waits.
+  ContactBalance linearise(const Exec& exec, const Level<B>& level, const State<B>& state,
+                           const ImplicitWeights&, double ahead, const Vectors<B>& f,
+                           bool secant = false);
   /// At a state, with the caps as they are. Waits.
   ContactBalance balance(const Exec& exec, const Level<B>& level, const State<B>& state);
   /// Caps become those of the normal forces at a state.
@@ -99,15 +108,18 @@ class ContactResponse {
     scatter(exec, level, f, stage_.factor);
   }
   const ContactStage& stage() const { return stage_; }
-  /// Stored in the contact that a step from a state at `time` would start with [J]; the records stay those of the last step. Waits.
+  /// Stored in the contact that a step from a state at `time` would start with [J]; the records
+  /// stay those of the last step. Waits.
   double energy_found(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
   /// q += W^T C W p; `beside`: of what add_matrix() leaves out alone
   void add_product(const Exec& exec, const Level<B>& level, const Vectors<B>& p, bool beside,
                    const Vectors<B>& q) const;
   /// diagonal += its vertex blocks, likewise
-  void add_diagonal(const Exec& exec, const Level<B>& level, bool beside, const Blocks<B>& diagonal) const;
+  void add_diagonal(const Exec& exec, const Level<B>& level, bool beside,
+                    const Blocks<B>& diagonal) const;
   /// A += scale W^T C W, of points that touch obstacles
-  void add_matrix(const Exec& exec, const Level<B>& level, double scale, const BlockMatrix<B>& A) const;
+  void add_matrix(const Exec& exec, const Level<B>& level, double scale,
+                  const BlockMatrix<B>& A) const;
 
   const ContactRecords<B>& records() const { return records_; }
   std::size_t bytes() const;
@@ -134,7 +146,8 @@ class ContactResponse {
 
  private:
   std::shared_ptr<const Contact<B>> contact_;
-  ContactRecords<B> own_, records_;              ///< records_: own_ as kernels are given it, `span`: of the last step
+  /// records_: own_ as kernels are given it, `span`: of the last step
+  ContactRecords<B> own_, records_;
   Vectors<B> product_;                           ///< [slots][3] on implicit levels
   std::shared_ptr<const PairSearch<B>> search_;  ///< with pairs
   ListMaker<B> maker_;
@@ -146,14 +159,16 @@ class ContactResponse {
   double part_ = 1, found_ = 0;  ///< found_: the time of the state that the records are of [s]
   bool fresh_ = true;            ///< nothing is known of a last step
 
-  void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time, const ContactStep& step,
-             ExplicitContact<B> contact, const Respond& respond, const std::function<void()>& free);
+  void solve(const Exec& exec, const Level<B>& level, const State<B>& state, double time,
+             const ContactStep& step, ExplicitContact<B> contact, const Respond& respond,
+             const std::function<void()>& free);
   void find(const Exec& exec, const Level<B>& level, const State<B>& state, double time);
   void look(const Exec& exec, const Level<B>& level, const State<B>& state, double time) const;
   RecordLater<B> later(const Exec& exec, const Level<B>& level, double time) const;
   template <class End>
   void end(const Exec& exec, const char* label, const End& kernel) const;
-  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f, double factor = 1) const;
+  void scatter(const Exec& exec, const Level<B>& level, const Vectors<B>& f,
+               double factor = 1) const;
   ImplicitContact<B> at(const Level<B>& level, const State<B>& state, double ahead) const;
   ContactBalance read_balance(const Exec& exec) const;
   /// use(name, field) for what is carried from step to step.

@@ -11,13 +11,14 @@ struct DampingLimit {
   double least_stiffness = 0, most_stiffness = 0;  ///< [s]
 };
 
-/// The largest stable step of an explicit integrator [s], see StabilityLimit; infinite for a free rigid level. Contact does not
-/// enter: it is implicit in the step, see cmake/docs/contact.md.
+/// The largest stable step of an explicit integrator [s], see StabilityLimit; infinite for a free
+/// rigid level. Contact does not enter: it is implicit in the step, see cmake/docs/contact.md.
 /// @param K           without damping
 /// @param eigenvalue  largest_eigenvalue() of it [1/s^2]
 /// @param beside      bounds what else there is of w^2 [1/s^2]
 template <class B>
-double critical_step(const typename B::Exec& exec, const StiffnessAt<B>& K, const StabilityLimit& limit,
-                     const DampingLimit& damping, double eigenvalue, double beside = 0);
+double critical_step(const typename B::Exec& exec, const StiffnessAt<B>& K,
+                     const StabilityLimit& limit, const DampingLimit& damping, double eigenvalue,
+                     double beside = 0);
 
 }  // namespace plica

@@ -16,14 +16,17 @@ WorstElement worst_element(const TetMesh& mesh, const std::vector<Point>& displa
 template <class B>
 std::vector<Point> to_host(const typename B::Exec& exec, const Vectors<B>& field);
 
-/// An inverted element that a force kernel flagged, if any; of the earliest evaluation, the smallest J.
+/// An inverted element that a force kernel flagged, if any; of the earliest evaluation, the
+/// smallest J.
 template <class B>
 std::optional<Diagnosis> find_inverted(const BuiltHierarchy<B>& built);
 
-/// Where a run with non-finite values or too much energy went wrong: the level where it is not given, its first bad vertex, its
-/// worst element in its state now or, where that is not finite, in `kept`.
+/// Where a run with non-finite values or too much energy went wrong: the level where it is not
+/// given, its first bad vertex, its worst element in its state now or, where that is not finite, in
+/// `kept`.
 template <class B>
-Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built, const std::vector<State<B>>& kept,
-                         int level = -1, const std::string& reason = {});
+Diagnosis locate_failure(const std::string& kind, const BuiltHierarchy<B>& built,
+                         const std::vector<State<B>>& kept, int level = -1,
+                         const std::string& reason = {});
 
 }  // namespace plica

@@ -17,8 +17,9 @@
 // Whether a body has got more energy than went into it.
 namespace plica {
 
-/// Compares the energies that a run looks at with the first ones. Gravity is in them; what obstacles do is told. That of contact counts
-/// at the start alone: its few sweeps of a step give less force than its depth stands for.
+/// Compares the energies that a run looks at with the first ones. Gravity is in them; what
+/// obstacles do is told. That of contact counts at the start alone: its few sweeps of a step give
+/// less force than its depth stands for.
 class EnergyBudget {
  public:
   static constexpr double notable = 0.1;  ///< of all that was put in: discrete energies waver
@@ -33,7 +34,8 @@ class EnergyBudget {
 
   /// Nothing but gravity and obstacles does work, and the elastic energy is all there.
   static bool knows(const Problem& problem) {
-    return problem.body.loads.empty() && problem.body.prescribed.empty() && !is_viscous(problem.body);
+    return problem.body.loads.empty() && problem.body.prescribed.empty() &&
+           !is_viscous(problem.body);
   }
 
   /// Energies at this time [s], after obstacles have done this work on the body [J].
@@ -48,21 +50,24 @@ class EnergyBudget {
   std::vector<double> save() const { return {looked_ ? 1.0 : 0.0, start_, put_in_, surplus_, at_}; }
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 5) return;
-    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]), surplus_ = saved[3],
-    at_ = saved[4];
+    looked_ = saved[0] > 0, start_ = saved[1], put_in_ = std::max(put_in_, saved[2]),
+    surplus_ = saved[3], at_ = saved[4];
   }
 
-  /// The most that was ever too much, of all that was ever put in: at a first touch that is next to nothing.
+  /// The most that was ever too much, of all that was ever put in: at a first touch that is next to
+  /// nothing.
   double growth() const { return put_in_ > 0 ? surplus_ / put_in_ : 0; }
   double at() const { return at_; }  ///< when [s]
 
   /// A sentence where that is notable, else nothing.
   std::string warning() const {
     if (!(growth() > notable)) return {};
-    return text("energy: at ", number(at_, 4), " s the body had ", number(surplus_, 3), " J that nobody put in, ",
-                number(growth(), 3),
-                " of all that was put in: its motion from there on is not to be trusted; expected a shorter "
-                "integration.macro_step, integration.on_failure, or cycle: single with integrator: symplectic_euler");
+    return text("energy: at ", number(at_, 4), " s the body had ", number(surplus_, 3),
+                " J that nobody put in, ", number(growth(), 3),
+                " of all that was put in: its motion from there on is not to be trusted; expected "
+                "a shorter "
+                "integration.macro_step, integration.on_failure, or cycle: single with integrator: "
+                "symplectic_euler");
   }
 
  private:
@@ -99,7 +104,8 @@ class ObstacleWork {
     for (Moving& one : moving_) {
       const Moving before = one;
       move(simulation, tools, one);
-      const Point turned = rotation_vector(rotation_by(one.rotation) * rotation_by(-before.rotation));
+      const Point turned =
+          rotation_vector(rotation_by(one.rotation) * rotation_by(-before.rotation));
       const Wrench& w = wrenches[one.obstacle];
       done_ += w.force.dot(one.place - before.place) + w.torque.dot(turned);
     }
@@ -107,7 +113,8 @@ class ObstacleWork {
 
   void restore(double done, bool known) { done_ = done, known_ = known; }
   double done() const { return done_; }
-  bool known() const { return known_; }  ///< no step was taken again: wrenches are of its last part only
+  /// no step was taken again: wrenches are of its last part only
+  bool known() const { return known_; }
 
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -120,10 +127,13 @@ class ObstacleWork {
   double done_ = 0;
   bool known_ = true;
 
-  static void move(const Simulation<B>& simulation, const std::vector<ToolState>& tools, Moving& one) {
+  static void move(const Simulation<B>& simulation, const std::vector<ToolState>& tools,
+                   Moving& one) {
     const int number = static_cast<int>(one.obstacle);
-    one.place = one.tool == none ? simulation.obstacle_origin(number) : tools[one.tool].displacement;
-    one.rotation = one.tool == none ? simulation.obstacle_rotation(number) : tools[one.tool].rotation;
+    one.place =
+        one.tool == none ? simulation.obstacle_origin(number) : tools[one.tool].displacement;
+    one.rotation =
+        one.tool == none ? simulation.obstacle_rotation(number) : tools[one.tool].rotation;
   }
 };
 
@@ -132,7 +142,8 @@ struct MotionReport {
   Energies energies;            ///< kinetic and potential alone
   Point drift = Point::Zero();  ///< mean velocity [m/s]
   double about_mean = 0;        ///< kinetic energy of the motion about that [J]
-  double edges_per_second = 0;  ///< the largest speed against a given drift, over the edge there [1/s]
+  /// the largest speed against a given drift, over the edge there [1/s]
+  double edges_per_second = 0;
 };
 
 /// Sums level 0's energies, in a fixed order.

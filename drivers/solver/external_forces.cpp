@@ -18,8 +18,9 @@ void ForceRequest<B>::read_surface_velocities(const DeviceOutput<B>& v) const {
 template <class B>
 void ForceRequest<B>::add_surface_forces(const Vectors<B>& on_points) const {
   if (static_cast<int>(on_points.extent(0)) != surface.points)
-    throw InputError(std::to_string(on_points.extent(0)) + " forces on " + std::to_string(surface.points) +
-                     " surface points" + (surface.points > 0 ? "" : ": give the body a surface, set surface_forces"));
+    throw InputError(std::to_string(on_points.extent(0)) + " forces on " +
+                     std::to_string(surface.points) + " surface points" +
+                     (surface.points > 0 ? "" : ": give the body a surface, set surface_forces"));
   scatter_to_vertices<B>(exec, surface, on_points, force);
 }
 

@@ -7,24 +7,28 @@
 
 namespace plica {
 
-/// A request for a caller's own forces (tools, contact): the state of one level that is about to be integrated, and where the
-/// forces go. Its arrays are on the device and belong to the simulation.
+/// A request for a caller's own forces (tools, contact): the state of one level that is about to be
+/// integrated, and where the forces go. Its arrays are on the device and belong to the simulation.
 template <class B>
 struct ForceRequest {
-  typename B::Exec exec;       ///< enqueue kernels here; do not wait
-  int level = 0;               ///< 0: the finest
-  double time = 0;             ///< of the state [s]
-  Vectors<B> rest;             ///< [vertices][3] m; a position is rest + displacement
-  Vectors<B> displacement;     ///< [vertices][3] m
-  Vectors<B> velocity;         ///< [vertices][3] m/s
-  Vectors<B> force;            ///< [vertices][3] N: add to it
-  EmbeddedSurface<B> surface;  ///< with Problem::surface_forces, or where there are obstacles; else empty
+  typename B::Exec exec;    ///< enqueue kernels here; do not wait
+  int level = 0;            ///< 0: the finest
+  double time = 0;          ///< of the state [s]
+  Vectors<B> rest;          ///< [vertices][3] m; a position is rest + displacement
+  Vectors<B> displacement;  ///< [vertices][3] m
+  Vectors<B> velocity;      ///< [vertices][3] m/s
+  Vectors<B> force;         ///< [vertices][3] N: add to it
+  /// with Problem::surface_forces, or where there are obstacles; else empty
+  EmbeddedSurface<B> surface;
 
-  // On implicit levels: what makes stiff forces part of the solve. On explicit ones: zero and empty.
-  double step = 0;      ///< h [s]
-  double ahead = 0;     ///< 0 or h [s]: take stiff forces and gaps at displacement + ahead * velocity
-  Blocks<B> stiffness;  ///< [vertices][6] xx yy zz xy xz yz N/m, zero on entry: add -d(force)/d(position) where that is
-                        ///< positive semi-definite, and 1/h times the same of the velocity
+  // On implicit levels: what makes stiff forces part of the solve. On explicit ones: zero and
+  // empty.
+  double step = 0;  ///< h [s]
+  /// 0 or h [s]: take stiff forces and gaps at displacement + ahead * velocity
+  double ahead = 0;
+  /// [vertices][6] xx yy zz xy xz yz N/m, zero on entry: add -d(force)/d(position) where that is
+  /// positive semi-definite, and 1/h times the same of the velocity
+  Blocks<B> stiffness;
 
   /// The embedded surface's points in this state, [points][3] m.
   void read_surface_positions(const DeviceOutput<B>& x) const;

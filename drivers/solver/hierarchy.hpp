@@ -11,7 +11,8 @@ template <class B>
 struct Hierarchy {
   explicit Hierarchy(const typename B::Exec& exec) : clock(exec) {}
   StageClock<B> clock;
-  std::vector<SolverLevel<B>> levels;  ///< linear solvers point at them: none is added after integrators were made
+  /// linear solvers point at them: none is added after integrators were made
+  std::vector<SolverLevel<B>> levels;
 
   const typename B::Exec& exec() const { return clock.exec(); }
   int count() const { return static_cast<int>(levels.size()); }

@@ -18,7 +18,8 @@ class MaterialPoints {
     std::vector<Point> velocity;      ///< [m/s]
   };
 
-  /// A point outside the mesh is taken to the nearest point of it. InputError for points that are not finite.
+  /// A point outside the mesh is taken to the nearest point of it. InputError for points that are
+  /// not finite.
   MaterialPoints(const TetMesh& mesh, const std::vector<Point>& points);
 
   const std::vector<Point>& rest() const { return rest_; }  ///< where they lie at rest [m]

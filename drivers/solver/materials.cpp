@@ -23,7 +23,8 @@ auto constants_of(const std::vector<double>& values) {
   return c;
 }
 
-/// A law's energy is as many times larger as its stiffnesses are, since its other parameters have no unit.
+/// A law's energy is as many times larger as its stiffnesses are, since its other parameters have
+/// no unit.
 template <class M>
 std::vector<double> scaled_values(std::vector<double> values, double share) {
   for (std::size_t k = 0; k < M::parameters.size(); ++k)
@@ -36,7 +37,8 @@ std::vector<double> scaled_values(std::vector<double> values, double share) {
 }
 
 template <class M>
-std::vector<double> constants_with_shape(const std::vector<double>& values, double share, double bulk) {
+std::vector<double> constants_with_shape(const std::vector<double>& values, double share,
+                                         double bulk) {
   if constexpr (IsochoricLaws::has<M>) {
     auto c = constants_of<M>(scaled_values<M>(values, share));
     c.bulk = bulk;
@@ -58,7 +60,9 @@ MaterialInfo describe_material() {
                     nullptr,
                     nullptr,
                     nullptr};
-  info.kernel_constants = [](const std::vector<double>& values) { return as_list(constants_of<M>(values)); };
+  info.kernel_constants = [](const std::vector<double>& values) {
+    return as_list(constants_of<M>(values));
+  };
   info.small_strains = [](const std::vector<double>& values) {
     return M::small_strains(M::kernel_constants(values.data()));
   };
@@ -74,22 +78,28 @@ MaterialInfo describe_material() {
 }
 
 /// What is given for a parameter, if anything.
-std::optional<double> given(const std::string& name, const MaterialOptions& body, const RegionOptions& region) {
-  if (name == parameter::young_modulus.name) return region.young_modulus.value_or(body.young_modulus);
-  if (name == parameter::poisson_ratio.name) return region.poisson_ratio.value_or(body.poisson_ratio);
+std::optional<double> given(const std::string& name, const MaterialOptions& body,
+                            const RegionOptions& region) {
+  if (name == parameter::young_modulus.name)
+    return region.young_modulus.value_or(body.young_modulus);
+  if (name == parameter::poisson_ratio.name)
+    return region.poisson_ratio.value_or(body.poisson_ratio);
   for (const auto* values : {&region.parameters, &body.parameters})
     if (const auto found = values->find(name); found != values->end()) return found->second;
   return {};
 }
 
-void check_names(const MaterialInfo& info, const std::string& path, const std::map<std::string, double>& values) {
+void check_names(const MaterialInfo& info, const std::string& path,
+                 const std::map<std::string, double>& values) {
   std::vector<std::string> known;
   for (const MaterialParameter& p : info.parameters) known.emplace_back(p.name);
   for (const auto& [name, value] : values) {
     if (std::ranges::find(known, name) == known.end())
-      throw InputError(path + name + ": " + unknown_name("parameter of " + std::string(info.name), name, known));
+      throw InputError(path + name + ": " +
+                       unknown_name("parameter of " + std::string(info.name), name, known));
     if (name == parameter::young_modulus.name || name == parameter::poisson_ratio.name)
-      throw InputError(path + name + " is given twice: as an option, and among the other parameters");
+      throw InputError(path + name +
+                       " is given twice: as an option, and among the other parameters");
   }
 }
 
@@ -102,7 +112,8 @@ double ogden_coefficient(const OgdenTerm& term, const std::string& convention) {
 TissueSettings settings_of(const MaterialOptions& body, const RegionOptions& region) {
   TissueSettings s;
   const std::vector<std::string> known = names(volumes());
-  if (body.volume) s.volume = static_cast<double>(std::ranges::find(known, *body.volume) - known.begin());
+  if (body.volume)
+    s.volume = static_cast<double>(std::ranges::find(known, *body.volume) - known.begin());
   if (const auto& fibres = region.fibres ? region.fibres : body.fibres) {
     const Point axis = fibres->axis.normalized();
     Point sheet = fibres->sheet.value_or(axis.unitOrthogonal());
@@ -111,28 +122,34 @@ TissueSettings settings_of(const MaterialOptions& body, const RegionOptions& reg
   }
   const std::vector<OgdenTerm>& terms = region.terms.empty() ? body.terms : region.terms;
   for (std::size_t i = 0; !terms.empty() && i < TissueSettings::most_terms; ++i) {
-    s.coefficient[i] = i < terms.size() ? ogden_coefficient(terms[i], body.convention.value_or("")) : 0;
+    s.coefficient[i] =
+        i < terms.size() ? ogden_coefficient(terms[i], body.convention.value_or("")) : 0;
     s.exponent[i] = i < terms.size() ? terms[i].alpha : 1;
   }
   return s;
 }
 
-/// What the body, or a region of it, must have beside numbers. `path`: "body." or "body.regions.NAME.".
-void check_structure(const MaterialInfo& info, const std::string& path, const std::vector<OgdenTerm>& terms,
+/// What the body, or a region of it, must have beside numbers. `path`: "body." or
+/// "body.regions.NAME.".
+void check_structure(const MaterialInfo& info, const std::string& path,
+                     const std::vector<OgdenTerm>& terms,
                      const std::optional<FibreOptions>& fibres) {
   const std::string material = path == "body." ? "body.material." : path, name(info.name);
-  if (!info.has_terms && !terms.empty()) throw InputError(material + "terms: " + name + " has none; only ogden has");
+  if (!info.has_terms && !terms.empty())
+    throw InputError(material + "terms: " + name + " has none; only ogden has");
   if (terms.size() > TissueSettings::most_terms)
-    throw InputError(material + "terms: " + std::to_string(terms.size()) + " terms; expected 1 to " +
-                     std::to_string(TissueSettings::most_terms));
+    throw InputError(material + "terms: " + std::to_string(terms.size()) +
+                     " terms; expected 1 to " + std::to_string(TissueSettings::most_terms));
   for (std::size_t i = 0; i < terms.size(); ++i)
     if (terms[i].alpha == 0)
-      throw InputError(material + "terms." + std::to_string(i) + ".alpha is 0; expected a number other than 0");
+      throw InputError(material + "terms." + std::to_string(i) +
+                       ".alpha is 0; expected a number other than 0");
   if (!info.has_fibres && fibres) throw InputError(path + "fibres: " + name + " has none");
   if (!fibres) return;
   if (fibres->around && (fibres->sheet || !fibres->sheet_field.empty()))
     throw InputError(path +
-                     "fibres.sheet: fibres around a line have their sheets on cylinders about it; expected none");
+                     "fibres.sheet: fibres around a line have their sheets on cylinders about it; "
+                     "expected none");
   if (fibres->sheet && !fibres->sheet_field.empty())
     throw InputError(path + "fibres.sheet is given twice: as sheet and as sheet_field");
   if (fibres->from.has_value() != fibres->to.has_value())
@@ -159,17 +176,22 @@ void check_at_rest(const MaterialInfo& info, const std::string& where, const Mat
   const std::vector<double> values = parameter_values(info, body, region);
   const keys::Quantity shear{keys::pressure, keys::positive};
   const Lame<double> rest = info.small_strains(values);
-  shear.check(where + ", as the shear stiffness of " + std::string(info.name) + " at rest,", rest.mu);
+  shear.check(where + ", as the shear stiffness of " + std::string(info.name) + " at rest,",
+              rest.mu);
   const auto& fibres = region.fibres ? region.fibres : body.fibres;
   if (info.has_fibres && !fibres)
-    throw InputError("body.fibres is missing; expected the direction of the fibres of " + std::string(info.name) +
+    throw InputError("body.fibres is missing; expected the direction of the fibres of " +
+                     std::string(info.name) +
                      ", such as {axis: [0, 0, 1]}, of the body or of every region");
-  if (fibres && !fibres->sheet && !fibres->around && fibres->sheet_field.empty() && needs_sheet(info, values))
-    throw InputError((region.fibres ? where : "body") + ".fibres.sheet is missing; " + std::string(info.name) +
+  if (fibres && !fibres->sheet && !fibres->around && fibres->sheet_field.empty() &&
+      needs_sheet(info, values))
+    throw InputError((region.fibres ? where : "body") + ".fibres.sheet is missing; " +
+                     std::string(info.name) +
                      " differs across its fibres: expected a direction across them");
 }
 
-void check_prony(const MaterialInfo& info, const std::string& path, const std::vector<PronyTerm>& terms) {
+void check_prony(const MaterialInfo& info, const std::string& path,
+                 const std::vector<PronyTerm>& terms) {
   if (terms.empty()) return;
   constexpr std::size_t most = 6;
   if (!info.with_shape) {
@@ -181,7 +203,8 @@ void check_prony(const MaterialInfo& info, const std::string& path, const std::v
                      "expected no prony, or one of the models " + able);
   }
   if (terms.size() > most)
-    throw InputError(path + ": " + std::to_string(terms.size()) + " terms; expected 1 to " + std::to_string(most));
+    throw InputError(path + ": " + std::to_string(terms.size()) + " terms; expected 1 to " +
+                     std::to_string(most));
   double sum = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const std::string term = path + "." + std::to_string(i);
@@ -198,14 +221,17 @@ void check_tissue(const MaterialInfo& info, const Body& body) {
   const MaterialOptions& m = body.material;
   const std::string name(info.name);
   if (m.volume && !info.of_tissue)
-    throw InputError("body.material.volume is " + *m.volume + "; " + name + " has its own, expected none");
+    throw InputError("body.material.volume is " + *m.volume + "; " + name +
+                     " has its own, expected none");
   if (m.convention && !info.has_terms)
     throw InputError("body.material.convention is " + *m.convention + "; only ogden has one");
   check_structure(info, "body.", m.terms, m.fibres);
-  for (const auto& [region, o] : body.regions) check_structure(info, "body.regions." + region + ".", o.terms, o.fibres);
+  for (const auto& [region, o] : body.regions)
+    check_structure(info, "body.regions." + region + ".", o.terms, o.fibres);
   if (!info.of_tissue) return;
   if (info.has_terms && m.terms.empty())
-    throw InputError("body.material.terms is missing; expected those of ogden, such as [{mu: 1 kPa, alpha: 2}]");
+    throw InputError(
+        "body.material.terms is missing; expected those of ogden, such as [{mu: 1 kPa, alpha: 2}]");
   if (info.has_terms && !m.convention)
     throw InputError("body.material.convention is missing; ogden has no standard one, expected " +
                      keys::Name{"convention", ogden_conventions}.expects());
@@ -223,7 +249,8 @@ void check_tissue(const MaterialInfo& info, const Body& body) {
 std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOptions& body,
                                      const RegionOptions& region) {
   std::vector<double> values;
-  for (const MaterialParameter& p : info.parameters) values.push_back(given(p.name, body, region).value_or(p.standard));
+  for (const MaterialParameter& p : info.parameters)
+    values.push_back(given(p.name, body, region).value_or(p.standard));
   if (info.of_tissue) {
     const std::vector<double> settings = as_list(settings_of(body, region));
     values.insert(values.end(), settings.begin(), settings.end());
@@ -234,21 +261,25 @@ std::vector<double> parameter_values(const MaterialInfo& info, const MaterialOpt
 std::vector<std::string> materials_of_two_constants() {
   std::vector<std::string> list;
   for (const MaterialInfo& info : material_list())
-    if (info.parameters.front().name == std::string_view(parameter::young_modulus.name)) list.emplace_back(info.name);
+    if (info.parameters.front().name == std::string_view(parameter::young_modulus.name))
+      list.emplace_back(info.name);
   return list;
 }
 
 void check_parameters(const MaterialInfo& info, const Body& body) {
   check_names(info, "body.material.", body.material.parameters);
-  for (const auto& [name, region] : body.regions) check_names(info, "body.regions." + name + ".", region.parameters);
+  for (const auto& [name, region] : body.regions)
+    check_names(info, "body.regions." + name + ".", region.parameters);
   const auto check = [&](const std::string& path, const RegionOptions& region) {
     for (const MaterialParameter& p : info.parameters)
-      if (const auto value = given(p.name, body.material, region)) p.kind.check(path + p.name, *value);
+      if (const auto value = given(p.name, body.material, region))
+        p.kind.check(path + p.name, *value);
   };
   check("body.material.", {});
   for (const auto& [name, region] : body.regions) check("body.regions." + name + ".", region);
   check_prony(info, "body.material.prony", body.material.prony);
-  for (const auto& [name, region] : body.regions) check_prony(info, "body.regions." + name + ".prony", region.prony);
+  for (const auto& [name, region] : body.regions)
+    check_prony(info, "body.regions." + name + ".prony", region.prony);
   check_tissue(info, body);
 }
 
@@ -269,7 +300,8 @@ double p_wave_modulus(const MaterialOptions& material) {
 const std::vector<MaterialInfo>& material_list() {
   static const std::vector<MaterialInfo> list = [] {
     std::vector<MaterialInfo> all;
-    Materials::for_each([&](auto material) { all.push_back(describe_material<decltype(material)>()); });
+    Materials::for_each(
+        [&](auto material) { all.push_back(describe_material<decltype(material)>()); });
     return all;
   }();
   return list;
@@ -294,7 +326,8 @@ std::vector<MaterialParameter> material_parameters() {
 
 std::vector<Choice> materials() {
   std::vector<Choice> list;
-  for (const MaterialInfo& one : material_list()) list.push_back({std::string(one.name), std::string(one.summary)});
+  for (const MaterialInfo& one : material_list())
+    list.push_back({std::string(one.name), std::string(one.summary)});
   return list;
 }
 
@@ -324,7 +357,8 @@ namespace {
 
 constexpr double kPa = 1e3, degree = std::numbers::pi / 180;
 
-/// Values that two sources agree on; both take the tissue for incompressible, bulk_modulus is 50 times mu at rest or more.
+/// Values that two sources agree on; both take the tissue for incompressible, bulk_modulus is 50
+/// times mu at rest or more.
 struct Tissue {
   Choice name;
   std::string model;
@@ -335,7 +369,8 @@ const std::vector<Tissue>& list() {
   static const std::vector<Tissue> all = {
       {{"heart_muscle",
         "costa: a 2 kPa, b_ff 8, across 2, fibre and cross 4; needs body.fibres. "
-        "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1; read in the input of FEniCSx-pulse, not in the "
+        "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1; read in the input of "
+        "FEniCSx-pulse, not in the "
         "paper"},
        "costa",
        {{"a", 2 * kPa},
@@ -349,7 +384,8 @@ const std::vector<Tissue>& list() {
       {{"artery_adventitia",
         "holzapfel_gasser_ogden: c 7.64 kPa, k1 996.6 kPa, k2 524.6, kappa 0.226, angle 49.98 deg; "
         "needs body.fibres: axis around the artery, sheet along it. "
-        "Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006; read in the input of svFSI-Tests, not in the paper"},
+        "Gasser, Ogden & Holzapfel, J. R. Soc. Interface 3, 2006; read in the input of "
+        "svFSI-Tests, not in the paper"},
        "holzapfel_gasser_ogden",
        {{"c", 7.64 * kPa},
         {"k1", 996.6 * kPa},
@@ -369,7 +405,8 @@ std::vector<Choice> tissues() {
 }
 
 MaterialOptions tissue_material(std::string_view name) {
-  const auto found = std::ranges::find(list(), name, [](const Tissue& one) { return std::string_view(one.name.name); });
+  const auto found = std::ranges::find(
+      list(), name, [](const Tissue& one) { return std::string_view(one.name.name); });
   if (found == list().end()) throw InputError(unknown_name("tissue", name, names(tissues())));
   MaterialOptions m;
   m.model = found->model, m.parameters = found->parameters, m.tissue = name;

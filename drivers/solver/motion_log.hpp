@@ -9,8 +9,8 @@
 
 namespace plica {
 
-/// What callers have said of the motion of obstacles since the oldest state that a simulation can go back to: in steps that are taken
-/// again obstacles move as they did the first time.
+/// What callers have said of the motion of obstacles since the oldest state that a simulation can
+/// go back to: in steps that are taken again obstacles move as they did the first time.
 ///
 ///   then_     how each one moved before all of these
 ///   said_     | time, obstacle, its motion or turn | ...      ascending in time; from next_ on, after a way back, not yet said again
@@ -36,7 +36,8 @@ class MotionLog {
       contact.set_motion(static_cast<int>(o), then_[o].motion);
       contact.set_turn(static_cast<int>(o), then_[o].turn);
     }
-    for (next_ = 0; next_ < said_.size() && said_[next_].time < time; ++next_) apply(contact, said_[next_]);
+    for (next_ = 0; next_ < said_.size() && said_[next_].time < time; ++next_)
+      apply(contact, said_[next_]);
   }
 
   /// To a step that begins at this time.
@@ -50,7 +51,8 @@ class MotionLog {
     for (; count < next_ && said_[count].time < time; ++count) {
       Moves& moves = then_[static_cast<std::size_t>(said_[count].obstacle)];
       if (const Motion* motion = std::get_if<Motion>(&said_[count].what)) moves.motion = *motion;
-      if (const auto* turn = std::get_if<std::optional<Turn>>(&said_[count].what)) moves.turn = *turn;
+      if (const auto* turn = std::get_if<std::optional<Turn>>(&said_[count].what))
+        moves.turn = *turn;
     }
     said_.erase(said_.begin(), said_.begin() + static_cast<std::ptrdiff_t>(count));
     next_ -= count;
@@ -77,8 +79,10 @@ class MotionLog {
   std::size_t next_ = 0;
 
   static void apply(const Contact<B>& contact, const Change& change) {
-    if (const Motion* motion = std::get_if<Motion>(&change.what)) contact.set_motion(change.obstacle, *motion);
-    if (const auto* turn = std::get_if<std::optional<Turn>>(&change.what)) contact.set_turn(change.obstacle, *turn);
+    if (const Motion* motion = std::get_if<Motion>(&change.what))
+      contact.set_motion(change.obstacle, *motion);
+    if (const auto* turn = std::get_if<std::optional<Turn>>(&change.what))
+      contact.set_turn(change.obstacle, *turn);
   }
 };
 

@@ -14,7 +14,8 @@
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
-// For obstacles_float.cpp and obstacles_double.cpp alone: the kernels of all shapes are the longest thing to compile here.
+// For obstacles_float.cpp and obstacles_double.cpp alone: the kernels of all shapes are the longest
+// thing to compile here.
 namespace plica {
 
 /// An obstacle of one shape.
@@ -39,8 +40,8 @@ class ObstacleOf final : public Obstacle<B> {
 
  public:
   ObstacleOf(const Shape& shape, const Scalars<B>& storage, const Point& origin, double radius,
-             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory, int number,
-             double longest)
+             const ObstacleOptions& options, const DepthWatch<B>& watch, const Doubles<B>& memory,
+             int number, double longest)
       : shape_(shape),
         storage_(storage),
         origin_(vec3<double>(options.centre_of_mass.value_or(origin))),
@@ -56,29 +57,32 @@ class ObstacleOf final : public Obstacle<B> {
     if (options.mass) tool_ = rigid_tool(options);
   }
 
-  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number, bool faces,
-            const ContactRecords<B>& records) const override {
+  void find(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
+            int number, bool faces, const ContactRecords<B>& records) const override {
     const ObstaclePlace<B> at = place(time, static_cast<double>(records.span));
     const Real reach = face_reach * records.reach;
     fill(exec, records.close, 0);
-    // a triangle that is stretched no more than FindOnFaces allows for touches nothing if all of its corners are further than that
-    const Real between = reach + FindOnFaces<B, Shape>::stretch * FindOnFaces<B, Shape>::from_corner * longest_;
-    update_vertices<B>(exec, "plica::contact_find", surface.points,
-                       FindOnPoints<B, Shape>{surface, s.v, shape_, at, watch_, number, between, records});
+    // a triangle that is stretched no more than FindOnFaces allows for touches nothing if all of
+    // its corners are further than that
+    const Real between =
+        reach + FindOnFaces<B, Shape>::stretch * FindOnFaces<B, Shape>::from_corner * longest_;
+    update_vertices<B>(
+        exec, "plica::contact_find", surface.points,
+        FindOnPoints<B, Shape>{surface, s.v, shape_, at, watch_, number, between, records});
     if (faces)
       update_vertices<B>(exec, "plica::contact_faces", records.faces,
                          FindOnFaces<B, Shape>{shape_, at, number, reach, between, records});
   }
-  void grasp(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time, int number,
-             double reach, const ContactRecords<B>& records) const override {
-    update_vertices<B>(
-        exec, "plica::contact_grasp", surface.points,
-        Grasp<B, Shape>{surface, s.u, shape_, place(time, 0), records, number, static_cast<Real>(reach)});
+  void grasp(const Exec& exec, const EmbeddedSurface<B>& surface, const State<B>& s, double time,
+             int number, double reach, const ContactRecords<B>& records) const override {
+    update_vertices<B>(exec, "plica::contact_grasp", surface.points,
+                       Grasp<B, Shape>{surface, s.u, shape_, place(time, 0), records, number,
+                                       static_cast<Real>(reach)});
   }
   ObstaclePlace<B> place(double time, double ahead) const override {
     const PathPoint now = path_step(path_, knots_.data(), time, ahead);
-    return {origin_, ObstaclePose{now.displacement, now.velocity, time, turning_.at(time, ahead)}, tools_, first_,
-            !options_.inertia.empty()};
+    return {origin_, ObstaclePose{now.displacement, now.velocity, time, turning_.at(time, ahead)},
+            tools_, first_, !options_.inertia.empty()};
   }
   void set_motion(const Motion& motion) override {
     knots_.clear();
@@ -87,24 +91,28 @@ class ObstacleOf final : public Obstacle<B> {
   void set_turn(const std::optional<Turn>& turn) override {
     turning_ = turn ? Turning(*turn, {origin_[0], origin_[1], origin_[2]}) : Turning();
   }
-  void move(const Exec& exec, const Doubles<B>& wrench, int number, double end, double span) const override {
+  void move(const Exec& exec, const Doubles<B>& wrench, int number, double end,
+            double span) const override {
     if (!options_.mass) return;
     const ObstaclePlace<B> now = place(end, 0), next = place(end + span, 0);
-    update_vertices<B>(exec, "plica::contact_tool", 1, MoveTool<B>{now, next.pose, wrench, 6 * number, span, tool_});
+    update_vertices<B>(exec, "plica::contact_tool", 1,
+                       MoveTool<B>{now, next.pose, wrench, 6 * number, span, tool_});
   }
   double radius() const override { return radius_; }
   bool convex() const override { return Shape::convex; }
   std::size_t bytes() const override { return storage_.span() * sizeof(Real); }
 };
 
-/// The shape as kernels evaluate it; `storage` is what it points to, for its owner to keep. `radius`: of the largest ball in it.
+/// The shape as kernels evaluate it; `storage` is what it points to, for its owner to keep.
+/// `radius`: of the largest ball in it.
 template <class B, class S>
 auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& radius) {
   using Real = typename B::Real;
   if constexpr (std::is_same_v<S, SampledSurface>) {
     const DistanceGrid grid = sample_distance(o.surface, o.cells, o.thickness);
     radius = -*std::min_element(grid.value.begin(), grid.value.end());
-    storage = to_device<Scalars<B>>("contact.distance_grid", std::vector<Real>(grid.value.begin(), grid.value.end()));
+    storage = to_device<Scalars<B>>("contact.distance_grid",
+                                    std::vector<Real>(grid.value.begin(), grid.value.end()));
     return SampledSurface::Shape<Real>{storage.data(),
                                        {grid.nodes[0], grid.nodes[1], grid.nodes[2]},
                                        vec3<Real>(grid.origin),
@@ -117,16 +125,18 @@ auto device_shape(S, const typename S::Options& o, Scalars<B>& storage, double& 
 }
 
 template <class B>
-std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options, const DepthWatch<B>& watch,
-                                           const Doubles<B>& memory, int number, double longest) {
+std::unique_ptr<Obstacle<B>> make_obstacle(const ObstacleOptions& options,
+                                           const DepthWatch<B>& watch, const Doubles<B>& memory,
+                                           int number, double longest) {
   std::unique_ptr<Obstacle<B>> obstacle;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
     Scalars<B> storage;
     double radius = 0;
     const auto made = device_shape<B>(shape, its, storage, radius);
     using Shape = std::decay_t<decltype(made)>;
-    obstacle = std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), radius, options,
-                                                      watch, memory, number, longest);
+    obstacle =
+        std::make_unique<ObstacleOf<B, Shape>>(made, storage, decltype(shape)::origin(its), radius,
+                                               options, watch, memory, number, longest);
   });
   return obstacle;
 }

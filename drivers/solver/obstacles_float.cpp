@@ -3,10 +3,10 @@
 
 namespace plica {
 
-#define PLICA_INSTANTIATE(Exec)                                                                                   \
-  template std::unique_ptr<Obstacle<Backend<float, Exec>>> make_obstacle(                                         \
-      const ObstacleOptions&, const DepthWatch<Backend<float, Exec>>&, const Doubles<Backend<float, Exec>>&, int, \
-      double);
+#define PLICA_INSTANTIATE(Exec)                                           \
+  template std::unique_ptr<Obstacle<Backend<float, Exec>>> make_obstacle( \
+      const ObstacleOptions&, const DepthWatch<Backend<float, Exec>>&,    \
+      const Doubles<Backend<float, Exec>>&, int, double);
 PLICA_FOR_EACH_SPACE(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// Finds what of a level's surface is near what else of it: fills the slots of pairs. Kernels alone; a grid of the triangles is kept
-/// while nothing has moved far.
+/// Finds what of a level's surface is near what else of it: fills the slots of pairs. Kernels
+/// alone; a grid of the triangles is kept while nothing has moved far.
 template <class B>
 class PairSearch {
  public:

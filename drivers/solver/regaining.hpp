@@ -3,8 +3,9 @@
 
 namespace plica {
 
-/// When steps that were cut are tried longer again: 100 macro steps after a cut, and twice as many after each try that failed or did not
-/// last. So a body that stays stiff is tried ever more rarely, and one that is struck again and again stays with short steps.
+/// When steps that were cut are tried longer again: 100 macro steps after a cut, and twice as many
+/// after each try that failed or did not last. So a body that stays stiff is tried ever more
+/// rarely, and one that is struck again and again stays with short steps.
 class Regaining {
  public:
   /// Steps were cut.

@@ -16,7 +16,9 @@ namespace {
 template <class List>
 std::vector<Choice> choices() {
   std::vector<Choice> list;
-  List::for_each([&](auto member) { list.push_back({decltype(member)::name, decltype(member)::summary}); });
+  List::for_each([&](auto member) {
+    list.push_back({decltype(member)::name, decltype(member)::summary});
+  });
   return list;
 }
 
@@ -29,9 +31,9 @@ std::vector<Choice> obstacle_shapes() { return choices<ObstacleShapes>(); }
 
 std::vector<Choice> cycle_choices() {
   std::vector<Choice> list = cycles();
-  list.push_back(
-      {"auto",
-       "him or single, with its macro step: the longest that short trials find within integration.error_class"});
+  list.push_back({"auto",
+                  "him or single, with its macro step: the longest that short trials find within "
+                  "integration.error_class"});
   return list;
 }
 
@@ -63,14 +65,16 @@ std::vector<Choice> linear_solver_choices() {
 
 std::vector<Choice> preconditioner_choices() {
   std::vector<Choice> list = preconditioners();
-  list.push_back(
-      {"auto", "multigrid where the body has coarser levels, or one mesh and long steps; else block_jacobi"});
+  list.push_back({"auto",
+                  "multigrid where the body has coarser levels, or one mesh and long steps; else "
+                  "block_jacobi"});
   return list;
 }
 
 std::vector<Choice> whole_surface_rules() {
   return {{"auto",
-           "those with a radius below 16 of the surface's mean edges; none where a linear solver is direct or v_cycle"},
+           "those with a radius below 16 of the surface's mean edges; none where a linear solver "
+           "is direct or v_cycle"},
           {"always", "all of them"},
           {"never", "none: what fits between points passes"}};
 }
@@ -82,13 +86,15 @@ std::vector<Choice> matrix_choices() {
 }
 
 std::vector<Choice> tangents() {
-  return {{"exact", "the derivative of the force; a solve takes no direction in which the body softens"},
+  return {{"exact",
+           "the derivative of the force; a solve takes no direction in which the body softens"},
           {"positive", "projected to positive semi-definite, element by element"},
           {"auto", "exact; projected where Newton's method finds that the body softens"}};
 }
 
 std::vector<Choice> unsolved_outcomes() {
-  return {{"accept", "goes on, and counts it (newton_misses)"}, {"stop", "ends the run: kind solver"}};
+  return {{"accept", "goes on, and counts it (newton_misses)"},
+          {"stop", "ends the run: kind solver"}};
 }
 
 bool uses_coarse_levels(std::string_view cycle) { return stepper_needs(cycle).coarse_meshes; }
@@ -133,7 +139,8 @@ int most_halvings(const Problem& problem) {
   constexpr int enough = 6;
   const IntegrationOptions& o = problem.integration;
   if (o.on_failure.halvings != FailureOptions::automatic) return o.on_failure.halvings;
-  const bool touches = !problem.contact.obstacles.empty() || !problem.body.parts.empty() || problem.contact.self;
+  const bool touches =
+      !problem.contact.obstacles.empty() || !problem.body.parts.empty() || problem.contact.self;
   const bool judged = std::ranges::any_of(o.integrator, [&](const std::string& name) {
     return !is_explicit(name) && (touches || newton_iterations(o.implicit, name) > 1);
   });
@@ -145,10 +152,11 @@ double rho_infinity(const ImplicitOptions& options, bool contact) {
 }
 
 std::vector<Choice> presets() {
-  return {
-      {"tled",
-       "total Lagrangian explicit dynamics (Miller et al. 2007, Taylor, Cheng & Ourselin 2008): body.element linear, "
-       "integration.cycle single, integration.integrator central_difference, integration.relaxation backward_euler"}};
+  return {{"tled",
+           "total Lagrangian explicit dynamics (Miller et al. 2007, Taylor, Cheng & Ourselin "
+           "2008): body.element linear, "
+           "integration.cycle single, integration.integrator central_difference, "
+           "integration.relaxation backward_euler"}};
 }
 
 void apply_preset(std::string_view name, Problem& problem) {

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-/// The families a scene chooses from, as lists to print, beside those of core/keys.hpp. Each walks the family's own list.
+/// The families a scene chooses from, as lists to print, beside those of core/keys.hpp. Each walks
+/// the family's own list.
 namespace plica {
 
 std::vector<Choice> cycles();           ///< ways to share a macro step
@@ -18,8 +19,8 @@ std::vector<Choice> preconditioners();  ///< of conjugate gradients
 bool uses_coarse_levels(std::string_view cycle);
 /// Whether coarser levels have states of their own there, and shares of the macro step.
 bool integrates_coarse_levels(std::string_view cycle);
-/// Whether a body has coarser levels for that cycle, or auto: meshes, or for those that need no elements there a mesh of which spaces
-/// can be made.
+/// Whether a body has coarser levels for that cycle, or auto: meshes, or for those that need no
+/// elements there a mesh of which spaces can be made.
 bool has_coarse_levels(std::string_view cycle, const Body& body);
 /// How many of a body's levels that cycle integrates: those that have a state, from the finest on.
 std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
@@ -27,20 +28,23 @@ std::size_t integrated_levels(std::string_view cycle, std::size_t levels);
 /// Whether that integrator is explicit; true for a name it does not know.
 bool is_explicit(std::string_view integrator);
 
-/// How often a macro step that fails is halved, at most: what the options say, and where they leave it open, 6 where Newton's method judges
-/// the steps of a level, else 0.
+/// How often a macro step that fails is halved, at most: what the options say, and where they leave
+/// it open, 6 where Newton's method judges the steps of a level, else 0.
 int most_halvings(const Problem& problem);
-/// Whether that integrator conserves energy on the linear problem. What a step then leaves unsolved is energy lost or won.
+/// Whether that integrator conserves energy on the linear problem. What a step then leaves unsolved
+/// is energy lost or won.
 bool conserves_energy(const ImplicitOptions& options, std::string_view integrator);
-/// The most Newton iterations that a stage of that integrator takes: those of the options, and where they leave it open, 20; but 1 where a
-/// linear solve is a fixed amount of work.
+/// The most Newton iterations that a stage of that integrator takes: those of the options, and
+/// where they leave it open, 20; but 1 where a linear solve is a fixed amount of work.
 int newton_iterations(const ImplicitOptions& options, std::string_view integrator);
 
-/// What of the fastest motion generalized_alpha leaves after a step: by the options, or where they leave it open 0.8, and with contact 0.
-/// Contact sets in and ends within a step, and what is left of that makes its force alternate from step to step, and grow.
+/// What of the fastest motion generalized_alpha leaves after a step: by the options, or where they
+/// leave it open 0.8, and with contact 0. Contact sets in and ends within a step, and what is left
+/// of that makes its force alternate from step to step, and grow.
 double rho_infinity(const ImplicitOptions& options, bool contact);
 
-/// Whether elements of that material may be inverted: by its options, or where they say nothing by the material.
+/// Whether elements of that material may be inverted: by its options, or where they say nothing by
+/// the material.
 bool allows_inversion(const MaterialOptions& material);
 /// Whether inverted elements of that material are pushed back; false for a name it does not know.
 bool recovers(std::string_view material);

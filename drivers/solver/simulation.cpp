@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a run goes: a simulation is set up, steps, is checked, and recovers where it can. What it tells of itself is in
-// simulation_views.cpp, what it is made of in set_up/.
+// How a run goes: a simulation is set up, steps, is checked, and recovers where it can. What it
+// tells of itself is in simulation_views.cpp, what it is made of in set_up/.
 //
-// Who owns what. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each SolverLevel owns its data
-// (rest shape, masses, state, work arrays), the forces on it and its integrator. A Stepper decides how the levels take a macro
-// step together; it owns what is of no single level. Nothing points upwards: a level knows of no stepper, a stepper of no
-// simulation.
+// Who owns what. A Simulation owns a Hierarchy: the body at several resolutions, finest first. Each
+// SolverLevel owns its data (rest shape, masses, state, work arrays), the forces on it and its
+// integrator. A Stepper decides how the levels take a macro step together; it owns what is of no
+// single level. Nothing points upwards: a level knows of no stepper, a stepper of no simulation.
 //
 // A macro step of the paper's cycle, downwards through the files:
 //
@@ -21,13 +21,15 @@
 //               loads, contact, the caller's
 //             update velocity and place     kernels/explicit/updates.hpp
 //
-// With an implicit level, advance is in integrators/implicit.cpp: it sets the base of a stage, StageSolver
-// (integrators/stage_solver.hpp) linearises the level and solves, by a LinearSolver of linear/. The hierarchical inverse mass
-// (him/him_stepper.hpp) evaluates the forces of the finest level once and lets all levels answer them.
+// With an implicit level, advance is in integrators/implicit.cpp: it sets the base of a stage,
+// StageSolver (integrators/stage_solver.hpp) linearises the level and solves, by a LinearSolver of
+// linear/. The hierarchical inverse mass (him/him_stepper.hpp) evaluates the forces of the finest
+// level once and lets all levels answer them.
 //
-// A step enqueues work and returns. check() waits, reads flags and sums, and looks at nothing else but the state there is.
-// What then is bad is a matter of recover(), which goes back to the last state that was kept: it lets the stepper repair itself, or
-// takes the macro steps since again in halves (simulation_recovery.cpp). drivers that want all of it call step_checked().
+// A step enqueues work and returns. check() waits, reads flags and sums, and looks at nothing else
+// but the state there is. What then is bad is a matter of recover(), which goes back to the last
+// state that was kept: it lets the stepper repair itself, or takes the macro steps since again in
+// halves (simulation_recovery.cpp). drivers that want all of it call step_checked().
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,20 +47,23 @@ namespace plica {
 namespace {
 
 constexpr double time_rounding = 1e-9;  // relative
-constexpr double least_edge = 1e-3;     // of an edge per macro step: motion that energy is not asked about
+// of an edge per macro step: motion that energy is not asked about
+constexpr double least_edge = 1e-3;
 
 const Problem& steppable(const Problem& p) {
   validate(p);
   if (p.integration.cycle == "auto")
     throw InputError(
-        "integration.cycle is auto, which a simulation does not decide; expected a cycle by its name: "
+        "integration.cycle is auto, which a simulation does not decide; expected a cycle by its "
+        "name: "
         "choose_cycle() of plica/drivers/study/choose_cycle.hpp finds one by short trials");
   return p;
 }
 
 }  // namespace
 
-// --- Set-up -----------------------------------------------------------------------------------------------------------------
+// --- Set-up
+// -----------------------------------------------------------------------------------------------------------------
 
 template <class B>
 Simulation<B>::Simulation(const Problem& problem, const Exec& exec)
@@ -84,7 +89,8 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   if (const std::size_t count = wrench_names(p).size(); count > 0)
     wrench = zeros<Doubles<B>>("plica::contact.wrenches", 6 * count);
   if (const Contact<B>* contact = hierarchy()[0].contact()) memory = contact->memory();
-  judges = std::ranges::any_of(hierarchy().levels, [](const auto& level) { return level.integrator->judges(); });
+  judges = std::ranges::any_of(hierarchy().levels,
+                               [](const auto& level) { return level.integrator->judges(); });
   if (control.halves()) part_start.emplace();
   if (control.halves() && wrench.extent(0) > 0)
     wrench_sum = zeros<Doubles<B>>("plica::contact.wrench_sum", wrench.extent(0));
@@ -93,14 +99,16 @@ Simulation<B>::Inside::Inside(const Problem& p, const Exec& exec)
   open_budget();
 }
 
-// --- Step -------------------------------------------------------------------------------------------------------------------
+// --- Step
+// -------------------------------------------------------------------------------------------------------------------
 
 template <class B>
 void Simulation<B>::step() {
   Inside& s = *inside_;
   s.residual = 0;
   const Kokkos::Timer timer;
-  const bool part = s.reaches_end();  // a short step's mean force wavers: the last whole one's stays
+  // a short step's mean force wavers: the last whole one's stays
+  const bool part = s.reaches_end();
   if (part) copy_memory(s.hierarchy().exec(), s.wrench, s.wrench_before);
   if (s.control.halves() && (s.judges || s.control.divides()))
     s.cover(false);
@@ -114,14 +122,16 @@ void Simulation<B>::step() {
 
 template <class B>
 void Simulation<B>::end_at(double time) {
-  if (std::isnan(time)) throw InputError("end_at: the time is no number; expected one, or infinity for no end");
+  if (std::isnan(time))
+    throw InputError("end_at: the time is no number; expected one, or infinity for no end");
   inside_->end = time;
 }
 
 /// Whether the next macro step would go beyond the end that a caller has set.
 template <class B>
 bool Simulation<B>::Inside::reaches_end() const {
-  return time < end && origin + static_cast<double>(steps + 1) * built.macro_step > (1 + time_rounding) * end;
+  return time < end &&
+         origin + static_cast<double>(steps + 1) * built.macro_step > (1 + time_rounding) * end;
 }
 
 template <class B>
@@ -149,7 +159,8 @@ void Simulation<B>::Inside::advance(double from, double span) {
   built.stepper->step(hierarchy(), from, span);
   move_obstacles(hierarchy(), wrench, from + span, span);
   launch_gathered<Exec>();
-  for (const auto& level : hierarchy().levels) residual = std::max(residual, level.integrator->residual());
+  for (const auto& level : hierarchy().levels)
+    residual = std::max(residual, level.integrator->residual());
   worst_residual = std::max(worst_residual, residual);
 }
 
@@ -161,7 +172,8 @@ std::optional<Diagnosis> Simulation<B>::step_checked() {
   return bad;
 }
 
-// --- Check ------------------------------------------------------------------------------------------------------------------
+// --- Check
+// ------------------------------------------------------------------------------------------------------------------
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::check() {
@@ -178,18 +190,22 @@ std::optional<Diagnosis> Simulation<B>::Inside::examine(double part) {
   if (budget_opens) open_budget();
   const MotionReport now = meter.motion(drift);
   const LevelReport& finest = built.reports.front();
-  const bool lost = built.stepper->lost_stability(hierarchy(), now.about_mean), late = built.stepper->sees_late();
+  const bool lost = built.stepper->lost_stability(hierarchy(), now.about_mean),
+             late = built.stepper->sees_late();
   if (lost && !late) return failure("stability");
-  const double substep = finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
+  const double substep =
+      finest.share * built.macro_step / (std::max(1, finest.substeps) * built.stepper->parts());
   if (auto bad = find_failure(now, now.edges_per_second * substep * part)) return bad;
   if (lost) return failure("stability");
   drift = now.drift;
   return {};
 }
 
-/// The first that does not hold. `motion`: the furthest that a vertex came in a sub-step, against the body, over its edge.
+/// The first that does not hold. `motion`: the furthest that a vertex came in a sub-step, against
+/// the body, over its edge.
 template <class B>
-std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now, double motion) {
+std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport& now,
+                                                             double motion) {
   if (control.halves()) look_at_end();
   if (auto inverted = find_inverted<B>(built)) return inverted->motion_over_edge = motion, inverted;
   const Energies& e = now.energies;
@@ -201,23 +217,28 @@ std::optional<Diagnosis> Simulation<B>::Inside::find_failure(const MotionReport&
     if (const int point = contact->take_lost(hierarchy().exec()); point >= 0)
       return failure("contact", motion, 0, "surface point " + std::to_string(point));
   put_in = std::max(put_in, start - e.potential);
-  // elastic and contact energy are not negative: kinetic energy beyond what was put in is made of nothing. Twice, since
-  // discrete energies waver; never less than that of a thousandth of an edge per step
+  // elastic and contact energy are not negative: kinetic energy beyond what was put in is made of
+  // nothing. Twice, since discrete energies waver; never less than that of a thousandth of an edge
+  // per step
   const LevelReport& finest = built.reports.front();
   const double edge_speed = least_edge * finest.mean_edge / built.macro_step;
   const double allowed = 2 * put_in + 0.5 * finest.mass * edge_speed * edge_speed;
-  // else the elastic energy is not all there, or is as much as a step that lowers its potential lets it be
+  // else the elastic energy is not all there, or is as much as a step that lowers its potential
+  // lets it be
   const bool stores = control.halves() && !judges && !is_viscous(problem.body);
-  if (budget_known && e.kinetic + (stores ? meter.all(time).elastic : 0) > allowed) return failure("energy", motion);
-  // An explicit sub-step is about the time that sound takes across half an element. What leaves the body as a whole by more
-  // than an edge in it is faster than sound: elements there are passed through within a step, whatever the forces say.
-  // But for the law that is linear in any state, and stable at any amplitude.
+  if (budget_known && e.kinetic + (stores ? meter.all(time).elastic : 0) > allowed)
+    return failure("energy", motion);
+  // An explicit sub-step is about the time that sound takes across half an element. What leaves the
+  // body as a whole by more than an edge in it is faster than sound: elements there are passed
+  // through within a step, whatever the forces say. But for the law that is linear in any state,
+  // and stable at any amplitude.
   if (finest.explicit_integrator && !linear && motion > 1) return failure("speed", motion);
   return {};
 }
 
-/// Flags level 0's inverted elements as they are now. Without it the next step's first force would, which is early enough to
-/// stop, but too late to take this step again; likewise an element may have taken up energy that nothing has put in.
+/// Flags level 0's inverted elements as they are now. Without it the next step's first force would,
+/// which is early enough to stop, but too late to take this step again; likewise an element may
+/// have taken up energy that nothing has put in.
 template <class B>
 void Simulation<B>::Inside::look_at_end() {
   const SolverLevel<B>& level = hierarchy()[0];
@@ -226,7 +247,8 @@ void Simulation<B>::Inside::look_at_end() {
 }
 
 template <class B>
-Diagnosis Simulation<B>::Inside::failure(const std::string& kind, double motion, int level, const std::string& reason) {
+Diagnosis Simulation<B>::Inside::failure(const std::string& kind, double motion, int level,
+                                         const std::string& reason) {
   Diagnosis d = locate_failure<B>(kind, built, kept.levels, level, reason);
   d.motion_over_edge = motion;
   return d;

@@ -23,10 +23,11 @@ struct Part {
 
 /// An element that by itself would limit explicit steps.
 struct StiffElement {
-  int element = -1;         ///< in the level's mesh
-  std::string region;       ///< its own; empty: nameless
-  double height_ratio = 0;  ///< its longest edge over its smallest height; of a regular tetrahedron 1.22
-  double step = 0;          ///< 2/w of it alone [s]
+  int element = -1;    ///< in the level's mesh
+  std::string region;  ///< its own; empty: nameless
+  /// its longest edge over its smallest height; of a regular tetrahedron 1.22
+  double height_ratio = 0;
+  double step = 0;  ///< 2/w of it alone [s]
 };
 
 /// What a level is.
@@ -43,17 +44,21 @@ struct LevelReport {
   int vertices = 0;                  ///< of its mesh; points of a coarse space
   int tets = 0;                      ///< of its mesh; a coarse space has none
   double filled = 1;                 ///< the body's part of its volume
-  double nonzeros = 0;   ///< of a coarse space: weights per row of its interpolation to the next finer level
+  /// of a coarse space: weights per row of its interpolation to the next finer level
+  double nonzeros = 0;
   double mean_edge = 0;  ///< [m]
   double mass = 0;       ///< [kg]
   double critical_step =
-      0;  ///< largest stable explicit step of its integrator; contact does not bound it (implicit: of
-          ///< symplectic_euler); 0 where it is not integrated [s]
-  double element_bound = 0;            ///< lower bound of critical_step without damping, from the worst element [s]
+      0;  ///< largest stable explicit step of its integrator; contact does not bound it (implicit:
+          ///< of symplectic_euler); 0 where it is not integrated [s]
+  /// lower bound of critical_step without damping, from the worst element [s]
+  double element_bound = 0;
   double typical_element = 0;          ///< the median of that over all elements [s]
   std::vector<StiffElement> stiffest;  ///< the ten worst of its elements, the worst first
-  double share = 0;                 ///< of the macro step; 0 where it is not integrated (coarser levels of cycle him)
-  double inertia = 1;               ///< cycle him: how many times too heavy motion is that only this level represents
+  /// of the macro step; 0 where it is not integrated (coarser levels of cycle him)
+  double share = 0;
+  /// cycle him: how many times too heavy motion is that only this level represents
+  double inertia = 1;
   double detail_step = 0;           ///< cycle him: largest stable step of that motion by itself [s]
   int substeps = 0;                 ///< in its share
   std::string element;              ///< linear or nodal
@@ -62,8 +67,9 @@ struct LevelReport {
   bool explicit_integrator = true;  ///< whether critical_step limits its sub-steps
   int outside_down = 0;             ///< its vertices outside the next finer mesh
   int outside_up = 0;               ///< the next finer level's vertices outside its mesh
-  int massless = 0;                 ///< its vertices without one of the next finer level in their elements (cycle fas)
-  double largest_miss = 0;          ///< their largest distance over the local edge length
+  /// its vertices without one of the next finer level in their elements (cycle fas)
+  int massless = 0;
+  double largest_miss = 0;  ///< their largest distance over the local edge length
 };
 
 /// How far the cycle `him` is from its limit at rest.
@@ -72,7 +78,8 @@ struct HimReport {
   double bound = 0;        ///< of that, from each level's own eigenvalue: never less
   int coarsest = 0;        ///< vertices of the coarsest level; of several bodies the fewest
   bool all_modes = false;  ///< whether each of its modes has its own frequency
-  double usual_step = 0;   ///< the automatic step before halvings that the fit needed; 0: the step was given [s]
+  /// the automatic step before halvings that the fit needed; 0: the step was given [s]
+  double usual_step = 0;
 };
 
 /// Energies of level 0.
@@ -85,21 +92,23 @@ struct Energies {
   double total() const { return kinetic + elastic + potential + contact; }
 };
 
-/// What an obstacle does to the body, or to one of several bodies all the others. The mean force on the body over the last macro step.
-/// The force on the obstacle is the negative.
+/// What an obstacle does to the body, or to one of several bodies all the others. The mean force on
+/// the body over the last macro step. The force on the obstacle is the negative.
 struct Wrench {
-  std::string obstacle;          ///< its name, or that of the body, see wrench_names()
-  Point force = Point::Zero();   ///< on the body [N]
-  Point torque = Point::Zero();  ///< about the obstacle's origin, which moves with it, or about the scene's [N m]
+  std::string obstacle;         ///< its name, or that of the body, see wrench_names()
+  Point force = Point::Zero();  ///< on the body [N]
+  /// about the obstacle's origin, which moves with it, or about the scene's [N m]
+  Point torque = Point::Zero();
 };
 
 /// Where an obstacle with mass is.
 struct ToolState {
-  std::string obstacle;                    ///< its name
-  Point displacement = Point::Zero();      ///< of its centre of mass, from where its shape says [m]
-  Point velocity = Point::Zero();          ///< [m/s]
-  bool turns = false;                      ///< it has inertia
-  Point rotation = Point::Zero();          ///< its direction is the axis, its length the angle, at most pi [rad]
+  std::string obstacle;                ///< its name
+  Point displacement = Point::Zero();  ///< of its centre of mass, from where its shape says [m]
+  Point velocity = Point::Zero();      ///< [m/s]
+  bool turns = false;                  ///< it has inertia
+  /// its direction is the axis, its length the angle, at most pi [rad]
+  Point rotation = Point::Zero();
   Point angular_velocity = Point::Zero();  ///< [rad/s]
 };
 
@@ -111,18 +120,19 @@ struct HeldBy {
 
 /// Why a run cannot go on. Indices count from 0 in the input mesh, -1: does not apply.
 struct Diagnosis {
-  std::string kind;                  ///< non_finite | inverted | energy | speed | contact | solver | stability
+  /// non_finite | inverted | energy | speed | contact | solver | stability
+  std::string kind;
   int level = -1;                    ///< 0: the finest
   int element = -1;                  ///< tetrahedron of that level
   int vertex = -1;                   ///< vertex of that level
   std::string region;                ///< of the element; empty: nameless
   double J = 0;                      ///< volume ratio of the element
   double substep_over_critical = 0;  ///< of that level
-  double motion_over_edge =
-      0;               ///< the furthest that a vertex of level 0 came in a sub-step, against the body, over its edge
-  std::string reason;  ///< of a solver: its own words
-  std::string remedy;  ///< most likely to help
-  std::string text() const;  ///< one sentence with all of it
+  double motion_over_edge = 0;       ///< the furthest that a vertex of level 0 came in a sub-step,
+                                     ///< against the body, over its edge
+  std::string reason;                ///< of a solver: its own words
+  std::string remedy;                ///< most likely to help
+  std::string text() const;          ///< one sentence with all of it
 };
 
 /// What a simulation carries from one macro step to the next, in bytes that only Simulation reads.
@@ -138,8 +148,9 @@ struct ElementFields {
   std::vector<double> J;          ///< volume ratio
 };
 
-/// A deformable body, meshed at one or several resolutions, in motion. Not copyable; one object must not be used by two
-/// threads at a time. Kokkos must be initialised before and finalised after its life.
+/// A deformable body, meshed at one or several resolutions, in motion. Not copyable; one object
+/// must not be used by two threads at a time. Kokkos must be initialised before and finalised after
+/// its life.
 template <class B>
 class Simulation {
  public:
@@ -151,31 +162,36 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One macro step. Enqueues work; does not wait for it (implicit levels read their residuals on the way).
+  /// One macro step. Enqueues work; does not wait for it (implicit levels read their residuals on
+  /// the way).
   void step();
 
-  /// Why the run must stop, if it must: non-finite values, inverted elements where they are not allowed, more kinetic energy
-  /// than was put in, a vertex that leaves the body by more than its edge in one explicit sub-step, a surface point deeper in
-  /// an obstacle than the body is large, a solver that gave up, a stepper that has lost its stability. Waits. Examines the state
-  /// there is: with integration.on_failure.halvings also level 0's elements (one or two passes more). Cheap enough to be called after
-  /// every macro step; states that pass are kept from time to time. After one that passes, sub-steps that recover() has cut may be given
-  /// back: every hundred macro steps at most it looks whether longer ones are stable, which takes as long as some ten steps.
+  /// Why the run must stop, if it must: non-finite values, inverted elements where they are not
+  /// allowed, more kinetic energy than was put in, a vertex that leaves the body by more than its
+  /// edge in one explicit sub-step, a surface point deeper in an obstacle than the body is large, a
+  /// solver that gave up, a stepper that has lost its stability. Waits. Examines the state there
+  /// is: with integration.on_failure.halvings also level 0's elements (one or two passes more).
+  /// Cheap enough to be called after every macro step; states that pass are kept from time to time.
+  /// After one that passes, sub-steps that recover() has cut may be given back: every hundred macro
+  /// steps at most it looks whether longer ones are stable, which takes as long as some ten steps.
   std::optional<Diagnosis> check();
 
-  /// Repairs a state that did not pass check(), where that is possible: goes back to the last state that was kept and steps again
-  /// to the same time, with the inertia fitted again (cycle him), or in halved steps (integration.on_failure). External forces are
-  /// asked for again. Returns the diagnosis of a state that is still bad, which stays as it is; none: the run goes on.
+  /// Repairs a state that did not pass check(), where that is possible: goes back to the last state
+  /// that was kept and steps again to the same time, with the inertia fitted again (cycle him), or
+  /// in halved steps (integration.on_failure). External forces are asked for again. Returns the
+  /// diagnosis of a state that is still bad, which stays as it is; none: the run goes on.
   std::optional<Diagnosis> recover(const Diagnosis& bad);
 
   /// step(), check() and, where that finds something, recover(): one macro step of a run. Waits.
   std::optional<Diagnosis> step_checked();
 
-  /// From now on a macro step that would go beyond this time [s] ends there. It is shorter than the others and not counted
-  /// among macro_steps(); the step after it makes up the rest.
+  /// From now on a macro step that would go beyond this time [s] ends there. It is shorter than the
+  /// others and not counted among macro_steps(); the step after it makes up the rest.
   void end_at(double time);
 
-  /// Calls this after each macro step that recover() takes again, in their order; where a try fails, from an earlier one on again. For drivers
-  /// that record motion: macro_steps() and time() say from where on it is replaced.
+  /// Calls this after each macro step that recover() takes again, in their order; where a try
+  /// fails, from an earlier one on again. For drivers that record motion: macro_steps() and time()
+  /// say from where on it is replaced.
   void on_repeated_step(std::function<void()> call);
   /// The macro step whose end is the earliest state that recover() may go back to.
   long earliest_kept() const;
@@ -190,13 +206,16 @@ class Simulation {
   std::optional<HimReport> him() const;            ///< of that cycle
   std::vector<Part> parts() const;                 ///< what it is made of, in and out
   Energies energies() const;                       ///< waits
-  /// Of obstacles, then bodies, of the last macro step; after a step that end_at() made shorter, of the one before. Waits.
+  /// Of obstacles, then bodies, of the last macro step; after a step that end_at() made shorter, of
+  /// the one before. Waits.
   std::vector<Wrench> wrenches() const;
-  /// How deep the surface is in each obstacle at its deepest place [m]; 0 outside. Points that it holds are left out. Waits.
+  /// How deep the surface is in each obstacle at its deepest place [m]; 0 outside. Points that it
+  /// holds are left out. Waits.
   std::vector<double> contact_depths() const;
   /// Likewise in other bodies, or in itself where it folds, at the deepest place of all [m]. Waits.
   double pair_depth() const;
-  /// What friction has done so far, on the body and on what rubs it [J]: below 0 it is lost, or stored where the body sticks. Waits.
+  /// What friction has done so far, on the body and on what rubs it [J]: below 0 it is lost, or
+  /// stored where the body sticks. Waits.
   double friction_work() const;
   /// Of each obstacle the part of what touches it that slips: whose friction is at its cap. Waits.
   std::vector<double> slipping() const;
@@ -204,57 +223,62 @@ class Simulation {
   std::vector<HeldBy> held() const;           ///< of obstacles that can hold points; waits
   int torn_attachments() const;               ///< points whose attachments are torn; waits
   std::vector<CavityState> cavities() const;  ///< whose volume is given, of level 0; waits
-  /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers each; step() updates it in
-  /// place.
+  /// The wrenches as the device holds them, force and torque of one after the other, 6 numbers
+  /// each; step() updates it in place.
   Doubles<B> wrench() const;
   std::map<std::string, double> stages()
       const;  ///< stage name -> wall time so far [s]; empty unless timing was asked for
   std::map<std::string, long> counters()
       const;  ///< force evaluations, solver iterations, misses, switched vertices ...
-  /// The largest part of its forces that an implicit stage of the last macro step left unbalanced; of a linearly implicit one, the relative
-  /// residual of its linear solve.
+  /// The largest part of its forces that an implicit stage of the last macro step left unbalanced;
+  /// of a linearly implicit one, the relative residual of its linear solve.
   double residual() const;
   double worst_residual() const;  ///< of all macro steps so far
 
-  /// A level's displacements from the placed rest mesh [m] as the device holds them, [vertices][3]. step() updates them in
-  /// place; the view may outlive the simulation.
+  /// A level's displacements from the placed rest mesh [m] as the device holds them, [vertices][3].
+  /// step() updates them in place; the view may outlive the simulation.
   Vectors<B> displacement(int level = 0) const;
   /// Likewise its velocities [m/s].
   Vectors<B> velocity(int level = 0) const;
 
-  /// A level's positions [m] after the steps enqueued so far, in input order, into a view of the caller's on the device:
-  /// [vertices][3], float or double, in any layout. Enqueues, does not wait; a level's first call uploads its rest positions.
-  /// Throws InputError where the sizes differ.
+  /// A level's positions [m] after the steps enqueued so far, in input order, into a view of the
+  /// caller's on the device: [vertices][3], float or double, in any layout. Enqueues, does not
+  /// wait; a level's first call uploads its rest positions. Throws InputError where the sizes
+  /// differ.
   void read_positions(const DeviceOutput<B>& to, int level = 0) const;
   /// Likewise its velocities [m/s].
   void read_velocities(const DeviceOutput<B>& to, int level = 0) const;
-  /// Likewise the positions [m] of the embedded surface's points, [points][3], as level 0 carries them.
+  /// Likewise the positions [m] of the embedded surface's points, [points][3], as level 0 carries
+  /// them.
   void read_surface_positions(const DeviceOutput<B>& to) const;
   /// Likewise their velocities [m/s].
   void read_surface_velocities(const DeviceOutput<B>& to) const;
 
-  /// The other way: replaces level 0's state by that in views of the caller's. The next cycle restricts it to the others.
-  /// Enqueues, does not wait (but for cycle `him`, which solves for the momenta of these velocities); the views must stay as
-  /// they are until the work is done.
+  /// The other way: replaces level 0's state by that in views of the caller's. The next cycle
+  /// restricts it to the others. Enqueues, does not wait (but for cycle `him`, which solves for the
+  /// momenta of these velocities); the views must stay as they are until the work is done.
   void write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities);
 
-  /// From now on asks this function for more forces, on every level, at every state about to be integrated; an empty one
-  /// ends that. The library cannot know their stiffness: explicit levels are stable up to h^2 k < 4 m of a vertex they act on,
-  /// about, and implicit ones take it from ForceRequest::stiffness. Since such forces may do work, check() no longer compares
-  /// energies.
+  /// From now on asks this function for more forces, on every level, at every state about to be
+  /// integrated; an empty one ends that. The library cannot know their stiffness: explicit levels
+  /// are stable up to h^2 k < 4 m of a vertex they act on, about, and implicit ones take it from
+  /// ForceRequest::stiffness. Since such forces may do work, check() no longer compares energies.
   void set_external_forces(const ExternalForces<B>& forces);
 
-  /// From now on an obstacle moves so, not as the problem says; displacements are from where its shape says. Its turn goes on. Does not
-  /// wait. save() does not store this motion; check() no longer compares energies. Obstacles count from 0. InputError where there is none of
-  /// that number.
+  /// From now on an obstacle moves so, not as the problem says; displacements are from where its
+  /// shape says. Its turn goes on. Does not wait. save() does not store this motion; check() no
+  /// longer compares energies. Obstacles count from 0. InputError where there is none of that
+  /// number.
   void set_obstacle_motion(int obstacle, const Motion& motion);
-  /// Likewise it turns so; none: it is as its shape says. Its motion goes on. One with mass and inertia
-  /// follows by its coupling; InputError for one with mass alone, which does not turn.
+  /// Likewise it turns so; none: it is as its shape says. Its motion goes on. One with mass and
+  /// inertia follows by its coupling; InputError for one with mass alone, which does not turn.
   void set_obstacle_turn(int obstacle, const std::optional<Turn>& turn);
-  /// Likewise straight from where its motion has it now to this displacement [m] at the end of the next macro step, where it stays: for
-  /// tools that a hand or a haptic device moves. One with mass follows by its coupling.
+  /// Likewise straight from where its motion has it now to this displacement [m] at the end of the
+  /// next macro step, where it stays: for tools that a hand or a haptic device moves. One with mass
+  /// follows by its coupling.
   void move_obstacle(int obstacle, const Point& displacement);
-  /// The same, and it turns in that time to this rotation, the shortest way and at one rate: about the point of its turn, or its origin.
+  /// The same, and it turns in that time to this rotation, the shortest way and at one rate: about
+  /// the point of its turn, or its origin.
   void move_obstacle(int obstacle, const Point& displacement, const Point& rotation);
   /// Where its motion has it now, from where its shape says [m].
   Point obstacle_displacement(int obstacle) const;
@@ -263,40 +287,48 @@ class Simulation {
   /// Where its motion and its turn have now what torques on it are about [m].
   Point obstacle_origin(int obstacle) const;
 
-  /// An obstacle takes hold of the surface points that touch it now, or are within its reach, besides those that it holds: springs tie
-  /// them to where they are relative to it. Does not wait. InputError where the problem gives it no `grasp`.
+  /// An obstacle takes hold of the surface points that touch it now, or are within its reach,
+  /// besides those that it holds: springs tie them to where they are relative to it. Does not wait.
+  /// InputError where the problem gives it no `grasp`.
   void grasp(int obstacle);
   /// It lets go of all of them.
   void release(int obstacle);
 
-  std::vector<Point> positions(int level = 0) const;   ///< of a level's vertices, input order [m]; waits
+  /// of a level's vertices, input order [m]; waits
+  std::vector<Point> positions(int level = 0) const;
   std::vector<Point> velocities(int level = 0) const;  ///< likewise [m/s]
-  std::vector<Point> surface_positions() const;        ///< of the embedded surface's points [m]; waits
-  std::vector<Point> surface_velocities() const;       ///< likewise [m/s]
+  /// of the embedded surface's points [m]; waits
+  std::vector<Point> surface_positions() const;
+  std::vector<Point> surface_velocities() const;  ///< likewise [m/s]
 
-  /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts it to the others.
+  /// Replaces level 0's state: displacements and velocities, input order. The next cycle restricts
+  /// it to the others.
   void set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity);
 
-  /// From now on it is this time [s], which is finite: obstacles, loads and given motions are where they are then. The state stays.
+  /// From now on it is this time [s], which is finite: obstacles, loads and given motions are where
+  /// they are then. The state stays.
   void set_time(double time);
 
-  /// Everything to continue from here: all levels' states and histories, time, energy budget, counters. Waits. To be called
-  /// after a step that passed check(); what a caller's own forces remember is the caller's.
+  /// Everything to continue from here: all levels' states and histories, time, energy budget,
+  /// counters. Waits. To be called after a step that passed check(); what a caller's own forces
+  /// remember is the caller's.
   SavedState save() const;
-  /// Continues as the saved simulation would have: the same bits, given the same problem, precision and back end. InputError
-  /// for a state of other fields, sizes, precision or macro step, and then nothing has changed. Its numbers are not looked at.
+  /// Continues as the saved simulation would have: the same bits, given the same problem, precision
+  /// and back end. InputError for a state of other fields, sizes, precision or macro step, and then
+  /// nothing has changed. Its numbers are not looked at.
   void restore(const SavedState& saved);
 
   /// Stress and volume of a level's elements, computed on the device; waits.
   ElementFields element_fields(int level = 0) const;
 
-  /// From now on it takes fewer threads while other work has cores that it waits for, and more again when they are free: where kernels
-  /// wait for a thread without a core, fewer are faster. The same bits. Does nothing on a device, or where the system does not tell
-  /// who waits (Linux does). Steps are to be called one after the other: their wall times are compared.
+  /// From now on it takes fewer threads while other work has cores that it waits for, and more
+  /// again when they are free: where kernels wait for a thread without a core, fewer are faster.
+  /// The same bits. Does nothing on a device, or where the system does not tell who waits (Linux
+  /// does). Steps are to be called one after the other: their wall times are compared.
   void share_cores();
 
-  /// Whether launches that come again from step to step go out as CUDA graphs, as they do by default, or one by one. Results are the same. No
-  /// effect on other back ends.
+  /// Whether launches that come again from step to step go out as CUDA graphs, as they do by
+  /// default, or one by one. Results are the same. No effect on other back ends.
   void use_graphs(bool on);
 
   /// From now on measure the wall time of each stage (this waits between stages).

@@ -12,9 +12,11 @@ template <class B>
 const Contact<B>& Simulation<B>::Inside::contact_with(int obstacle) const {
   const int count = static_cast<int>(problem.contact.obstacles.size());
   if (obstacle < 0 || obstacle >= count)
-    throw InputError(text("there is no obstacle ", obstacle, "; the problem has ", count, ", which count from 0"));
+    throw InputError(text("there is no obstacle ", obstacle, "; the problem has ", count,
+                          ", which count from 0"));
   const Contact<B>* contact = (*built.hierarchy)[0].contact();
-  if (!contact) throw InputError("the body has no surface that could touch obstacles; expected body.surface");
+  if (!contact)
+    throw InputError("the body has no surface that could touch obstacles; expected body.surface");
   return *contact;
 }
 
@@ -30,8 +32,9 @@ void Simulation<B>::set_obstacle_turn(int obstacle, const std::optional<Turn>& t
   const auto number = static_cast<std::size_t>(obstacle);
   const ObstacleOptions& its = inside_->problem.contact.obstacles[number];
   if (turn && its.mass && its.inertia.empty())
-    throw InputError(obstacle_name(inside_->problem.contact, number) + " has mass, and does not turn; expected " +
-                     "contact.obstacles." + std::to_string(obstacle) + " without mass, or with inertia");
+    throw InputError(obstacle_name(inside_->problem.contact, number) +
+                     " has mass, and does not turn; expected " + "contact.obstacles." +
+                     std::to_string(obstacle) + " without mass, or with inertia");
   if (turn) validate_turn(*turn);
   inside_->move(obstacle, turn);
 }
@@ -51,8 +54,8 @@ template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement) {
   expect_finite_move("displacement", displacement);
   const double now = inside_->time;
-  set_obstacle_motion(obstacle,
-                      PathMotion{{{now, obstacle_displacement(obstacle)}, {now + inside_->next_span(), displacement}}});
+  set_obstacle_motion(obstacle, PathMotion{{{now, obstacle_displacement(obstacle)},
+                                            {now + inside_->next_span(), displacement}}});
 }
 template <class B>
 void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const Point& rotation) {
@@ -62,13 +65,15 @@ void Simulation<B>::move_obstacle(int obstacle, const Point& displacement, const
   const Point before = obstacle_rotation(obstacle);
   const Point way = rotation_vector(rotation_by(rotation) * rotation_by(-before));
   const double now = inside_->time, angle = way.norm();
-  set_obstacle_turn(obstacle, Turn{angle > 0 ? way : Point(Point::UnitZ()), Point(about[0], about[1], about[2]), before,
-                                   PathTurn{{{now, 0}, {now + inside_->next_span(), angle}}}});
+  set_obstacle_turn(
+      obstacle, Turn{angle > 0 ? way : Point(Point::UnitZ()), Point(about[0], about[1], about[2]),
+                     before, PathTurn{{{now, 0}, {now + inside_->next_span(), angle}}}});
   move_obstacle(obstacle, displacement);
 }
 template <class B>
 Point Simulation<B>::obstacle_displacement(int obstacle) const {
-  const Vec3<double> d = inside_->contact_with(obstacle).place(obstacle, inside_->time).pose->displacement;
+  const Vec3<double> d =
+      inside_->contact_with(obstacle).place(obstacle, inside_->time).pose->displacement;
   return {d[0], d[1], d[2]};
 }
 template <class B>
@@ -86,8 +91,9 @@ Point Simulation<B>::obstacle_origin(int obstacle) const {
 template <class B>
 void Simulation<B>::Inside::hold_now(int obstacle, bool closed) {
   if (!contact_with(obstacle).grasp_options(obstacle))
-    throw InputError(text("obstacle ", obstacle_name(problem.contact, static_cast<std::size_t>(obstacle)),
-                          " cannot hold anything; expected contact.obstacles.", obstacle, ".grasp"));
+    throw InputError(
+        text("obstacle ", obstacle_name(problem.contact, static_cast<std::size_t>(obstacle)),
+             " cannot hold anything; expected contact.obstacles.", obstacle, ".grasp"));
   hold(hierarchy(), obstacle, time, closed);
   keep_anew();
 }
@@ -122,7 +128,9 @@ std::vector<Wrench> Simulation<B>::wrenches() const {
   const std::vector<std::string> names = wrench_names(inside_->problem);
   std::vector<Wrench> all;
   for (std::size_t o = 0; 6 * o < w.size(); ++o)
-    all.push_back({names[o], {w[6 * o], w[6 * o + 1], w[6 * o + 2]}, {w[6 * o + 3], w[6 * o + 4], w[6 * o + 5]}});
+    all.push_back({names[o],
+                   {w[6 * o], w[6 * o + 1], w[6 * o + 2]},
+                   {w[6 * o + 3], w[6 * o + 4], w[6 * o + 5]}});
   return all;
 }
 
@@ -130,7 +138,8 @@ template <class B>
 std::vector<double> Simulation<B>::contact_depths() const {
   const SolverLevel<B>& finest = inside_->hierarchy()[0];
   if (!finest.contact()) return {};
-  std::vector<double> all = finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time);
+  std::vector<double> all =
+      finest.response().depths(inside_->hierarchy().exec(), finest, inside_->time);
   all.resize(static_cast<std::size_t>(finest.contact()->obstacles()));
   return all;
 }

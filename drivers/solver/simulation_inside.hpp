@@ -36,11 +36,13 @@ struct Simulation<B>::Inside {
   // Now
   double time = 0;
   long steps = 0;
-  double origin = 0;                                     // of the time: macro step n ends at origin + n macro_step
+  // of the time: macro step n ends at origin + n macro_step
+  double origin = 0;
   double end = std::numeric_limits<double>::infinity();  // no step goes beyond it
   double residual = 0, worst_residual = 0;
 
-  // Of each obstacle, over the last macro step; where the run ends within one, over the one before; the sum over the parts of one so far
+  // Of each obstacle, over the last macro step; where the run ends within one, over the one before;
+  // the sum over the parts of one so far
   Doubles<B> wrench, wrench_before, wrench_sum;
 
   // What checks compare with
@@ -62,26 +64,30 @@ struct Simulation<B>::Inside {
     Point drift = Point::Zero();
   };
   Doubles<B> memory;  // of obstacles
-  // The last state that was kept, and one from long before: what looks sound may have been going wrong for a while. The latter only where
-  // the stepper can repair.
+  // The last state that was kept, and one from long before: what looks sound may have been going
+  // wrong for a while. The latter only where the stepper can repair.
   Kept kept;
   std::optional<Kept> older;
   MotionLog<B> motions;  // of obstacles
   std::function<void()> after_repeated;
 
-  StepControl control;              // of macro steps that fail
-  long rejected = 0, unsolved = 0;  // parts of macro steps that were taken again; that were taken though not solved
-  std::optional<Kept> part_start;   // where parts are judged
+  StepControl control;  // of macro steps that fail
+  // parts of macro steps that were taken again; that were taken though not solved
+  long rejected = 0, unsolved = 0;
+  std::optional<Kept> part_start;  // where parts are judged
 
   std::optional<SharedCores<B>> cores;  // where it shares them with other work
 
   Hierarchy<B>& hierarchy() { return *built.hierarchy; }
   const SolverLevel<B>& level(int i);
   const Vectors<B>& rest_positions(int i);
-  const Contact<B>& contact_with(int obstacle) const;               // InputError where there is none of that number
-  void hold_now(int obstacle, bool closed);                         // InputError where it has no grasp
+  // InputError where there is none of that number
+  const Contact<B>& contact_with(int obstacle) const;
+  // InputError where it has no grasp
+  void hold_now(int obstacle, bool closed);
   void move(int obstacle, const typename MotionLog<B>::Said& how);  // from now on
-  double left_unsolved() const;                                     // of the last part: see Integrator::unsolved()
+  // of the last part: see Integrator::unsolved()
+  double left_unsolved() const;
 
   // Steps
   bool reaches_end() const;
@@ -93,7 +99,8 @@ struct Simulation<B>::Inside {
   std::optional<Diagnosis> examine(double part = 1);
   std::optional<Diagnosis> find_failure(const MotionReport& now, double motion);
   void look_at_end();
-  Diagnosis failure(const std::string& kind, double motion = 0, int level = -1, const std::string& reason = {});
+  Diagnosis failure(const std::string& kind, double motion = 0, int level = -1,
+                    const std::string& reason = {});
 
   // Kept states
   void keep_at_times();

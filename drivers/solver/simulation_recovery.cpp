@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a simulation goes back: states that are kept, steps that are taken again, states from outside.
+// How a simulation goes back: states that are kept, steps that are taken again, states from
+// outside.
 #include <algorithm>
 #include <cmath>
 #include <plica/core/text.hpp>
@@ -13,12 +14,15 @@ namespace {
 
 constexpr double time_rounding = 1e-9;  // relative
 constexpr int keep_every = 20;          // macro steps
-constexpr int long_ago = 200;           // macro steps, at least, between the two states that are kept
-constexpr int most_repairs = 8;         // of a stepper, until its steps stay stable to where the run was
+// macro steps, at least, between the two states that are kept
+constexpr int long_ago = 200;
+// of a stepper, until its steps stay stable to where the run was
+constexpr int most_repairs = 8;
 
 }  // namespace
 
-// --- Recover ----------------------------------------------------------------------------------------------------------------
+// --- Recover
+// ----------------------------------------------------------------------------------------------------------------
 
 template <class B>
 std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
@@ -30,8 +34,9 @@ std::optional<Diagnosis> Simulation<B>::recover(const Diagnosis& bad) {
   return still;
 }
 
-/// From the last kept state once more to where it is, by a stepper that can do better; then by the same from the state long before, if that
-/// is another one; then by one that does better still from there. False where the stepper cannot.
+/// From the last kept state once more to where it is, by a stepper that can do better; then by the
+/// same from the state long before, if that is another one; then by one that does better still from
+/// there. False where the stepper cannot.
 template <class B>
 bool Simulation<B>::repair(const Diagnosis& bad) {
   Inside& s = *inside_;
@@ -42,7 +47,9 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
   const auto go_on = [&] {
     while (s.time < there) {
       step();
-      if (const auto now = s.examine(); now && (now->kind == "non_finite" || now->kind == "inverted")) return false;
+      if (const auto now = s.examine();
+          now && (now->kind == "non_finite" || now->kind == "inverted"))
+        return false;
       if (s.after_repeated) s.after_repeated();
     }
     return !s.examine();
@@ -51,14 +58,16 @@ bool Simulation<B>::repair(const Diagnosis& bad) {
     if (attempt == 1 && s.older->steps == s.kept.steps) continue;
     s.go_back(attempt == 0 ? s.kept : *s.older);
     if (attempt != 1 && !s.built.stepper->repair(s.hierarchy(), s.built.macro_step)) return go_on();
-    // explicit steps do not bear what has grown in the last kept state, and may take very long to fail in it
+    // explicit steps do not bear what has grown in the last kept state, and may take very long to
+    // fail in it
     if (attempt == 0 && !sees_late && stepper.sees_late()) s.go_back(*s.older), attempt = 1;
     if (go_on()) return true;
   }
   return false;
 }
 
-/// Once more from the last kept state to where it is, in shorter parts. What is left of `bad` where that does not help.
+/// Once more from the last kept state to where it is, in shorter parts. What is left of `bad` where
+/// that does not help.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::retry(const Diagnosis& bad) {
   const double there = time;
@@ -82,8 +91,9 @@ struct AddPart {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const { sum(i) += *size * part(i); }
 };
 
-/// The next macro step, in parts as the control says. With `checks` each part must pass them all, else only be solved. One that is not solved
-/// is halved as long as that leaves less of it; the shortest is taken as it is.
+/// The next macro step, in parts as the control says. With `checks` each part must pass them all,
+/// else only be solved. One that is not solved is halved as long as that leaves less of it; the
+/// shortest is taken as it is.
 template <class B>
 std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
   constexpr double all = std::numeric_limits<double>::infinity();
@@ -107,7 +117,9 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
     }
     least = all, unsolved += left > 0 ? 1 : 0;
     if (size < 1 && control.start() == 0) fill(exec, wrench_sum, 0.0);
-    if (size < 1) update_vertices<B>(exec, "plica::add_wrenches", numbers, AddPart<B>{wrench, wrench_sum, size});
+    if (size < 1)
+      update_vertices<B>(exec, "plica::add_wrenches", numbers,
+                         AddPart<B>{wrench, wrench_sum, size});
     control.pass();
   }
   if (size < 1) copy_memory(exec, wrench_sum, wrench);
@@ -117,11 +129,13 @@ std::optional<Diagnosis> Simulation<B>::Inside::cover(bool checks) {
 template <class B>
 double Simulation<B>::Inside::left_unsolved() const {
   double most = 0;
-  for (const auto& level : built.hierarchy->levels) most = std::max(most, level.integrator->unsolved());
+  for (const auto& level : built.hierarchy->levels)
+    most = std::max(most, level.integrator->unsolved());
   return most;
 }
 
-// --- Kept states, and states from outside -----------------------------------------------------------------------------------
+// --- Kept states, and states from outside
+// -----------------------------------------------------------------------------------
 
 template <class B>
 void Simulation<B>::on_repeated_step(std::function<void()> call) {
@@ -130,7 +144,8 @@ void Simulation<B>::on_repeated_step(std::function<void()> call) {
 
 template <class B>
 long Simulation<B>::earliest_kept() const {
-  return inside_->older ? std::min(inside_->older->steps, inside_->kept.steps) : inside_->kept.steps;
+  return inside_->older ? std::min(inside_->older->steps, inside_->kept.steps)
+                        : inside_->kept.steps;
 }
 
 template <class B>
@@ -156,7 +171,8 @@ void Simulation<B>::Inside::keep(Kept& to) {
   for (std::size_t i = 0; i < levels.size(); ++i) to.levels[i].copy(exec, levels[i].state);
   if (is_viscous(problem.body)) {
     to.stress.resize(levels.size());
-    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].viscosity->keep(exec, levels[i], to.stress[i]);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      levels[i].viscosity->keep(exec, levels[i], to.stress[i]);
   }
   copy_memory(exec, memory, to.memory);
   if (hierarchy()[0].contact()) {
@@ -184,9 +200,11 @@ void Simulation<B>::Inside::remember() {
 template <class B>
 void Simulation<B>::Inside::go_back(const Kept& to) {
   copy_memory(hierarchy().exec(), to.memory, memory);
-  for (std::size_t i = 0; i < to.levels.size(); ++i) hierarchy().levels[i].state.copy(hierarchy().exec(), to.levels[i]);
+  for (std::size_t i = 0; i < to.levels.size(); ++i)
+    hierarchy().levels[i].state.copy(hierarchy().exec(), to.levels[i]);
   for (std::size_t i = 0; i < to.stress.size(); ++i)
-    hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i], to.stress[i]);
+    hierarchy().levels[i].viscosity->put_back(hierarchy().exec(), hierarchy().levels[i],
+                                              to.stress[i]);
   time = to.time, steps = to.steps, put_in = to.put_in, drift = to.drift;
   hierarchy().clear_flags();
   hierarchy().forget();
@@ -223,19 +241,23 @@ void Simulation<B>::Inside::open_budget() {
 }
 
 template <class B>
-void Simulation<B>::set_state(const std::vector<Point>& displacement, const std::vector<Point>& velocity) {
+void Simulation<B>::set_state(const std::vector<Point>& displacement,
+                              const std::vector<Point>& velocity) {
   Inside& s = *inside_;
   const State<B>& state = s.hierarchy()[0].state;
   const auto expect = [&](const std::vector<Point>& all, const char* what) {
     if (all.size() != state.u.extent(0))
-      throw InputError(text("set_state: ", all.size(), " ", what, " for ", state.u.extent(0), " vertices of level 0"));
+      throw InputError(text("set_state: ", all.size(), " ", what, " for ", state.u.extent(0),
+                            " vertices of level 0"));
     const auto bad = std::ranges::find_if(all, [](const Point& p) { return !p.allFinite(); });
     if (bad != all.end())
-      throw InputError(text("set_state: ", what, " ", bad - all.begin(), " is not finite; expected finite numbers"));
+      throw InputError(text("set_state: ", what, " ", bad - all.begin(),
+                            " is not finite; expected finite numbers"));
   };
   expect(displacement, "displacements"), expect(velocity, "velocities");
   const auto copy = [&](const std::vector<Point>& from, const Vectors<B>& to, const char* what) {
-    plica::copy(s.hierarchy().exec(), to, to_device<Vectors<B>>(what, rows<typename B::Real>(from)));
+    plica::copy(s.hierarchy().exec(), to,
+                to_device<Vectors<B>>(what, rows<typename B::Real>(from)));
   };
   s.remember();
   s.hierarchy().exec().fence("plica::set_state");
@@ -245,7 +267,8 @@ void Simulation<B>::set_state(const std::vector<Point>& displacement, const std:
 
 template <class B>
 void Simulation<B>::set_time(double time) {
-  if (!std::isfinite(time)) throw InputError("set_time: the time is " + number(time) + "; expected a finite one");
+  if (!std::isfinite(time))
+    throw InputError("set_time: the time is " + number(time) + "; expected a finite one");
   Inside& s = *inside_;
   s.remember();
   for (const auto& level : s.hierarchy().levels)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a simulation tells of itself; and what it carries from one macro step to the next, saved and restored.
+// What a simulation tells of itself; and what it carries from one macro step to the next, saved and
+// restored.
 #include <algorithm>
 #include <plica/core/text.hpp>
 #include <plica/drivers/solver/exchange.hpp>
@@ -15,7 +16,8 @@ namespace plica {
 template <class B>
 const SolverLevel<B>& Simulation<B>::Inside::level(int i) {
   if (const int last = hierarchy().count() - 1; i < 0 || i > last)
-    throw InputError("level " + std::to_string(i) + " has no state of its own: the cycle integrates " +
+    throw InputError("level " + std::to_string(i) +
+                     " has no state of its own: the cycle integrates " +
                      (last > 0 ? "levels 0 to " + std::to_string(last) : "level 0") + " alone");
   return hierarchy()[i];
 }
@@ -25,7 +27,8 @@ const Vectors<B>& Simulation<B>::Inside::rest_positions(int i) {
   level(i);  // throws where there is none
   Vectors<B>& x = rest[static_cast<std::size_t>(i)];
   if (x.extent(0) == 0)
-    x = to_device<Vectors<B>>("rest", rows<typename B::Real>(built.meshes[static_cast<std::size_t>(i)].vertices));
+    x = to_device<Vectors<B>>(
+        "rest", rows<typename B::Real>(built.meshes[static_cast<std::size_t>(i)].vertices));
   return x;
 }
 
@@ -65,7 +68,8 @@ Doubles<B> Simulation<B>::wrench() const {
 template <class B>
 std::vector<ToolState> Simulation<B>::tools() const {
   const auto& obstacles = inside_->problem.contact.obstacles;
-  if (std::ranges::none_of(obstacles, [](const ObstacleOptions& o) { return o.mass.has_value(); })) return {};
+  if (std::ranges::none_of(obstacles, [](const ObstacleOptions& o) { return o.mass.has_value(); }))
+    return {};
   const std::vector<double> all = host_values(inside_->hierarchy().exec(), inside_->memory);
   std::vector<ToolState> tools;
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
@@ -92,7 +96,8 @@ std::vector<CavityState> Simulation<B>::cavities() const {
 template <class B>
 void Simulation<B>::set_external_forces(const ExternalForces<B>& forces) {
   Inside& s = *inside_;
-  for (int i = 0; i < s.hierarchy().count(); ++i) s.hierarchy()[i].set_external(forces, s.rest_positions(i));
+  for (int i = 0; i < s.hierarchy().count(); ++i)
+    s.hierarchy()[i].set_external(forces, s.rest_positions(i));
   if (forces) s.budget_known = false;
 }
 
@@ -129,9 +134,11 @@ std::map<std::string, long> Simulation<B>::counters() const {
     all["tet_evaluations"] += passes * level.model.tets;
   }
   if (gathers<Exec>)
-    all["launches_in_graphs"] = inside_->queue.in_graphs(), all["launches_alone"] = inside_->queue.alone();
+    all["launches_in_graphs"] = inside_->queue.in_graphs(),
+    all["launches_alone"] = inside_->queue.alone();
   const Inside& s = *inside_;
-  if (s.control.halves()) all["step_halvings"] = s.control.halvings(), all["rejected_steps"] = s.rejected;
+  if (s.control.halves())
+    all["step_halvings"] = s.control.halvings(), all["rejected_steps"] = s.rejected;
   if (all.contains("newton_iterations")) all["newton_misses"] = s.unsolved;
   return all;
 }
@@ -156,7 +163,8 @@ Vectors<B> Simulation<B>::velocity(int level) const {
 
 template <class B>
 void Simulation<B>::read_positions(const DeviceOutput<B>& to, int level) const {
-  plica::read_positions<B>(inside_->hierarchy().exec(), inside_->rest_positions(level), displacement(level), to);
+  plica::read_positions<B>(inside_->hierarchy().exec(), inside_->rest_positions(level),
+                           displacement(level), to);
 }
 template <class B>
 void Simulation<B>::read_velocities(const DeviceOutput<B>& to, int level) const {
@@ -177,8 +185,8 @@ template <class B>
 void Simulation<B>::write_state(const DeviceInput<B>& positions, const DeviceInput<B>& velocities) {
   const State<B>& state = inside_->level(0).state;
   if (velocities.size() != positions.size())  // before anything is written
-    throw InputError(std::to_string(positions.size()) + " positions and " + std::to_string(velocities.size()) +
-                     " velocities");
+    throw InputError(std::to_string(positions.size()) + " positions and " +
+                     std::to_string(velocities.size()) + " velocities");
   inside_->remember();
   write_positions<B>(inside_->hierarchy().exec(), positions, inside_->rest_positions(0), state.u);
   write_vectors<B>(inside_->hierarchy().exec(), velocities, state.v);
@@ -233,7 +241,8 @@ void persist_kept(Kept& kept, StateArchive<B>& archive) {
     archive.number(*value);
   archive.number(kept.steps);
   for (const auto& state : kept.levels) archive.state("a kept level", state);
-  for (auto& stress : kept.stress) archive.field("a kept memory of stress", stress.memory), archive.number(stress.time);
+  for (auto& stress : kept.stress)
+    archive.field("a kept memory of stress", stress.memory), archive.number(stress.time);
   archive.field("the kept memory of obstacles", kept.memory);
   for (auto& contact : kept.contact) contact.persist(archive);
 }
@@ -244,8 +253,8 @@ void persist(Inside& s, StateArchive<B>& archive) {
   archive.same("the precision", sizeof(typename B::Real));
   archive.same("the macro step", s.built.macro_step);
   archive.same("the number of levels", s.kept.levels.size());
-  for (double* value :
-       {&s.time, &s.origin, &s.residual, &s.worst_residual, &s.start, &s.put_in, &s.drift[0], &s.drift[1], &s.drift[2]})
+  for (double* value : {&s.time, &s.origin, &s.residual, &s.worst_residual, &s.start, &s.put_in,
+                        &s.drift[0], &s.drift[1], &s.drift[2]})
     archive.number(*value);
   for (long* value : {&s.steps, &s.rejected, &s.unsolved}) archive.number(*value);
   s.control.persist(archive);

@@ -27,14 +27,17 @@ template <class B>
 SolverLevel<B>::~SolverLevel() = default;
 
 template <class B>
-void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity, const Point& gravity,
-                                std::shared_ptr<const Contact<B>> contact, bool implicit) {
+void SolverLevel<B>::set_forces(std::shared_ptr<const Elasticity<B>> elasticity,
+                                const Point& gravity, std::shared_ptr<const Contact<B>> contact,
+                                bool implicit) {
   elasticity_ = std::move(elasticity), contact_ = std::move(contact), implicit_ = implicit;
   for (int k = 0; k < 3; ++k) gravity_[k] = static_cast<typename B::Real>(gravity[k]);
   if (contact_) response_ = ContactResponse<B>(contact_, *this, implicit);
   const NodalRows<B>& rows = this->model.rows;
-  if (implicit && rows.slices > 0 && rows.excess.extent(0) == 0)  // smoothed pressures need both fields once more
-    this->nodal.gradient = zeros<Scalars<B>>("plica::nodal.gradient", static_cast<std::size_t>(9 * rows.slots()));
+  // smoothed pressures need both fields once more
+  if (implicit && rows.slices > 0 && rows.excess.extent(0) == 0)
+    this->nodal.gradient =
+        zeros<Scalars<B>>("plica::nodal.gradient", static_cast<std::size_t>(9 * rows.slots()));
 }
 
 template <class B>
@@ -50,7 +53,8 @@ void SolverLevel<B>::elastic_and_gravity(const State<B>& at, double time, const 
 
 template <class B>
 void SolverLevel<B>::add_loads(double time, const Vectors<B>& force) const {
-  for (const Load<B>& load : this->loads) add_load<B>(exec(), load, load_factor(load.course, time), force);
+  for (const Load<B>& load : this->loads)
+    add_load<B>(exec(), load, load_factor(load.course, time), force);
 }
 
 template <class B>
@@ -76,11 +80,12 @@ void SolverLevel<B>::add_followers(const State<B>& at, double time, const Vector
 }
 
 template <class B>
-void SolverLevel<B>::add_follower_product(const State<B>& at, const Vectors<B>& p, double scale, bool positive,
-                                          const Vectors<B>& q) const {
+void SolverLevel<B>::add_follower_product(const State<B>& at, const Vectors<B>& p, double scale,
+                                          bool positive, const Vectors<B>& q) const {
   const auto add = [&]<class Pressure>(const FollowerPlaces<B>& place, const Pressure& pressure) {
     update_vertices<B>(exec(), "plica::follower_product", place.load.count,
-                       AddFollowerProduct<B, Pressure>{place, p, q, pressure, static_cast<typename B::Real>(scale)});
+                       AddFollowerProduct<B, Pressure>{place, p, q, pressure,
+                                                       static_cast<typename B::Real>(scale)});
   };
   for (const FollowerLoad<B>& load : this->followers) {
     const FollowerPlaces<B> place{load, at.u};
@@ -90,15 +95,17 @@ void SolverLevel<B>::add_follower_product(const State<B>& at, const Vectors<B>& 
     }
     const FluidPressure<B> fluid = last_pressure(load, follower_time_);
     if (!positive) add(place, fluid);
-    reduce<B, 1>(exec(), "plica::volume_rate", load.count, VolumeRateOfCorner<B>{place, p}, volumes_, rate_);
+    reduce<B, 1>(exec(), "plica::volume_rate", load.count, VolumeRateOfCorner<B>{place, p},
+                 volumes_, rate_);
     update_vertices<B>(exec(), "plica::fluid_product", load.count,
                        AddFluidProduct<B>{place, q, rate_, fluid.stiffness, scale});
   }
 }
 
 template <class B>
-void SolverLevel<B>::add_product_beside_matrix(const State<B>& at, const Vectors<B>& p, const ImplicitWeights& weights,
-                                               bool positive, const Vectors<B>& q) const {
+void SolverLevel<B>::add_product_beside_matrix(const State<B>& at, const Vectors<B>& p,
+                                               const ImplicitWeights& weights, bool positive,
+                                               const Vectors<B>& q) const {
   add_follower_product(at, p, weights.a, positive, q);
   if (contact_) response_.add_product(exec(), *this, p, true, q);
 }
@@ -108,7 +115,8 @@ double SolverLevel<B>::follower_energy(double time) const {
   double sum = 0;
   for (const FollowerLoad<B>& load : this->followers) {
     if (load.volume.extent(0) == 0) continue;
-    const double volume = enclosed_volume(load), pressure = load.pressure * load_factor(load.course, time);
+    const double volume = enclosed_volume(load),
+                 pressure = load.pressure * load_factor(load.course, time);
     if (!load.cavity)
       sum -= pressure * volume;
     else
@@ -119,7 +127,8 @@ double SolverLevel<B>::follower_energy(double time) const {
 
 template <class B>
 void SolverLevel<B>::measure(const FollowerLoad<B>& load, const Vectors<B>& u) const {
-  reduce<B, 1>(exec(), "plica::enclosed_volume", load.count, VolumeOfCorner<B>{{load, u}}, volumes_, load.volume);
+  reduce<B, 1>(exec(), "plica::enclosed_volume", load.count, VolumeOfCorner<B>{{load, u}}, volumes_,
+               load.volume);
 }
 
 template <class B>
@@ -144,14 +153,15 @@ std::vector<CavityState> SolverLevel<B>::cavities(double time) const {
   for (const FollowerLoad<B>& load : this->followers) {
     if (!load.cavity) continue;
     const double volume = enclosed_volume(load), lacking = volume_given(load, time) - volume;
-    all.push_back({load.cavity->load, volume + load.cavity->caps, load.cavity->stiffness() * lacking});
+    all.push_back(
+        {load.cavity->load, volume + load.cavity->caps, load.cavity->stiffness() * lacking});
   }
   return all;
 }
 
 template <class B>
-void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force, const ContactStep& step,
-                              double weight) {
+void SolverLevel<B>::evaluate(const State<B>& at, double time, const Vectors<B>& force,
+                              const ContactStep& step, double weight) {
   evaluate_without_contact(at, time, force);
   if (!contact_) return;
   book("contact", [&] {
@@ -166,7 +176,8 @@ void SolverLevel<B>::count_contact(double time, const CarriedImpulse& of) {
 }
 
 template <class B>
-void SolverLevel<B>::evaluate_without_contact(const State<B>& at, double time, const Vectors<B>& force) {
+void SolverLevel<B>::evaluate_without_contact(const State<B>& at, double time,
+                                              const Vectors<B>& force) {
   elastic_and_gravity(at, time, force);
   add_loads(time, force);
   add_followers(at, time, force);
@@ -183,10 +194,11 @@ void SolverLevel<B>::dead(double time, const Vectors<B>& force) const {
 }
 
 template <class B>
-void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWeights& weights, double ahead,
-                               const Vectors<B>& force) {
+void SolverLevel<B>::linearise(const State<B>& at, double time, const ImplicitWeights& weights,
+                               double ahead, const Vectors<B>& force) {
   elastic_and_gravity(at, time + ahead, force);
-  if (this->nodal.gradient.extent(0) > 0) keep_gradients<B>(exec(), *this, at.u), linearised_ = at.u;
+  if (this->nodal.gradient.extent(0) > 0)
+    keep_gradients<B>(exec(), *this, at.u), linearised_ = at.u;
   add_loads(time + ahead, force);
   add_followers(at, time + ahead, force);
   if (external_) book("external", [&] { ask_caller(at, time, weights.ratio(), ahead, force); });
@@ -197,15 +209,18 @@ template <class B>
 void SolverLevel<B>::set_external(const ExternalForces<B>& forces, const Vectors<B>& rest) {
   external_ = forces;
   rest_ = rest;
-  external_stiffness_ = implicit_ && forces ? Blocks<B>("plica::external.stiffness", rest.extent(0)) : Blocks<B>();
+  external_stiffness_ =
+      implicit_ && forces ? Blocks<B>("plica::external.stiffness", rest.extent(0)) : Blocks<B>();
 }
 
 template <class B>
-void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, double ahead, const Vectors<B>& force) {
+void SolverLevel<B>::ask_caller(const State<B>& at, double time, double step, double ahead,
+                                const Vectors<B>& force) {
   if (implicit_) fill(exec(), external_stiffness_, typename B::Real(0));
   launch_gathered<typename B::Exec>();
   const typename LaunchQueue<typename B::Exec>::Scope at_once(nullptr);
-  external_({exec(), number_, time, rest_, at.u, at.v, force, this->surface, step, ahead, external_stiffness_});
+  external_({exec(), number_, time, rest_, at.u, at.v, force, this->surface, step, ahead,
+             external_stiffness_});
 }
 
 template <class B>
@@ -224,18 +239,20 @@ void SolverLevel<B>::keep_tangents() {
   const NodalRows<B>& rows = this->model.rows;
   if (!keeps_tangents(rows) || this->nodal.gradient.extent(0) == 0) return;
   if (this->nodal.tangent.extent(0) == 0)
-    this->nodal.tangent =
-        zeros<Scalars<B>>("plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(rows.slots()));
+    this->nodal.tangent = zeros<Scalars<B>>(
+        "plica::nodal.tangent", symmetric_nine * static_cast<std::size_t>(rows.slots()));
   elasticity_->keep_tangents(exec(), *this);
 }
 
 template <class B>
-void SolverLevel<B>::tangent(const State<B>& at, const Vectors<B>& p, double over, bool positive) const {
+void SolverLevel<B>::tangent(const State<B>& at, const Vectors<B>& p, double over,
+                             bool positive) const {
   elasticity_->tangent(exec(), *this, unless_kept(at), p, over, positive);
 }
 
 template <class B>
-void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const ImplicitWeights& weights, bool positive,
+void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p,
+                             const ImplicitWeights& weights, bool positive,
                              const Vectors<B>& q) const {
   using Real = typename B::Real;
   const Exec& exec = clock_->exec();
@@ -248,12 +265,14 @@ void SolverLevel<B>::product(const State<B>& at, const Vectors<B>& p, const Impl
 }
 
 template <class B>
-void SolverLevel<B>::add_product_beside_elements(const Vectors<B>& p, const ImplicitWeights& weights,
+void SolverLevel<B>::add_product_beside_elements(const Vectors<B>& p,
+                                                 const ImplicitWeights& weights,
                                                  const Vectors<B>& q) const {
   if (contact_) response_.add_product(exec(), *this, p, false, q);
   if (external_)
-    update_vertices<B>(exec(), "plica::external_product", this->model.vertices,
-                       AddBlockProduct<B>{external_stiffness_, p, q, static_cast<typename B::Real>(weights.a)});
+    update_vertices<B>(
+        exec(), "plica::external_product", this->model.vertices,
+        AddBlockProduct<B>{external_stiffness_, p, q, static_cast<typename B::Real>(weights.a)});
 }
 
 template <class B>
@@ -272,13 +291,15 @@ void SolverLevel<B>::diagonal(const State<B>& at, const ImplicitWeights& weights
 
 template <class B>
 void SolverLevel<B>::assemble(const State<B>& at, const ImplicitWeights& weights, bool positive,
-                              const PatchPairs<B>& pairs, const Blocks9<B>& shares, const BlockMatrix<B>& A) const {
+                              const PatchPairs<B>& pairs, const Blocks9<B>& shares,
+                              const BlockMatrix<B>& A) const {
   const Exec& exec = clock_->exec();
   elasticity_->blocks(exec, this->model, pairs, at.u, weights, positive, shares, A);
   if (contact_) response_.add_matrix(exec, *this, 1, A);
   if (external_)
-    update_vertices<B>(exec, "plica::external_matrix", this->model.vertices,
-                       AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});
+    update_vertices<B>(
+        exec, "plica::external_matrix", this->model.vertices,
+        AddToDiagonal<B>{external_stiffness_, A, static_cast<typename B::Real>(weights.a)});
 }
 
 template <class B>

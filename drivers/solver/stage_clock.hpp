@@ -7,7 +7,8 @@
 
 namespace plica {
 
-/// Wall time per stage and level, on request: only then does it wait for the device at a stage's ends.
+/// Wall time per stage and level, on request: only then does it wait for the device at a stage's
+/// ends.
 template <class B>
 class StageClock {
  public:

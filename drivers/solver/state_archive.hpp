@@ -9,8 +9,8 @@
 
 namespace plica {
 
-/// Walks what a simulation carries from one macro step to the next. Whoever owns some of it names it once; the archive saves it,
-/// checks that saved bytes fit it, or restores it.
+/// Walks what a simulation carries from one macro step to the next. Whoever owns some of it names
+/// it once; the archive saves it, checks that saved bytes fit it, or restores it.
 template <class B>
 class StateArchive {
  public:
@@ -33,7 +33,8 @@ class StateArchive {
     Number saved = value;
     if (task_ == Task::save) return number(saved);
     std::memcpy(&saved, take(sizeof saved), sizeof saved);
-    if (saved != value) throw InputError("the saved state is that of another simulation: " + what + " differs");
+    if (saved != value)
+      throw InputError("the saved state is that of another simulation: " + what + " differs");
   }
 
   /// A device field, which may be empty.
@@ -58,7 +59,8 @@ class StateArchive {
   /// After all of it: whether bytes are left over.
   void finish() const {
     if (task_ != Task::save && at_ != bytes_.size())
-      throw InputError("the saved state is damaged: " + std::to_string(bytes_.size() - at_) + " bytes too many");
+      throw InputError("the saved state is damaged: " + std::to_string(bytes_.size() - at_) +
+                       " bytes too many");
   }
 
  private:

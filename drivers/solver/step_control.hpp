@@ -4,8 +4,9 @@
 
 namespace plica {
 
-/// How a macro step is divided where it fails. It goes in parts of 1/2^depth of it. A part that fails is taken again in halves; after some
-/// that pass, parts become twice as long, up to the whole. So short steps last as long as what is hard, also beyond the macro step's end.
+/// How a macro step is divided where it fails. It goes in parts of 1/2^depth of it. A part that
+/// fails is taken again in halves; after some that pass, parts become twice as long, up to the
+/// whole. So short steps last as long as what is hard, also beyond the macro step's end.
 ///
 ///   depth 0   |              fails                |
 ///         1   |      fails      |

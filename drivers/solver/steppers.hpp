@@ -4,8 +4,8 @@
 #include <plica/core/type_list.hpp>
 #include <string_view>
 
-// The steppers by name: what a scene's integration.cycle chooses from. Light, without any kernel: each makes itself in a
-// source of its own.
+// The steppers by name: what a scene's integration.cycle chooses from. Light, without any kernel:
+// each makes itself in a source of its own.
 namespace plica {
 
 template <class B>
@@ -13,9 +13,10 @@ class Stepper;
 
 /// What a stepper needs from set-up.
 struct StepperNeeds {
-  bool coarse_meshes = false;     ///< it uses more than the finest mesh
-  bool coarse_states = false;     ///< coarser levels have states of their own and are integrated
-  bool drift_limits = false;      ///< per vertex, for mappings that switch between state and variation
+  bool coarse_meshes = false;  ///< it uses more than the finest mesh
+  bool coarse_states = false;  ///< coarser levels have states of their own and are integrated
+  /// per vertex, for mappings that switch between state and variation
+  bool drift_limits = false;
   bool inherited_masses = false;  ///< coarse masses are restricted from the finer ones
   bool extrapolation = false;     ///< its embeddings extrapolate, for any integration.outside
 };
@@ -48,7 +49,8 @@ struct Rsv {
   static constexpr const char* name = "rsv";
   static constexpr const char* summary =
       "the paper's: state where levels have drifted apart, variation elsewhere, down and up";
-  static constexpr StepperNeeds needs{.coarse_meshes = true, .coarse_states = true, .drift_limits = true};
+  static constexpr StepperNeeds needs{
+      .coarse_meshes = true, .coarse_states = true, .drift_limits = true};
   template <class B>
   static std::unique_ptr<Stepper<B>> make();
 };
@@ -62,8 +64,10 @@ struct RsvSv {
 
 struct Fas {
   static constexpr const char* name = "fas";
-  static constexpr const char* summary = "state down, variation up, coarse forces corrected to the finest level's";
-  static constexpr StepperNeeds needs{.coarse_meshes = true, .coarse_states = true, .inherited_masses = true};
+  static constexpr const char* summary =
+      "state down, variation up, coarse forces corrected to the finest level's";
+  static constexpr StepperNeeds needs{
+      .coarse_meshes = true, .coarse_states = true, .inherited_masses = true};
   template <class B>
   static std::unique_ptr<Stepper<B>> make();
 };
@@ -80,7 +84,8 @@ struct Him {
 /// Every stepper there is. One more: its entry above, its name here, and its source.
 using Steppers = TypeList<Single, Rs, Rv, Rsv, RsvSv, Fas, Him>;
 
-// How far cycle auto, which is him or single, may be from the finest level alone: parts of its displacements.
+// How far cycle auto, which is him or single, may be from the finest level alone: parts of its
+// displacements.
 struct InteractiveClass {
   static constexpr const char* name = "interactive";
   static constexpr const char* summary = "5 % of displacement";

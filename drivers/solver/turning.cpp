@@ -16,7 +16,9 @@ namespace {
 struct AlongAxis {
   Point axis;
   Motion operator()(const SteadyTurn& o) const { return SteadyMotion(o.angular_velocity * axis); }
-  Motion operator()(const SineTurn& o) const { return SineMotion{o.amplitude * axis, o.frequency, o.phase}; }
+  Motion operator()(const SineTurn& o) const {
+    return SineMotion{o.amplitude * axis, o.frequency, o.phase};
+  }
   Motion operator()(const PathTurn& o) const {
     PathMotion path;
     for (const auto& knot : o.knots) path.knots.push_back({knot.time, knot.angle * axis});
@@ -26,9 +28,13 @@ struct AlongAxis {
 
 }  // namespace
 
-Motion angle_of(const Turn& turn) { return std::visit(AlongAxis{turn.axis.normalized()}, turn.angle); }
+Motion angle_of(const Turn& turn) {
+  return std::visit(AlongAxis{turn.axis.normalized()}, turn.angle);
+}
 
-bool moves(const ObstacleOptions& o) { return o.mass || moves(o.motion) || (o.turn && moves(angle_of(*o.turn))); }
+bool moves(const ObstacleOptions& o) {
+  return o.mass || moves(o.motion) || (o.turn && moves(angle_of(*o.turn)));
+}
 
 Point turned_about(const ObstacleOptions& obstacle) {
   if (obstacle.turn && obstacle.turn->about) return *obstacle.turn->about;
@@ -92,7 +98,9 @@ Point rotation_vector(const Mat3<double>& rotation) {
 
 RigidTool rigid_tool(const ObstacleOptions& o) {
   const CouplingOptions& c = o.coupling;
-  const auto critical = [](double stiffness, double mass) { return 2 * std::sqrt(stiffness * mass); };
+  const auto critical = [](double stiffness, double mass) {
+    return 2 * std::sqrt(stiffness * mass);
+  };
   RigidTool tool;
   tool.mass = *o.mass, tool.stiffness = c.stiffness;
   tool.damping = c.damping.value_or(critical(c.stiffness, *o.mass));
@@ -101,7 +109,8 @@ RigidTool rigid_tool(const ObstacleOptions& o) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) tool.inertia[i][j] = I(i, j);
   tool.angular_stiffness = c.angular_stiffness;
-  tool.angular_damping = c.angular_damping.value_or(critical(c.angular_stiffness, principal_moments(o)[2]));
+  tool.angular_damping =
+      c.angular_damping.value_or(critical(c.angular_stiffness, principal_moments(o)[2]));
   return tool;
 }
 

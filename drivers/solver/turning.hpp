@@ -5,7 +5,8 @@
 #include <plica/kernels/contact/move_tool.hpp>
 #include <vector>
 
-// Turns on the host. A rotation is told by a vector: its direction is the axis, its length the angle.
+// Turns on the host. A rotation is told by a vector: its direction is the axis, its length the
+// angle.
 namespace plica {
 
 /// The angle as a motion: that of rotation vectors along the axis [rad].

@@ -30,7 +30,8 @@ std::vector<int> regions_of_sets(const TetMesh& mesh, const Level<B>& level) {
     for (std::size_t r = 0; r < count; ++r) regions.push_back(static_cast<int>(r));
     return regions;
   }
-  const auto first = on_host(level.model.patches.first_pack), element = on_host(level.model.patches.element);
+  const auto first = on_host(level.model.patches.first_pack),
+             element = on_host(level.model.patches.element);
   for (int p = 0; p < level.model.patches.count; ++p) {
     const auto tet = static_cast<std::size_t>(element(first(p) * B::lanes));
     regions.push_back(mesh.region.empty() ? 0 : mesh.region[tet]);
@@ -55,19 +56,22 @@ std::vector<int> regions_of_packs(const TetMesh& mesh, const Level<B>& level) {
   const NodalRows<B>& rows = level.model.rows;
   if (rows.slices > 0) {
     const auto region = on_host(rows.region);
-    for (int slot = 0; slot < rows.slots(); slot += B::lanes) regions.push_back(region(slot / NodalRows<B>::height));
+    for (int slot = 0; slot < rows.slots(); slot += B::lanes)
+      regions.push_back(region(slot / NodalRows<B>::height));
     return regions;
   }
   const auto first = on_host(level.model.patches.first_pack);
   const std::vector<int> of_patch = regions_of_sets(mesh, level);
-  for (std::size_t p = 0; p < of_patch.size(); ++p) regions.resize(static_cast<std::size_t>(first(p + 1)), of_patch[p]);
+  for (std::size_t p = 0; p < of_patch.size(); ++p)
+    regions.resize(static_cast<std::size_t>(first(p + 1)), of_patch[p]);
   return regions;
 }
 
 template <class B>
 RelaxationSteps<B> relaxation_steps(const std::vector<std::vector<PronyTerm>>& prony) {
   RelaxationSteps<B> steps;
-  for (const auto& series : prony) steps.terms = std::max(steps.terms, static_cast<int>(series.size()));
+  for (const auto& series : prony)
+    steps.terms = std::max(steps.terms, static_cast<int>(series.size()));
   std::vector<double> alpha, tau;
   for (std::vector<PronyTerm> series : prony) {
     series.resize(static_cast<std::size_t>(steps.terms), {0, 1});
@@ -84,7 +88,8 @@ RelaxationSteps<B> relaxation_steps(const std::vector<std::vector<PronyTerm>>& p
 }  // namespace
 
 template <class B>
-Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh, Level<B>& level)
+Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule,
+                        const TetMesh& mesh, Level<B>& level)
     : steps_(relaxation_steps<B>(constants.prony)) {
   steps_.backward_euler = rule == "backward_euler";
   const bool nodal = level.model.rows.slices > 0;
@@ -94,11 +99,13 @@ Viscosity<B>::Viscosity(const ShapeConstants& constants, const std::string& rule
   whole_ = to_device<Scalars<B>>("viscosity.whole", host_values(Exec(), constants_));
   half_ = constants_of_sets<B>("viscosity.half", regions, constants.half);
   isochoric_ = constants_of_sets<B>("viscosity.isochoric", regions, constants.isochoric);
-  const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots() : level.model.patches.packs * B::lanes);
+  const auto slots = static_cast<std::size_t>(nodal ? level.model.rows.slots()
+                                                    : level.model.patches.packs * B::lanes);
   StressMemory<B>& stress = level.stress;
   stress.terms = steps_.terms, stress.step = steps_.step;
   stress.region = to_device<Indices<B>>("viscosity.region", regions_of_packs(mesh, level));
-  stress.memory = zeros<Scalars<B>>("plica::viscosity.memory", slots * 6 * static_cast<std::size_t>(1 + stress.terms));
+  stress.memory = zeros<Scalars<B>>("plica::viscosity.memory",
+                                    slots * 6 * static_cast<std::size_t>(1 + stress.terms));
   stress.lost = zeros<Scalars<B>>("plica::viscosity.lost", slots * 6);
   stepped_ = none;
 }
@@ -110,12 +117,13 @@ void Viscosity<B>::step_over(const Exec& exec, double t) {
   stepped_ = t;
   RelaxationSteps<B> steps = steps_;
   steps.t = t;
-  update_vertices<B>(exec, "plica::relaxation_steps", static_cast<int>(steps.share.extent(0)), steps);
+  update_vertices<B>(exec, "plica::relaxation_steps", static_cast<int>(steps.share.extent(0)),
+                     steps);
 }
 
 template <class B>
-void Viscosity<B>::remember(const Exec& exec, const Level<B>& level, const Elasticity<B>& elasticity,
-                            const Vectors<B>& u, double time) {
+void Viscosity<B>::remember(const Exec& exec, const Level<B>& level,
+                            const Elasticity<B>& elasticity, const Vectors<B>& u, double time) {
   step_over(exec, std::max(0.0, time - time_));
   elasticity.remember(exec, level, u, isochoric_);
   time_ = time, looked_ = none;
@@ -137,14 +145,17 @@ template <class B>
 void Viscosity<B>::take_share(const Exec& exec, double t) {
   if (t == shared_) return;
   step_over(exec, t), shared_ = t;
-  const auto sets = static_cast<int>(set_region_.extent(0)), count = static_cast<int>(constants_.extent(0));
-  update_vertices<B>(exec, "plica::scale_shape", count,
-                     ScaleShape<B>{whole_, half_, constants_, steps_.share, set_region_, count / sets});
+  const auto sets = static_cast<int>(set_region_.extent(0)),
+             count = static_cast<int>(constants_.extent(0));
+  update_vertices<B>(
+      exec, "plica::scale_shape", count,
+      ScaleShape<B>{whole_, half_, constants_, steps_.share, set_region_, count / sets});
 }
 
 template <class B>
 void Viscosity<B>::keep(const Exec& exec, const Level<B>& level, Kept& to) const {
-  if (to.memory.extent(0) == 0) to.memory = Scalars<B>("plica::viscosity.kept", level.stress.memory.extent(0));
+  if (to.memory.extent(0) == 0)
+    to.memory = Scalars<B>("plica::viscosity.kept", level.stress.memory.extent(0));
   copy(exec, to.memory, level.stress.memory);
   to.time = time_;
 }
@@ -156,7 +167,8 @@ void Viscosity<B>::put_back(const Exec& exec, const Level<B>& level, const Kept&
 }
 
 template <class B>
-void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level, const std::string& name) {
+void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level,
+                           const std::string& name) {
   archive.field(name + "memory of stress", level.stress.memory);
   archive.number(time_);
   if (archive.restoring()) looked_ = none;
@@ -164,8 +176,9 @@ void Viscosity<B>::persist(StateArchive<B>& archive, const Level<B>& level, cons
 
 template <class B>
 std::size_t Viscosity<B>::bytes(const Level<B>& level) const {
-  const std::size_t numbers = level.stress.memory.extent(0) + level.stress.lost.extent(0) + whole_.extent(0) +
-                              half_.extent(0) + isochoric_.extent(0) + level.stress.region.extent(0);
+  const std::size_t numbers = level.stress.memory.extent(0) + level.stress.lost.extent(0) +
+                              whole_.extent(0) + half_.extent(0) + isochoric_.extent(0) +
+                              level.stress.region.extent(0);
   return numbers * sizeof(Real);
 }
 

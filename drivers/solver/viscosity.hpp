@@ -8,27 +8,30 @@
 
 namespace plica {
 
-/// Per region the Prony series and kernel constants of which those of a viscous material's steps are made. They are linear in the
-/// energy of shape, so that two of them say all.
+/// Per region the Prony series and kernel constants of which those of a viscous material's steps
+/// are made. They are linear in the energy of shape, so that two of them say all.
 struct ShapeConstants {
   std::vector<std::vector<PronyTerm>> prony;
   std::vector<std::vector<double>> half;       ///< half of the energy of shape
   std::vector<std::vector<double>> isochoric;  ///< all of it, and none of the volume
 };
 
-/// The relaxation of one level's stresses: kernels/elastic/stress_memory.hpp says how. It knows them at one time, and takes forces at
-/// later ones from there. Only remember() moves it on, by the time that has passed: once more at the same time and state it changes
-/// nothing. So whatever evaluates forces may do so as often as it likes; whoever accepts a state remembers it.
+/// The relaxation of one level's stresses: kernels/elastic/stress_memory.hpp says how. It knows
+/// them at one time, and takes forces at later ones from there. Only remember() moves it on, by the
+/// time that has passed: once more at the same time and state it changes nothing. So whatever
+/// evaluates forces may do so as often as it likes; whoever accepts a state remembers it.
 template <class B>
 class Viscosity {
  public:
   using Exec = typename B::Exec;
 
   /// Of a level that is built: makes level.stress. `rule` is one of relaxation_rules().
-  Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh, Level<B>& level);
+  Viscosity(const ShapeConstants& constants, const std::string& rule, const TetMesh& mesh,
+            Level<B>& level);
 
   /// The displacements u are the body's at `time` [s].
-  void remember(const Exec&, const Level<B>&, const Elasticity<B>&, const Vectors<B>& u, double time);
+  void remember(const Exec&, const Level<B>&, const Elasticity<B>&, const Vectors<B>& u,
+                double time);
   /// Constants and level.stress.lost for forces at `time` [s].
   void look_at(const Exec&, const Level<B>&, double time);
   /// The constants of the material at once.

@@ -27,18 +27,22 @@ constexpr int trial_steps = 128;            // critical steps
 constexpr int usual_factor = 8;             // macro step over critical step, tried first
 constexpr int longer_factors[] = {16, 32};  // while those before are good
 constexpr int shorter_factors[] = {4, 2};   // until one is good
-constexpr int unseen_factor = 4;            // at most, where contact is to come that the trials do not show
-constexpr double reference_step = 0.45;     // of the critical one; central differences, of order 2
-constexpr int timed_steps = 32;             // of level 0 alone
-constexpr double worth = 20;                // a run is at least so many times what timing it takes
-constexpr double looking_part = 0.05;       // of the run: what looking ahead may take
-constexpr double before_touching = 0.125;   // of a trial: where it starts
-constexpr double clearly_less = 0.9;        // of single's run time: what it may be left for
-constexpr double him_set_ups = 5;           // set-ups of level 0 alone that one of him takes, about ...
-constexpr double him_dense = 2.3e-8;        // ... and this per cube of the coarsest level's vertices [s]
-constexpr double past_the_peak = 0.5;       // of the elastic energy: looking ahead ends there
-constexpr double him_step = 3;              // steps of level 0 alone, about, before one of him has been timed
-constexpr long most_looking = 20000;        // steps of looking ahead, where the run has no end
+// at most, where contact is to come that the trials do not show
+constexpr int unseen_factor = 4;
+constexpr double reference_step = 0.45;    // of the critical one; central differences, of order 2
+constexpr int timed_steps = 32;            // of level 0 alone
+constexpr double worth = 20;               // a run is at least so many times what timing it takes
+constexpr double looking_part = 0.05;      // of the run: what looking ahead may take
+constexpr double before_touching = 0.125;  // of a trial: where it starts
+constexpr double clearly_less = 0.9;       // of single's run time: what it may be left for
+// set-ups of level 0 alone that one of him takes, about ...
+constexpr double him_set_ups = 5;
+// ... and this per cube of the coarsest level's vertices [s]
+constexpr double him_dense = 2.3e-8;
+constexpr double past_the_peak = 0.5;  // of the elastic energy: looking ahead ends there
+// steps of level 0 alone, about, before one of him has been timed
+constexpr double him_step = 3;
+constexpr long most_looking = 20000;  // steps of looking ahead, where the run has no end
 
 double reference_forces() { return trial_steps / reference_step; }
 // A run of fewer steps is surely shorter than trials that are worth it
@@ -52,11 +56,13 @@ std::string as_percent(double part) { return number(100 * part, 2) + " %"; }
 std::string as_seconds(double time) { return number(time, 2) + " s"; }
 
 std::string too_short(double steps) {
-  return text("the run is short: ", number(std::ceil(steps), 9), " steps of level 0 alone, and trials pay from ",
-              number(std::ceil(fewest_steps()), 9), " on");
+  return text("the run is short: ", number(std::ceil(steps), 9),
+              " steps of level 0 alone, and trials pay from ", number(std::ceil(fewest_steps()), 9),
+              " on");
 }
 
-IntegrationOptions stepped(IntegrationOptions o, const char* integrator, std::optional<double> step) {
+IntegrationOptions stepped(IntegrationOptions o, const char* integrator,
+                           std::optional<double> step) {
   o.cycle = "single", o.integrator = {integrator}, o.macro_step = step;
   return o;
 }
@@ -74,11 +80,16 @@ class CycleTrials {
   using Exec = typename B::Exec;
 
  public:
-  CycleTrials(const Problem& problem, const ChoiceOptions& options, const Simulation<B>& alone, const Exec& exec)
-      : problem_(problem), options_(options), exec_(exec), now_(options.clock ? options.clock : seconds_now) {
+  CycleTrials(const Problem& problem, const ChoiceOptions& options, const Simulation<B>& alone,
+              const Exec& exec)
+      : problem_(problem),
+        options_(options),
+        exec_(exec),
+        now_(options.clock ? options.clock : seconds_now) {
     begun_ = now_();
     choice_.error_class = problem.integration.error_class;
-    ErrorClasses::visit(choice_.error_class, [&](auto chosen) { choice_.allowed = decltype(chosen)::error; });
+    ErrorClasses::visit(choice_.error_class,
+                        [&](auto chosen) { choice_.allowed = decltype(chosen)::error; });
     critical_ = alone.levels().front().critical_step, edge_ = alone.levels().front().mean_edge;
     take("single", alone.macro_step(), "there is no coarser level");
     steps_ = options.duration / alone.macro_step();
@@ -101,21 +112,29 @@ class CycleTrials {
     if (steps_ < fewest_steps()) return void(choice_.reason = too_short(steps_));
     time_alone();
     budget_ = trial_part * choice_.single_time;
-    trials_time_ = reference_forces() * step_time_ + him_set_up() + trial_steps / usual_factor * him_step * step_time_;
+    trials_time_ = reference_forces() * step_time_ + him_set_up() +
+                   trial_steps / usual_factor * him_step * step_time_;
     if (choice_.single_time < worth * (now_() - begun_) || now_() - begun_ + trials_time_ > budget_)
       return void(choice_.reason =
-                      text("trials would take ", as_seconds(now_() - begun_ + trials_time_), ", more than ",
-                           as_percent(trial_part), " of the run by level 0 alone, ", as_seconds(choice_.single_time)));
+                      text("trials would take ", as_seconds(now_() - begun_ + trials_time_),
+                           ", more than ", as_percent(trial_part), " of the run by level 0 alone, ",
+                           as_seconds(choice_.single_time)));
     choice_.duration = trial_steps * critical_;
     find_start();
     const TrialRun reference = run_reference();
     if (!reference.reason.empty())
-      return void(choice_.reason = "level 0 alone, which is what errors are measured against, " + reference.reason);
-    CycleTrial& alone = choice_.trials.emplace_back(
-        CycleTrial{"single", choice_.macro_step, choice_.over_critical, {}, "what the others are measured against"});
+      return void(choice_.reason = "level 0 alone, which is what errors are measured against, " +
+                                   reference.reason);
+    CycleTrial& alone =
+        choice_.trials.emplace_back(CycleTrial{"single",
+                                               choice_.macro_step,
+                                               choice_.over_critical,
+                                               {},
+                                               "what the others are measured against"});
     alone.set_up_time = set_up_time_, alone.step_time = reference.step_time;
     alone.run_time = run_time_of(alone);
-    budget_ = std::max(budget_, trial_part * alone.run_time);  // what touches or is deformed takes longer than rest
+    // what touches or is deformed takes longer than rest
+    budget_ = std::max(budget_, trial_part * alone.run_time);
     try_him(reference);
     choose();
   }
@@ -124,7 +143,8 @@ class CycleTrials {
   void time_alone() {
     const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: level 0 alone is timed");
     const TrialRun timed =
-        run_trial<B>(level_0_alone(problem_), level_0_alone(problem_).integration, timed_steps, {}, {now_}, exec_);
+        run_trial<B>(level_0_alone(problem_), level_0_alone(problem_).integration, timed_steps, {},
+                     {now_}, exec_);
     set_up_time_ = timed.set_up_time, step_time_ = timed.step_time;
     choice_.single_time = set_up_time_ + steps_ * step_time_;
   }
@@ -145,7 +165,8 @@ class CycleTrials {
     return trial.set_up_time + options_.duration / trial.macro_step * trial.step_time;
   }
 
-  // Shortly before the first touch, which decides which step will do; else where the body is deformed most
+  // Shortly before the first touch, which decides which step will do; else where the body is
+  // deformed most
   void find_start() {
     touch_ = first_touch(problem_, options_.duration);
     const std::optional<RigidMotion> rigid = rigid_motion(problem_);
@@ -161,12 +182,15 @@ class CycleTrials {
   }
 
   void look_ahead() {
-    const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: the coarsest level looks ahead");
-    // what is deformed most is looked for by level 0 itself: between meshes a state gets kinks, which him follows badly
+    const Kokkos::Profiling::ScopedRegion region(
+        "plica: cycle auto: the coarsest level looks ahead");
+    // what is deformed most is looked for by level 0 itself: between meshes a state gets kinks,
+    // which him follows badly
     const std::size_t last = touch_.expected() ? problem_.body.levels.size() - 1 : 0;
     Problem coarsest = only_level(problem_, last);
     coarsest.integration = stepped(problem_.integration, SymplecticEuler::name, {});
-    const double left = std::min(looking_part * choice_.single_time, budget_ - trials_time_ - (now_() - begun_));
+    const double left =
+        std::min(looking_part * choice_.single_time, budget_ - trials_time_ - (now_() - begun_));
     const double until = now_() + left, early = before_touching * choice_.duration;
     try {
       Simulation<B> simulation(coarsest, exec_);
@@ -179,7 +203,8 @@ class CycleTrials {
       }
       TrialStart before, now, hardest;
       double most = 0;
-      for (long n = 0; n < most_looking && simulation.time() < options_.duration && now_() < until; ++n) {
+      for (long n = 0; n < most_looking && simulation.time() < options_.duration && now_() < until;
+           ++n) {
         if (simulation.step_checked()) break;
         if (touch_.expected() && (is_pushed(simulation) || simulation.pair_depth() > 0)) {
           if (before.time > 0) start_ = on_level_0(before);
@@ -194,13 +219,15 @@ class CycleTrials {
         if (!touch_.expected() && elastic < past_the_peak * most) break;
       }
       if (most > 0 && last == 0 && start_.time == 0) start_ = hardest;
-    } catch (const InputError&) {  // of the coarsest mesh alone: what is wrong there is told by whoever uses it
+      // of the coarsest mesh alone: what is wrong there is told by whoever uses it
+    } catch (const InputError&) {
     }
   }
 
   TrialStart on_level_0(const TrialStart& coarse) const {
     if (problem_.body.levels.size() == 1) return coarse;
-    const Embedding rows = embed(problem_.body.levels.front().vertices, problem_.body.levels.back(), Outside::clamp);
+    const Embedding rows =
+        embed(problem_.body.levels.front().vertices, problem_.body.levels.back(), Outside::clamp);
     const auto fine = [&](const std::vector<Point>& field) {
       std::vector<Point> values(rows.vertices.size(), Point::Zero());
       for (std::size_t a = 0; a < values.size(); ++a)
@@ -215,13 +242,15 @@ class CycleTrials {
   TrialRun run_reference() {
     const double quarter = choice_.duration / trial_quarters;
     const int steps = static_cast<int>(std::ceil(quarter / (reference_step * critical_)));
-    const IntegrationOptions o = stepped(problem_.integration, CentralDifference::name, quarter / steps);
-    TrialRun run = run_trial<B>(only_level(problem_, 0), o, trial_quarters * steps, start_, {now_}, exec_);
+    const IntegrationOptions o =
+        stepped(problem_.integration, CentralDifference::name, quarter / steps);
+    TrialRun run =
+        run_trial<B>(only_level(problem_, 0), o, trial_quarters * steps, start_, {now_}, exec_);
     const std::optional<RigidMotion> rigid = run.touched ? rigid_motion(problem_) : std::nullopt;
     for (int j = 1; j <= trial_quarters; ++j)
-      rigid_.push_back(
-          rigid ? Point(rigid->displacement_at(start_.time + j * quarter) - rigid->displacement_at(start_.time))
-                : Point::Zero());
+      rigid_.push_back(rigid ? Point(rigid->displacement_at(start_.time + j * quarter) -
+                                     rigid->displacement_at(start_.time))
+                             : Point::Zero());
     return run;
   }
 
@@ -246,17 +275,22 @@ class CycleTrials {
   bool try_factor(int factor, const TrialRun* reference) {
     if (given_up_) return false;
     const CycleTrial& alone = choice_.trials.front();
-    const double step_time = him_step_time_ > 0 ? him_step_time_ : him_step * alone.step_time, spent = now_() - begun_;
-    CycleTrial trial{"him", factor * critical_, static_cast<double>(factor), {}, {}, him_set_up(), step_time};
+    const double step_time = him_step_time_ > 0 ? him_step_time_ : him_step * alone.step_time,
+                 spent = now_() - begun_;
+    CycleTrial trial{"him",        factor * critical_, static_cast<double>(factor), {}, {},
+                     him_set_up(), step_time};
     double best = alone.run_time;
     for (const CycleTrial& before : choice_.trials)
       if (before.error) best = std::min(best, before.run_time);
-    const double gain = best - run_time_of(trial), cost = trial.set_up_time + trial_steps / factor * step_time;
+    const double gain = best - run_time_of(trial),
+                 cost = trial.set_up_time + trial_steps / factor * step_time;
     const bool pays = std::isfinite(options_.duration) ? gain > cost : gain > 0;
     if (!pays || spent + cost > budget_) {
       given_up_ = true;
-      note_ = !pays ? text("; him at ", factor, " x was not tried: it could gain ", as_seconds(std::max(0., gain)))
-                    : text("; him at ", factor, " x was not tried: trials had taken ", as_seconds(spent));
+      note_ = !pays ? text("; him at ", factor, " x was not tried: it could gain ",
+                           as_seconds(std::max(0., gain)))
+                    : text("; him at ", factor, " x was not tried: trials had taken ",
+                           as_seconds(spent));
       return false;
     }
     IntegrationOptions o = problem_.integration;
@@ -264,12 +298,14 @@ class CycleTrials {
     TrialRun run;
     run.reason = too_fast_for_him(problem_, *o.macro_step, edge_);
     if (run.reason.empty())
-      run = run_trial<B>(problem_, o, trial_steps / factor, start_, {now_, begun_ + budget_}, exec_);
+      run =
+          run_trial<B>(problem_, o, trial_steps / factor, start_, {now_, begun_ + budget_}, exec_);
     if (run.set_up_time > 0) him_set_up_time_ = run.set_up_time;
     if (run.step_time > 0) him_step_time_ = run.step_time;
     trial.set_up_time = run.set_up_time, trial.step_time = run.step_time, trial.reason = run.reason;
     trial.run_time = run.step_time > 0 ? run_time_of(trial) : 0;
-    if (run.reason.empty()) trial.error = reference != nullptr ? trial_error(run, *reference, rigid_) : 0;
+    if (run.reason.empty())
+      trial.error = reference != nullptr ? trial_error(run, *reference, rigid_) : 0;
     if (trial.error && !std::isfinite(*trial.error))
       trial.error.reset(), trial.reason = "diverges: a displacement is not finite";
     choice_.trials.push_back(trial);
@@ -283,24 +319,27 @@ class CycleTrials {
     for (const CycleTrial& trial : choice_.trials) {
       if (!trial.error || *trial.error > choice_.allowed) continue;
       within = true;
-      if (trial.run_time < (best != nullptr ? best->run_time : clearly_less * alone.run_time)) best = &trial;
+      if (trial.run_time < (best != nullptr ? best->run_time : clearly_less * alone.run_time))
+        best = &trial;
     }
     if (best == nullptr) {
       choice_.provisional = false;
-      choice_.reason =
-          (within                       ? "no trial was clearly faster"
-           : choice_.trials.size() == 1 ? "no longer step was tried"
-                                        : "no step tried is known to be within " + as_percent(choice_.allowed)) +
-          note_;
+      choice_.reason = (within                       ? "no trial was clearly faster"
+                        : choice_.trials.size() == 1 ? "no longer step was tried"
+                                                     : "no step tried is known to be within " +
+                                                           as_percent(choice_.allowed)) +
+                       note_;
       return;
     }
     // whole steps to the end of the run, so that the one step repeats it
     const double steps = std::ceil(options_.duration / best->macro_step * (1 - 1e-9));
     const double macro_step = std::isfinite(steps) ? options_.duration / steps : best->macro_step;
-    std::string reason = "the least run time of those within " + as_percent(choice_.allowed) + note_;
+    std::string reason =
+        "the least run time of those within " + as_percent(choice_.allowed) + note_;
     if (choice_.provisional)
-      reason += touch_.expected() ? "; provisional: contact with " + touch_.what + " was not seen in the trials"
-                                  : "; provisional: nothing moves in the trials";
+      reason += touch_.expected()
+                    ? "; provisional: contact with " + touch_.what + " was not seen in the trials"
+                    : "; provisional: nothing moves in the trials";
     take(best->cycle, macro_step, reason);
   }
 
@@ -332,7 +371,8 @@ std::string CycleChoice::keys() const {
 
 template <class B>
 std::optional<CycleChoice> choose_cycle(const Problem& problem, const Simulation<B>& alone,
-                                        const ChoiceOptions& options, const typename B::Exec& exec) {
+                                        const ChoiceOptions& options,
+                                        const typename B::Exec& exec) {
   if (problem.integration.cycle != "auto") return {};
   return CycleTrials<B>(problem, options, alone, exec).all();
 }
@@ -346,9 +386,11 @@ std::optional<CycleChoice> choose_cycle(const Problem& problem, const ChoiceOpti
   return choose_cycle<B>(problem, alone, options, exec);
 }
 
-std::string trials_ahead(const Problem& problem, double duration, const LevelReport& alone, double macro_step) {
+std::string trials_ahead(const Problem& problem, double duration, const LevelReport& alone,
+                         double macro_step) {
   if (problem.integration.cycle != "auto") return {};
-  if (!has_coarse_levels("auto", problem.body)) return "a run takes single: there is no coarser level";
+  if (!has_coarse_levels("auto", problem.body))
+    return "a run takes single: there is no coarser level";
   const double steps = duration / macro_step;
   if (steps < fewest_steps()) return "a run takes single: " + too_short(steps);
   const double early = before_touching * trial_steps * alone.critical_step;
@@ -356,14 +398,16 @@ std::string trials_ahead(const Problem& problem, double duration, const LevelRep
   std::string from = "from the start, or where the body is deformed most";
   if (rigid_motion(problem)) from = "from the start";
   if (touch.expected())
-    from = touch.exact ? text("from ", number(std::max(0., touch.time - early), 3), " s on, shortly before ",
-                              touch.what, " is first touched")
-                       : text("shortly before ", touch.what, " is first touched, which is not before ",
-                              number(touch.time, 3), " s");
+    from = touch.exact
+               ? text("from ", number(std::max(0., touch.time - early), 3),
+                      " s on, shortly before ", touch.what, " is first touched")
+               : text("shortly before ", touch.what, " is first touched, which is not before ",
+                      number(touch.time, 3), " s");
   return text("a run times ", timed_steps, " of the ", number(std::ceil(steps), 9),
-              " steps of level 0 alone, and takes single unless trials cost less than ", as_percent(trial_part),
-              " of it; it tries him at ", usual_factor, " critical steps, ",
-              number(usual_factor * alone.critical_step, 3), " s, then at 16 and 32, or at 4 and 2, ", from);
+              " steps of level 0 alone, and takes single unless trials cost less than ",
+              as_percent(trial_part), " of it; it tries him at ", usual_factor, " critical steps, ",
+              number(usual_factor * alone.critical_step, 3),
+              " s, then at 16 and 32, or at 4 and 2, ", from);
 }
 
 Problem level_0_alone(Problem problem) {
@@ -378,10 +422,10 @@ Problem with_choice(Problem problem, const std::optional<CycleChoice>& choice) {
   return problem;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                         \
-  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>(const Problem&, const ChoiceOptions&, \
-                                                                        const Exec&);                         \
-  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>(                                      \
+#define PLICA_INSTANTIATE(Real, Exec)                                    \
+  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>( \
+      const Problem&, const ChoiceOptions&, const Exec&);                \
+  template std::optional<CycleChoice> choose_cycle<Backend<Real, Exec>>( \
       const Problem&, const Simulation<Backend<Real, Exec>>&, const ChoiceOptions&, const Exec&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 

@@ -12,7 +12,8 @@ namespace plica {
 
 namespace {
 
-constexpr int burst = 20;  // macro steps between two looks at the size, which may grow by a large factor in each
+// macro steps between two looks at the size, which may grow by a large factor in each
+constexpr int burst = 20;
 
 /// A random state under way, brought back to size 1 from time to time.
 template <class B>
@@ -47,7 +48,8 @@ class LongRun {
   }
 
   RitzValue largest(Eigen::Index dimension) const {
-    return largest_ritz_value([&](const Eigen::VectorXd& y) { return map_.apply(y); }, x_, dimension);
+    return largest_ritz_value([&](const Eigen::VectorXd& y) { return map_.apply(y); }, x_,
+                              dimension);
   }
 
  private:
@@ -62,8 +64,8 @@ class LongRun {
 template <class B>
 CycleMap<B>::CycleMap(const Problem& problem, const Exec& exec)
     : built_(build_hierarchy<B>(about_rest<B>(problem, exec), exec)) {
-  const auto inverse =
-      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), (*built_.hierarchy)[0].model.inverse_mass);
+  const auto inverse = Kokkos::create_mirror_view_and_copy(
+      Kokkos::HostSpace(), (*built_.hierarchy)[0].model.inverse_mass);
   for (std::size_t a = 0; a < inverse.extent(0); ++a)
     if (inverse(a) > 0) free_.push_back(a);
   if (free_.empty()) throw InputError("every vertex of level 0 is held: nothing moves");
@@ -110,22 +112,25 @@ CycleGrowth cycle_growth(const CycleMap<B>& map, const CycleGrowthOptions& optio
   CycleGrowth found;
   found.macro_step = map.macro_step();
   LongRun<B> run(map);
-  for (long target = 10 * burst; !found.converged && 2 * found.macro_steps < options.macro_steps; target *= 2) {
+  for (long target = 10 * burst; !found.converged && 2 * found.macro_steps < options.macro_steps;
+       target *= 2) {
     const bool sound = run.until(target);
     const RitzValue ritz = sound ? run.largest(options.dimension) : RitzValue{run.last_growth(), 0};
     found.macro_steps = run.macro_steps() + options.dimension;
     found.converged = ritz.residual <= options.tolerance;
     const double whole = run.mean_growth(2), part = run.mean_growth(4);
     found.radius = found.converged ? std::abs(ritz.value) : std::exp(whole);
-    found.uncertainty = found.radius * (found.converged ? ritz.residual : std::abs(std::expm1(whole - part)));
+    found.uncertainty =
+        found.radius * (found.converged ? ritz.residual : std::abs(std::expm1(whole - part)));
   }
   found.per_second = std::log(found.radius) / found.macro_step;
   return found;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)           \
-  template class CycleMap<Backend<Real, Exec>>; \
-  template CycleGrowth cycle_growth(const CycleMap<Backend<Real, Exec>>&, const CycleGrowthOptions&);
+#define PLICA_INSTANTIATE(Real, Exec)                                     \
+  template class CycleMap<Backend<Real, Exec>>;                           \
+  template CycleGrowth cycle_growth(const CycleMap<Backend<Real, Exec>>&, \
+                                    const CycleGrowthOptions&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 namespace {
@@ -139,13 +144,16 @@ template <class B>
 CycleGrowth of_all_modes(const CycleMap<B>& map) {
   CycleGrowth found;
   found.macro_step = map.macro_step(), found.macro_steps = map.size();
-  found.radius = spectral_radius(map.matrix()), found.per_second = std::log(found.radius) / found.macro_step;
+  found.radius = spectral_radius(map.matrix()),
+  found.per_second = std::log(found.radius) / found.macro_step;
   found.uncertainty = 1e-6,
-  found.converged = true;  // pairs that meet at 1, as of free bodies, are found to the root of rounding
+  // pairs that meet at 1, as of free bodies, are found to the root of rounding
+      found.converged = true;
   return found;
 }
 
-// What the linearised cycle depends on: its mappings do not switch, and rsv and rsv_sv are rv there; see CycleMap
+// What the linearised cycle depends on: its mappings do not switch, and rsv and rsv_sv are rv
+// there; see CycleMap
 IntegrationOptions map_of(const StudyCase& one, double macro_step) {
   IntegrationOptions o = one.integration;
   if (o.cycle == "rsv" || o.cycle == "rsv_sv") o.cycle = "rv";
@@ -156,7 +164,8 @@ IntegrationOptions map_of(const StudyCase& one, double macro_step) {
 }  // namespace
 
 const GrowthOfCycles::Found* GrowthOfCycles::known(const IntegrationOptions& map) const {
-  const auto found = std::ranges::find_if(found_, [&](const Found& f) { return steps_alike(f.first, map); });
+  const auto found =
+      std::ranges::find_if(found_, [&](const Found& f) { return steps_alike(f.first, map); });
   return found == found_.end() ? nullptr : &*found;
 }
 
@@ -166,7 +175,8 @@ std::optional<CycleGrowth> GrowthOfCycles::of(const StudyCase& one, double macro
   const auto clear = [&](const CycleGrowth& g) {
     return g.converged || !told_from || std::abs(g.radius - *told_from) > 2 * g.uncertainty;
   };
-  if (const Found* before = known(map); before != nullptr && (!before->second || clear(*before->second)))
+  if (const Found* before = known(map);
+      before != nullptr && (!before->second || clear(*before->second)))
     return before->second;
   std::erase_if(found_, [&](const Found& f) { return steps_alike(f.first, map); });
   std::optional<CycleGrowth>& growth = found_.emplace_back(map, std::nullopt).second;
@@ -178,15 +188,18 @@ std::optional<CycleGrowth> GrowthOfCycles::of(const StudyCase& one, double macro
     CycleGrowthOptions options = bounded_growth;
     const bool few = told_from && *told_from < close_to_one && cycle.size() <= most_dense;
     growth = few ? of_all_modes(cycle) : cycle_growth(cycle, options);
-    for (int i = 0; i < 2 && !clear(*growth); ++i) options.macro_steps *= 4, growth = cycle_growth(cycle, options);
+    for (int i = 0; i < 2 && !clear(*growth); ++i)
+      options.macro_steps *= 4, growth = cycle_growth(cycle, options);
   } catch (const InputError&) {
   }
   return growth;
 }
 
-double GrowthOfCycles::predicted_evaluations(const StudyCase& one, double macro_step, double duration) const {
+double GrowthOfCycles::predicted_evaluations(const StudyCase& one, double macro_step,
+                                             double duration) const {
   if (known(map_of(one, macro_step)) != nullptr) return 0;
-  return one.predicted_evaluations * macro_step / duration * static_cast<double>(bounded_growth.macro_steps);
+  return one.predicted_evaluations * macro_step / duration *
+         static_cast<double>(bounded_growth.macro_steps);
 }
 
 }  // namespace plica

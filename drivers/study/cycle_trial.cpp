@@ -33,7 +33,8 @@ class GainInTrial {
   }
   void step() { work_.step(simulation_); }
   void look() {
-    if (knows_ && work_.known()) energy_.look(simulation_.time(), simulation_.energies(), work_.done());
+    if (knows_ && work_.known())
+      energy_.look(simulation_.time(), simulation_.energies(), work_.done());
   }
   std::string warning() const { return energy_.warning(); }
 
@@ -48,13 +49,15 @@ class GainInTrial {
 
 template <class B>
 bool is_pushed(const Simulation<B>& simulation) {
-  return std::ranges::any_of(simulation.wrenches(), [](const Wrench& w) { return w.force.norm() > 0; });
+  return std::ranges::any_of(simulation.wrenches(),
+                             [](const Wrench& w) { return w.force.norm() > 0; });
 }
 
 template <class B>
-TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps, const TrialStart& start,
-                   const TrialClock& clock, const typename B::Exec& exec) {
-  const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: a trial of " + integration.cycle);
+TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps,
+                   const TrialStart& start, const TrialClock& clock, const typename B::Exec& exec) {
+  const Kokkos::Profiling::ScopedRegion region("plica: cycle auto: a trial of " +
+                                               integration.cycle);
   TrialRun run;
   problem.integration = integration;
   std::vector<double> times;
@@ -105,15 +108,17 @@ bool anything_moves(const TrialRun& run, const std::vector<Point>& rigid, const 
   const Box box = bounding_box(mesh.vertices);
   for (std::size_t j = 0; j < run.u.size(); ++j) {
     const double least = no_motion * (box.max - box.min).norm() + 1e-9 * rigid[j].norm();
-    if (std::ranges::any_of(run.u[j], [&](const Point& p) { return (p - rigid[j]).norm() > least; })) return true;
+    if (std::ranges::any_of(run.u[j],
+                            [&](const Point& p) { return (p - rigid[j]).norm() > least; }))
+      return true;
   }
   return false;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                          \
-  template bool is_pushed(const Simulation<Backend<Real, Exec>>&);                                             \
-  template TrialRun run_trial<Backend<Real, Exec>>(Problem, const IntegrationOptions&, int, const TrialStart&, \
-                                                   const TrialClock&, const Exec&);
+#define PLICA_INSTANTIATE(Real, Exec)                              \
+  template bool is_pushed(const Simulation<Backend<Real, Exec>>&); \
+  template TrialRun run_trial<Backend<Real, Exec>>(                \
+      Problem, const IntegrationOptions&, int, const TrialStart&, const TrialClock&, const Exec&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -25,11 +25,12 @@ struct TrialClock {
 
 /// What became of one.
 struct TrialRun {
-  std::vector<std::vector<Point>> u;  ///< [quarter][vertex], displacements from where it started [m]
-  std::string reason;                 ///< why there is none, or why it is not to be used
-  double set_up_time = 0;             ///< [s]
-  double step_time = 0;               ///< the median [s]
-  bool touched = false;               ///< an obstacle or a body pushed it
+  /// [quarter][vertex], displacements from where it started [m]
+  std::vector<std::vector<Point>> u;
+  std::string reason;      ///< why there is none, or why it is not to be used
+  double set_up_time = 0;  ///< [s]
+  double step_time = 0;    ///< the median [s]
+  bool touched = false;    ///< an obstacle or a body pushed it
 };
 
 /// Whether anything has pushed the body in the last macro step.
@@ -38,8 +39,8 @@ bool is_pushed(const Simulation<B>& simulation);
 
 /// So many macro steps, a multiple of trial_quarters, of the problem with that integration.
 template <class B>
-TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps, const TrialStart& start,
-                   const TrialClock& clock, const typename B::Exec& exec);
+TrialRun run_trial(Problem problem, const IntegrationOptions& integration, int steps,
+                   const TrialStart& start, const TrialClock& clock, const typename B::Exec& exec);
 
 /// |u - from| / |from - rigid|, over all quarters: `rigid` is what every vertex is displaced by at each quarter's end in any case [m]
 double trial_error(const TrialRun& run, const TrialRun& from, const std::vector<Point>& rigid);

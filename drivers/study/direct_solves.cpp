@@ -21,7 +21,8 @@ std::vector<std::vector<int>> neighbours_in(const TetMesh& mesh) {
   std::vector<std::vector<int>> lists(mesh.vertices.size());
   for (const auto& tet : mesh.tets)
     for (const int a : tet)
-      lists[static_cast<std::size_t>(a)].insert(lists[static_cast<std::size_t>(a)].end(), tet.begin(), tet.end());
+      lists[static_cast<std::size_t>(a)].insert(lists[static_cast<std::size_t>(a)].end(),
+                                                tet.begin(), tet.end());
   for (auto& list : lists) {
     std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -29,8 +30,8 @@ std::vector<std::vector<int>> neighbours_in(const TetMesh& mesh) {
   return lists;
 }
 
-/// Vertices of one colour have no neighbour in common, so that one product tells the columns of all of them apart (Curtis,
-/// Powell & Reid 1974).
+/// Vertices of one colour have no neighbour in common, so that one product tells the columns of all
+/// of them apart (Curtis, Powell & Reid 1974).
 std::vector<std::vector<int>> colour(const std::vector<std::vector<int>>& neighbours) {
   std::vector<int> colour_of(neighbours.size(), -1);
   std::vector<std::vector<int>> colours;
@@ -102,7 +103,8 @@ void SparseStiffness::linearise(const std::vector<Point>& u) {
     return;  // linear elements may be inverted where nodal ones are not: those at rest will do
   std::vector<Eigen::Index> row_of(3 * mass_.size(), -1);
   const auto n = static_cast<Eigen::Index>(free_.size());
-  for (Eigen::Index r = 0; r < n; ++r) row_of[static_cast<std::size_t>(free_[static_cast<std::size_t>(r)])] = r;
+  for (Eigen::Index r = 0; r < n; ++r)
+    row_of[static_cast<std::size_t>(free_[static_cast<std::size_t>(r)])] = r;
   std::vector<Eigen::Triplet<double>> entries;
   auto p = probe_.zero();
   for (const auto& together : colours_)
@@ -115,7 +117,8 @@ void SparseStiffness::linearise(const std::vector<Point>& u) {
         for (const int a : neighbours_[static_cast<std::size_t>(b)])
           for (std::size_t i = 0; i < 3 && column >= 0; ++i)
             if (const Eigen::Index r = row_of[3 * static_cast<std::size_t>(a) + i]; r >= 0)
-              entries.emplace_back(r, column, columns[static_cast<std::size_t>(a)][static_cast<Eigen::Index>(i)]);
+              entries.emplace_back(
+                  r, column, columns[static_cast<std::size_t>(a)][static_cast<Eigen::Index>(i)]);
       }
     }
   matrix_.resize(n, n);
@@ -145,7 +148,8 @@ Eigen::VectorXd SparseStiffness::masses() const {
   return m;
 }
 
-Eigen::VectorXd SparseStiffness::solve(const Factor& factor, const Eigen::VectorXd& b, double shift) const {
+Eigen::VectorXd SparseStiffness::solve(const Factor& factor, const Eigen::VectorXd& b,
+                                       double shift) const {
   if (!linear_) return factor.solve(b);
   const Eigen::VectorXd shifted = shift * masses();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), r = b, z = factor.solve(r), p = z;
@@ -198,7 +202,8 @@ std::vector<double> SparseStiffness::frequencies(int count, double shift) const 
 namespace {
 
 constexpr int most_iterations = 40, most_halvings = 12;
-constexpr double round_off = 1e-8;  // of the largest residual: where it can no longer fall, below this, it is at rest
+// of the largest residual: where it can no longer fall, below this, it is at rest
+constexpr double round_off = 1e-8;
 
 class Newton {
  public:
@@ -221,7 +226,8 @@ class Newton {
       if (!moved) break;
       u = *moved;
     }
-    throw std::runtime_error("Newton's method leaves a residual of " + std::to_string(size / largest_));
+    throw std::runtime_error("Newton's method leaves a residual of " +
+                             std::to_string(size / largest_));
   }
 
  private:
@@ -235,11 +241,15 @@ class Newton {
     for (std::size_t a = 0; a < options_.force.size(); ++a) f[a] += options_.force[a];
     return f;
   }
-  Eigen::VectorXd residual(const std::vector<Point>& u, double time) { return stiffness_.part(forces(u, time)); }
+  Eigen::VectorXd residual(const std::vector<Point>& u, double time) {
+    return stiffness_.part(forces(u, time));
+  }
 
-  // The first of u + change, u + change/2 ... with a smaller residual; near incompressibility a step that converges first raises
-  // that of nodal elements, in which smoothed volumes are stiff, a thousandfold
-  std::optional<std::vector<Point>> search(const std::vector<Point>& u, const std::vector<Point>& change, double time,
+  // The first of u + change, u + change/2 ... with a smaller residual; near incompressibility a
+  // step that converges first raises that of nodal elements, in which smoothed volumes are stiff, a
+  // thousandfold
+  std::optional<std::vector<Point>> search(const std::vector<Point>& u,
+                                           const std::vector<Point>& change, double time,
                                            double& size) {
     double step = 1;
     const bool nodal = probe_.at(0).model.rows.slices > 0;
@@ -258,15 +268,17 @@ class Newton {
 
 }  // namespace
 
-std::vector<Point> static_equilibrium(LevelProbe<HostBackend>& probe, const StaticOptions& options) {
+std::vector<Point> static_equilibrium(LevelProbe<HostBackend>& probe,
+                                      const StaticOptions& options) {
   Newton newton(probe, options);
   std::vector<Point> u = options.start.empty() ? probe.zero() : options.start;
-  for (int s = 1; s <= options.load_steps; ++s) u = newton.to(double(s) / options.load_steps, std::move(u));
+  for (int s = 1; s <= options.load_steps; ++s)
+    u = newton.to(double(s) / options.load_steps, std::move(u));
   return u;
 }
 
-double frequency_of_motion(const Problem& problem, const std::vector<Point>& shape, double amplitude, int periods,
-                           double guess) {
+double frequency_of_motion(const Problem& problem, const std::vector<Point>& shape,
+                           double amplitude, int periods, double guess) {
   Simulation<HostBackend> simulation(problem);
   std::size_t tip = 0;
   for (std::size_t a = 0; a < shape.size(); ++a)
@@ -282,7 +294,8 @@ double frequency_of_motion(const Problem& problem, const std::vector<Point>& sha
     simulation.step();
     Kokkos::fence("plica::frequency_of_motion");
     double now = 0;
-    for (int k = 0; k < 3; ++k) now += direction[k] * displacement(tip, static_cast<std::size_t>(k));
+    for (int k = 0; k < 3; ++k)
+      now += direction[k] * displacement(tip, static_cast<std::size_t>(k));
     if (before > 0 && now <= 0) {
       last = simulation.time() - simulation.macro_step() * now / (now - before);
       if (crossings++ == 0) first = last;

@@ -37,13 +37,15 @@ Eigen::VectorXd largest_by_lanczos(const Product& product, Eigen::Index size, Ei
   solver.init();
   solver.compute(Spectra::SortRule::LargestAlge, most_restarts, close_enough);
   if (solver.info() != Spectra::CompInfo::Successful)
-    throw std::runtime_error("Lanczos' iteration does not find the " + std::to_string(count) + " lowest eigenvalues");
+    throw std::runtime_error("Lanczos' iteration does not find the " + std::to_string(count) +
+                             " lowest eigenvalues");
   return solver.eigenvalues();
 }
 
 }  // namespace
 
-RitzValue largest_ritz_value(const Product& map, const Eigen::VectorXd& start, Eigen::Index dimension) {
+RitzValue largest_ritz_value(const Product& map, const Eigen::VectorXd& start,
+                             Eigen::Index dimension) {
   const Eigen::Index m = std::min(dimension, start.size());
   Eigen::MatrixXd Q(start.size(), m), H = Eigen::MatrixXd::Zero(m, m);
   Q.col(0) = start.normalized();
@@ -88,7 +90,8 @@ std::vector<double> lowest_eigenvalues(const Product& inverse, Eigen::Index size
 }
 
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues();
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {

@@ -11,7 +11,9 @@
 namespace plica {
 
 /// All there are, the one whose limit is the better reference last.
-inline std::vector<std::string> element_families() { return {name_of(Element::linear), name_of(Element::nodal)}; }
+inline std::vector<std::string> element_families() {
+  return {name_of(Element::linear), name_of(Element::nodal)};
+}
 
 /// InputError for a name that is not one of them, with the nearest.
 inline void check_element(const std::string& element) {

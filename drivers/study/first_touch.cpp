@@ -24,7 +24,8 @@ bool starts_turning(const InitialOptions& initial) {
 
 bool something_drives(const Problem& p) {
   return !p.body.loads.empty() || p.surface_forces ||
-         std::ranges::any_of(p.body.prescribed, [](const PrescribedMotion& given) { return moves(given.motion); });
+         std::ranges::any_of(p.body.prescribed,
+                             [](const PrescribedMotion& given) { return moves(given.motion); });
 }
 
 /// Where an obstacle's motion and turn have it.
@@ -34,8 +35,10 @@ class Course {
     if (o.turn) turning_.emplace(*o.turn, turned_about(o));
   }
   ObstaclePose at(double time) const {
-    ObstaclePose pose{
-        .displacement = path_at(path_, knots_.data(), time).displacement, .speed = {}, .time = time, .turn = {}};
+    ObstaclePose pose{.displacement = path_at(path_, knots_.data(), time).displacement,
+                      .speed = {},
+                      .time = time,
+                      .turn = {}};
     if (turning_) pose.turn = turning_->at(time);
     return pose;
   }
@@ -46,14 +49,17 @@ class Course {
   std::optional<Turning> turning_;
 };
 
-/// The distance of a point from a shape, or less. Of a surface from the box around it: its distances are sampled at set-up.
+/// The distance of a point from a shape, or less. Of a surface from the box around it: its
+/// distances are sampled at set-up.
 using Distance = std::function<double(const Vec3<double>&)>;
 
 Distance distance_from(const ShapeOptions& shape, bool& exact) {
   Distance distance;
   visit_shape(shape, [&](auto one, const auto& its) {
     if constexpr (requires { one.template shape<double>(its); }) {
-      distance = [gap = one.template shape<double>(its)](const Vec3<double>& x) { return gap(x).distance; };
+      distance = [gap = one.template shape<double>(its)](const Vec3<double>& x) {
+        return gap(x).distance;
+      };
       exact = true;
     } else {
       const Box box = bounding_box(its.surface.vertices);
@@ -70,13 +76,16 @@ Distance distance_from(const ShapeOptions& shape, bool& exact) {
 
 /// What a body does until it touches something, as far as that is known.
 struct Approach {
-  std::vector<Point> places;          // of its surface at t = 0
-  std::optional<RigidMotion> motion;  // none: its points may go anywhere within speed t + |gravity| t^2 / 2
+  std::vector<Point> places;  // of its surface at t = 0
+  // none: its points may go anywhere within speed t + |gravity| t^2 / 2
+  std::optional<RigidMotion> motion;
   double speed = 0, gravity = 0;
 
   Point displacement(double t) const { return motion ? motion->displacement_at(t) : Point::Zero(); }
   double astray(double t) const { return motion ? 0 : speed * t + gravity * t * t / 2; }
-  double fastest(double t) const { return motion ? motion->velocity_at(t).norm() : speed + gravity * t; }
+  double fastest(double t) const {
+    return motion ? motion->velocity_at(t).norm() : speed + gravity * t;
+  }
   double accelerates(double t) const {
     return motion ? (motion->gravity - motion->damping * motion->velocity_at(t)).norm() : gravity;
   }
@@ -88,7 +97,8 @@ double fastest_of(const ObstacleOptions& o, const std::vector<Point>& places) {
   const Point about = turned_about(o);
   double reach = 0;
   for (const Point& x : places) reach = std::max(reach, (x - about).norm());
-  return speed + fastest(angle_of(*o.turn)) * std::min(2 * reach, reach_from(about, o.turn->axis, o.shape));
+  return speed +
+         fastest(angle_of(*o.turn)) * std::min(2 * reach, reach_from(about, o.turn->axis, o.shape));
 }
 
 // The time in which v t + a t^2 / 2 comes to a distance
@@ -108,7 +118,8 @@ FirstTouch touch_of(const ObstacleOptions& o, const Approach& body, double close
     const ObstaclePose pose = course.at(t);
     const Vec3<double> moved = vec3<double>(body.displacement(t));
     double gap = std::numeric_limits<double>::infinity();
-    for (const Point& x : body.places) gap = std::min(gap, distance(pose.local(vec3<double>(x) + moved)));
+    for (const Point& x : body.places)
+      gap = std::min(gap, distance(pose.local(vec3<double>(x) + moved)));
     gap -= reach + body.astray(t);
     if (gap <= close) {
       touch.time = t, touch.exact = exact && body.motion && !o.grasp;
@@ -136,11 +147,12 @@ Point RigidMotion::velocity_at(double t) const {
 
 std::optional<RigidMotion> rigid_motion(const Problem& p) {
   const InitialOptions& initial = p.body.initial;
-  if (something_drives(p) || has_pairs(p) || starts_deformed(initial) || starts_turning(initial)) return {};
+  if (something_drives(p) || has_pairs(p) || starts_deformed(initial) || starts_turning(initial))
+    return {};
   const bool rests = !(initial.velocity.norm() > 0) && !(p.gravity.norm() > 0);
   if (rests) return RigidMotion{};
-  const bool evenly =
-      std::ranges::none_of(p.body.regions, [](const auto& r) { return r.second.damping.mass.has_value(); });
+  const bool evenly = std::ranges::none_of(
+      p.body.regions, [](const auto& r) { return r.second.damping.mass.has_value(); });
   if (!p.body.fixed.empty() || !p.body.prescribed.empty() || !evenly) return {};
   return RigidMotion{initial.velocity, p.gravity, p.body.damping.mass};
 }
@@ -150,9 +162,10 @@ FirstTouch first_touch(const Problem& p, double until) {
   if (!has_contact(p) || !(until > 0)) return first;
   if (has_pairs(p)) return {0, false, p.body.parts.size() > 1 ? "a body" : "itself"};
   const auto& obstacles = p.contact.obstacles;
-  const bool follows =
-      std::ranges::any_of(obstacles, [](const auto& o) { return o.mass && (moves(o.motion) || o.turn); });
-  if (something_drives(p) || starts_deformed(p.body.initial) || follows) return {0, false, obstacle_name(p.contact, 0)};
+  const bool follows = std::ranges::any_of(
+      obstacles, [](const auto& o) { return o.mass && (moves(o.motion) || o.turn); });
+  if (something_drives(p) || starts_deformed(p.body.initial) || follows)
+    return {0, false, obstacle_name(p.contact, 0)};
   Approach body{places_at_start(p.body), rigid_motion(p), 0, p.gravity.norm()};
   const TetMesh& mesh = p.body.levels.front();
   const Box box = bounding_box(mesh.vertices);

@@ -27,7 +27,8 @@ class LevelProbe {
   std::size_t vertices(int i = 0) { return static_cast<std::size_t>(at(i).model.vertices); }
   std::vector<Point> zero(int i = 0) { return std::vector<Point>(vertices(i), Point::Zero()); }
 
-  std::vector<Point> force(const std::vector<Point>& u, const std::vector<Point>& v, double time = 0, int i = 0) {
+  std::vector<Point> force(const std::vector<Point>& u, const std::vector<Point>& v,
+                           double time = 0, int i = 0) {
     at(i).evaluate(state(u, v), time, at(i).f);
     return to_host<B>(built.hierarchy->exec(), at(i).f);
   }
@@ -36,15 +37,19 @@ class LevelProbe {
   }
 
   /// K(u) p, elastic
-  std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p, int i = 0) {
+  std::vector<Point> stiffness(const std::vector<Point>& u, const std::vector<Point>& p,
+                               int i = 0) {
     const Level<B>& level = at(i);
     at(i).tangent(state(u, p), device_field<B>(p));
     const auto shares = to_host<B>(built.hierarchy->exec(), level.partial);
-    const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+    const auto host = [](const auto& view) {
+      return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+    };
     const auto first = host(level.model.shares.first), copy = host(level.model.shares.row);
     std::vector<Point> q(p.size(), Point::Zero());
     for (std::size_t a = 0; a < q.size(); ++a)
-      for (int s = first(a); s < first(a + 1); ++s) q[a] -= shares[static_cast<std::size_t>(copy(s))];
+      for (int s = first(a); s < first(a + 1); ++s)
+        q[a] -= shares[static_cast<std::size_t>(copy(s))];
     return q;
   }
 
@@ -56,7 +61,8 @@ class LevelProbe {
     return q;
   }
 
-  /// K(u) p with the pressures that follow the body, at the time of the last evaluation, which was at u
+  /// K(u) p with the pressures that follow the body, at the time of the last evaluation, which was
+  /// at u
   std::vector<Point> tangent(const std::vector<Point>& u, const std::vector<Point>& p) {
     std::vector<Point> q = stiffness(u, p);
     const Vectors<B> added = device_field<B>(zero());
@@ -97,7 +103,8 @@ class LevelProbe {
     return matrix_of(u.size(), [&](const std::vector<Point>& p) { return damping(u, p, i); });
   }
 
-  /// M^-1/2 A M^-1/2 over the free degrees of freedom: its eigenvalues are the squares of the frequencies [1/s^2].
+  /// M^-1/2 A M^-1/2 over the free degrees of freedom: its eigenvalues are the squares of the
+  /// frequencies [1/s^2].
   Eigen::MatrixXd scaled_by_mass(const Eigen::MatrixXd& A, int i = 0) {
     const auto list = free(i);
     const auto m = mass(i);
@@ -106,7 +113,8 @@ class LevelProbe {
     for (Eigen::Index r = 0; r < n; ++r)
       for (Eigen::Index c = 0; c < n; ++c) {
         const int a = list[static_cast<std::size_t>(r)], b = list[static_cast<std::size_t>(c)];
-        S(r, c) = A(a, b) / std::sqrt(m[static_cast<std::size_t>(a / 3)] * m[static_cast<std::size_t>(b / 3)]);
+        S(r, c) = A(a, b) / std::sqrt(m[static_cast<std::size_t>(a / 3)] *
+                                      m[static_cast<std::size_t>(b / 3)]);
       }
     return 0.5 * (S + S.transpose());
   }

@@ -11,7 +11,8 @@ constexpr double least_order = 0.8, most_order = 3;  // that are believed
 
 Trajectory picked(const Trajectory& from, const std::vector<int>& vertices) {
   Trajectory result{from.times, {}, {}};
-  const auto pick = [&](const std::vector<std::vector<Point>>& fields, std::vector<std::vector<Point>>& to) {
+  const auto pick = [&](const std::vector<std::vector<Point>>& fields,
+                        std::vector<std::vector<Point>>& to) {
     for (const auto& field : fields) {
       auto& one = to.emplace_back();
       for (const int v : vertices) one.push_back(field[static_cast<std::size_t>(v)]);
@@ -26,7 +27,8 @@ Trajectory picked(const Trajectory& from, const std::vector<int>& vertices) {
 Trajectory extrapolated(const Trajectory& fine, const Trajectory& coarse, double order) {
   const double weight = 1 / (std::exp2(order) - 1);
   Trajectory limit = fine;
-  const auto add = [weight](std::vector<std::vector<Point>>& to, const std::vector<std::vector<Point>>& from) {
+  const auto add = [weight](std::vector<std::vector<Point>>& to,
+                            const std::vector<std::vector<Point>>& from) {
     for (std::size_t j = 0; j < to.size(); ++j)
       for (std::size_t a = 0; a < to[j].size(); ++a) to[j][a] += weight * (to[j][a] - from[j][a]);
   };
@@ -48,7 +50,8 @@ Limit richardson_limit(const Trajectory& fine, const Trajectory& coarse, const T
   }
   limit.trajectory = extrapolated(fine, coarse, limit.used_order);
   const StudyErrors correction = errors_of(fine, limit.trajectory);
-  limit.correction = limit.own_error = correction.displacement, limit.own_error_velocity = correction.velocity;
+  limit.correction = limit.own_error = correction.displacement,
+  limit.own_error_velocity = correction.velocity;
   if (!limit.order || *limit.order < least_order || *limit.order > most_order) return limit;
   const StudyErrors own = errors_of(extrapolated(coarse_there, *coarsest, limit.used_order),
                                     extrapolated(fine_there, coarse_there, limit.used_order));
@@ -57,6 +60,8 @@ Limit richardson_limit(const Trajectory& fine, const Trajectory& coarse, const T
   return limit;
 }
 
-double Truth::error() const { return std::max(family.own_error, difference - check.own_error) + time_error; }
+double Truth::error() const {
+  return std::max(family.own_error, difference - check.own_error) + time_error;
+}
 
 }  // namespace plica

@@ -52,7 +52,8 @@ double best_time(int n, int repeats, const Functor& functor) {
 double triad_bandwidth(double footprint) {
   const int n = std::max(1, static_cast<int>(footprint / (3 * sizeof(double))));
   using View = Kokkos::View<double*, Exec>;
-  const Triad triad{View("plica::limit_a", n), View("plica::limit_b", n), View("plica::limit_c", n)};
+  const Triad triad{View("plica::limit_a", n), View("plica::limit_b", n),
+                    View("plica::limit_c", n)};
   const int repeats = static_cast<int>(std::clamp(4e9 / footprint, 20.0, 4000.0));
   return 3.0 * sizeof(double) * n / best_time(n, repeats, triad);
 }

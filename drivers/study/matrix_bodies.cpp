@@ -23,7 +23,8 @@ double length_of(const MatrixBody& body) {
 template <class To>
 void start_at(MatrixBody& body, MatrixBody::Start start, const To& to) {
   body.displacement.clear();
-  for (const Point& p : body.problem.body.levels.front().vertices) body.displacement.push_back(to(p) - p);
+  for (const Point& p : body.problem.body.levels.front().vertices)
+    body.displacement.push_back(to(p) - p);
   body.load_ratio = 0, body.start = start;
 }
 
@@ -36,7 +37,8 @@ void put_on_earth(MatrixBody& body, double factor) {
 
 void MatrixBody::load() {
   const MaterialOptions& m = problem.body.material;
-  if (load_ratio > 0) problem.gravity = {0, 0, -load_ratio * m.young_modulus / (m.density * length_of(*this))};
+  if (load_ratio > 0)
+    problem.gravity = {0, 0, -load_ratio * m.young_modulus / (m.density * length_of(*this))};
 }
 
 MatrixBody clamped_beam() {
@@ -49,12 +51,16 @@ MatrixBody clamped_beam() {
   return body;
 }
 
-void set_young_modulus(MatrixBody& body, double pascal) { body.problem.body.material.young_modulus = pascal; }
+void set_young_modulus(MatrixBody& body, double pascal) {
+  body.problem.body.material.young_modulus = pascal;
+}
 void set_young_modulus_on_earth(MatrixBody& body, double pascal) {
   set_young_modulus(body, pascal);
   put_on_earth(body, 1);
 }
-void set_poisson_ratio(MatrixBody& body, double ratio) { body.problem.body.material.poisson_ratio = ratio; }
+void set_poisson_ratio(MatrixBody& body, double ratio) {
+  body.problem.body.material.poisson_ratio = ratio;
+}
 void set_density(MatrixBody& body, double density) { body.problem.body.material.density = density; }
 void set_size(MatrixBody& body, double length) {
   const double scale = length / length_of(body);
@@ -63,7 +69,9 @@ void set_size(MatrixBody& body, double length) {
 }
 void set_gravity(MatrixBody& body, double factor) { put_on_earth(body, factor); }
 void set_step(MatrixBody& body, double over_critical) { body.step = over_critical; }
-void set_unstable_step(MatrixBody& body, double over_critical) { body.step = over_critical, body.unstable = true; }
+void set_unstable_step(MatrixBody& body, double over_critical) {
+  body.step = over_critical, body.unstable = true;
+}
 
 void set_slivers(MatrixBody& body, double ratio) {
   for (Point& p : body.problem.body.levels.front().vertices)
@@ -71,7 +79,8 @@ void set_slivers(MatrixBody& body, double ratio) {
 }
 
 void set_stretch(MatrixBody& body, double factor) {
-  start_at(body, MatrixBody::Start::stretched, [=](const Point& p) { return Point(factor * p.x(), p.y(), p.z()); });
+  start_at(body, MatrixBody::Start::stretched,
+           [=](const Point& p) { return Point(factor * p.x(), p.y(), p.z()); });
 }
 void set_thickness(MatrixBody& body, double factor) {
   using Start = MatrixBody::Start;
@@ -79,7 +88,8 @@ void set_thickness(MatrixBody& body, double factor) {
                       : factor == 0  ? Start::flat
                       : factor == -1 ? Start::mirrored
                                      : Start::turned;
-  start_at(body, start, [=](const Point& p) { return Point(p.x(), p.y(), 0.05 + factor * (p.z() - 0.05)); });
+  start_at(body, start,
+           [=](const Point& p) { return Point(p.x(), p.y(), 0.05 + factor * (p.z() - 0.05)); });
 }
 void set_random(MatrixBody& body, double seed) {
   std::mt19937 random(static_cast<unsigned>(seed));
@@ -99,7 +109,8 @@ void set_impact(MatrixBody& body, double speed) {
   b.initial.position = Point(0.2, 0.05, 0.051);
   body.problem.contact.obstacles = {{PlaneOptions{}, 0.3, {}}};
   body.load_ratio = 0;
-  body.impact = speed / std::sqrt(b.material.young_modulus / b.material.density);  // about the strain
+  // about the strain
+  body.impact = speed / std::sqrt(b.material.young_modulus / b.material.density);
 }
 
 void set_contrast(MatrixBody& body, double ratio) {
@@ -117,9 +128,11 @@ void set_one_tetrahedron(MatrixBody& body, double edge) {
 }
 
 void set_levels(MatrixBody& body, double count) {
-  const std::array<int, 3> cells[] = {{12, 3, 3}, {10, 3, 3}, {8, 2, 2}, {6, 2, 2}, {4, 1, 1}, {2, 1, 1}};
+  const std::array<int, 3> cells[] = {{12, 3, 3}, {10, 3, 3}, {8, 2, 2},
+                                      {6, 2, 2},  {4, 1, 1},  {2, 1, 1}};
   body.problem.body.levels.clear();
-  for (int i = 0; i < static_cast<int>(count); ++i) body.problem.body.levels.push_back(box_mesh(beam_box, cells[i]));
+  for (int i = 0; i < static_cast<int>(count); ++i)
+    body.problem.body.levels.push_back(box_mesh(beam_box, cells[i]));
 }
 
 void set_overlap(MatrixBody& body, double lengths) {

@@ -50,7 +50,8 @@ const Line lines[] = {
     {"levels %g lengths apart", {0.5, 0.9, 0.99}, set_overlap},
 };
 
-/// How a method is run here: so many macro steps, of so many critical steps where that is not its own choice.
+/// How a method is run here: so many macro steps, of so many critical steps where that is not its
+/// own choice.
 struct Method {
   std::string name;  // as of a study
   long macro_steps = 400;
@@ -58,9 +59,11 @@ struct Method {
   enum class Kind { stepped, damped, half_damped, conserving, him, shared } kind = Kind::stepped;
 };
 
-// Implicit integrators by what becomes of fast motion: damped in every step, damped but for slow motion, or kept.
+// Implicit integrators by what becomes of fast motion: damped in every step, damped but for slow
+// motion, or kept.
 Method::Kind kind_of(const std::string& implicit_integrator) {
-  if (implicit_integrator == "implicit_euler" || implicit_integrator == "v_cycle_euler") return Method::Kind::damped;
+  if (implicit_integrator == "implicit_euler" || implicit_integrator == "v_cycle_euler")
+    return Method::Kind::damped;
   const bool half = implicit_integrator == "bdf2" || implicit_integrator == "sdirk2";
   return half ? Method::Kind::half_damped : Method::Kind::conserving;
 }
@@ -101,39 +104,49 @@ Expected stops(const std::string& kind = {}) { return {.stop = true, .kind = kin
 Expected either(const std::string& why) { return {.complete = true, .stop = true, .why = why}; }
 
 // Strains, and speeds of impact over that of waves, by which a body goes
-constexpr double moderate_strain = 1, large_strain = 50, gentle_impact = 0.05, moderate_impact = 0.2, fast_impact = 2,
-                 hypersonic_impact = 10;
+constexpr double moderate_strain = 1, large_strain = 50, gentle_impact = 0.05,
+                 moderate_impact = 0.2, fast_impact = 2, hypersonic_impact = 10;
 
 bool nodal(const MatrixBody& body) { return body.problem.body.element.front() == "nodal"; }
 
-// A level alone, explicit; `damps`: fast motion. `linear` has one stiffness, so that its step is stable in every state. Another material stiffens
-// where it is strained, and a step that is clear of the limit at rest is above it there.
+// A level alone, explicit; `damps`: fast motion. `linear` has one stiffness, so that its step is
+// stable in every state. Another material stiffens where it is strained, and a step that is clear
+// of the limit at rest is above it there.
 Expected of_explicit(const MatrixBody& body, bool damps, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
-  if (linear) return completes();  // also at 200 m/s: contact is solved implicitly, which adds no energy at any speed
+  // also at 200 m/s: contact is solved implicitly, which adds no energy at any speed
+  if (linear) return completes();
   if (body.impact > 0)
-    return damps && body.impact < fast_impact
-               ? either("struck at its wave speed, its lowest layer stiffens by about the margin of the step")
-               : stops();
+    return damps && body.impact < fast_impact ? either(
+                                                    "struck at its wave speed, its lowest layer "
+                                                    "stiffens by about the margin of the step")
+                                              : stops();
   if (body.start == Start::flat || (body.start == Start::thin && !forbids))
     return either(
-        "its elements leave the plane in the first step; some combinations damp that before an element stiffens too "
+        "its elements leave the plane in the first step; some combinations damp that before an "
+        "element stiffens too "
         "far");
   if (body.start != Start::rest || body.strain() > large_strain) return stops();
-  return either("strained by about its own size it stiffens by about the margin of the step; when depends on both");
+  return either(
+      "strained by about its own size it stiffens by about the margin of the step; when depends on "
+      "both");
 }
 
 Expected through_halved_steps() {
   return {.complete = true,
           .stop = true,
           .kind = "inverted",
-          .why = "steps are halved until elements have turned back; whether that is in time depends on the shape"};
+          .why =
+              "steps are halved until elements have turned back; whether that is in time depends "
+              "on the shape"};
 }
 
-// Integrators that damp fast motion come to the end at any step, as long as the solver finds a state: with a material that
-// forbids inversion it may not. Those that damp but fast motion gain energy from a strong recoil; those that conserve it do so only
-// while the stiffness stays the same, and at ten times the critical step it does not.
-Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool halves, bool linear, bool forbids) {
+// Integrators that damp fast motion come to the end at any step, as long as the solver finds a
+// state: with a material that forbids inversion it may not. Those that damp but fast motion gain
+// energy from a strong recoil; those that conserve it do so only while the stiffness stays the
+// same, and at ten times the critical step it does not.
+Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool halves, bool linear,
+                     bool forbids) {
   using Start = MatrixBody::Start;
   const bool damped = kind == Method::Kind::damped, pierces = body.impact > hypersonic_impact;
   const bool conserving = kind == Method::Kind::conserving;
@@ -142,57 +155,74 @@ Expected of_implicit(const MatrixBody& body, Method::Kind kind, bool halves, boo
   if (linear) return pierces && !damped ? stops("contact") : completes();
   if (conserving)
     return either(
-        "it conserves the energy of a linear problem; how much a changing stiffness adds depends on the shape");
+        "it conserves the energy of a linear problem; how much a changing stiffness adds depends "
+        "on the shape");
   if (!damped && pierces) return stops();
   if (!damped && body.start == Start::stretched)
-    return either("it damps slow motion little, so the recoil may have more energy than was put in");
+    return either(
+        "it damps slow motion little, so the recoil may have more energy than was put in");
   if (nodal(body) && body.start == Start::stretched)
     return completes();  // tetrahedra turn inside out, their means do not
-  const bool crushed = body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
+  const bool crushed =
+      body.start != Start::rest || body.strain() > large_strain || body.impact > fast_impact;
   if (!(forbids && crushed)) return completes();
   return !halves ? stops("inverted") : body.impact > 0 ? through_halved_steps() : completes();
 }
 
-// The inertia is fitted at rest and turns with the body: it does not know which way where elements are far from their shape.
-// Its long step takes what strikes fast through the plane at once; then it takes shorter ones.
+// The inertia is fitted at rest and turns with the body: it does not know which way where elements
+// are far from their shape. Its long step takes what strikes fast through the plane at once; then
+// it takes shorter ones.
 Expected of_him(const MatrixBody& body, const std::string& material, bool linear) {
   using Start = MatrixBody::Start;
-  if (body.impact > fast_impact) return either("how short its steps must be after an impact depends on the material");
+  if (body.impact > fast_impact)
+    return either("how short its steps must be after an impact depends on the material");
   const bool flat = body.start == Start::flat || body.start == Start::turned;
   if (body.start == Start::random || (flat && material == StVenantKirchhoff::name))
-    return either("its inertia is fitted at rest; how well it fits such a shape depends on the shape");
+    return either(
+        "its inertia is fitted at rest; how well it fits such a shape depends on the shape");
   if (flat || body.start == Start::mirrored) return stops();
   if (linear || body.impact > 0) return completes();
   if (nodal(body)) return stops();  // its values are the most extreme
-  return either("its inertia is fitted again where the body stiffens; whether that is in time depends on the material");
+  return either(
+      "its inertia is fitted again where the body stiffens; whether that is in time depends on the "
+      "material");
 }
 
-// rs and fas at the finest level's critical step, shared equally: below the limit of each level, as an explicit level alone with
-// twice the margin.
+// rs and fas at the finest level's critical step, shared equally: below the limit of each level, as
+// an explicit level alone with twice the margin.
 Expected of_shared(const MatrixBody& body, bool linear, bool forbids) {
   using Start = MatrixBody::Start;
   if (linear && body.impact > hypersonic_impact)
-    return either("whether a share of the step takes it through the plane depends on where it touches the plane");
+    return either(
+        "whether a share of the step takes it through the plane depends on where it touches the "
+        "plane");
   if (linear) return completes();
   if (body.impact > fast_impact) return stops();
-  if (body.impact > 0) return either("struck at its wave speed, its lowest layer may be turned inside out");
+  if (body.impact > 0)
+    return either("struck at its wave speed, its lowest layer may be turned inside out");
   if (body.strain() > large_strain || body.start == Start::random) return stops();
   if (body.start == Start::flat) return completes();
   if (body.start == Start::thin) return forbids ? stops() : completes();
   return either(
-      "strained by about its own size it stiffens by about the margin of the step; when depends on the mapping");
+      "strained by about its own size it stiffens by about the margin of the step; when depends on "
+      "the mapping");
 }
 
 // What must become of it, and why:
-// * a step above the limit is refused; where it is allowed, the run has to be stopped, since small motions grow in every step;
+// * a step above the limit is refused; where it is allowed, the run has to be stopped, since small
+// motions grow in every step;
 // * levels that lie apart are refused by every method that uses more than the finest one;
-// * an element that is inside out or flat from the start, where the material has no answer to that: stopped at once, as inverted, unless
+// * an element that is inside out or flat from the start, where the material has no answer to that:
+// stopped at once, as inverted, unless
 //   halved steps turn it back;
-// * strains below 1 from rest, at which no material is stiffer by as much as the steps keep clear of their limit: every method
+// * strains below 1 from rest, at which no material is stiffer by as much as the steps keep clear
+// of their limit: every method
 //   comes to the end;
 // * a body mirrored whole is at rest in st_venant_kirchhoff, which has no strain there: it stays;
-// * corotational elements have one stiffness but for rotations: newmark keeps their energy from random starts;
-// * one V-cycle gives a point a part of the acceleration that stops it: at the highest speed it passes through the plane;
+// * corotational elements have one stiffness but for rotations: newmark keeps their energy from
+// random starts;
+// * one V-cycle gives a point a part of the acceleration that stops it: at the highest speed it
+// passes through the plane;
 // * beyond that it depends on the kind of method.
 Expected expected_of(const MatrixBody& body, const Method& method, const std::string& material) {
   using Start = MatrixBody::Start;
@@ -200,8 +230,10 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   if (body.refused || (body.apart && needs_levels)) return {.refuse = true};
   if (body.unstable) return stops();
   const bool linear = material == Linear::name, forbids = forbids_inversion(material);
-  const bool implicit = method.kind == Method::Kind::damped || method.kind == Method::Kind::half_damped;
-  const bool halves = implicit && method.name != "single/v_cycle_euler";  // steps that Newton's method does not solve
+  const bool implicit =
+      method.kind == Method::Kind::damped || method.kind == Method::Kind::half_damped;
+  // steps that Newton's method does not solve
+  const bool halves = implicit && method.name != "single/v_cycle_euler";
   if (body.inside_out() && forbids) {
     const bool turns_back = halves && body.start != Start::flat && method.name != "single/bdf2";
     if (halves && body.start == Start::random) return through_halved_steps();
@@ -210,11 +242,14 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   if (body.start == Start::rest && body.strain() <= moderate_strain &&
       body.impact <= (method.name == "single/generalized_alpha" ? gentle_impact : moderate_impact))
     return completes();
-  if (body.start == Start::mirrored && material == StVenantKirchhoff::name && method.kind != Method::Kind::shared)
+  if (body.start == Start::mirrored && material == StVenantKirchhoff::name &&
+      method.kind != Method::Kind::shared)
     return completes();
-  if (body.start == Start::random && material == Corotational::name && method.name == "single/newmark")
+  if (body.start == Start::random && material == Corotational::name &&
+      method.name == "single/newmark")
     return completes();
-  if (body.impact > hypersonic_impact && method.name == "single/v_cycle_euler") return stops("contact");
+  if (body.impact > hypersonic_impact && method.name == "single/v_cycle_euler")
+    return stops("contact");
   switch (method.kind) {
     case Method::Kind::stepped:
       return of_explicit(body, method.name == "single/rk4", linear, forbids);
@@ -227,7 +262,8 @@ Expected expected_of(const MatrixBody& body, const Method& method, const std::st
   }
 }
 
-MatrixCase case_of(const MatrixBody& body, const Method& method, const std::string& material, const std::string& name) {
+MatrixCase case_of(const MatrixBody& body, const Method& method, const std::string& material,
+                   const std::string& name) {
   MatrixCase one{name + ", " + material + (nodal(body) ? ", nodal" : ""),
                  method.name,
                  body.problem,
@@ -239,7 +275,8 @@ MatrixCase case_of(const MatrixBody& body, const Method& method, const std::stri
   const std::size_t first = method.name.find('/'), second = method.name.find('/', first + 1);
   const bool shares = second != std::string::npos;
   const StudyCase study =
-      study_case(one.problem, {}, {method.name.substr(0, second), shares ? method.name.substr(second + 1) : "", ""});
+      study_case(one.problem, {},
+                 {method.name.substr(0, second), shares ? method.name.substr(second + 1) : "", ""});
   one.problem = problem_of(one.problem, study);
   one.step = body.step > 0 ? body.step : method.step;
   one.problem.integration.allow_unstable = body.unstable || method.kind == Method::Kind::shared;
@@ -247,10 +284,12 @@ MatrixCase case_of(const MatrixBody& body, const Method& method, const std::stri
   return one;
 }
 
-// With nodal elements the most extreme value of each line is run, with one method of each kind and the law that forbids inversion.
+// With nodal elements the most extreme value of each line is run, with one method of each kind and
+// the law that forbids inversion.
 bool told_by_nodal(const std::string& material, const std::string& method) {
   return material == NeoHookean::name &&
-         (method == "single/symplectic_euler" || method == "single/implicit_euler" || method == "cycle/him");
+         (method == "single/symplectic_euler" || method == "single/implicit_euler" ||
+          method == "cycle/him");
 }
 
 }  // namespace
@@ -260,13 +299,15 @@ std::string Expected::text() const {
   const auto add = [&](bool on, const std::string& word) {
     if (on) words += (words.empty() ? "" : " or ") + word;
   };
-  add(complete, "completed"), add(stop, kind.empty() ? "stopped" : "stopped: " + kind), add(refuse, "refused");
+  add(complete, "completed"), add(stop, kind.empty() ? "stopped" : "stopped: " + kind),
+      add(refuse, "refused");
   return words;
 }
 
 std::vector<MatrixCase> stability_matrix(MatrixSize size) {
   std::vector<MatrixCase> cases;
-  const auto add = [&](const Line& line, double value, const std::string& element, auto takes_part) {
+  const auto add = [&](const Line& line, double value, const std::string& element,
+                       auto takes_part) {
     MatrixBody body = clamped_beam();
     body.problem.body.element = {element};
     line.set(body, value);
@@ -276,7 +317,8 @@ std::vector<MatrixCase> stability_matrix(MatrixSize size) {
     name.replace(name.find("%g"), 2, number(value));
     for (const std::string& material : materials_of_two_constants())
       for (const Method& method : methods(size, line.of, body.problem.body.levels.size() > 1))
-        if (takes_part(material, method.name)) cases.push_back(case_of(body, method, material, name));
+        if (takes_part(material, method.name))
+          cases.push_back(case_of(body, method, material, name));
   };
   for (const Line& line : lines) {
     const Values values = size == MatrixSize::small ? Values{line.values.back()} : line.values;

@@ -9,8 +9,8 @@
 #include <plica/meshes/jitter.hpp>
 #include <plica/meshes/organs.hpp>
 
-// Organs with tools in the stability matrix: irregular meshes, friction, thin tools, folds. Every stepper comes to the end of each, by steps
-// of 1 to 10 ms.
+// Organs with tools in the stability matrix: irregular meshes, friction, thin tools, folds. Every
+// stepper comes to the end of each, by steps of 1 to 10 ms.
 namespace plica {
 
 namespace {
@@ -62,7 +62,8 @@ double top_of(const Body& body) {
 OrganRun under_a_rod(double radius, const std::vector<PathMotion::Knot>& knots) {
   Problem p = of_body(held_liver());
   const Point tip = spot + Point(0, 0, top_of(p.body) + above + radius);
-  p.contact.obstacles = {{CapsuleOptions{tip, tip + Point(0, 0, 0.15), radius}, rough, PathMotion{knots}}};
+  p.contact.obstacles = {
+      {CapsuleOptions{tip, tip + Point(0, 0, 0.15), radius}, rough, PathMotion{knots}}};
   return {p, knots.back().time};
 }
 
@@ -77,10 +78,15 @@ OrganRun drop() {
 }
 
 OrganRun poke() {
-  return under_a_rod(8e-3, {{0, {0, 0, 0}}, {0.1, {0, 0, -0.012}}, {0.15, {0, 0, -0.012}}, {0.2, {0, 0, 0}}});
+  return under_a_rod(
+      8e-3, {{0, {0, 0, 0}}, {0.1, {0, 0, -0.012}}, {0.15, {0, 0, -0.012}}, {0.2, {0, 0, 0}}});
 }
-OrganRun drag() { return under_a_rod(4e-3, {{0, {0, 0, 0}}, {0.1, {0, 0, -0.012}}, {0.2, {0.02, 0, -0.012}}}); }
-OrganRun needle() { return under_a_rod(5e-4, {{0, {0, 0, 0}}, {0.1, {0, 0, -0.008}}, {0.2, {0.01, 0, -0.008}}}); }
+OrganRun drag() {
+  return under_a_rod(4e-3, {{0, {0, 0, 0}}, {0.1, {0, 0, -0.012}}, {0.2, {0.02, 0, -0.012}}});
+}
+OrganRun needle() {
+  return under_a_rod(5e-4, {{0, {0, 0, 0}}, {0.1, {0, 0, -0.008}}, {0.2, {0.01, 0, -0.008}}});
+}
 
 OrganRun grasp() {
   OrganRun run = under_a_rod(5e-3, {{0, {0, 0, 0}}, {0.05, {0, 0, 0}}, {0.2, {0.01, 0, 0.02}}});
@@ -100,7 +106,8 @@ OrganRun swing() {
 OrganRun two_organs() {
   const Body lower = held_liver();
   Body ball = organ_of(ball_mesh({0, 0, 0}, 0.02, 6), 10e3);
-  ball.initial.position = spot + Point(0, 0, top_of(lower) + above + 0.02), ball.initial.velocity = {0, 0, -0.5};
+  ball.initial.position = spot + Point(0, 0, top_of(lower) + above + 0.02),
+  ball.initial.velocity = {0, 0, -0.5};
   Problem p = of_body(join_bodies({{"liver", lower}, {"ball", ball}}));
   p.gravity = {0, 0, -9.81}, p.contact.friction = rough;
   return {p, 0.15};
@@ -108,9 +115,14 @@ OrganRun two_organs() {
 
 /// A loop of gut falls on the end that is held.
 OrganRun folded_tube() {
-  Problem p = of_body(organ_of(
-      tube_mesh({.radius = 7e-3, .wall = 3e-3, .length = 0.2, .bend = 5.8, .around = 12, .across = 1, .along = 40}),
-      10e3));
+  Problem p = of_body(organ_of(tube_mesh({.radius = 7e-3,
+                                          .wall = 3e-3,
+                                          .length = 0.2,
+                                          .bend = 5.8,
+                                          .around = 12,
+                                          .across = 1,
+                                          .along = 40}),
+                               10e3));
   p.body.fixed = {GroupSelection{"inlet"}};
   p.gravity = {0, 0, 9.81};
   p.contact.self = true, p.contact.friction = rough;
@@ -137,10 +149,12 @@ struct OrganMethod {
 };
 
 std::vector<OrganMethod> organ_methods(MatrixSize size) {
-  const std::vector<double> steps =
-      size == MatrixSize::small ? std::vector<double>{5e-3} : std::vector<double>{1e-3, 2e-3, 5e-3, 10e-3};
+  const std::vector<double> steps = size == MatrixSize::small
+                                        ? std::vector<double>{5e-3}
+                                        : std::vector<double>{1e-3, 2e-3, 5e-3, 10e-3};
   std::vector<OrganMethod> all = {{"single/symplectic_euler", 1e-3}, {"cycle/him", 1e-3}};
-  for (const char* integrator : {"implicit_euler", "bdf2", "sdirk2", "newmark", "generalized_alpha"})
+  for (const char* integrator :
+       {"implicit_euler", "bdf2", "sdirk2", "newmark", "generalized_alpha"})
     for (const double step : steps) all.push_back({std::string("single/") + integrator, step});
   return all;
 }
@@ -150,7 +164,8 @@ void set_ratio(Body& body, double ratio) {
   for (auto& [name, region] : body.regions) region.poisson_ratio = ratio;
 }
 
-MatrixRow run_organ(const OrganScene& scene, const std::string& element, double ratio, const OrganMethod& method) {
+MatrixRow run_organ(const OrganScene& scene, const std::string& element, double ratio,
+                    const OrganMethod& method) {
   OrganRun run = scene.make();
   Problem& p = run.problem;
   p.body.element = {element};
@@ -161,7 +176,8 @@ MatrixRow run_organ(const OrganScene& scene, const std::string& element, double 
     p.integration.cycle = last;
   else
     p.integration.integrator = {last};
-  return run_case({text(scene.name, ", nu = ", number(ratio), ", ", number(1e3 * method.step), " ms, ", element),
+  return run_case({text(scene.name, ", nu = ", number(ratio), ", ", number(1e3 * method.step),
+                        " ms, ", element),
                    method.name,
                    p,
                    0,
@@ -177,7 +193,8 @@ std::vector<std::function<MatrixRow()>> organ_cases(MatrixSize size) {
   std::vector<std::function<MatrixRow()>> cases;
   for (const OrganScene& scene : organ_scenes)
     for (const char* element : {"linear", "nodal"})
-      for (const double ratio : small ? std::vector<double>{0.49} : std::vector<double>{0.3, 0.45, 0.49})
+      for (const double ratio :
+           small ? std::vector<double>{0.49} : std::vector<double>{0.3, 0.45, 0.49})
         for (const OrganMethod& method : organ_methods(size))
           cases.push_back([=] { return run_organ(scene, element, ratio, method); });
   return cases;

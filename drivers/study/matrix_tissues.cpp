@@ -6,7 +6,8 @@
 #include <plica/drivers/study/stability_matrix.hpp>
 #include <plica/drivers/study/study_case.hpp>
 
-// Laws and tissues in the stability matrix: explicit limits from both sides, and large strains of the laws whose stiffness changes most.
+// Laws and tissues in the stability matrix: explicit limits from both sides, and large strains of
+// the laws whose stiffness changes most.
 namespace plica {
 
 namespace {
@@ -23,10 +24,10 @@ struct TissueRun {
   long macro_steps;
 };
 
-const TissueRun explicit_run{"single/symplectic_euler", 0, 400}, shorter{"single/symplectic_euler", 0.5, 400},
-    above_limit{"single/symplectic_euler", 1.05, 400}, implicit_run{"single/implicit_euler", 10, 60},
-    him_run{"cycle/him", 8, 100}, tled{"single/central_difference", 0, 400},
-    tled_above{"single/central_difference", 1.05, 400};
+const TissueRun explicit_run{"single/symplectic_euler", 0, 400},
+    shorter{"single/symplectic_euler", 0.5, 400}, above_limit{"single/symplectic_euler", 1.05, 400},
+    implicit_run{"single/implicit_euler", 10, 60}, him_run{"cycle/him", 8, 100},
+    tled{"single/central_difference", 0, 400}, tled_above{"single/central_difference", 1.05, 400};
 
 MaterialOptions nearly_incompressible(MaterialOptions m, double mu) {
   m.parameters["bulk_modulus"] = 149. / 3 * mu;  // nu = 0.49
@@ -69,11 +70,12 @@ std::vector<TissueBeam> tissue_beams() {
 void stretch_along_x(MatrixBody& body, double factor) {
   const double across = 1 / std::sqrt(factor) - 1;
   for (const Point& p : body.problem.body.levels.front().vertices)
-    body.displacement.push_back({(factor - 1) * p.x(), across * (p.y() - 0.05), across * (p.z() - 0.05)});
+    body.displacement.push_back(
+        {(factor - 1) * p.x(), across * (p.y() - 0.05), across * (p.z() - 0.05)});
 }
 
-MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const TissueRun& run, double stretch,
-                       const Expected& expected) {
+MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const TissueRun& run,
+                       double stretch, const Expected& expected) {
   MatrixBody body = clamped_beam();
   Problem& p = body.problem;
   p.body.element = {element}, p.body.material = beam.material;
@@ -83,16 +85,17 @@ MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const
   const std::string what = stretch != 1                   ? " stretched by " + number(stretch)
                            : run.step == above_limit.step ? " above its limit"
                                                           : " under its weight";
-  MatrixCase one{
-      .name = beam.name + what + ", " + number(run.step > 0 ? run.step : 0.9) + " x critical, " + element + " elements",
-      .method = run.method,
-      .problem = problem_of(p, study_case(p, {}, {run.method, "", ""})),
-      .step = run.step,
-      .macro_steps = run.macro_steps,
-      .displacement = body.displacement,
-      .expected = expected};
+  MatrixCase one{.name = beam.name + what + ", " + number(run.step > 0 ? run.step : 0.9) +
+                         " x critical, " + element + " elements",
+                 .method = run.method,
+                 .problem = problem_of(p, study_case(p, {}, {run.method, "", ""})),
+                 .step = run.step,
+                 .macro_steps = run.macro_steps,
+                 .displacement = body.displacement,
+                 .expected = expected};
   one.problem.integration.allow_unstable = run.step == above_limit.step;
-  if (run.method.rfind("single/", 0) == 0) one.problem.integration.substeps = {1};  // and not shorter ones
+  // and not shorter ones
+  if (run.method.rfind("single/", 0) == 0) one.problem.integration.substeps = {1};
   return one;
 }
 
@@ -101,26 +104,33 @@ MatrixCase tissue_case(const TissueBeam& beam, const std::string& element, const
 std::vector<MatrixCase> tissue_cases() {
   const Expected completes{.complete = true}, stops{.stop = true};
   std::vector<MatrixCase> cases;
-  const TissueBeam fibres{"fibres of nu 0.49", along_fibres()}, softens{"ogden that softens", softening()},
+  const TissueBeam fibres{"fibres of nu 0.49", along_fibres()},
+      softens{"ogden that softens", softening()},
       relaxes{"ogden that softens and relaxes", viscous(softening())};
   for (const char* element : {"linear", "nodal"}) {
-    const auto add = [&](const TissueBeam& beam, const TissueRun& run, double stretch, const Expected& expected) {
+    const auto add = [&](const TissueBeam& beam, const TissueRun& run, double stretch,
+                         const Expected& expected) {
       cases.push_back(tissue_case(beam, element, run, stretch, expected));
     };
     // Small strains, small steps: the limit at rest holds from both sides
     for (const TissueBeam& beam : tissue_beams()) {
-      for (const TissueRun& run : {explicit_run, implicit_run, him_run}) add(beam, run, 1, completes);
+      for (const TissueRun& run : {explicit_run, implicit_run, him_run})
+        add(beam, run, 1, completes);
       add(beam, above_limit, 1, stops);
     }
-    for (const TissueBeam& beam : {softens, relaxes}) add(beam, tled, 1, completes), add(beam, tled_above, 1, stops);
-    // Fibres 20 times as stiff as what is between them: beyond a tenth of strain a step of 0.9 of the limit at rest is too long
+    for (const TissueBeam& beam : {softens, relaxes})
+      add(beam, tled, 1, completes), add(beam, tled_above, 1, stops);
+    // Fibres 20 times as stiff as what is between them: beyond a tenth of strain a step of 0.9 of
+    // the limit at rest is too long
     for (const double stretch : {0.9, 1.1}) {
       add(fibres, explicit_run, stretch, stops);
-      for (const TissueRun& run : {shorter, implicit_run, him_run}) add(fibres, run, stretch, completes);
+      for (const TissueRun& run : {shorter, implicit_run, him_run})
+        add(fibres, run, stretch, completes);
     }
     for (const TissueBeam& beam : {softens, relaxes}) {
       for (const double stretch : {0.8, 1.25})
-        for (const TissueRun& run : {explicit_run, implicit_run, him_run}) add(beam, run, stretch, completes);
+        for (const TissueRun& run : {explicit_run, implicit_run, him_run})
+          add(beam, run, stretch, completes);
       for (const double stretch : {0.5, 2.0}) add(beam, explicit_run, stretch, stops);
     }
   }

@@ -25,13 +25,16 @@ inline bool on_boundary(const Box& box, const Point& p) {
   return ((p - box.min).array() < slack).any() || ((box.max - p).array() < slack).any();
 }
 
-/// A box whose inner vertices are moved at random by up to `amount` of a cell: no two elements alike.
-inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, double amount = 0.15, unsigned seed = 7) {
+/// A box whose inner vertices are moved at random by up to `amount` of a cell: no two elements
+/// alike.
+inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, double amount = 0.15,
+                            unsigned seed = 7) {
   TetMesh mesh = box_mesh(box, cells);
   const auto moves = random_field(mesh.vertices.size(), amount, seed);
   for (std::size_t a = 0; a < moves.size(); ++a)
     if (!on_boundary(box, mesh.vertices[a]))
-      for (int k = 0; k < 3; ++k) mesh.vertices[a][k] += moves[a][k] * (box.max - box.min)[k] / cells[std::size_t(k)];
+      for (int k = 0; k < 3; ++k)
+        mesh.vertices[a][k] += moves[a][k] * (box.max - box.min)[k] / cells[std::size_t(k)];
   return mesh;
 }
 
@@ -39,7 +42,8 @@ inline TetMesh jittered_box(const Box& box, const std::array<int, 3>& cells, dou
 inline MaterialOptions complete(MaterialOptions material) {
   const MaterialInfo* info = find_material(material.model);
   if (info && info->has_fibres) material.fibres = FibreOptions{{2, 2, 1}, Point(-2, 1, 2)};
-  if (info && info->has_terms) material.convention = "mu_over_alpha2", material.terms = {{9600, 4}, {4000, -2}};
+  if (info && info->has_terms)
+    material.convention = "mu_over_alpha2", material.terms = {{9600, 4}, {4000, -2}};
   return material;
 }
 
@@ -54,10 +58,12 @@ inline Problem verify_body(TetMesh mesh, const MaterialOptions& material) {
 
 /// A soft cube of 0.1 m, no two elements alike.
 inline Problem irregular_cube(const std::string& material, int cells) {
-  return verify_body(jittered_box({{0, 0, 0}, {0.1, 0.1, 0.1}}, {cells, cells, cells}), {material, 20e3, 0.35, 1000});
+  return verify_body(jittered_box({{0, 0, 0}, {0.1, 0.1, 0.1}}, {cells, cells, cells}),
+                     {material, 20e3, 0.35, 1000});
 }
 
-inline std::vector<Point> affine_field(const TetMesh& mesh, const Eigen::Matrix3d& F, const Point& shift) {
+inline std::vector<Point> affine_field(const TetMesh& mesh, const Eigen::Matrix3d& F,
+                                       const Point& shift) {
   std::vector<Point> u;
   for (const Point& X : mesh.vertices) u.push_back(F * X + shift - X);
   return u;
@@ -71,7 +77,8 @@ inline Eigen::Matrix3d virial(const std::vector<Point>& force, const TetMesh& me
 }
 
 /// sqrt of sum w |a - b|^2
-inline double distance(const std::vector<Point>& a, const std::vector<Point>& b, const std::vector<double>& weight) {
+inline double distance(const std::vector<Point>& a, const std::vector<Point>& b,
+                       const std::vector<double>& weight) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += weight[i] * (a[i] - b[i]).squaredNorm();
   return std::sqrt(sum);

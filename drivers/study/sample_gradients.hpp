@@ -34,7 +34,8 @@ inline Eigen::Matrix3d eigen(const Mat3<double>& A) {
   return m;
 }
 
-/// A material's constants for young_modulus 20 kPa, poisson_ratio 0.4 and the standard of what else it declares, with fibres askew.
+/// A material's constants for young_modulus 20 kPa, poisson_ratio 0.4 and the standard of what else
+/// it declares, with fibres askew.
 template <class M>
 typename M::template Constants<double> sample_constants() {
   std::vector<double> values;
@@ -49,28 +50,35 @@ template <class M, class T>
 typename M::template Constants<T> sample_constants_as() {
   const std::vector<double> values = as_list(sample_constants<M>());
   return load_constants<M, T>(
-      [&](int k) { return static_cast<typename LaneOf<T>::type>(values[static_cast<std::size_t>(k)]); }, 0);
+      [&](int k) {
+        return static_cast<typename LaneOf<T>::type>(values[static_cast<std::size_t>(k)]);
+      },
+      0);
 }
 
-/// A gradient and the scale on which it may be varied: its smallest singular value, or that of its neighbours where that is 0.
+/// A gradient and the scale on which it may be varied: its smallest singular value, or that of its
+/// neighbours where that is 0.
 struct Gradient {
   Eigen::Matrix3d F;
   double smallest;
 };
 
-/// Mild, large, nearly flat and, where the material bears it, flat and inverted deformations in random directions.
+/// Mild, large, nearly flat and, where the material bears it, flat and inverted deformations in
+/// random directions.
 inline std::vector<Gradient> gradients(bool inverted) {
   std::vector<Eigen::Vector3d> stretches = {{1.02, 0.99, 1.01}, {1.4, 0.8, 0.9},  {3.0, 0.5, 0.6},
                                             {1.1, 0.9, 1e-3},   {1.2, 0.7, 0.05}, {0.3, 0.25, 0.2}};
   if (inverted)
-    stretches.insert(stretches.end(),
-                     {{1.2, 0.7, -0.2}, {1.1, 0.9, -1e-3}, {2.0, 1.1, -0.5}, {1.2, 0.8, 0.0}, {0.5, 0.2, -0.1}});
+    stretches.insert(
+        stretches.end(),
+        {{1.2, 0.7, -0.2}, {1.1, 0.9, -1e-3}, {2.0, 1.1, -0.5}, {1.2, 0.8, 0.0}, {0.5, 0.2, -0.1}});
   std::mt19937 random(3);
   std::vector<Gradient> list;
   for (const Eigen::Vector3d& s : stretches)
     for (int i = 0; i < 3; ++i)
-      list.push_back({random_rotation(random) * s.asDiagonal() * random_rotation(random).transpose(),
-                      s[2] == 0 ? 0.05 : s.cwiseAbs().minCoeff()});
+      list.push_back(
+          {random_rotation(random) * s.asDiagonal() * random_rotation(random).transpose(),
+           s[2] == 0 ? 0.05 : s.cwiseAbs().minCoeff()});
   return list;
 }
 

@@ -40,16 +40,19 @@ Problem about_rest(Problem p, const typename B::Exec& exec) {
 namespace {
 
 constexpr double largest_energy_ratio = 10;  // of the last quarter to the first
-constexpr double hopeless = 1e12;            // times the energy at the start: nothing bounded gets there
-constexpr double amplitude = 1e-6;           // of an edge, per macro step
-constexpr double quarters = 0.75;            // of a run, from its first quarter to its last
+// times the energy at the start: nothing bounded gets there
+constexpr double hopeless = 1e12;
+constexpr double amplitude = 1e-6;  // of an edge, per macro step
+constexpr double quarters = 0.75;   // of a run, from its first quarter to its last
 
-/// Takes translation and rotation out of the velocities of a body that nothing holds: drifting ever further away is no growth, but
-/// mappings between meshes make some strain of it.
-void take_rigid(const std::vector<Point>& x, const std::vector<double>& mass, std::vector<Point>& v) {
+/// Takes translation and rotation out of the velocities of a body that nothing holds: drifting ever
+/// further away is no growth, but mappings between meshes make some strain of it.
+void take_rigid(const std::vector<Point>& x, const std::vector<double>& mass,
+                std::vector<Point>& v) {
   double whole = 0;
   Point centre = Point::Zero(), momentum = Point::Zero(), spin = Point::Zero();
-  for (std::size_t a = 0; a < x.size(); ++a) whole += mass[a], centre += mass[a] * x[a], momentum += mass[a] * v[a];
+  for (std::size_t a = 0; a < x.size(); ++a)
+    whole += mass[a], centre += mass[a] * x[a], momentum += mass[a] * v[a];
   centre /= whole, momentum /= whole;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (std::size_t a = 0; a < x.size(); ++a) {
@@ -66,7 +69,8 @@ void start(BuiltHierarchy<B>& built, double t) {
   Hierarchy<B>& hierarchy = *built.hierarchy;
   const Level<B>& level = hierarchy[0];
   hierarchy.exec().fence("plica::small_motion");
-  const auto inverse = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), level.model.inverse_mass);
+  const auto inverse =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), level.model.inverse_mass);
   const double speed = amplitude * built.reports.front().mean_edge / t;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(-speed, speed);
@@ -77,7 +81,8 @@ void start(BuiltHierarchy<B>& built, double t) {
     if (inverse(a) > 0) mass.push_back(1 / static_cast<double>(inverse(a)));
   }
   if (mass.size() == velocity.size()) take_rigid(built.meshes.front().vertices, mass, velocity);
-  copy(hierarchy.exec(), level.state.v, to_device<Vectors<B>>("start", rows<typename B::Real>(velocity)));
+  copy(hierarchy.exec(), level.state.v,
+       to_device<Vectors<B>>("start", rows<typename B::Real>(velocity)));
   fill(hierarchy.exec(), level.state.u, 0);
   for (auto& part : hierarchy.levels) part.integrator->forget();
   built.stepper->begin(hierarchy);
@@ -102,19 +107,22 @@ SmallMotion small_motion(BuiltHierarchy<B>& built, double t, const SmallMotionOp
     for (auto& part : hierarchy.levels) part.begin_macro_step();
     built.stepper->step(hierarchy, 0, t);
     const double energy = meter.all(0).total();
-    if (!(energy <= hopeless * at_start)) return {false, false, std::numeric_limits<double>::infinity()};
+    if (!(energy <= hopeless * at_start))
+      return {false, false, std::numeric_limits<double>::infinity()};
     if (4 * i <= n) first = std::max(first, energy);
     if (4 * i > 3 * n) last = std::max(last, energy);
     if (options.go_on && !options.go_on()) return {true, true, 0};
   }
   found.bounded = last <= largest_energy_ratio * first;
-  if (last > 0 && first > 0) found.growth = std::log(last / first) / (2 * quarters * static_cast<double>(n));
+  if (last > 0 && first > 0)
+    found.growth = std::log(last / first) / (2 * quarters * static_cast<double>(n));
   return found;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                     \
-  template Problem about_rest<Backend<Real, Exec>>(Problem, const Exec&); \
-  template SmallMotion small_motion(BuiltHierarchy<Backend<Real, Exec>>&, double, const SmallMotionOptions&);
+#define PLICA_INSTANTIATE(Real, Exec)                                             \
+  template Problem about_rest<Backend<Real, Exec>>(Problem, const Exec&);         \
+  template SmallMotion small_motion(BuiltHierarchy<Backend<Real, Exec>>&, double, \
+                                    const SmallMotionOptions&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -6,10 +6,10 @@
 
 namespace plica {
 
-/// The problem of its small motions about rest: every material is `linear`, nothing acts but elasticity and damping, given
-/// motions stand still, mappings never switch, implicit levels solve to 1e-12; at the macro step, the shares and the sub-steps of
-/// the whole problem, also above a limit. InputError where that is refused, as cycle auto is:
-/// ask choose_cycle() before.
+/// The problem of its small motions about rest: every material is `linear`, nothing acts but
+/// elasticity and damping, given motions stand still, mappings never switch, implicit levels solve
+/// to 1e-12; at the macro step, the shares and the sub-steps of the whole problem, also above a
+/// limit. InputError where that is refused, as cycle auto is: ask choose_cycle() before.
 template <class B>
 Problem about_rest(Problem problem, const typename B::Exec& exec);
 
@@ -21,18 +21,20 @@ struct SmallMotionOptions {
 
 /// What became of it.
 struct SmallMotion {
-  bool bounded = true;   ///< its energy has not grown by more than a factor of ten from the first quarter to the last
+  /// its energy has not grown by more than a factor of ten from the first quarter to the last
+  bool bounded = true;
   bool stopped = false;  ///< by go_on
-  double growth =
-      0;  ///< of the amplitude's logarithm per macro step, from quarter to quarter; infinite where it ended early
+  double growth = 0;     ///< of the amplitude's logarithm per macro step, from quarter to quarter;
+                         ///< infinite where it ended early
 };
 
-/// The slowest growth of the amplitude's logarithm per macro step that such a run can tell: that at which one mode of so many,
-/// all of which start with the same energy, multiplies the whole by ten.
+/// The slowest growth of the amplitude's logarithm per macro step that such a run can tell: that at
+/// which one mode of so many, all of which start with the same energy, multiplies the whole by ten.
 double visible_growth(double modes, long macro_steps);
 
-/// Lets every free vertex start from rest in shape with a random velocity of a millionth of an edge per step, which excites all modes alike,
-/// and steps a body without loads by its cycle, its inertia and sub-steps as they were built, with macro steps of t [s].
+/// Lets every free vertex start from rest in shape with a random velocity of a millionth of an edge
+/// per step, which excites all modes alike, and steps a body without loads by its cycle, its
+/// inertia and sub-steps as they were built, with macro steps of t [s].
 template <class B>
 SmallMotion small_motion(BuiltHierarchy<B>& built, double t, const SmallMotionOptions& options);
 

@@ -14,7 +14,8 @@ namespace {
 
 /// Why the run did not come to its end; none where it did.
 template <class B>
-std::optional<SceneLimit> failure_of(const Problem& problem, double duration, const std::function<void()>& go_on) {
+std::optional<SceneLimit> failure_of(const Problem& problem, double duration,
+                                     const std::function<void()>& go_on) {
   SceneLimit failed;
   failed.failed_step = problem.integration.macro_step;
   try {
@@ -36,8 +37,8 @@ std::optional<SceneLimit> failure_of(const Problem& problem, double duration, co
   return {};
 }
 
-/// Runs the problem as it is for `duration` [s], time and again, for the largest macro step with which it comes to the end. Explicit
-/// sub-steps may be above their limit.
+/// Runs the problem as it is for `duration` [s], time and again, for the largest macro step with
+/// which it comes to the end. Explicit sub-steps may be above their limit.
 /// @param go_on  called after every macro step; what it throws ends the search
 template <class B>
 SceneLimit scene_limit(const Problem& problem, double duration, const StepRange& range,
@@ -60,12 +61,16 @@ using Exec = Kokkos::DefaultExecutionSpace;
 using Kind = LargestStep::Kind;
 
 constexpr long explicit_steps = 400, cycle_steps = 600, implicit_steps = 40;  // macro steps
-constexpr double implicit_most = 1000;                                        // times the critical step
-constexpr double cycle_least = 0.5, cycle_most = 32;                          // times the finest critical step
-constexpr double least_growth = 1e-4;     // per macro step, that a cycle may have and still be called stable
-constexpr double longest_run = 16000;     // macro steps, to show a slow growth
-constexpr double him_most = 64;           // likewise
-constexpr double scene_at = 0.99;         // of the limit of small motions, where the scene's own runs begin
+// times the critical step
+constexpr double implicit_most = 1000;
+// times the finest critical step
+constexpr double cycle_least = 0.5, cycle_most = 32;
+// per macro step, that a cycle may have and still be called stable
+constexpr double least_growth = 1e-4;
+constexpr double longest_run = 16000;  // macro steps, to show a slow growth
+constexpr double him_most = 64;        // likewise
+// of the limit of small motions, where the scene's own runs begin
+constexpr double scene_at = 0.99;
 constexpr double scene_least = 1.0 / 64;  // of where they begin
 
 struct Stopped {};  // thrown through the searches where the caller, or the budget, has had enough
@@ -84,8 +89,10 @@ class Search {
       : problem_(problem), options_(options), watch_(watch), growth_(problem) {
     StudyOptions all = options;
     if (all.methods.empty()) all.methods = {"single"};
-    if (options.methods.empty() && problem.body.levels.size() > 1) all.methods = {"single", "coarse", "cycle"};
-    for (const ChosenMethod& chosen : chosen_methods(problem, all)) add(study_case(problem, all, chosen));
+    if (options.methods.empty() && problem.body.levels.size() > 1)
+      all.methods = {"single", "coarse", "cycle"};
+    for (const ChosenMethod& chosen : chosen_methods(problem, all))
+      add(study_case(problem, all, chosen));
   }
 
   StabilityResult all() {
@@ -103,23 +110,29 @@ class Search {
 
  private:
   void add(const StudyCase& one) {
-    if (one.integration.cycle == "auto") return;  // it chooses among stable steps: no method of its own
+    // it chooses among stable steps: no method of its own
+    if (one.integration.cycle == "auto") return;
     if (one.level == 0) return methods_.push_back(one);
     for (const std::string& integrator : names(integrators()))
-      if (is_explicit(integrator)) methods_.push_back(one), methods_.back().integration.integrator = {integrator};
+      if (is_explicit(integrator))
+        methods_.push_back(one), methods_.back().integration.integrator = {integrator};
   }
   static std::string label(const StudyCase& one) {
     const std::string& integrator = one.integration.integrator.front();
-    return one.label() + (one.level > 0 && integrator != "symplectic_euler" ? ", " + integrator : "");
+    return one.label() +
+           (one.level > 0 && integrator != "symplectic_euler" ? ", " + integrator : "");
   }
 
   void tell(bool new_row) {
-    if (watch_ && !watch_({doing_, result_.rows.size(), methods_.size(), &result_, new_row})) result_.stopped = true;
+    if (watch_ && !watch_({doing_, result_.rows.size(), methods_.size(), &result_, new_row}))
+      result_.stopped = true;
   }
   void go_on() {
-    if (std::chrono::duration<double>(Clock::now() - told_).count() > 0.05) tell(false), told_ = Clock::now();
+    if (std::chrono::duration<double>(Clock::now() - told_).count() > 0.05)
+      tell(false), told_ = Clock::now();
     if (result_.stopped ||
-        (options_.budget && std::chrono::duration<double>(Clock::now() - start_).count() > *options_.budget))
+        (options_.budget &&
+         std::chrono::duration<double>(Clock::now() - start_).count() > *options_.budget))
       throw Stopped{};
   }
 
@@ -130,7 +143,8 @@ class Search {
   }
 
   bool bounded(BuiltHierarchy<B>& built, double t, long macro_steps) {
-    const SmallMotion run = small_motion<B>(built, t, {macro_steps, [this] { return go_on(), true; }});
+    const SmallMotion run =
+        small_motion<B>(built, t, {macro_steps, [this] { return go_on(), true; }});
     return run.bounded;
   }
 
@@ -148,7 +162,8 @@ class Search {
         is_explicit(row.integrator) ? find_explicit(row, s) : find_implicit(row, s);
       else
         integrates_coarse_levels(one.integration.cycle) ? find_cycle(row, s) : find_him(row, s);
-      if (row.predicted && *row.predicted > 0 && row.measured) row.ratio = *row.measured / *row.predicted;
+      if (row.predicted && *row.predicted > 0 && row.measured)
+        row.ratio = *row.measured / *row.predicted;
       if (has_own_limit()) add_scene(row, s);
     } catch (const InputError& error) {
       row.status = "refused", row.reason = error.what();
@@ -157,7 +172,9 @@ class Search {
   }
 
   void put(StabilityRow& row, const LargestStep& found) const {
-    row.status = found.kind == Kind::limited ? "limited" : found.kind == Kind::growing ? "growing" : "unlimited";
+    row.status = found.kind == Kind::limited   ? "limited"
+                 : found.kind == Kind::growing ? "growing"
+                                               : "unlimited";
     if (found.kind == Kind::unlimited) row.stable_up_to = found.step;
     if (found.kind == Kind::limited) row.measured = found.step;
     if (found.kind == Kind::growing) row.measured = 0;
@@ -167,7 +184,8 @@ class Search {
     row.predicted = built_at(s, s.critical).reports.front().critical_step;
     const bool none = !(*row.predicted > 0);
     const double guess = none ? cycle_least * s.critical : *row.predicted;
-    put(row, largest_stable({guess, none ? guess : guess / 8, 8 * guess, 1.01, 2e-3}, [&](double t) {
+    put(row,
+        largest_stable({guess, none ? guess : guess / 8, 8 * guess, 1.01, 2e-3}, [&](double t) {
           BuiltHierarchy<B> built = built_at(s, t);
           return bounded(built, t, explicit_steps);
         }));
@@ -198,14 +216,17 @@ class Search {
       return add_growth(row, s, s.critical);
     }
     const double told = 1 + visible_growth(modes, cycle_steps);
-    const LargestStep predicted = largest_stable({s.critical, least, most, 1.5, 0.02},
-                                                 [&](double t) { return growth_at(s, t, told).radius <= told; });
-    if (predicted.kind != Kind::unlimited) row.predicted = predicted.kind == Kind::limited ? predicted.step : 0;
+    const LargestStep predicted =
+        largest_stable({s.critical, least, most, 1.5, 0.02},
+                       [&](double t) { return growth_at(s, t, told).radius <= told; });
+    if (predicted.kind != Kind::unlimited)
+      row.predicted = predicted.kind == Kind::limited ? predicted.step : 0;
     put(row, largest_stable({predicted.step, least, most, 1.05, 0.01}, [&](double t) {
           BuiltHierarchy<B> built = built_at(s, t);
           return bounded(built, t, cycle_steps);
         }));
-    add_growth(row, s, row.status == "limited" ? std::min(*row.measured, predicted.step) : predicted.step);
+    add_growth(row, s,
+               row.status == "limited" ? std::min(*row.measured, predicted.step) : predicted.step);
   }
 
   CycleGrowth growth_at(const Sought& s, double t, double told_from) {
@@ -219,8 +240,10 @@ class Search {
   bool grows_at(StabilityRow& row, const Sought& s, double t, double modes) {
     const CycleGrowth growth = growth_at(s, t, 1 + least_growth);
     const Body& body = s.problem.body;
-    const bool drifts = body.fixed.empty() && body.prescribed.empty() && !growth.converged;  // away, which is no growth
-    const double unsure = 2 * growth.uncertainty + (drifts ? 3.0 / static_cast<double>(growth.macro_steps) : 0);
+    // away, which is no growth
+    const bool drifts = body.fixed.empty() && body.prescribed.empty() && !growth.converged;
+    const double unsure =
+        2 * growth.uncertainty + (drifts ? 3.0 / static_cast<double>(growth.macro_steps) : 0);
     if (growth.radius - unsure <= 1 + least_growth) return false;
     const double steps = std::ceil(1.5 * visible_growth(modes, 1) / std::log(growth.radius));
     if (steps > longest_run) return growth.converged;
@@ -237,12 +260,15 @@ class Search {
     StudyCase at = s.method;
     at.integration.allow_unstable = true;
     if (const auto growth = of.of(at, t, 1 + least_growth)) {
-      row.growth_step = t, row.spectral_radius = growth->radius, row.growth_per_second = growth->per_second;
+      row.growth_step = t, row.spectral_radius = growth->radius,
+      row.growth_per_second = growth->per_second;
     }
   }
 
   // Whether small motions about rest are not the whole story
-  bool has_own_limit() const { return problem_.body.material.model != "linear" || !problem_.contact.obstacles.empty(); }
+  bool has_own_limit() const {
+    return problem_.body.material.model != "linear" || !problem_.contact.obstacles.empty();
+  }
 
   void add_scene(StabilityRow& row, const Sought& s) {
     const double longest = options_.duration / 4;
@@ -271,10 +297,12 @@ class Search {
 
 std::string StabilityRow::label() const {
   return study_label(method, distribution, variant) +
-         (method.starts_with("coarse/") && integrator != "symplectic_euler" ? ", " + integrator : "");
+         (method.starts_with("coarse/") && integrator != "symplectic_euler" ? ", " + integrator
+                                                                            : "");
 }
 
-StabilityResult stability(const Problem& problem, const StudyOptions& options, const StabilityWatch& watch) {
+StabilityResult stability(const Problem& problem, const StudyOptions& options,
+                          const StabilityWatch& watch) {
   validate(problem);
   if (!(options.duration > 0)) throw InputError("stability: the duration is not above 0");
   check_study(problem, options);

@@ -27,7 +27,8 @@ bool all_finite(const std::vector<Point>& points) {
   return std::ranges::all_of(points, [](const Point& p) { return p.allFinite(); });
 }
 
-/// What a caller can write of level 0. The state that the caller put in is his own: a material may have no energy there.
+/// What a caller can write of level 0. The state that the caller put in is his own: a material may
+/// have no energy there.
 bool writes_numbers(const Sim& simulation) {
   return (simulation.time() == 0 || std::isfinite(simulation.energies().total())) &&
          all_finite(simulation.positions()) && all_finite(simulation.velocities());
@@ -36,10 +37,11 @@ bool writes_numbers(const Sim& simulation) {
 /// Whether a diagnosis says where and what to do, and is of a kind that this run can come to.
 bool is_sound(const Diagnosis& d, const Problem& p) {
   const bool all_explicit = std::ranges::all_of(p.integration.integrator, is_explicit);
-  const bool possible =
-      d.kind == "energy" || d.kind == "non_finite" || d.kind == "contact" || (d.kind == "speed" && all_explicit) ||
-      (d.kind == "inverted" && forbids_inversion(p.body.material.model)) ||
-      (d.kind == "stability" && p.integration.cycle == "him") || (d.kind == "solver" && !all_explicit);
+  const bool possible = d.kind == "energy" || d.kind == "non_finite" || d.kind == "contact" ||
+                        (d.kind == "speed" && all_explicit) ||
+                        (d.kind == "inverted" && forbids_inversion(p.body.material.model)) ||
+                        (d.kind == "stability" && p.integration.cycle == "him") ||
+                        (d.kind == "solver" && !all_explicit);
   return possible && d.level >= 0 && (d.element >= 0 || d.vertex >= 0) && std::isfinite(d.J) &&
          std::isfinite(d.substep_over_critical) && !d.remedy.empty() && !d.text().empty();
 }
@@ -54,11 +56,13 @@ void run(const MatrixCase& one, MatrixRow& row) {
   if (one.step > 0) problem.integration.macro_step = one.step * critical_step_of(problem);
   Sim simulation(problem);
   if (!one.displacement.empty())
-    simulation.set_state(one.displacement, std::vector<Point>(one.displacement.size(), Point::Zero()));
+    simulation.set_state(one.displacement,
+                         std::vector<Point>(one.displacement.size(), Point::Zero()));
   row.outcome = "completed";
   for (long n = 1; n <= one.macro_steps; ++n) {
     if (const auto diagnosis = simulation.step_checked()) {
-      row.outcome = is_sound(*diagnosis, one.problem) ? "stopped: " + diagnosis->kind : "no diagnosis";
+      row.outcome =
+          is_sound(*diagnosis, one.problem) ? "stopped: " + diagnosis->kind : "no diagnosis";
       row.detail = diagnosis->text();
       simulation.return_to_last_good();
       break;
@@ -88,11 +92,13 @@ MatrixRow run_case(const MatrixCase& one) {
   }
   const Expected& e = one.expected;
   row.ok = (e.complete && row.outcome == "completed") || (e.refuse && row.outcome == "refused") ||
-           (e.stop && row.outcome.starts_with("stopped: ") && (e.kind.empty() || row.outcome == "stopped: " + e.kind));
+           (e.stop && row.outcome.starts_with("stopped: ") &&
+            (e.kind.empty() || row.outcome == "stopped: " + e.kind));
   return row;
 }
 
-MatrixResult run_matrix(const std::vector<MatrixCase>& cases, const std::vector<std::function<MatrixRow()>>& more,
+MatrixResult run_matrix(const std::vector<MatrixCase>& cases,
+                        const std::vector<std::function<MatrixRow()>>& more,
                         const MatrixWatch& watch) {
   MatrixResult result;
   const std::size_t all = cases.size() + more.size();
@@ -169,7 +175,8 @@ std::vector<Point> displacement_of(const Problem& problem) {
 
 /// The largest difference over the largest displacement.
 double difference(const Problem& problem, const Other& other) {
-  const std::vector<Point> u = displacement_of(problem), w = displacement_of(described(problem, other));
+  const std::vector<Point> u = displacement_of(problem),
+                           w = displacement_of(described(problem, other));
   const std::vector<int> order = shuffled(u.size());
   double largest = 0, most = 0;
   for (std::size_t a = 0; a < u.size(); ++a) {
@@ -180,17 +187,19 @@ double difference(const Problem& problem, const Other& other) {
   return largest / most;
 }
 
-/// What rounding may come to. Each position is rounded by eps times its size, a strain by that over an edge, and the motion compared is of
-/// strains of 1e-2: so much per step, and every step adds to it.
+/// What rounding may come to. Each position is rounded by eps times its size, a strain by that over
+/// an edge, and the motion compared is of strains of 1e-2: so much per step, and every step adds to
+/// it.
 double allowed(const Other& other) {
   constexpr double edge = 0.05, strain = 1e-2;
   const double eps = std::numeric_limits<double>::epsilon();
   return eps * (other.shift.norm() + 1) / edge / strain * macro_steps;
 }
 
-/// him's inertia is fitted to a hundredth of the largest eigenvalue, which is looked for from a random vector that goes by the
-/// vertices' numbers and the axes of space: details move with another inertia by about as much. So are the smoothers of the one
-/// cycle that v_cycle_euler answers with.
+/// him's inertia is fitted to a hundredth of the largest eigenvalue, which is looked for from a
+/// random vector that goes by the vertices' numbers and the axes of space: details move with
+/// another inertia by about as much. So are the smoothers of the one cycle that v_cycle_euler
+/// answers with.
 constexpr double allowed_of_fits = 1e-2;
 
 MatrixRow compared(const std::string& material, const std::string& method, const Other& other) {
@@ -206,8 +215,15 @@ MatrixRow compared(const std::string& material, const std::string& method, const
   p.integration.macro_step = (him ? 8 : 0.9) * study_level(p, 0).critical_step;
   p.integration.allow_unstable = true;
   const double differs = difference(p, other), most = fits ? allowed_of_fits : allowed(other);
-  const std::string outcome = "differs by " + number(differs, 2), expected = "differs by at most " + number(most, 2);
-  return {std::string(other.name) + ", " + material, method, expected, outcome, differs <= most, "", ""};
+  const std::string outcome = "differs by " + number(differs, 2),
+                    expected = "differs by at most " + number(most, 2);
+  return {std::string(other.name) + ", " + material,
+          method,
+          expected,
+          outcome,
+          differs <= most,
+          "",
+          ""};
 }
 
 }  // namespace
@@ -218,13 +234,16 @@ std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size) {
   for (const std::string& name : names(integrators()))
     Integrators::visit(name, [&](auto member) {
       using Kind = decltype(member);
-      const bool steady = !Kind::is_explicit || Kind::limit.radius > 0;  // what grows at every step multiplies rounding
+      // what grows at every step multiplies rounding
+      const bool steady = !Kind::is_explicit || Kind::limit.radius > 0;
       if (steady && (!small || name == "symplectic_euler")) methods.push_back("single/" + name);
     });
   std::vector<std::function<MatrixRow()>> cases;
   for (const Other& other : others())
-    for (const std::string& material : small ? std::vector<std::string>{"neo_hookean"} : materials_of_two_constants())
-      for (const std::string& method : methods) cases.push_back([=] { return compared(material, method, other); });
+    for (const std::string& material :
+         small ? std::vector<std::string>{"neo_hookean"} : materials_of_two_constants())
+      for (const std::string& method : methods)
+        cases.push_back([=] { return compared(material, method, other); });
   return cases;
 }
 

@@ -11,8 +11,9 @@ namespace plica {
 struct MatrixBody {
   Problem problem;
   std::vector<Point> displacement;  ///< at the start [m]; empty: none
-  double step = 0;                  ///< macro step over the finest critical step; 0: the method's own
-  double load_ratio = 1e-4;         ///< rho g L / E, from which gravity follows; 0: none
+  /// macro step over the finest critical step; 0: the method's own
+  double step = 0;
+  double load_ratio = 1e-4;  ///< rho g L / E, from which gravity follows; 0: none
   /// The shape that it starts in.
   enum class Start { rest, stretched, thin, flat, turned, mirrored, random } start = Start::rest;
   double impact = 0;      ///< speed at which it strikes, over that of its waves
@@ -20,7 +21,8 @@ struct MatrixBody {
   bool unstable = false;  ///< and is taken all the same
   bool apart = false;     ///< its levels lie at different places
 
-  /// About: a cantilever four times as long as thick is strained by 12 times the load ratio at rest, 24 times when it is let go.
+  /// About: a cantilever four times as long as thick is strained by 12 times the load ratio at
+  /// rest, 24 times when it is let go.
   double strain() const { return 24 * load_ratio; }
   bool inside_out() const { return start >= Start::flat; }  ///< elements have J <= 0 at the start
   void load();                                              ///< sets gravity
@@ -67,8 +69,8 @@ struct MatrixCase {
   std::string name;    ///< "E = 1e+10 Pa, linear"
   std::string method;  ///< as of a study
   Problem problem;     ///< complete but for its macro step
-  double step =
-      0;  ///< that, times the critical step of its finest level (of an implicit one symplectic Euler's); 0: auto
+  double step = 0;     ///< that, times the critical step of its finest level (of an implicit one
+                       ///< symplectic Euler's); 0: auto
   long macro_steps = 0;
   std::vector<Point> displacement;  ///< at the start [m]; empty: as the problem says
   Expected expected;
@@ -77,8 +79,8 @@ struct MatrixCase {
 /// Its outcome.
 struct MatrixRow {
   std::string name, method, expected;
-  std::string
-      outcome;  ///< completed | stopped: KIND | refused | not finite | no diagnosis; of an invariance how much differs
+  std::string outcome;  ///< completed | stopped: KIND | refused | not finite | no diagnosis; of an
+                        ///< invariance how much differs
   bool ok = false;
   std::string detail;    ///< diagnosis or message
   std::string why = {};  ///< see Expected
@@ -100,27 +102,32 @@ enum class MatrixSize {
 /// Whether an element that turns inside out ends the run.
 bool forbids_inversion(const std::string& material);
 
-/// Every case, from one table; the outcome that each must have follows from rules that are stated there.
+/// Every case, from one table; the outcome that each must have follows from rules that are stated
+/// there.
 std::vector<MatrixCase> stability_matrix(MatrixSize size = MatrixSize::whole);
 
-/// Every tissue and law of tissue, fibres, softening and relaxation, of linear and nodal elements; the whole matrix ends with them.
+/// Every tissue and law of tissue, fibres, softening and relaxation, of linear and nodal elements;
+/// the whole matrix ends with them.
 std::vector<MatrixCase> tissue_cases();
 
-/// Runs one. A state that the caller could write and that is not finite, a diagnosis that does not say where, or a kind that
-/// cannot be are never what was expected.
+/// Runs one. A state that the caller could write and that is not finite, a diagnosis that does not
+/// say where, or a kind that cannot be are never what was expected.
 MatrixRow run_case(const MatrixCase& one);
 
-/// Whether turned, moved, renumbered bodies and other units of length give the same answers: a row for each of them and each method.
+/// Whether turned, moved, renumbered bodies and other units of length give the same answers: a row
+/// for each of them and each method.
 std::vector<std::function<MatrixRow()>> invariance_cases(MatrixSize size = MatrixSize::whole);
 
-/// Organs with tools: an irregular liver that is dropped, poked, dragged along, pierced at, grasped and swung, two organs, a folded tube; by
-/// every stepper, with linear and nodal elements, nu 0.3 to 0.49, steps of 1 to 10 ms. Each must come to its end.
+/// Organs with tools: an irregular liver that is dropped, poked, dragged along, pierced at, grasped
+/// and swung, two organs, a folded tube; by every stepper, with linear and nodal elements, nu 0.3
+/// to 0.49, steps of 1 to 10 ms. Each must come to its end.
 std::vector<std::function<MatrixRow()>> organ_cases(MatrixSize size = MatrixSize::whole);
 
 /// Called after every row with how many there will be; false stops it.
 using MatrixWatch = std::function<bool(const MatrixResult&, std::size_t)>;
 
-MatrixResult run_matrix(const std::vector<MatrixCase>& cases, const std::vector<std::function<MatrixRow()>>& more,
+MatrixResult run_matrix(const std::vector<MatrixCase>& cases,
+                        const std::vector<std::function<MatrixRow()>>& more,
                         const MatrixWatch& watch = {});
 
 }  // namespace plica

@@ -19,12 +19,15 @@ using Step = std::optional<double>;  // none: auto
 
 constexpr const char* coarse_integrator = "symplectic_euler";  // where coarse/LEVEL names none
 
-constexpr double implicit_factors[] = {16, 4, 64};           // of the finest critical step, the most telling first
+// of the finest critical step, the most telling first
+constexpr double implicit_factors[] = {16, 4, 64};
 constexpr double cycle_factors[] = {4, 1, 16, 2, 8};         // likewise
 constexpr double him_factors[] = {4, 16, 32, 2, 12, 6, 20};  // besides its own 8
-constexpr double him_step_cost = 4;                          // forces of level 0, about: 2.7 to 10 on organs
-constexpr int usual_iterations = 2;                          // of Newton's method in a stage
-constexpr double cg_iterations_per_factor = 12;  // to 1e-6, about: the root of the condition number grows with the step
+// forces of level 0, about: 2.7 to 10 on organs
+constexpr double him_step_cost = 4;
+constexpr int usual_iterations = 2;  // of Newton's method in a stage
+// to 1e-6, about: the root of the condition number grows with the step
+constexpr double cg_iterations_per_factor = 12;
 
 // The limit of an explicit integrator, undamped; 0 where it has none of this kind
 double limit_of(const std::string& integrator, double symplectic_limit) {
@@ -48,22 +51,27 @@ double evaluations(const StudyCase& one, const std::vector<StudyLevel>& levels, 
   }
   const bool alone = o.cycle == "single";
   std::vector<LevelLimits> limits;
-  for (std::size_t i = static_cast<std::size_t>(one.level); i < levels.size() && (limits.empty() || !alone); ++i) {
+  for (std::size_t i = static_cast<std::size_t>(one.level);
+       i < levels.size() && (limits.empty() || !alone); ++i) {
     const std::string integrator = integrator_of(o, limits.size());
     const bool stepped = is_explicit(integrator);
-    limits.push_back({levels[i].tets, integrator, stepped,
-                      stepped ? limit_of(integrator, levels[i].critical_step) : levels[i].critical_step});
+    limits.push_back(
+        {levels[i].tets, integrator, stepped,
+         stepped ? limit_of(integrator, levels[i].critical_step) : levels[i].critical_step});
   }
   try {
     const StepPlan plan = plan_steps(o, limits);
     double each = 0;
     for (std::size_t i = 0; i < limits.size(); ++i) {
       double passes = 1;
-      const double factor = plan.share[i] * plan.macro_step / plan.substeps[i] / limits[i].critical_step;
+      const double factor =
+          plan.share[i] * plan.macro_step / plan.substeps[i] / limits[i].critical_step;
       if (!limits[i].is_explicit)
         passes += std::min(newton_iterations(o.implicit, limits[i].integrator),
-                           o.implicit.newton_iterations > 0 ? o.implicit.newton_iterations : usual_iterations) *
-                  (o.implicit.iterations > 0 ? o.implicit.iterations : 2 + cg_iterations_per_factor * factor);
+                           o.implicit.newton_iterations > 0 ? o.implicit.newton_iterations
+                                                            : usual_iterations) *
+                  (o.implicit.iterations > 0 ? o.implicit.iterations
+                                             : 2 + cg_iterations_per_factor * factor);
       each += passes * plan.substeps[i] * limits[i].tets;
     }
     return each * std::ceil(duration / plan.macro_step - 1e-9);
@@ -80,8 +88,8 @@ bool is_control(const StudyCase& one) {
 }
 
 bool is_same_run(const StudyCase& a, const StudyCase& b) {
-  return a.method == b.method && a.element == b.element && a.precision == b.precision && a.threads == b.threads &&
-         steps_alike(a.integration, b.integration);
+  return a.method == b.method && a.element == b.element && a.precision == b.precision &&
+         a.threads == b.threads && steps_alike(a.integration, b.integration);
 }
 
 void step_alone(IntegrationOptions& o, const std::string& integrator) {
@@ -92,7 +100,8 @@ void step_alone(IntegrationOptions& o, const std::string& integrator) {
 // him and auto take no settings of levels
 void step_together(IntegrationOptions& o, const std::string& cycle, const StudyCase& one) {
   const IntegrationOptions plain;
-  o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps, o.outside = plain.outside;
+  o.cycle = cycle, o.integrator = plain.integrator, o.substeps = plain.substeps,
+  o.outside = plain.outside;
   o.distribution = plain.distribution, o.shares = {}, o.shift_to_coarsest = 0;
   if (cycle == "auto") o.error_class = one.distribution, o.allow_unstable = false;
 }
@@ -111,14 +120,17 @@ struct Builder {
   void add(StudyCase one, Step macro_step, int rank) {
     if (macro_step && *macro_step > options.duration) return;
     one.integration.macro_step = macro_step;
-    const std::vector<int> threads = options.threads.empty() ? std::vector<int>{0} : options.threads;
+    const std::vector<int> threads =
+        options.threads.empty() ? std::vector<int>{0} : options.threads;
     for (std::size_t p = 0; p < options.precision.size(); ++p)
       for (std::size_t t = 0; t < threads.size(); ++t) {
         one.precision = options.precision[p], one.threads = threads[t];
         one.control = one.control && p + t == 0;
         one.rank = rank + 20 * static_cast<int>(p + t);
         one.predicted_evaluations = evaluations(one, levels, options.duration);
-        const auto same = [&](const StudyCase& c) { return c.key() == one.key() || is_same_run(c, one); };
+        const auto same = [&](const StudyCase& c) {
+          return c.key() == one.key() || is_same_run(c, one);
+        };
         if (std::ranges::none_of(cases, same)) cases.push_back(one);
       }
   }
@@ -134,7 +146,8 @@ struct Builder {
       if (options.macro_steps.empty())
         for (const double factor : implicit_factors) steps.push_back(factor * critical);
       for (std::size_t i = 0; i < steps.size(); ++i)
-        i == 0 && is_control(one) ? add_control(one, steps[i], 2) : add(one, steps[i], i == 0 ? 6 : 7);
+        i == 0 && is_control(one) ? add_control(one, steps[i], 2)
+                                  : add(one, steps[i], i == 0 ? 6 : 7);
       if (options.macro_steps.empty()) add_own(one);
       return;
     }
@@ -157,7 +170,8 @@ struct Builder {
   void add_cycle(const StudyCase& one) {
     if (!integrates_coarse_levels(one.integration.cycle)) return add_him(one);
     int rank = (one.distribution == "critical" ? 4 : 6) + (one.variant.empty() ? 0 : 1);
-    if (options.truth) rank += 6;  // levels alone first: to what is off in space, cycles add errors in time
+    // levels alone first: to what is off in space, cycles add errors in time
+    if (options.truth) rank += 6;
     if (!options.macro_steps.empty()) {
       for (const Step& step : options.macro_steps) add(one, step, rank++);
       return;
@@ -179,8 +193,9 @@ std::string StudyCase::label() const { return study_label(method, distribution, 
 
 std::string StudyCase::key() const {
   const std::string step = integration.macro_step ? number(*integration.macro_step) + " s" : "auto";
-  return label() + ", " + step + ", " + precision + ", " + (threads > 0 ? std::to_string(threads) : "all") +
-         " threads" + (element.empty() ? "" : ", " + element);
+  return label() + ", " + step + ", " + precision + ", " +
+         (threads > 0 ? std::to_string(threads) : "all") + " threads" +
+         (element.empty() ? "" : ", " + element);
 }
 
 StudyLevel study_level(const Problem& problem, int level) {
@@ -200,7 +215,8 @@ std::vector<StudyLevel> study_levels(const Problem& problem) {
   return levels;
 }
 
-StudyCase study_case(const Problem& problem, const StudyOptions& options, const ChosenMethod& chosen) {
+StudyCase study_case(const Problem& problem, const StudyOptions& options,
+                     const ChosenMethod& chosen) {
   StudyCase one;
   one.method = chosen.method, one.distribution = chosen.distribution, one.variant = chosen.variant;
   one.integration = problem.integration;
@@ -237,7 +253,8 @@ Problem problem_of(const Problem& problem, const StudyCase& one) {
   if (one.integration.cycle != "single") return result;
   // implicit ones have those below for multigrid
   const bool alone = is_explicit(one.integration.integrator.front());
-  keep_levels(result.body, static_cast<std::size_t>(one.level), alone ? 1 : problem.body.levels.size());
+  keep_levels(result.body, static_cast<std::size_t>(one.level),
+              alone ? 1 : problem.body.levels.size());
   const auto centre = [](const TetMesh& mesh) {
     const Box box = bounding_box(mesh.vertices);
     return Point((box.min + box.max) / 2);

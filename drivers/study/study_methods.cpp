@@ -19,7 +19,8 @@ bool has_switch(const std::string& cycle) { return stepper_needs(cycle).drift_li
 template <class T>
 bool alike_per_level(const std::vector<T>& a, const std::vector<T>& b) {
   if (a.size() == b.size()) return a == b;
-  const auto& [one, each] = std::minmax(a, b, [](const auto& x, const auto& y) { return x.size() < y.size(); });
+  const auto& [one, each] =
+      std::minmax(a, b, [](const auto& x, const auto& y) { return x.size() < y.size(); });
   return one.size() == 1 && std::ranges::all_of(each, [&](const T& x) { return x == one.front(); });
 }
 
@@ -41,16 +42,19 @@ IntegrationOptions with(IntegrationOptions options, const StudyVariant& variant)
 
 bool steps_alike(const IntegrationOptions& a, const IntegrationOptions& b) {
   const auto rest = [](const IntegrationOptions& o) {
-    return std::tie(o.cycle, o.macro_step, o.distribution, o.shares, o.shift_to_coarsest, o.safety, o.allow_unstable,
-                    o.outside);
+    return std::tie(o.cycle, o.macro_step, o.distribution, o.shares, o.shift_to_coarsest, o.safety,
+                    o.allow_unstable, o.outside);
   };
-  return rest(a) == rest(b) && alike_per_level(a.integrator, b.integrator) && alike_per_level(a.substeps, b.substeps) &&
+  return rest(a) == rest(b) && alike_per_level(a.integrator, b.integrator) &&
+         alike_per_level(a.substeps, b.substeps) &&
          (a.error_class == b.error_class || a.cycle != "auto") &&
          (a.switch_threshold == b.switch_threshold || !has_switch(a.cycle));
 }
 
-std::string study_label(const std::string& method, const std::string& distribution, const std::string& variant) {
-  return method + (distribution.empty() ? "" : "/" + distribution) + (variant.empty() ? "" : "+" + variant);
+std::string study_label(const std::string& method, const std::string& distribution,
+                        const std::string& variant) {
+  return method + (distribution.empty() ? "" : "/" + distribution) +
+         (variant.empty() ? "" : "+" + variant);
 }
 
 namespace {
@@ -63,7 +67,8 @@ std::string family_of(const std::string& name) { return name.substr(0, name.find
 // "cycle/rsv/equal+hybrid" in three
 ChosenMethod split(const std::string& name) {
   const std::size_t plus = name.find('+');
-  const std::string variant = plus == std::string::npos ? "" : name.substr(plus + 1), before = name.substr(0, plus);
+  const std::string variant = plus == std::string::npos ? "" : name.substr(plus + 1),
+                    before = name.substr(0, plus);
   const std::size_t first = before.find('/'), second = before.find('/', first + 1);
   if (family_of(before) != "cycle" || first == std::string::npos || second == std::string::npos)
     return {before, {}, variant};
@@ -98,31 +103,39 @@ bool names_coarse_integrator(const std::string& method) {
 // A cycle without a distribution means each of them, with the problem's own list if it has one
 void add_each(std::vector<ChosenMethod>& chosen, const Problem& problem, const ChosenMethod& one) {
   if (is_chosen_by_trials(one) && one.distribution.empty()) {
-    for (const std::string& error_class : names(error_classes())) add(chosen, {one.method, error_class, {}});
+    for (const std::string& error_class : names(error_classes()))
+      add(chosen, {one.method, error_class, {}});
     return;
   }
-  if (family_of(one.method) != "cycle" || !one.distribution.empty() || !shares_step(one)) return add(chosen, one);
-  for (const std::string& distribution : computed_distributions()) add(chosen, {one.method, distribution, one.variant});
-  if (problem.integration.distribution == "custom") add(chosen, {one.method, "custom", one.variant});
+  if (family_of(one.method) != "cycle" || !one.distribution.empty() || !shares_step(one))
+    return add(chosen, one);
+  for (const std::string& distribution : computed_distributions())
+    add(chosen, {one.method, distribution, one.variant});
+  if (problem.integration.distribution == "custom")
+    add(chosen, {one.method, "custom", one.variant});
 }
 
 // `cycle` has every variant, `cycle+hybrid` that one
-void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem, const StudyOptions& options,
-                const ChosenMethod& family) {
+void add_family(std::vector<ChosenMethod>& chosen, const Problem& problem,
+                const StudyOptions& options, const ChosenMethod& family) {
   for (const std::string& method : study_methods(problem)) {
     if (family_of(method) != family.method || names_coarse_integrator(method)) continue;
     if (family.variant.empty() || shares_step({method, {}, {}}))
-      add_each(chosen, problem, {method, is_chosen_by_trials({method, {}, {}}) ? usual_class : "", family.variant});
+      add_each(chosen, problem,
+               {method, is_chosen_by_trials({method, {}, {}}) ? usual_class : "", family.variant});
     if (family.method == "cycle" && family.variant.empty() && shares_step({method, {}, {}}))
-      for (const auto& [variant, settings] : options.variants) add_each(chosen, problem, {method, {}, variant});
+      for (const auto& [variant, settings] : options.variants)
+        add_each(chosen, problem, {method, {}, variant});
   }
   if (chosen.empty() && problem.body.levels.size() == 1)
-    throw InputError("study.methods: '" + family.method + "' needs coarser levels; the body has one level");
+    throw InputError("study.methods: '" + family.method +
+                     "' needs coarser levels; the body has one level");
 }
 
 void check_method(const Problem& problem, const std::string& name, const ChosenMethod& one) {
   const std::vector<std::string> all = study_methods(problem),
-                                 known = names(is_chosen_by_trials(one) ? error_classes() : distributions());
+                                 known = names(is_chosen_by_trials(one) ? error_classes()
+                                                                        : distributions());
   if (std::ranges::find(all, one.method) == all.end()) {
     std::vector<std::string> choices = families;
     choices.insert(choices.end(), all.begin(), all.end());
@@ -130,12 +143,15 @@ void check_method(const Problem& problem, const std::string& name, const ChosenM
   }
   if (!one.distribution.empty() && std::ranges::find(known, one.distribution) == known.end())
     throw InputError("study.methods: " +
-                     unknown_name(is_chosen_by_trials(one) ? "error class" : "distribution", one.distribution, known));
+                     unknown_name(is_chosen_by_trials(one) ? "error class" : "distribution",
+                                  one.distribution, known));
   const std::string shares = is_chosen_by_trials(one) ? std::string() : one.distribution;
   if (family_of(one.method) == "cycle" && !shares_step(one) && !(shares + one.variant).empty())
-    throw InputError("study.methods: '" + name + "': " + one.method + " has neither shares nor variants");
+    throw InputError("study.methods: '" + name + "': " + one.method +
+                     " has neither shares nor variants");
   if (one.distribution == "custom" && problem.integration.distribution != "custom")
-    throw InputError("study.methods: '" + name + "' needs a list of shares in integration.distribution");
+    throw InputError("study.methods: '" + name +
+                     "' needs a list of shares in integration.distribution");
 }
 
 void check_variant(const StudyOptions& options, const std::string& name, const ChosenMethod& one) {
@@ -143,7 +159,8 @@ void check_variant(const StudyOptions& options, const std::string& name, const C
   if (family_of(one.method) != "cycle")
     throw InputError("study.methods: '" + name + "': only cycles have variants, got " + one.method);
   if (options.variants.empty())
-    throw InputError("study.methods: '" + name + "' needs its variant in study.variants, where there is none");
+    throw InputError("study.methods: '" + name +
+                     "' needs its variant in study.variants, where there is none");
   std::vector<std::string> known;
   for (const auto& [variant, settings] : options.variants) known.push_back(variant);
   if (!options.variants.contains(one.variant))
@@ -166,11 +183,13 @@ void check_variants(const Problem& problem, const StudyOptions& options) {
 
 std::vector<std::string> study_methods(const Problem& problem) {
   std::vector<std::string> methods;
-  for (const std::string& integrator : names(integrators())) methods.push_back("single/" + integrator);
+  for (const std::string& integrator : names(integrators()))
+    methods.push_back("single/" + integrator);
   for (std::size_t i = 1; i < problem.body.levels.size(); ++i) {
     methods.push_back("coarse/" + std::to_string(i));
     for (const std::string& integrator : names(integrators()))
-      if (integrator != "symplectic_euler") methods.push_back("coarse/" + std::to_string(i) + "/" + integrator);
+      if (integrator != "symplectic_euler")
+        methods.push_back("coarse/" + std::to_string(i) + "/" + integrator);
   }
   for (const std::string& cycle : names(cycle_choices()))
     if (has_coarse_levels(cycle, problem.body)) methods.push_back("cycle/" + cycle);
@@ -184,13 +203,16 @@ std::vector<std::string> all_alone(const Problem& problem) {
   std::vector<std::string> stable, all;
   Integrators::for_each([&](auto member) {
     using Member = decltype(member);
-    const bool cycles = std::string(Member::name) == "v_cycle_euler" && !has_coarse_levels("auto", problem.body);
-    if ((!Member::is_explicit || Member::limit.radius > 0) && !cycles) stable.push_back(Member::name);
+    const bool cycles =
+        std::string(Member::name) == "v_cycle_euler" && !has_coarse_levels("auto", problem.body);
+    if ((!Member::is_explicit || Member::limit.radius > 0) && !cycles)
+      stable.push_back(Member::name);
   });
   for (const std::string& integrator : stable) all.push_back("single/" + integrator);
   for (std::size_t i = 1; i < problem.body.levels.size(); ++i)
     for (const std::string& integrator : stable)
-      all.push_back("coarse/" + std::to_string(i) + (integrator == "symplectic_euler" ? "" : "/" + integrator));
+      all.push_back("coarse/" + std::to_string(i) +
+                    (integrator == "symplectic_euler" ? "" : "/" + integrator));
   if (has_coarse_levels("auto", problem.body)) all.push_back("cycle");
   return all;
 }
@@ -200,7 +222,8 @@ std::vector<std::string> all_alone(const Problem& problem) {
 std::vector<ChosenMethod> chosen_methods(const Problem& problem, const StudyOptions& options) {
   std::vector<std::string> asked = options.methods;
   if (asked.empty() && options.truth) asked = all_alone(problem);
-  if (asked.empty()) asked = {"single/symplectic_euler", "single/implicit_euler", "coarse", "cycle"};
+  if (asked.empty())
+    asked = {"single/symplectic_euler", "single/implicit_euler", "coarse", "cycle"};
   if (options.methods.empty() && !options.truth && has_coarse_levels("auto", problem.body))
     asked.insert(asked.begin() + 2, "single/v_cycle_euler");
   std::vector<ChosenMethod> chosen;

@@ -17,25 +17,28 @@ using Exec = Kokkos::DefaultExecutionSpace;
 constexpr double short_run = 0.2;  // [s]
 constexpr int runs_if_short = 5;
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 template <class E>
 E instance(int threads) {
   const int most = E().concurrency();
   if (threads == 0 || threads == most) return {};
   if (threads < 0 || threads > most)
-    throw InputError("study.threads: " + std::to_string(threads) + " threads; " + E::name() + " has " +
-                     std::to_string(most));
+    throw InputError("study.threads: " + std::to_string(threads) + " threads; " + E::name() +
+                     " has " + std::to_string(most));
 #if defined(KOKKOS_ENABLE_OPENMP)
   if constexpr (std::is_same_v<E, Kokkos::OpenMP>) return E(threads);
 #endif
-  throw InputError("study.threads: " + std::string(E::name()) + " runs with all it has; leave study.threads out");
+  throw InputError("study.threads: " + std::string(E::name()) +
+                   " runs with all it has; leave study.threads out");
 }
 
 // Nothing takes energy out or brings it in, other than gravity
 bool keeps_energy(const Problem& p) {
-  return p.body.loads.empty() && p.body.prescribed.empty() && !damps_by_mass(p.body) && !damps_by_stiffness(p.body) &&
-         !has_contact(p);
+  return p.body.loads.empty() && p.body.prescribed.empty() && !damps_by_mass(p.body) &&
+         !damps_by_stiffness(p.body) && !has_contact(p);
 }
 
 template <class B>
@@ -45,7 +48,8 @@ class Measured {
       : options_(options),
         exec_(exec),
         start_(Clock::now()),
-        simulation_(with_choice(problem, choose_cycle<B>(problem, {options.duration, {}}, exec)), exec),
+        simulation_(with_choice(problem, choose_cycle<B>(problem, {options.duration, {}}, exec)),
+                    exec),
         conserves_(keeps_energy(problem)),
         part_(0, 1 + options.timed_runs) {
     result_.setup_time = since(start_);
@@ -83,7 +87,8 @@ class Measured {
     if (!diagnosis) result_.reached = simulation_.time();
     if (!diagnosis && options_.go_on && since(asked_) > 0.05) {
       asked_ = Clock::now();
-      const double run = static_cast<double>(simulation_.macro_steps()) / static_cast<double>(result_.macro_steps);
+      const double run =
+          static_cast<double>(simulation_.macro_steps()) / static_cast<double>(result_.macro_steps);
       if (!options_.go_on((part_.first + run) / part_.second)) result_.status = "stopped";
     }
     return result_.status == "completed";
@@ -109,7 +114,8 @@ class Measured {
       if (n == result_.macro_steps) break;
       if (!step(wall_time)) return;
     }
-    if (conserves_ && most > 0) result_.energy_drift = (simulation_.energies().total() - before) / most;
+    if (conserves_ && most > 0)
+      result_.energy_drift = (simulation_.energies().total() - before) / most;
     result_.trajectory = sampler.take();
     result_.tet_evaluations = simulation_.counters().at("tet_evaluations");
     wall_times_.push_back(wall_time);
@@ -156,7 +162,8 @@ void check_threads(int threads) { instance<Exec>(threads); }
 StudyRun study_run(const Problem& problem, const StudyRunOptions& options) {
   if (options.precision == "double") return run<double>(problem, options);
   if (options.precision == "float") return run<float>(problem, options);
-  throw InputError("study.precision: " + unknown_name("precision", options.precision, {"float", "double"}));
+  throw InputError("study.precision: " +
+                   unknown_name("precision", options.precision, {"float", "double"}));
 }
 
 namespace {
@@ -168,8 +175,8 @@ struct Pair {
   bool stopped() const { return coarse.status == "stopped" || fine.status == "stopped"; }
 };
 
-StudyRun run_at(const Problem& problem, const StudyOptions& options, const std::string& integrator, double step,
-                const std::function<bool(double)>& go_on, const Embedding* at) {
+StudyRun run_at(const Problem& problem, const StudyOptions& options, const std::string& integrator,
+                double step, const std::function<bool(double)>& go_on, const Embedding* at) {
   StudyCase one;
   one.integration = problem.integration;
   IntegrationOptions& o = one.integration;
@@ -182,16 +189,17 @@ StudyRun run_at(const Problem& problem, const StudyOptions& options, const std::
 
 }  // namespace
 
-StudyRun run_to_samples(const Problem& problem, const StudyOptions& options, const std::string& integrator,
-                        double longest_step, const std::function<bool(double)>& go_on, const Embedding* at) {
+StudyRun run_to_samples(const Problem& problem, const StudyOptions& options,
+                        const std::string& integrator, double longest_step,
+                        const std::function<bool(double)>& go_on, const Embedding* at) {
   const double interval = options.duration / options.samples;
   double step = interval / std::ceil(interval / longest_step - 1e-9);
   for (int halvings = 0;; ++halvings, step /= 2) {
     StudyRun result = run_at(problem, options, integrator, step, go_on, at);
     if (result.status != "diverged" && result.status != "refused") return result;
     if (halvings == most_shortenings)
-      throw InputError("study: the reference, single/" + integrator + " at " + std::to_string(1e3 * step) +
-                       " ms, is not to be had: " + result.reason);
+      throw InputError("study: the reference, single/" + integrator + " at " +
+                       std::to_string(1e3 * step) + " ms, is not to be had: " + result.reason);
   }
 }
 
@@ -202,18 +210,22 @@ StudyRun run_below(const Problem& problem, const StudyOptions& options, double l
   return run_to_samples(problem, options, options.reference_integrator, longest_step, go_on);
 }
 
-Pair run_both(const Problem& problem, const StudyOptions& options, double critical_step, double& wall_time,
-              const std::function<bool(double)>& go_on) {
+Pair run_both(const Problem& problem, const StudyOptions& options, double critical_step,
+              double& wall_time, const std::function<bool(double)>& go_on) {
   const auto part = [&go_on](double from, double size) {
     return [&go_on, from, size](double p) { return !go_on || go_on(from + size * p); };
   };
   Pair runs;
-  runs.coarse = run_below(problem, options, options.reference_step * critical_step, part(0, 1.0 / 7));
-  if (!runs.stopped()) runs.fine = run_below(problem, options, runs.coarse.macro_step / 2, part(1.0 / 7, 2.0 / 7));
+  runs.coarse =
+      run_below(problem, options, options.reference_step * critical_step, part(0, 1.0 / 7));
+  if (!runs.stopped())
+    runs.fine = run_below(problem, options, runs.coarse.macro_step / 2, part(1.0 / 7, 2.0 / 7));
   wall_time = runs.coarse.wall_time + runs.fine.wall_time;
   if (runs.stopped()) return runs;
   expect_motion(runs.fine.trajectory, problem.body.levels.front());
-  if (errors_of(runs.coarse.trajectory, runs.fine.trajectory).displacement <= options.reference_error) return runs;
+  if (errors_of(runs.coarse.trajectory, runs.fine.trajectory).displacement <=
+      options.reference_error)
+    return runs;
   runs.coarse = std::move(runs.fine);
   runs.fine = run_below(problem, options, runs.coarse.macro_step / 2, part(3.0 / 7, 4.0 / 7));
   wall_time += runs.fine.wall_time;
@@ -231,15 +243,16 @@ void add_finer(StudyReference& reference, const Problem& problem, const StudyOpt
     reference.trajectory = {};
     return;
   }
-  const Embedding finest = embed(problem.body.levels.front().vertices, *options.finer, Outside::clamp);
+  const Embedding finest =
+      embed(problem.body.levels.front().vertices, *options.finer, Outside::clamp);
   reference.finer = interpolated(run.trajectory, finest);
   reference.space_error = errors_of(reference.trajectory, *reference.finer).displacement;
 }
 
 }  // namespace
 
-StudyReference make_reference(const Problem& problem, const StudyOptions& options, double critical_step,
-                              const std::function<bool(double)>& go_on) {
+StudyReference make_reference(const Problem& problem, const StudyOptions& options,
+                              double critical_step, const std::function<bool(double)>& go_on) {
   StudyReference reference;
   reference.method = "single/" + options.reference_integrator;
   reference.critical_step = critical_step;
@@ -248,7 +261,8 @@ StudyReference make_reference(const Problem& problem, const StudyOptions& option
   const StudyErrors own = errors_of(runs.coarse.trajectory, runs.fine.trajectory);
   reference.macro_step = runs.fine.macro_step;
   reference.own_error = own.displacement, reference.own_error_velocity = own.velocity;
-  reference.seconds_per_evaluation = runs.fine.wall_time / static_cast<double>(runs.fine.tet_evaluations);
+  reference.seconds_per_evaluation =
+      runs.fine.wall_time / static_cast<double>(runs.fine.tet_evaluations);
   reference.trajectory = std::move(runs.fine.trajectory);
   if (options.finer) add_finer(reference, problem, options, go_on);
   return reference;

@@ -29,7 +29,8 @@ std::vector<Point> interpolated(const std::vector<Point>& field, const Embedding
   std::vector<Point> result(embedding.vertices.size(), Point::Zero());
   for (std::size_t a = 0; a < result.size(); ++a)
     for (std::size_t k = 0; k < 4; ++k)
-      result[a] += embedding.weights[a][k] * field[static_cast<std::size_t>(embedding.vertices[a][k])];
+      result[a] +=
+          embedding.weights[a][k] * field[static_cast<std::size_t>(embedding.vertices[a][k])];
   return result;
 }
 
@@ -48,7 +49,8 @@ TrajectorySampler::TrajectorySampler(const std::vector<double>& times, double st
     }
     const long count = std::min(fit_points, steps + 1);
     const long first = std::clamp(static_cast<long>(std::floor(x)) - 1, 0L, steps + 1 - count);
-    for (long i = first; i < first + count; ++i) terms_.push_back({i, j, lagrange_weight(x, first, count, i)});
+    for (long i = first; i < first + count; ++i)
+      terms_.push_back({i, j, lagrange_weight(x, first, count, i)});
   }
   std::ranges::stable_sort(terms_, {}, &Term::step);
   trajectory_.times = times;
@@ -107,7 +109,8 @@ void expect_motion(const Trajectory& trajectory, const TetMesh& mesh) {
     for (const Point& u : field)
       if (u.norm() > least) return;
   throw InputError(
-      "study: nothing moves in the reference, so there is no error to measure; give the body gravity, a load or a "
+      "study: nothing moves in the reference, so there is no error to measure; give the body "
+      "gravity, a load or a "
       "velocity");
 }
 
@@ -126,7 +129,8 @@ double difference(const Trajectory& a, const Trajectory& b, const Trajectory& si
   return std::sqrt(apart / whole);
 }
 
-std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference, std::size_t vertex) {
+std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference,
+                               std::size_t vertex) {
   double difference = 0, size = 0;
   for (std::size_t j = 0; j < reference.u.size(); ++j) {
     difference += (trajectory.u[j][vertex] - reference.u[j][vertex]).squaredNorm();

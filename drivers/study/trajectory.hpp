@@ -7,7 +7,8 @@
 
 namespace plica {
 
-/// Level 0's motion at sampling times: [sample][vertex], displacement from the placed rest mesh [m] and velocity [m/s].
+/// Level 0's motion at sampling times: [sample][vertex], displacement from the placed rest mesh [m]
+/// and velocity [m/s].
 struct Trajectory {
   std::vector<double> times;  ///< [s]
   std::vector<std::vector<Point>> u, v;
@@ -16,9 +17,10 @@ struct Trajectory {
 /// `samples` times, evenly over (0, duration]. [s]
 std::vector<double> sampling_times(double duration, int samples);
 
-/// Fills a trajectory from the states of a run with steps of one length, of which it keeps none: a sampling time between two
-/// states is interpolated by the polynomial of degree 3 through the two before and the two after it (at the ends the four
-/// nearest; fewer where the run has fewer), Lagrange's form. A sampling time that a step hits is that state.
+/// Fills a trajectory from the states of a run with steps of one length, of which it keeps none: a
+/// sampling time between two states is interpolated by the polynomial of degree 3 through the two
+/// before and the two after it (at the ends the four nearest; fewer where the run has fewer),
+/// Lagrange's form. A sampling time that a step hits is that state.
 class TrajectorySampler {
  public:
   /// @param times  ascending, none beyond `steps` steps of `step` [s]
@@ -49,11 +51,12 @@ Trajectory interpolated(const Trajectory& trajectory, const Embedding& embedding
 struct StudyErrors {
   double displacement = 0;  ///< |u - r| / |r|, both over all vertices and sampling times (L2)
   double velocity = 0;      ///< the same of velocities
-  double worst_vertex =
-      0;  ///< the largest over vertices of |u - r| over time, to the vertices' root mean square of |r|
+  double worst_vertex = 0;  ///< the largest over vertices of |u - r| over time, to the vertices'
+                            ///< root mean square of |r|
 };
 
-/// InputError where nothing of the body moves by more than rounding: then there is nothing to measure against.
+/// InputError where nothing of the body moves by more than rounding: then there is nothing to
+/// measure against.
 void expect_motion(const Trajectory& trajectory, const TetMesh& mesh);
 
 /// Of trajectories at the same times and vertices.
@@ -63,10 +66,12 @@ StudyErrors errors_of(const Trajectory& trajectory, const Trajectory& reference)
 double difference(const Trajectory& a, const Trajectory& b, const Trajectory& size);
 
 /// |u - r| / |r| over all sampling times of one vertex; none where it stays at rest in the reference.
-std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference, std::size_t vertex);
+std::optional<double> error_at(const Trajectory& trajectory, const Trajectory& reference,
+                               std::size_t vertex);
 
-/// How far it is behind the reference on the mean [s], < 0: ahead. The s that makes u = r - s v most true, by least squares over
-/// all vertices and sampling times, with the reference's velocity v: means something while small beside the motion's period.
+/// How far it is behind the reference on the mean [s], < 0: ahead. The s that makes u = r - s v
+/// most true, by least squares over all vertices and sampling times, with the reference's velocity
+/// v: means something while small beside the motion's period.
 double delay_of(const Trajectory& trajectory, const Trajectory& reference);
 
 }  // namespace plica

@@ -19,10 +19,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* reference_integrator = "central_difference";  // order 2, one force a step
-constexpr double of_limit = 0.9;                                    // what a step is of its mesh's limit
-constexpr double of_budget = 0.5;                                   // that two refinements may take
-constexpr double growth =
-    18;  // of a run's time by a refinement: 8 times the elements, twice the steps, a little for memory
+// what a step is of its mesh's limit
+constexpr double of_limit = 0.9;
+constexpr double of_budget = 0.5;  // that two refinements may take
+constexpr double growth = 18;  // of a run's time by a refinement: 8 times the elements, twice the
+                               // steps, a little for memory
 constexpr double time_converged = 1e-4;  // what a level's own error in time may be
 constexpr double most_tets = 4e6;        // without a number of refinements
 
@@ -59,19 +60,22 @@ TetMesh finer_of(const TetMesh& mesh) {
   return reordered(fine, locality_order(fine));
 }
 
-// Level 0 on another mesh, with contact of the same stiffness and damping: these go with the mesh's edges
+// Level 0 on another mesh, with contact of the same stiffness and damping: these go with the mesh's
+// edges
 Problem on_mesh(const Problem& problem, const std::string& element, const TetMesh& mesh) {
   Problem one = with_element(problem, element);
   const double ratio = mean_edge_length(mesh) / mean_edge_length(problem.body.levels.front());
   one.body.levels = {mesh};
   one.contact.stiffness_scale *= ratio;
-  one.contact.damping_scale /= std::sqrt(ratio), one.contact.tangential_damping_scale /= std::sqrt(ratio);
+  one.contact.damping_scale /= std::sqrt(ratio),
+      one.contact.tangential_damping_scale /= std::sqrt(ratio);
   return one;
 }
 
 class TruthMaker {
  public:
-  TruthMaker(const Problem& problem, const StudyOptions& options, std::optional<double> budget, const TruthWatch& watch)
+  TruthMaker(const Problem& problem, const StudyOptions& options, std::optional<double> budget,
+             const TruthWatch& watch)
       : problem_(problem), options_(options), budget_(budget), watch_(watch) {
     options_.reference_integrator = reference_integrator, options_.reference_step = of_limit;
     options_.reference_error = std::max(options.reference_error, time_converged);
@@ -88,11 +92,16 @@ class TruthMaker {
 
  private:
   std::function<bool(double)> part_of_run(const std::string& doing) {
-    return [this, doing](double part) { return stopped_ = stopped_ || (watch_ && !watch_(doing, part)), !stopped_; };
+    return [this, doing](double part) {
+      return stopped_ = stopped_ || (watch_ && !watch_(doing, part)), !stopped_;
+    };
   }
-  double left() const { return *budget_ - std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double left() const {
+    return *budget_ - std::chrono::duration<double>(Clock::now() - start_).count();
+  }
 
-  // Every level with every kind of elements, converged in time; what remains of the first says what an evaluation takes
+  // Every level with every kind of elements, converged in time; what remains of the first says what
+  // an evaluation takes
   StudyReference converged_levels() {
     StudyReference first;
     const auto& levels = problem_.body.levels;
@@ -102,12 +111,13 @@ class TruthMaker {
         alone.element = element, alone.level = static_cast<int>(l);
         const Problem one = problem_of(problem_, alone);
         const double critical = study_levels(one).front().critical_step;
-        StudyReference found =
-            make_reference(one, options_, critical, part_of_run("reference of level " + std::to_string(l)));
+        StudyReference found = make_reference(
+            one, options_, critical, part_of_run("reference of level " + std::to_string(l)));
         if (stopped_) break;
         Trajectory there = l == 0
                                ? found.trajectory
-                               : interpolated(found.trajectory, embed(levels[0].vertices, levels[l], Outside::clamp));
+                               : interpolated(found.trajectory,
+                                              embed(levels[0].vertices, levels[l], Outside::clamp));
         meshes_.push_back({element, static_cast<int>(l), found.own_error, 0, std::move(there)});
         if (meshes_.size() == 1) first = std::move(found);
       }
@@ -119,9 +129,11 @@ class TruthMaker {
     const double critical = study_levels(one).front().critical_step;
     const Embedding at = embed(points, mesh, Outside::clamp);
     const auto go_on = part_of_run(text(family.name, ", ", mesh.tets.size(), " tetrahedra"));
-    const StudyRun found = run_to_samples(one, options_, reference_integrator, of_limit * critical, go_on, &at);
+    const StudyRun found =
+        run_to_samples(one, options_, reference_integrator, of_limit * critical, go_on, &at);
     if (stopped_) return {};
-    const std::size_t vertices = std::min(points.size(), problem_.body.levels.front().vertices.size());
+    const std::size_t vertices =
+        std::min(points.size(), problem_.body.levels.front().vertices.size());
     return {part_of(found.trajectory, 0, vertices),
             part_of(found.trajectory, vertices, points.size()),
             {static_cast<long>(mesh.tets.size()), found.macro_step, found.wall_time, 0}};
@@ -139,7 +151,8 @@ class TruthMaker {
     std::vector<Family> both;
     both.push_back({element, element, mesh, {}, {}, {}});
     if (options_.truth->jitter)
-      both.push_back({element + ", jittered", element, jittered(mesh, *options_.truth->jitter), {}, {}, {}});
+      both.push_back(
+          {element + ", jittered", element, jittered(mesh, *options_.truth->jitter), {}, {}, {}});
     else
       both.push_back({other, other, mesh, {}, {}, {}});
     return both;
@@ -155,8 +168,8 @@ class TruthMaker {
     if (refinements == 0) {
       if (budget_ && seconds > left())
         throw InputError(text("study.truth: the motion on a mesh twice as fine, of ", number(tets),
-                              " tetrahedra, and on a second one would take about ", number(seconds, 2), " s, with ",
-                              number(std::max(0.0, left()), 2),
+                              " tetrahedra, and on a second one would take about ",
+                              number(seconds, 2), " s, with ", number(std::max(0.0, left()), 2),
                               " s left of the budget; give more, or a coarser level 0"));
       return true;
     }
@@ -175,11 +188,15 @@ class TruthMaker {
     const Limit limit = limit_of(both[0], 2), other = limit_of(both[1], limit.used_order);
     Truth truth{report(both[0], limit, limit), report(both[1], other, limit), 0, 0};
     truth.difference = difference(other.trajectory, limit.trajectory, limit.trajectory);
-    // Steps are as much shorter as edges, the integrator is of order 2, and it is compared with half the step
-    const auto converged = std::ranges::find_if(
-        meshes_, [&](const MeshReference& m) { return m.element == both[0].element && m.level == 0; });
-    const double on_level_0 = difference(both[0].motions[0].vertices, converged->trajectory, limit.trajectory);
-    truth.time_error = 4.0 / 3 * on_level_0 / std::exp2(2.0 * static_cast<double>(both[0].motions.size() - 1));
+    // Steps are as much shorter as edges, the integrator is of order 2, and it is compared with
+    // half the step
+    const auto converged = std::ranges::find_if(meshes_, [&](const MeshReference& m) {
+      return m.element == both[0].element && m.level == 0;
+    });
+    const double on_level_0 =
+        difference(both[0].motions[0].vertices, converged->trajectory, limit.trajectory);
+    truth.time_error =
+        4.0 / 3 * on_level_0 / std::exp2(2.0 * static_cast<double>(both[0].motions.size() - 1));
     fill(reference, truth, both[0], limit);
   }
 
@@ -204,15 +221,17 @@ class TruthMaker {
     const auto& m = family.motions;
     const std::size_t n = m.size();
     if (n == 2)
-      return richardson_limit(m[1].vertices, m[0].vertices, family.coarser ? &family.coarser->vertices : nullptr,
-                              family.common, assumed);
+      return richardson_limit(m[1].vertices, m[0].vertices,
+                              family.coarser ? &family.coarser->vertices : nullptr, family.common,
+                              assumed);
     std::vector<int> all(m[0].vertices.u.front().size());
     std::iota(all.begin(), all.end(), 0);
     return richardson_limit(m[n - 1].vertices, m[n - 2].vertices, &m[n - 3].vertices, all, assumed);
   }
 
   static TruthFamily report(const Family& family, const Limit& limit, const Limit& truth) {
-    TruthFamily said{family.name, {}, limit.order, limit.used_order, limit.correction, limit.own_error};
+    TruthFamily said{family.name,    {}, limit.order, limit.used_order, limit.correction,
+                     limit.own_error};
     for (const Motions& motions : family.motions) {
       said.meshes.push_back(motions.mesh);
       said.meshes.back().error = errors_of(motions.vertices, truth.trajectory).displacement;
@@ -220,7 +239,8 @@ class TruthMaker {
     return said;
   }
 
-  void fill(StudyReference& reference, const Truth& truth, const Family& family, const Limit& limit) {
+  void fill(StudyReference& reference, const Truth& truth, const Family& family,
+            const Limit& limit) {
     const auto& m = family.motions;
     reference.method = "truth";
     reference.macro_step = m.back().mesh.macro_step;
@@ -247,8 +267,8 @@ class TruthMaker {
 
 }  // namespace
 
-StudyReference make_truth(const Problem& problem, const StudyOptions& options, std::optional<double> budget,
-                          const TruthWatch& watch) {
+StudyReference make_truth(const Problem& problem, const StudyOptions& options,
+                          std::optional<double> budget, const TruthWatch& watch) {
   return TruthMaker(problem, options, budget, watch).made();
 }
 

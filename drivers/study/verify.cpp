@@ -25,21 +25,24 @@ bool VerifyResult::ok() const {
 
 std::vector<Choice> verify_problems() {
   std::vector<Choice> choices;
-  for (const VerifyProblem& problem : verify_list) choices.push_back({problem.name, problem.summary});
+  for (const VerifyProblem& problem : verify_list)
+    choices.push_back({problem.name, problem.summary});
   return choices;
 }
 
 void check_problems(const std::vector<std::string>& chosen) {
   const auto known = names(verify_problems());
   for (const std::string& name : chosen)
-    if (std::ranges::find(known, name) == known.end()) throw InputError(unknown_name("problem", name, known));
+    if (std::ranges::find(known, name) == known.end())
+      throw InputError(unknown_name("problem", name, known));
 }
 
 VerifyResult verify(const VerifyOptions& options, const VerifyWatch& watch) {
   check_problems(options.problems);
   std::vector<VerifyProblem> chosen;
   for (const VerifyProblem& problem : verify_list)
-    if (options.problems.empty() || std::ranges::find(options.problems, problem.name) != options.problems.end())
+    if (options.problems.empty() ||
+        std::ranges::find(options.problems, problem.name) != options.problems.end())
       chosen.push_back(problem);
   VerifyResult result;
   VerifyProgress progress{"", 0, chosen.size(), &result, false};
@@ -77,11 +80,13 @@ constexpr double telling_order = 0.5;  // below, values do not tend to what they
 std::optional<double> order_of_errors(const std::vector<VerifyValue>& v, double exact) {
   if (v.size() < 2) return {};
   const VerifyValue &coarse = v[v.size() - 2], &fine = v.back();
-  return finite(std::log(std::abs((coarse.value - exact) / (fine.value - exact))) / std::log(coarse.size / fine.size));
+  return finite(std::log(std::abs((coarse.value - exact) / (fine.value - exact))) /
+                std::log(coarse.size / fine.size));
 }
 
-/// Of three values at sizes in constant ratio: what they tend to, and how fast (Roache, Verification and Validation in
-/// Computational Science and Engineering, 5.10). None where they do not tend to anything.
+/// Of three values at sizes in constant ratio: what they tend to, and how fast (Roache,
+/// Verification and Validation in Computational Science and Engineering, 5.10). None where they do
+/// not tend to anything.
 void extrapolate(VerifyRow& row) {
   const std::size_t n = row.ours.size();
   if (n < 3) return;
@@ -89,7 +94,8 @@ void extrapolate(VerifyRow& row) {
   const double ratio = v[1].size / v[2].size;
   if (!(ratio > 1) || !(std::abs(v[0].size / v[1].size - ratio) < 1e-9 * ratio)) return;
   const auto stiffness = [&](int i) { return std::pow(v[i].value, row.power); };
-  const double change = stiffness(2) - stiffness(1), shrink = (stiffness(1) - stiffness(0)) / change;
+  const double change = stiffness(2) - stiffness(1),
+               shrink = (stiffness(1) - stiffness(0)) / change;
   if (!(shrink > 1) || !std::isfinite(shrink)) return;
   row.order = std::log(shrink) / std::log(ratio);
   row.limit = row.power == 1 ? v[2].value + change / (shrink - 1)
@@ -102,7 +108,9 @@ bool within(double value, const VerifyRow& row) {
 
 bool from_above(const VerifyRow& row) {
   for (std::size_t i = 0; i < row.ours.size(); ++i)
-    if (!(row.ours[i].value > *row.accepted) || (i > 0 && !(row.ours[i].value < row.ours[i - 1].value))) return false;
+    if (!(row.ours[i].value > *row.accepted) ||
+        (i > 0 && !(row.ours[i].value < row.ours[i - 1].value)))
+      return false;
   return true;
 }
 

@@ -20,8 +20,10 @@ enum class Judged {
   finest,  ///< its finest value is within the tolerance of the accepted one, relative
   limit,   ///< what its values tend to is (Richardson's extrapolation)
   size,    ///< no value is larger than the tolerance: an error to round-off
-  order,  ///< its values are errors; the order at which they fall is within the tolerance of the accepted one, absolute
-  above,  ///< its values fall towards the accepted one and stay above it: what locks, does
+  /// its values are errors; the order at which they fall is within the tolerance of the accepted
+  /// one, absolute
+  order,
+  above,   ///< its values fall towards the accepted one and stay above it: what locks, does
   nothing  ///< it is for information
 };
 
@@ -35,9 +37,9 @@ struct VerifyRow {
   std::vector<VerifyValue> ours = {};
   Judged judged = Judged::nothing;
   double tolerance = 0;
-  double power =
-      1;  ///< the one of its values that is extrapolated: -1 of deflections, 2 of frequencies, so that it is a stiffness
-  std::string note = {};             ///< why it is not what one might expect
+  double power = 1;       ///< the one of its values that is extrapolated: -1 of deflections, 2 of
+                          ///< frequencies, so that it is a stiffness
+  std::string note = {};  ///< why it is not what one might expect
   std::optional<double> limit = {};  ///< extrapolated from the last three
   std::optional<double> order = {};  ///< observed
   std::string outcome = {};          ///< ok | not ok | shown
@@ -70,8 +72,8 @@ using VerifyWatch = std::function<bool(const VerifyProgress&)>;
 /// Every problem with a known answer there is.
 std::vector<Choice> verify_problems();
 
-/// Solves them in double on the host. A problem that throws is a row that is not ok. InputError for an unknown name, with the
-/// nearest. Kokkos must be initialised.
+/// Solves them in double on the host. A problem that throws is a row that is not ok. InputError for
+/// an unknown name, with the nearest. Kokkos must be initialised.
 VerifyResult verify(const VerifyOptions& options, const VerifyWatch& watch = {});
 
 /// InputError where a name is not in verify_problems().

@@ -21,7 +21,8 @@ struct PlacePoints {
   State<B> state;
   Vectors<B> places;
   KOKKOS_INLINE_FUNCTION Sums<1, 1> operator()(int p) const {
-    set_vector<B>(places, p, value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p)));
+    set_vector<B>(places, p,
+                  value_at<B>(surface.embedding, state.u, p, vector_at<B>(surface.rest, p)));
     const auto v = value_at<B>(surface.embedding, state.v, p);
     return {{static_cast<double>(dot(v, v))}};
   }
@@ -44,14 +45,16 @@ struct ScatterToVertices {
 };
 
 template <class B>
-void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const Vectors<B>& force,
-                         const Vectors<B>& f) {
-  update_vertices<B>(exec, "plica::scatter_to_vertices", surface.touched, ScatterToVertices<B>{surface, force, f});
+void scatter_to_vertices(const typename B::Exec& exec, const EmbeddedSurface<B>& surface,
+                         const Vectors<B>& force, const Vectors<B>& f) {
+  update_vertices<B>(exec, "plica::scatter_to_vertices", surface.touched,
+                     ScatterToVertices<B>{surface, force, f});
 }
 
 /// What mass damping leaves of an acceleration; see ContactStep.
 template <class B>
-KOKKOS_INLINE_FUNCTION typename B::Real kept(const VertexModel<B>& model, int a, typename B::Real damped) {
+KOKKOS_INLINE_FUNCTION typename B::Real kept(const VertexModel<B>& model, int a,
+                                             typename B::Real damped) {
   return 1 / (1 + damped * model.damping(a));
 }
 
@@ -83,7 +86,8 @@ struct StaticContact {
     const int r = records.list.item(i);
     const ContactLaw<Real> law = records.law_at(r);
     const Vec3<Real> s = vector_at<B>(records.stretch, r);
-    const Real lam = law.is_tie() ? Real(0) : law.stiffness * Kokkos::max(Real(0), records.depth(r));
+    const Real lam =
+        law.is_tie() ? Real(0) : law.stiffness * Kokkos::max(Real(0), records.depth(r));
     const Vec3<Real> q = at_most((law.is_tie() ? law.stiffness : law.shear_stiffness) * s,
                                  law.is_tie() ? law.strength : law.friction * lam);
     set_vector<B>(records.force, r, lam * vector_at<B>(records.normal, r) - q);
@@ -125,11 +129,13 @@ struct ContactEnergy {
     const double depth = Kokkos::max(0.0, static_cast<double>(at.depth(r)));
     // of the force that there is: unconverged sweeps are a softer spring
     const double of_stretch = -static_cast<double>(dot(vector_at<B>(at.records.force, r), s));
-    return {{0.5 * static_cast<double>(law.stiffness) * depth * depth + 0.5 * Kokkos::max(0.0, of_stretch)}};
+    return {{0.5 * static_cast<double>(law.stiffness) * depth * depth +
+             0.5 * Kokkos::max(0.0, of_stretch)}};
   }
 };
 
-/// How deep a record's site is in its partner [m], where it is of that row. A triangle's record has what is beyond its corners.
+/// How deep a record's site is in its partner [m], where it is of that row. A triangle's record has
+/// what is beyond its corners.
 template <class B>
 struct DepthInPartner {
   RecordLater<B> at;
@@ -142,7 +148,8 @@ struct DepthInPartner {
     if (!(depth > 0)) return {};
     for (int c = 0; records.is_on_face(r) && c < 3; ++c)
       if (const int corner = records.of_point(row, records.point(r, c)); records.near(corner) > 0)
-        depth += static_cast<double>(records.weight(r, c)) * Kokkos::max(0.0, static_cast<double>(at.depth(corner)));
+        depth += static_cast<double>(records.weight(r, c)) *
+                 Kokkos::max(0.0, static_cast<double>(at.depth(corner)));
     return {{depth}};
   }
 };

@@ -2,19 +2,22 @@
 #pragma once
 #include <plica/core/small.hpp>
 
-// The law of one contact, the same in all steppers. Over a step h, D is the way of a site against its partner, d0 its depth at the
-// start (above 0: inside), N the unit normal out of the partner, s the stretch that the contact carries from step to step:
+// The law of one contact, the same in all steppers. Over a step h, D is the way of a site against
+// its partner, d0 its depth at the start (above 0: inside), N the unit normal out of the partner, s
+// the stretch that the contact carries from step to step:
 //
 //   normal      kn  = k + c/h      lam = kn max(0, d0 - N.D - d*)      d* = (c/h) max(0, d0) / kn
 //   tangential  kt' = kt + ct/h    x = (1 - N N^T) D + (kt/kt') s      q = kt' x, at most tau = mu lam
 //   force       F = lam N - q
 //
-// Both are derivatives of incremental potentials: phi = lam^2 / (2 kn); psi is Huber's function of x, kt'/2 x^2 up to the cap tau and
-// straight beyond it. Damping shifts the depth at which the spring sets in, so that the force does not jump where a site touches. The
-// stretch is what makes friction stick. It follows the way, and slips where the cap is met. After Simo & Laursen (Computers &
-// Structures 42, 1992), with the cap of the last iterate.
+// Both are derivatives of incremental potentials: phi = lam^2 / (2 kn); psi is Huber's function of
+// x, kt'/2 x^2 up to the cap tau and straight beyond it. Damping shifts the depth at which the
+// spring sets in, so that the force does not jump where a site touches. The stretch is what makes
+// friction stick. It follows the way, and slips where the cap is met. After Simo & Laursen
+// (Computers & Structures 42, 1992), with the cap of the last iterate.
 //
-// A tie is the record without a normal: q acts in all directions, and its cap is the tie's strength.
+// A tie is the record without a normal: q acts in all directions, and its cap is the tie's
+// strength.
 namespace plica {
 
 template <class Real>
@@ -24,7 +27,8 @@ struct ContactLaw {
   Real shear_stiffness = 0;  ///< kt [N/m]
   Real shear_damping = 0;    ///< ct [N s/m]
   Real friction = 0;         ///< Coulomb's coefficient mu
-  Real strength = 0;         ///< of a tie [N]: the force at which it tears, infinity: never; 0: this is a contact
+  /// of a tie [N]: the force at which it tears, infinity: never; 0: this is a contact
+  Real strength = 0;
   KOKKOS_INLINE_FUNCTION bool is_tie() const { return strength > 0; }
 };
 

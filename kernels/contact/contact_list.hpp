@@ -4,8 +4,9 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Lists of what is in use, made on the device without the host knowing how long they are, and work over them. A list is in ascending
-// order whatever the number of threads: blocks count, one item adds their counts up, blocks write.
+// Lists of what is in use, made on the device without the host knowing how long they are, and work
+// over them. A list is in ascending order whatever the number of threads: blocks count, one item
+// adds their counts up, blocks write.
 //
 //   in use     . x . . | x x . . | . . . x      blocks of a fixed length
 //   counts        1         2         1
@@ -22,7 +23,8 @@ struct OverList {
   KOKKOS_INLINE_FUNCTION void operator()(int part) const {
     const long long n = gate && !(*gate > 0) ? 0 : static_cast<long long>(*count);
     if constexpr (B::for_cpu) {
-      for (long long i = n * part / parts; i < n * (part + 1) / parts; ++i) work(static_cast<int>(i));
+      for (long long i = n * part / parts; i < n * (part + 1) / parts; ++i)
+        work(static_cast<int>(i));
     } else if (part < n) {
       work(part);
     }
@@ -30,10 +32,12 @@ struct OverList {
 };
 
 template <class B, class Work>
-void over_list(const typename B::Exec& exec, const DeviceList<B>& list, const char* label, const Work& work,
-               const Doubles<B>& gate = {}) {
-  const int parts = B::for_cpu ? Kokkos::min(exec.concurrency(), Kokkos::max(1, list.most / 64)) : list.most;
-  update_vertices<B>(exec, label, parts, OverList<B, Work>{list.count.data(), gate.data(), parts, work});
+void over_list(const typename B::Exec& exec, const DeviceList<B>& list, const char* label,
+               const Work& work, const Doubles<B>& gate = {}) {
+  const int parts =
+      B::for_cpu ? Kokkos::min(exec.concurrency(), Kokkos::max(1, list.most / 64)) : list.most;
+  update_vertices<B>(exec, label, parts,
+                     OverList<B, Work>{list.count.data(), gate.data(), parts, work});
 }
 
 /// A term for each in a list, nothing beyond its end.
@@ -47,9 +51,10 @@ struct TermOfList {
 };
 
 template <class B, int N, class Term, class Tally = Sums<N>>
-void sum_list(const typename B::Exec& exec, const DeviceList<B>& list, const char* label, const Term& term,
-              const BlockSums<B>& blocks, const Doubles<B>& result) {
-  reduce<B, N, TermOfList<B, Term>, Tally>(exec, label, list.most, {list.count.data(), term}, blocks, result);
+void sum_list(const typename B::Exec& exec, const DeviceList<B>& list, const char* label,
+              const Term& term, const BlockSums<B>& blocks, const Doubles<B>& result) {
+  reduce<B, N, TermOfList<B, Term>, Tally>(exec, label, list.most, {list.count.data(), term},
+                                           blocks, result);
 }
 
 /// How many of each block are in use, and what their entries sum up to.
@@ -59,7 +64,9 @@ struct CountBlock {
   Entries entries;  ///< int(int i): of item i; 0: not in use
   Indices<B> used, summed;
   const double* gate;  ///< nothing is in use where that is 0; null: it is not known
-  KOKKOS_INLINE_FUNCTION int begin(int b) const { return gate && !(*gate > 0) ? end(b) : b * block; }
+  KOKKOS_INLINE_FUNCTION int begin(int b) const {
+    return gate && !(*gate > 0) ? end(b) : b * block;
+  }
   KOKKOS_INLINE_FUNCTION int end(int b) const { return Kokkos::min(n, (b + 1) * block); }
   KOKKOS_INLINE_FUNCTION void operator()(int b) const {
     int count = 0, sum = 0;
@@ -108,12 +115,14 @@ struct ListMaker {
   ListMaker() = default;
   explicit ListMaker(int items)
       : used(zeros<Indices<B>>("plica::list.used", static_cast<std::size_t>(items / block + 1))),
-        summed(zeros<Indices<B>>("plica::list.summed", static_cast<std::size_t>(items / block + 1))) {}
+        summed(
+            zeros<Indices<B>>("plica::list.summed", static_cast<std::size_t>(items / block + 1))) {}
 
-  /// Of n items those with entries; count(0) is their number. None where `gate`, if there is one, is 0.
+  /// Of n items those with entries; count(0) is their number. None where `gate`, if there is one,
+  /// is 0.
   template <class Entries, class Write>
-  void make(const typename B::Exec& exec, const char* label, int n, const Entries& entries, const Write& write,
-            const Doubles<B>& count, const Doubles<B>& gate = {}) const {
+  void make(const typename B::Exec& exec, const char* label, int n, const Entries& entries,
+            const Write& write, const Doubles<B>& count, const Doubles<B>& gate = {}) const {
     const int blocks = (n + block - 1) / block;
     const CountBlock<B, Entries> counting{n, block, entries, used, summed, gate.data()};
     update_vertices<B>(exec, label, blocks, counting);
@@ -136,8 +145,8 @@ struct WriteSlot {
 
 /// use(vertex's number, key) for each of the entries of the i-th record in the list.
 template <class B, class Use>
-KOKKOS_INLINE_FUNCTION void each_entry(const EmbeddedSurface<B>& surface, const ContactRecords<B>& records, int i,
-                                       const Use& use) {
+KOKKOS_INLINE_FUNCTION void each_entry(const EmbeddedSurface<B>& surface,
+                                       const ContactRecords<B>& records, int i, const Use& use) {
   const int r = records.list.item(i);
   for (int c = 0; c < 4; ++c) {
     const int p = records.point(r, c);
@@ -154,7 +163,8 @@ struct CountEntries {
   EmbeddedSurface<B> surface;
   ContactRecords<B> records;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    each_entry<B>(surface, records, i, [&](int place, int) { Kokkos::atomic_inc(&records.transpose.filled(place)); });
+    each_entry<B>(surface, records, i,
+                  [&](int place, int) { Kokkos::atomic_inc(&records.transpose.filled(place)); });
   }
 };
 template <class B>
@@ -183,7 +193,8 @@ struct PlaceEntries {
     });
   }
 };
-/// Sorts a vertex's entries, of which there are few, and adds up those of one record. `filled` is 0 again.
+/// Sorts a vertex's entries, of which there are few, and adds up those of one record. `filled` is 0
+/// again.
 template <class B>
 struct SortEntries {
   EmbeddedSurface<B> surface;
@@ -213,14 +224,14 @@ struct SortEntries {
 
 /// Lists the slots in use and the vertices that they have a part in.
 template <class B>
-void list_contacts(const typename B::Exec& exec, const EmbeddedSurface<B>& surface, const ContactRecords<B>& records,
-                   const ListMaker<B>& maker) {
+void list_contacts(const typename B::Exec& exec, const EmbeddedSurface<B>& surface,
+                   const ContactRecords<B>& records, const ListMaker<B>& maker) {
   const ContactTranspose<B>& of = records.transpose;
-  maker.make(exec, "plica::contact_list", records.slots(), SlotInUse<B>{records.near}, WriteSlot<B>{records.list.item},
-             records.list.count);
+  maker.make(exec, "plica::contact_list", records.slots(), SlotInUse<B>{records.near},
+             WriteSlot<B>{records.list.item}, records.list.count);
   over_list<B>(exec, records.list, "plica::contact_entries", CountEntries<B>{surface, records});
-  maker.make(exec, "plica::contact_vertices", surface.touched, EntriesOfVertex<B>{of.filled}, ListVertex<B>{of},
-             of.vertices.count, records.list.count);
+  maker.make(exec, "plica::contact_vertices", surface.touched, EntriesOfVertex<B>{of.filled},
+             ListVertex<B>{of}, of.vertices.count, records.list.count);
   over_list<B>(exec, records.list, "plica::contact_place", PlaceEntries<B>{surface, records});
   over_list<B>(exec, of.vertices, "plica::contact_sort", SortEntries<B>{surface, records});
 }

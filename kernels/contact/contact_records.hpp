@@ -5,10 +5,12 @@
 #include <plica/kernels/contact/contact_law.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// What contact keeps of a level, without its kernels: what has contact includes this and does not wait for those to compile.
+// What contact keeps of a level, without its kernels: what has contact includes this and does not
+// wait for those to compile.
 //
-// All contact is in records of one kind: up to four surface points with weights, a normal, a depth, a law. W is the sum of the points'
-// values times their weights; its transpose gives the record's force to the points.
+// All contact is in records of one kind: up to four surface points with weights, a normal, a depth,
+// a law. W is the sum of the points' values times their weights; its transpose gives the record's
+// force to the points.
 //
 //   a point that touches an obstacle     1
 //   a triangle that touches one          w0, w1, w2 of its corners, where it is deepest
@@ -16,9 +18,11 @@
 //   two edges                            1 - s, s; t - 1, -t
 //   a point that is held or attached     as the first and the third
 //
-// Where a record stands says what it is of. Rows of one slot for each surface point come first: one for each obstacle, then, where
-// bodies touch, one of points and triangles, then one of edges, which belong to a point where they begin. Behind them is a row of one
-// slot for each triangle, for each obstacle. Few slots are in use: those are listed, in their order, and work goes over the list.
+// Where a record stands says what it is of. Rows of one slot for each surface point come first: one
+// for each obstacle, then, where bodies touch, one of points and triangles, then one of edges,
+// which belong to a point where they begin. Behind them is a row of one slot for each triangle, for
+// each obstacle. Few slots are in use: those are listed, in their order, and work goes over the
+// list.
 //
 //   slots   | points, obstacle 0 | obstacle 1 | ... | points and triangles | edges | triangles, obstacle 0 | ...
 //   list      3 5 8 ...                                                        the slots in use, ascending
@@ -32,20 +36,24 @@ struct DeviceList {
   int most = 0;
 };
 
-/// Surface points that are attached to another body: each by a tie to one place on one of its triangles, until it tears.
+/// Surface points that are attached to another body: each by a tie to one place on one of its
+/// triangles, until it tears.
 template <class B>
 struct Attachments {
   static constexpr int none = -1, beside = -2;
-  /// [points] which one holds it; beside - q: point q is held at a triangle of it, so that it touches nothing either; none; empty: no
-  /// attachments at all
+  /// [points] which one holds it; beside - q: point q is held at a triangle of it, so that it
+  /// touches nothing either; none; empty: no attachments at all
   Indices<B> attachment;
-  Doubles<B> memory;  ///< of the obstacles; from its number `first` on [points] 1: torn; empty: nothing tears
+  /// of the obstacles; from its number `first` on [points] 1: torn; empty: nothing tears
+  Doubles<B> memory;
   int first = 0;
   Indices<B> triangle;  ///< [points]
   Vectors<B> weight;    ///< [points][3] of its corners
   int first_law = 0;    ///< of the attachments' laws, one each
 
-  KOKKOS_INLINE_FUNCTION bool is_torn(int p) const { return memory.extent(0) > 0 && memory(first + p) > 0; }
+  KOKKOS_INLINE_FUNCTION bool is_torn(int p) const {
+    return memory.extent(0) > 0 && memory(first + p) > 0;
+  }
   KOKKOS_INLINE_FUNCTION void tear(int p) const { memory(first + p) = 1; }
   KOKKOS_INLINE_FUNCTION bool holds(int p) const {
     return attachment.extent(0) > 0 && attachment(p) >= 0 && !is_torn(p);
@@ -57,8 +65,8 @@ struct Attachments {
   }
 };
 
-/// Surface points that obstacles hold: each by a tie to where it was, relative to the obstacle, when that closed. A place for every
-/// obstacle and point, numbered as the slots of contact.
+/// Surface points that obstacles hold: each by a tie to where it was, relative to the obstacle,
+/// when that closed. A place for every obstacle and point, numbered as the slots of contact.
 template <class B>
 struct Grasps {
   using Real = typename B::Real;
@@ -72,16 +80,20 @@ struct Grasps {
 
   KOKKOS_INLINE_FUNCTION int at(int r) const { return first + numbers * r; }
   KOKKOS_INLINE_FUNCTION bool holds(int r) const { return r < places && memory(at(r) + 3) > 0; }
-  KOKKOS_INLINE_FUNCTION bool may_hold(int r) const { return left_out.extent(0) == 0 || left_out(r) == 0; }
+  KOKKOS_INLINE_FUNCTION bool may_hold(int r) const {
+    return left_out.extent(0) == 0 || left_out(r) == 0;
+  }
   KOKKOS_INLINE_FUNCTION void hold(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
     for (int k = 0; k < 3; ++k) memory(at(r) + k) = static_cast<double>(x[k]) - moved[k];
     memory(at(r) + 3) = 1;
   }
   KOKKOS_INLINE_FUNCTION void release(int r) const { memory(at(r) + 3) = 0; }
   /// How far a point at x is from where an obstacle that has moved so holds it [m].
-  KOKKOS_INLINE_FUNCTION Vec3<Real> stretch(int r, const Vec3<Real>& x, const Vec3<double>& moved) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> stretch(int r, const Vec3<Real>& x,
+                                            const Vec3<double>& moved) const {
     Vec3<Real> s;
-    for (int k = 0; k < 3; ++k) s[k] = static_cast<Real>(static_cast<double>(x[k]) - moved[k] - memory(at(r) + k));
+    for (int k = 0; k < 3; ++k)
+      s[k] = static_cast<Real>(static_cast<double>(x[k]) - moved[k] - memory(at(r) + k));
     return s;
   }
 };
@@ -92,30 +104,36 @@ struct SurfaceMesh {
   int triangles = 0;           ///< 0: contact is of points alone, no arrays
   Indices<B> corner;           ///< [triangles * 3] points, counter-clockwise seen from outside
   Indices<B> first, triangle;  ///< [points + 1] into the triangles around each point
-  Indices<B> first_edge;       ///< [points + 1] into the edges whose end with the lower number is that point
-  Indices<B> edge;             ///< [edges * 4] its ends, and the third corners of the triangles left and right of it
-  Indices<B> side;             ///< [triangles * 3] the edge from each corner to the next
+  /// [points + 1] into the edges whose end with the lower number is that point
+  Indices<B> first_edge;
+  /// [edges * 4] its ends, and the third corners of the triangles left and right of it
+  Indices<B> edge;
+  Indices<B> side;  ///< [triangles * 3] the edge from each corner to the next
 };
 
 /// What the search for pairs goes by.
 template <class Real>
 struct PairLimits {
-  Real reach = 0;        ///< a triangle further than that outside is not looked for, but by what is fast [m]
-  Real margin = 0;       ///< what may be gained on that until the grid is made anew [m]
-  Real apart = 0;        ///< on one body, what is nearer than that at rest is a pair across a gap only [m]
+  /// a triangle further than that outside is not looked for, but by what is fast [m]
+  Real reach = 0;
+  Real margin = 0;  ///< what may be gained on that until the grid is made anew [m]
+  /// on one body, what is nearer than that at rest is a pair across a gap only [m]
+  Real apart = 0;
   bool between = false;  ///< bodies
   bool self = false;     ///< on one body
 };
 
-/// W^T of the records in use: to each vertex that they have a part in, the records and its weight in them, by ascending slots.
+/// W^T of the records in use: to each vertex that they have a part in, the records and its weight
+/// in them, by ascending slots.
 template <class B>
 struct ContactTranspose {
   DeviceList<B> vertices;  ///< numbers into EmbeddedSurface::vertex
-  Indices<B> place;        ///< [vertices] each vertex's number there; -1: no surface point is in its tetrahedra
+  /// [vertices] each vertex's number there; -1: no surface point is in its tetrahedra
+  Indices<B> place;
   Indices<B> filled;       ///< [touched] entries while it is made
   Indices<B> first, last;  ///< [touched] of the entries of each in the list
-  Indices<B>
-      record;  ///< [entries] slots; while it is made, with the point and its vertex: 16 i + 4 c + e, i the place in the list
+  Indices<B> record;  ///< [entries] slots; while it is made, with the point and its vertex: 16 i +
+                      ///< 4 c + e, i the place in the list
   Scalars<B> weight;  ///< [entries]
 
   /// use(slot, weight) for what the i-th in the list of vertices has, always in the same order.
@@ -125,16 +143,19 @@ struct ContactTranspose {
   }
 };
 
-/// How an explicit step takes its contact. A default one: nothing happens in it, and contact is that of a state that stays.
+/// How an explicit step takes its contact. A default one: nothing happens in it, and contact is
+/// that of a state that stays.
 struct ContactStep {
-  double span = 0;    ///< h [s]
-  double ahead = 0;   ///< how far ahead of the state the depth is taken, with the velocity there [s]
+  double span = 0;  ///< h [s]
+  /// how far ahead of the state the depth is taken, with the velocity there [s]
+  double ahead = 0;
   double damped = 0;  ///< of mass damping c: e = (a - c v) / (1 + damped c), A likewise [s]
-  bool ends =
-      true;  ///< these forces are the step's, so that the carried stretches follow its way; else those of a stage
+  bool ends = true;  ///< these forces are the step's, so that the carried stretches follow its way;
+                     ///< else those of a stage
 };
 
-/// Where surface points are told of that are further inside an obstacle than makes sense, or nowhere: the last of them + 1.
+/// Where surface points are told of that are further inside an obstacle than makes sense, or
+/// nowhere: the last of them + 1.
 template <class B>
 struct DepthWatch {
   Indices<B> lost;           ///< [1]
@@ -154,12 +175,14 @@ struct ContactRecords {
   int points = 0, obstacles = 0, bodies = 1,
       faces = 0;  ///< faces: triangles, where an obstacle touches between points; else 0
   bool pairs = false;
-  Real reach = 0;  ///< a point further than that outside an obstacle is not looked at, but where it is fast [m]
-  Real span = 0;   ///< of the step [s]
+  /// a point further than that outside an obstacle is not looked at, but where it is fast [m]
+  Real reach = 0;
+  Real span = 0;            ///< of the step [s]
   bool long_steps = false;  ///< long steps look along the nearest normal, whatever their path meets
   Real edge = 0;            ///< mean, of the surface [m]
   /// @{ shared by all levels
-  Laws law;         ///< of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
+  /// of obstacles and bodies, of what they hold, of pairs of bodies, of attachments
+  Laws law;
   Indices<B> body;  ///< of each point; empty: there is one
   SurfaceMesh<B> mesh;
   Grasps<B> grasps;
@@ -176,15 +199,18 @@ struct ContactRecords {
   Indices<B> law_of;    ///< [slots]
   Vectors<B> normal;    ///< [slots][3] out of the partner; of a tie 0
   Scalars<B> depth;     ///< [slots] > 0 inside [m]
-  Vectors<B> way;  ///< [slots][3] of the obstacle in the step [m]; of an implicit one, where D begins: D = W u - way
-  Vectors<B> stretch;   ///< [slots][3] s [m], carried
-  Vectors<B> force;     ///< [slots][3] F, on the sites that have weight 1 [N], carried
-  Vectors<B> drift;     ///< [slots][3] D without contact's own part, on implicit levels the obstacle's way [m]
+  /// [slots][3] of the obstacle in the step [m]; of an implicit one, where D begins: D = W u - way
+  Vectors<B> way;
+  Vectors<B> stretch;  ///< [slots][3] s [m], carried
+  Vectors<B> force;    ///< [slots][3] F, on the sites that have weight 1 [N], carried
+  /// [slots][3] D without contact's own part, on implicit levels the obstacle's way [m]
+  Vectors<B> drift;
   Scalars<B> response;  ///< [slots] rho [1/kg]; 0: no force in this step; explicit levels
   Scalars<B> cap;       ///< [slots] tau [N]; implicit levels
   Blocks<B> block;      ///< [slots][6] dF/dD [kg], weighted; implicit levels
-  Blocks<B> concavity;  ///< [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
-  Indices<B> partner;   ///< [points] the triangle each point was near last; -1: none
+  /// [slots][6] G [1/m], of obstacles that are not convex; implicit levels; see concavity()
+  Blocks<B> concavity;
+  Indices<B> partner;  ///< [points] the triangle each point was near last; -1: none
   ContactTranspose<B> transpose;
 
   /// use(field) for all that a level has of its own, then for what it shares with others.
@@ -192,17 +218,22 @@ struct ContactRecords {
   template <class Self, class Use>
   static void each_own(Self& r, const Use& use) {
     auto& W = r.transpose;
-    use(r.list.item), use(r.list.count), use(r.touching), use(r.near), use(r.close), use(r.places), use(r.fastest),
-        use(r.point);
-    use(r.weight), use(r.law_of), use(r.normal), use(r.depth), use(r.way), use(r.stretch), use(r.force), use(r.drift);
-    use(r.response), use(r.cap), use(r.block), use(r.concavity), use(r.partner), use(W.vertices.item);
-    use(W.vertices.count), use(W.place), use(W.filled), use(W.first), use(W.last), use(W.record), use(W.weight);
+    use(r.list.item), use(r.list.count), use(r.touching), use(r.near), use(r.close), use(r.places),
+        use(r.fastest), use(r.point);
+    use(r.weight), use(r.law_of), use(r.normal), use(r.depth), use(r.way), use(r.stretch),
+        use(r.force), use(r.drift);
+    use(r.response), use(r.cap), use(r.block), use(r.concavity), use(r.partner),
+        use(W.vertices.item);
+    use(W.vertices.count), use(W.place), use(W.filled), use(W.first), use(W.last), use(W.record),
+        use(W.weight);
   }
   template <class Self, class Use>
   static void each_shared(Self& r, const Use& use) {
     use(r.law), use(r.body), use(r.grasps.memory), use(r.grasps.left_out);
-    use(r.attached.attachment), use(r.attached.memory), use(r.attached.triangle), use(r.attached.weight);
-    use(r.mesh.corner), use(r.mesh.first), use(r.mesh.triangle), use(r.mesh.first_edge), use(r.mesh.edge);
+    use(r.attached.attachment), use(r.attached.memory), use(r.attached.triangle),
+        use(r.attached.weight);
+    use(r.mesh.corner), use(r.mesh.first), use(r.mesh.triangle), use(r.mesh.first_edge),
+        use(r.mesh.edge);
     use(r.mesh.side);
   }
   /// @}
@@ -210,15 +241,21 @@ struct ContactRecords {
   KOKKOS_INLINE_FUNCTION int rows() const { return obstacles + (pairs ? 2 : 0); }
   KOKKOS_INLINE_FUNCTION int slots() const { return rows() * points + obstacles * faces; }
   KOKKOS_INLINE_FUNCTION int of_point(int row, int p) const { return row * points + p; }
-  KOKKOS_INLINE_FUNCTION int of_face(int obstacle, int t) const { return rows() * points + obstacle * faces + t; }
+  KOKKOS_INLINE_FUNCTION int of_face(int obstacle, int t) const {
+    return rows() * points + obstacle * faces + t;
+  }
   KOKKOS_INLINE_FUNCTION bool is_on_face(int r) const { return r >= rows() * points; }
   /// The obstacle that a record is of; `obstacles` and above: a pair.
-  KOKKOS_INLINE_FUNCTION int row(int r) const { return is_on_face(r) ? (r - rows() * points) / faces : r / points; }
+  KOKKOS_INLINE_FUNCTION int row(int r) const {
+    return is_on_face(r) ? (r - rows() * points) / faces : r / points;
+  }
   KOKKOS_INLINE_FUNCTION bool is_pair(int r) const { return row(r) >= obstacles; }
   /// It couples the vertices of one tetrahedron alone.
   KOKKOS_INLINE_FUNCTION bool is_of_one(int r) const { return r < obstacles * points; }
   KOKKOS_INLINE_FUNCTION int body_of(int p) const { return bodies > 1 ? body(p) : 0; }
-  KOKKOS_INLINE_FUNCTION int obstacle_law(int obstacle, int p) const { return obstacle * bodies + body_of(p); }
+  KOKKOS_INLINE_FUNCTION int obstacle_law(int obstacle, int p) const {
+    return obstacle * bodies + body_of(p);
+  }
   KOKKOS_INLINE_FUNCTION int pair_law(int p, int q) const {
     return 2 * obstacles * bodies + body_of(p) * bodies + body_of(q);
   }
@@ -226,11 +263,12 @@ struct ContactRecords {
     return grasps.first_law + obstacle_law(obstacle, p);
   }
   KOKKOS_INLINE_FUNCTION const ContactLaw<Real>& law_at(int r) const { return law(law_of(r)); }
-  static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }  ///< how far away is what is near nothing [m]
+  /// how far away is what is near nothing [m]
+  static KOKKOS_INLINE_FUNCTION Real nowhere() { return Real(1e30); }
 
   /// W of a field; `bounding`: by absolute weights.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x, int r,
-                                          bool bounding = false) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> value(const EmbeddedSurface<B>& surface, const Vectors<B>& x,
+                                          int r, bool bounding = false) const {
     Vec3<Real> sum;
     for (int c = 0; c < 4; ++c) {
       const int p = point(r, c);
@@ -242,20 +280,24 @@ struct ContactRecords {
     return sum;
   }
   /// Where a force of it acts on the sites of positive weight [m].
-  KOKKOS_INLINE_FUNCTION Vec3<Real> place(const EmbeddedSurface<B>& surface, const Vectors<B>& u, int r) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> place(const EmbeddedSurface<B>& surface, const Vectors<B>& u,
+                                          int r) const {
     Vec3<Real> x;
     for (int c = 0; c < 4; ++c)
       if (point(r, c) >= 0 && weight(r, c) > 0)
-        x += weight(r, c) * value_at<B>(surface.embedding, u, point(r, c), vector_at<B>(surface.rest, point(r, c)));
+        x += weight(r, c) * value_at<B>(surface.embedding, u, point(r, c),
+                                        vector_at<B>(surface.rest, point(r, c)));
     return x;
   }
-  KOKKOS_INLINE_FUNCTION void set_stencil(int r, int a, int b, int c, int d, Real wa, Real wb, Real wc, Real wd) const {
+  KOKKOS_INLINE_FUNCTION void set_stencil(int r, int a, int b, int c, int d, Real wa, Real wb,
+                                          Real wc, Real wd) const {
     point(r, 0) = a, point(r, 1) = b, point(r, 2) = c, point(r, 3) = d;
     weight(r, 0) = wa, weight(r, 1) = wb, weight(r, 2) = wc, weight(r, 3) = wd;
   }
-  /// A slot comes into use or goes on in it: its normal, with the carried stretch turned into the plane across it.
-  KOKKOS_INLINE_FUNCTION void use(int r, int its_law, const Vec3<Real>& N, Real its_depth, const Vec3<Real>& its_way,
-                                  const Vec3<Real>& spin) const {
+  /// A slot comes into use or goes on in it: its normal, with the carried stretch turned into the
+  /// plane across it.
+  KOKKOS_INLINE_FUNCTION void use(int r, int its_law, const Vec3<Real>& N, Real its_depth,
+                                  const Vec3<Real>& its_way, const Vec3<Real>& spin) const {
     if (near(r) == 0 || law_at(r).is_tie()) {
       set_vector<B>(stretch, r, {}), set_vector<B>(force, r, {});
     } else {
@@ -270,10 +312,12 @@ struct ContactRecords {
     set_vector<B>(normal, r, N), set_vector<B>(way, r, its_way);
   }
   /// A tie, whose stretch is given.
-  KOKKOS_INLINE_FUNCTION void tie(int r, int its_law, const Vec3<Real>& its_stretch, const Vec3<Real>& its_way) const {
+  KOKKOS_INLINE_FUNCTION void tie(int r, int its_law, const Vec3<Real>& its_stretch,
+                                  const Vec3<Real>& its_way) const {
     if (near(r) == 0) set_vector<B>(force, r, {});
     near(r) = 1, law_of(r) = its_law, depth(r) = -nowhere();
-    set_vector<B>(normal, r, {}), set_vector<B>(way, r, its_way), set_vector<B>(stretch, r, its_stretch);
+    set_vector<B>(normal, r, {}), set_vector<B>(way, r, its_way),
+        set_vector<B>(stretch, r, its_stretch);
   }
   KOKKOS_INLINE_FUNCTION void leave(int r) const { near(r) = 0; }
   /// A tie whose last force was its strength.
@@ -285,11 +329,13 @@ struct ContactRecords {
     return dot(F, F) >= least * least;
   }
   /// It is in the linear system.
-  KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const { return block(r, 0) + block(r, 1) + block(r, 2) > 0; }
+  KOKKOS_INLINE_FUNCTION bool is_stiff(int r) const {
+    return block(r, 0) + block(r, 1) + block(r, 2) > 0;
+  }
 };
 
-/// Which weights count by their absolute values: none; where A is no multiple of 1 those of obstacles alone, since the two sides of a pair
-/// answer a force of one direction alike; all.
+/// Which weights count by their absolute values: none; where A is no multiple of 1 those of
+/// obstacles alone, since the two sides of a pair answer a force of one direction alike; all.
 enum class Bounding { none, obstacles, all };
 
 /// The force [N] that the records put on the i-th vertex in the list.
@@ -298,7 +344,8 @@ KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> contact_force(const ContactRecords
                                                             Bounding bounding = Bounding::none) {
   Vec3<typename B::Real> sum;
   records.transpose.each(i, [&](int r, typename B::Real w) {
-    const bool absolute = bounding == Bounding::all || (bounding == Bounding::obstacles && !records.is_pair(r));
+    const bool absolute =
+        bounding == Bounding::all || (bounding == Bounding::obstacles && !records.is_pair(r));
     sum += (absolute ? Kokkos::abs(w) : w) * vector_at<B>(records.force, r);
   });
   return sum;

@@ -3,22 +3,25 @@
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Contact in an explicit step of h and in `him`: taken implicitly in the acceleration of that step, so that its stiffness does not
-// bound it. With e the acceleration without contact, r that by contact, D = h v + h^2 W (e + r) less the obstacle's way. The law (see
-// contact_law.hpp) is solved by sweeps of projected Jacobi from 0:
+// Contact in an explicit step of h and in `him`: taken implicitly in the acceleration of that step,
+// so that its stiffness does not bound it. With e the acceleration without contact, r that by
+// contact, D = h v + h^2 W (e + r) less the obstacle's way. The law (see contact_law.hpp) is solved
+// by sweeps of projected Jacobi from 0:
 //
 //   lam <- max(0, lam + (kn (d0 - N.D - d*) - lam) / (1 + h^2 kn rho))     q <- q + (kt' x - q) / (1 + h^2 kt' rho), at most mu lam
 //
-// Records are coupled by A, the inverse mass: r = A W^T F. The relaxation of a record is that of rho, the sum of its row of W A W^T
-// over the records that touch: exact for an even pressure, and never too much. W^T takes absolute weights there, which bounds the sum.
+// Records are coupled by A, the inverse mass: r = A W^T F. The relaxation of a record is that of
+// rho, the sum of its row of W A W^T over the records that touch: exact for an even pressure, and
+// never too much. W^T takes absolute weights there, which bounds the sum.
 //
 //   records                                    vertices
 //   1. unit force on each that touches  --W^T-->  f  --A-->  a  --W-->  r: gives rho
 //   2. forces from e and the last r     --W^T-->  f  --A-->  a  --W-->  r      once for every sweep
 //   3. stretches from the last r        s <- s + D across N, shortened by tau/|q| where that is less than 1
 //
-// Sweeps that have not converged cannot creep: the stretch adds up the way that was gone until it holds, however little of its force
-// the sweeps find. Why no number of sweeps takes stability away is in cmake/docs/contact.md.
+// Sweeps that have not converged cannot creep: the stretch adds up the way that was gone until it
+// holds, however little of its force the sweeps find. Why no number of sweeps takes stability away
+// is in cmake/docs/contact.md.
 namespace plica {
 
 /// What the sweeps need of a step.
@@ -28,18 +31,25 @@ struct ExplicitContact {
   EmbeddedSurface<B> surface;
   ContactRecords<B> records;
   Vectors<B> v;
-  Vectors<B> free, answer;  ///< accelerations without contact, and by the last contact forces [m/s^2]
+  /// accelerations without contact, and by the last contact forces [m/s^2]
+  Vectors<B> free, answer;
   Real h, ahead;
-  bool isotropic;  ///< A answers a force of any direction alike: unit forces of one direction bound all rows of W A W^T
+  /// A answers a force of any direction alike: unit forces of one direction bound all rows of W A
+  /// W^T
+  bool isotropic;
 
   KOKKOS_INLINE_FUNCTION Vec3<Real> normal(int r) const { return vector_at<B>(records.normal, r); }
   /// The depth at the end of a step with this way.
-  KOKKOS_INLINE_FUNCTION Real end(int r, const Vec3<Real>& D) const { return records.depth(r) - dot(normal(r), D); }
+  KOKKOS_INLINE_FUNCTION Real end(int r, const Vec3<Real>& D) const {
+    return records.depth(r) - dot(normal(r), D);
+  }
   /// What the tangential force goes by for this way; of a tie in all directions.
-  KOKKOS_INLINE_FUNCTION Vec3<Real> shear(const LawOfStep<Real>& law, int r, const Vec3<Real>& D) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> shear(const LawOfStep<Real>& law, int r,
+                                          const Vec3<Real>& D) const {
     return across(D, normal(r)) + law.memory * vector_at<B>(records.stretch, r);
   }
-  /// The unit force that finds rho where forces may have any direction: no less than 1/sqrt 3 of the largest.
+  /// The unit force that finds rho where forces may have any direction: no less than 1/sqrt 3 of
+  /// the largest.
   KOKKOS_INLINE_FUNCTION Vec3<Real> any_direction() const {
     if (isotropic) return {Real(1), Real(0), Real(0)};
     const Real part = Real(0.57735027);
@@ -56,7 +66,8 @@ struct StartContact {
     const ContactRecords<B>& records = step.records;
     const int r = records.list.item(i);
     const Vec3<Real> N = step.normal(r), last = vector_at<B>(records.force, r);
-    const Vec3<Real> way = step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
+    const Vec3<Real> way =
+        step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
     const Vec3<Real> D = way + step.h * step.h * records.value(step.surface, step.free, r);
     if (step.ahead > 0) records.depth(r) -= step.ahead / step.h * dot(N, way);
     set_vector<B>(records.drift, r, D);
@@ -65,7 +76,8 @@ struct StartContact {
     Vec3<Real> unit;
     if (law.is_tie())
       unit = step.any_direction();
-    else if (LawOfStep<Real>(law, step.h).pressure(records.depth(r), step.end(r, D)) > 0 || dot(last, N) > 0)
+    else if (LawOfStep<Real>(law, step.h).pressure(records.depth(r), step.end(r, D)) > 0 ||
+             dot(last, N) > 0)
       unit = step.isotropic ? step.any_direction() : N;
     set_vector<B>(records.force, r, unit);
     return {{dot(unit, unit) > 0 ? 1.0 : 0.0}};
@@ -83,8 +95,8 @@ struct SweepContact {
     const int r = records.list.item(i);
     const Vec3<Real> force = vector_at<B>(records.force, r);
     if (!(first ? dot(force, force) > 0 : records.response(r) > 0)) return;
-    const Vec3<Real> answer =
-        records.value(step.surface, step.answer, r, first && (step.isotropic || !records.is_pair(r)));
+    const Vec3<Real> answer = records.value(step.surface, step.answer, r,
+                                            first && (step.isotropic || !records.is_pair(r)));
     Vec3<Real> D = vector_at<B>(records.drift, r);
     if (first) {
       constexpr Real smallest = Kokkos::Experimental::norm_min_v<Real>;
@@ -95,15 +107,18 @@ struct SweepContact {
     set_vector<B>(records.force, r, swept(r, first ? Vec3<Real>{} : force, D));
   }
 
-  static constexpr Real stop = 16;  ///< over h^2 rho, a stiffness that leaves 1/17 of a way into the partner
-  static constexpr Real early =
-      Real(0.2);  ///< what is fast is stopped so much of that way before the partner: sweeps are few
+  /// over h^2 rho, a stiffness that leaves 1/17 of a way into the partner
+  static constexpr Real stop = 16;
+  static constexpr Real early = Real(
+      0.2);  ///< what is fast is stopped so much of that way before the partner: sweeps are few
   /// What is outside would end an edge inside: it is stopped in this step, however soft its law.
   KOKKOS_INLINE_FUNCTION bool comes_in_fast(int r) const {
     constexpr Real fast = 1;
-    return !(step.records.depth(r) > 0) && step.end(r, vector_at<B>(step.records.drift, r)) > fast * step.records.edge;
+    return !(step.records.depth(r) > 0) &&
+           step.end(r, vector_at<B>(step.records.drift, r)) > fast * step.records.edge;
   }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> swept(int r, const Vec3<Real>& force, const Vec3<Real>& D) const {
+  KOKKOS_INLINE_FUNCTION Vec3<Real> swept(int r, const Vec3<Real>& force,
+                                          const Vec3<Real>& D) const {
     const ContactLaw<Real> of = step.records.law_at(r);
     const LawOfStep<Real> law(of, step.h);
     const Vec3<Real> N = step.normal(r);
@@ -123,7 +138,8 @@ struct SweepContact {
   }
 };
 
-/// The carried stretches after a step whose forces are the last ones: they follow its way, and slip at the cap. The work of friction [J].
+/// The carried stretches after a step whose forces are the last ones: they follow its way, and slip
+/// at the cap. The work of friction [J].
 template <class B>
 struct StretchContact {
   using Real = typename B::Real;
@@ -142,15 +158,17 @@ struct StretchContact {
     }
     const Real part = span / step.h;
     // h (v + part h (e + r)), of the whole step's numbers
-    const Vec3<Real> way = step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
-    const Vec3<Real> by_force =
-        vector_at<B>(records.drift, r) - way + step.h * step.h * records.value(step.surface, step.answer, r);
+    const Vec3<Real> way =
+        step.h * records.value(step.surface, step.v, r) - vector_at<B>(records.way, r);
+    const Vec3<Real> by_force = vector_at<B>(records.drift, r) - way +
+                                step.h * step.h * records.value(step.surface, step.answer, r);
     const Vec3<Real> D = part * (way + part * by_force);
     // what another sweep would make of it: beyond the cap it slips, in proportion
     const LawOfStep<Real> of(law, step.h);
     const Vec3<Real> q = dot(force, N) * N - force;
     const Vec3<Real> wanted = of.kt * step.shear(of, r, way + by_force);
-    const Vec3<Real> next = q + (1 / (1 + step.h * step.h * records.response(r) * of.kt)) * (wanted - q);
+    const Vec3<Real> next =
+        q + (1 / (1 + step.h * step.h * records.response(r) * of.kt)) * (wanted - q);
     const Real size = Kokkos::sqrt(dot(next, next));
     const Vec3<Real> s = vector_at<B>(records.stretch, r) + across(D, N);
     set_vector<B>(records.stretch, r, size > cap ? (cap / size) * s : s);
@@ -158,7 +176,8 @@ struct StretchContact {
   }
 };
 
-// Where A is the lumped masses' inverse. Contact acts on the vertices that the records in use have a part in, and on no other.
+// Where A is the lumped masses' inverse. Contact acts on the vertices that the records in use have
+// a part in, and on no other.
 
 /// e = (f/m - c v) / (1 + damped c); 0 where the motion is given.
 template <class B>
@@ -171,7 +190,8 @@ struct FreeAcceleration {
   Real damped;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(of.vertices.item(i));
-    const Real w = model.inverse_mass(a), c = model.damping(a), part = w > 0 ? kept<B>(model, a, damped) : Real(0);
+    const Real w = model.inverse_mass(a), c = model.damping(a),
+               part = w > 0 ? kept<B>(model, a, damped) : Real(0);
     for (int k = 0; k < 3; ++k) e(a, k) = part * (w * f(a, k) - c * v(a, k));
   }
 };
@@ -189,7 +209,8 @@ struct AnswerByMass {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int a = surface.vertex(records.transpose.vertices.item(i));
     set_vector<B>(answer, a,
-                  (model.inverse_mass(a) * kept<B>(model, a, damped)) * contact_force<B>(records, i, bounding));
+                  (model.inverse_mass(a) * kept<B>(model, a, damped)) *
+                      contact_force<B>(records, i, bounding));
   }
 };
 

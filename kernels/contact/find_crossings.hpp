@@ -18,14 +18,17 @@ struct FindEdges {
 
   KOKKOS_INLINE_FUNCTION int end(int e, int i) const { return find.records.mesh.edge(4 * e + i); }
   KOKKOS_INLINE_FUNCTION Vec3<Real> x(int e, int i) const { return find.x(end(e, i)); }
-  KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const { return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)}; }
+  KOKKOS_INLINE_FUNCTION SurfaceEdge<Real> at(int e) const {
+    return {x(e, 0), x(e, 1), x(e, 2), x(e, 3)};
+  }
   /// It may cross another.
   KOKKOS_INLINE_FUNCTION bool may_cross(int e) const {
     const Attachments<B>& attached = find.records.attached;
-    return end(e, 2) >= 0 && end(e, 3) >= 0 && !attached.ties(end(e, 0)) && !attached.ties(end(e, 1)) &&
-           may_be_steep(at(e));
+    return end(e, 2) >= 0 && end(e, 3) >= 0 && !attached.ties(end(e, 0)) &&
+           !attached.ties(end(e, 1)) && may_be_steep(at(e));
   }
-  /// look(own edge, other edge) for all that begin in p and all with a higher number that may cross them, in any order; some come twice.
+  /// look(own edge, other edge) for all that begin in p and all with a higher number that may cross
+  /// them, in any order; some come twice.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void search(int p, const Look& look) const {
     const SurfaceMesh<B>& mesh = find.records.mesh;
@@ -39,7 +42,8 @@ struct FindEdges {
     find.grid.around(box, find.records.mesh.corner, [&](int t) {
       if (!find.allowed(end(e, 0), t)) return;
       for (int c = 0; c < 3; ++c)
-        if (const int f = find.records.mesh.side(3 * t + c); f > e && find.grid.ridge(f) > 0 && are_near(e, f, t))
+        if (const int f = find.records.mesh.side(3 * t + c);
+            f > e && find.grid.ridge(f) > 0 && are_near(e, f, t))
           look(e, f);
     });
   }
@@ -66,7 +70,9 @@ struct FindEdges {
 template <class B>
 struct MarkRidges {
   FindEdges<B> edges;
-  KOKKOS_INLINE_FUNCTION void operator()(int e) const { edges.find.grid.ridge(e) = edges.may_cross(e) ? 1 : 0; }
+  KOKKOS_INLINE_FUNCTION void operator()(int e) const {
+    edges.find.grid.ridge(e) = edges.may_cross(e) ? 1 : 0;
+  }
 };
 
 /// Lists the edges that may come near those of each point while the grid stays.
@@ -81,15 +87,16 @@ struct ListCrossings {
     edges.search(p, [&](int e, int f) {
       for (int i = 0; i < count && i < most; ++i)
         if (grid.crossing(first + 2 * i) == e && grid.crossing(first + 2 * i + 1) == f) return;
-      if (count < most) grid.crossing(first + 2 * count) = e, grid.crossing(first + 2 * count + 1) = f;
+      if (count < most)
+        grid.crossing(first + 2 * count) = e, grid.crossing(first + 2 * count + 1) = f;
       ++count;
     });
     grid.crossings(p) = count;
   }
 };
 
-/// Each point's slot of two edges, that which will be the deepest after the step. Its depth is what it is beyond the depths of the
-/// ends, so that nothing is pushed twice. After NearestTriangles.
+/// Each point's slot of two edges, that which will be the deepest after the step. Its depth is what
+/// it is beyond the depths of the ends, so that nothing is pushed twice. After NearestTriangles.
 template <class B>
 struct DeepestCrossings {
   using Real = typename B::Real;
@@ -125,15 +132,17 @@ struct DeepestCrossings {
     if (deepest.own < 0) return records.leave(r);
     Real its = deepest.depth;
     if (!fresh)
-      its = grown_depth(its, records.near(r) > 0 ? records.depth(r) : Real(0), records.span * deepest.velocity);
+      its = grown_depth(its, records.near(r) > 0 ? records.depth(r) : Real(0),
+                        records.span * deepest.velocity);
     const Real own = deepest.gap.own, other = deepest.gap.other;
     const int a = edges.end(deepest.own, 0), c = edges.end(deepest.other, 0);
-    records.set_stencil(r, a, edges.end(deepest.own, 1), c, edges.end(deepest.other, 1), 1 - own, own, other - 1,
-                        -other);
+    records.set_stencil(r, a, edges.end(deepest.own, 1), c, edges.end(deepest.other, 1), 1 - own,
+                        own, other - 1, -other);
     records.use(r, records.pair_law(a, c), deepest.gap.normal, its, {}, {});
   }
 
-  static KOKKOS_INLINE_FUNCTION Vec3<Real> between(const Vec3<Real>& a, const Vec3<Real>& b, Real part) {
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> between(const Vec3<Real>& a, const Vec3<Real>& b,
+                                                   Real part) {
     return (1 - part) * a + part * b;
   }
   KOKKOS_INLINE_FUNCTION Vec3<Real> v(int e, Real part) const {
@@ -144,7 +153,8 @@ struct DeepestCrossings {
   }
   KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of(int e, int f) const {
     const Real half = Real(0.5);
-    return gap_of_edges(edges.at(e), edges.at(f), edges.find.records.span * (v(e, half) - v(f, half)));
+    return gap_of_edges(edges.at(e), edges.at(f),
+                        edges.find.records.span * (v(e, half) - v(f, half)));
   }
   /// Less what the ends of either edge are inside by themselves there.
   KOKKOS_INLINE_FUNCTION Real depth(int e, int f, const EdgeGap<Real>& gap) const {

@@ -8,9 +8,10 @@
 // Contact of a tool that fits between a surface's points.
 namespace plica {
 
-/// The slot of each triangle near an obstacle: where the triangle is deepest, unless a corner is as deep.
-/// Its depth is what it is beyond the depths of the corners, so that nothing is pushed twice: all of it where they are outside,
-/// nothing where the obstacle is flat. A triangle that the obstacle holds by a corner has none: held points keep their depth.
+/// The slot of each triangle near an obstacle: where the triangle is deepest, unless a corner is as
+/// deep. Its depth is what it is beyond the depths of the corners, so that nothing is pushed twice:
+/// all of it where they are outside, nothing where the obstacle is flat. A triangle that the
+/// obstacle holds by a corner has none: held points keep their depth.
 template <class B, class Shape>
 struct FindOnFaces {
   using Real = typename B::Real;
@@ -21,7 +22,7 @@ struct FindOnFaces {
   Real between;  ///< nor one whose corners are further outside than that [m]
   ContactRecords<B> records;
   static constexpr Real from_corner =
-      Real(0.6);                      ///< no place is further from all corners, over the longest edge: 1 / sqrt 3
+      Real(0.6);  ///< no place is further from all corners, over the longest edge: 1 / sqrt 3
   static constexpr Real stretch = 4;  ///< what is stretched more may be found late
 
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
@@ -29,7 +30,8 @@ struct FindOnFaces {
     if (records.close(0) == 0) return records.leave(r);
     Real deepest = -records.nowhere();
     for (int c = 0; c < 3; ++c)
-      deepest = Kokkos::max(deepest, records.depth(records.of_point(obstacle, records.mesh.corner(3 * t + c))));
+      deepest = Kokkos::max(
+          deepest, records.depth(records.of_point(obstacle, records.mesh.corner(3 * t + c))));
     if (deepest > -between) return look(t, r);
     records.leave(r);
   }
@@ -68,9 +70,10 @@ struct FindOnFaces {
                 records.span * pose.velocity(at), records.span * pose.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0)
-        set_block<B>(
-            records.concavity, r,
-            pose.is_turning() ? SymMat3<Real>{} : concavity(shape, pose, deepest_place, gap.normal, records.edge / 4));
+        set_block<B>(records.concavity, r,
+                     pose.is_turning()
+                         ? SymMat3<Real>{}
+                         : concavity(shape, pose, deepest_place, gap.normal, records.edge / 4));
   }
 
   static KOKKOS_INLINE_FUNCTION Real longest(const Vec3<Real>* x) {
@@ -82,8 +85,8 @@ struct FindOnFaces {
     return Kokkos::sqrt(square);
   }
 
-  /// What is no less than any depth on the triangle: in a convex solid the least that follows from the distances' tangents in its
-  /// corners and its middle.
+  /// What is no less than any depth on the triangle: in a convex solid the least that follows from
+  /// the distances' tangents in its corners and its middle.
   KOKKOS_INLINE_FUNCTION Real most(const Vec3<Real>* x) const {
     Real bound = records.nowhere();
     if constexpr (Shape::convex)
@@ -97,8 +100,10 @@ struct FindOnFaces {
     return bound;
   }
 
-  /// The obstacle's normal. Where that is along the triangle, which a thin tool pierces, the triangle's own: `inward` the body.
-  static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal, const Vec3<Real>& inward) {
+  /// The obstacle's normal. Where that is along the triangle, which a thin tool pierces, the
+  /// triangle's own: `inward` the body.
+  static KOKKOS_INLINE_FUNCTION Vec3<Real> out_of(const Vec3<Real>& normal,
+                                                  const Vec3<Real>& inward) {
     const Real along = dot(normal, inward), square = dot(inward, inward);
     if (!(square > 0) || 4 * along * along > square) return normal;
     return (1 / Kokkos::sqrt(square)) * inward;

@@ -9,8 +9,8 @@
 // Which points of a surface an obstacle touches, and what it holds.
 namespace plica {
 
-/// The slot of every point against this obstacle. Most are further away than the fastest of them gets in the step, and are asked for
-/// nothing else.
+/// The slot of every point against this obstacle. Most are further away than the fastest of them
+/// gets in the step, and are asked for nothing else.
 template <class B, class Shape>
 struct FindOnPoints {
   using Real = typename B::Real;
@@ -27,23 +27,28 @@ struct FindOnPoints {
     const Vec3<Real> x = vector_at<B>(records.places, p);
     const ObstaclePose at = place.now();
     const Vec3<Real> its = at.velocity(x);
-    const Real most = Kokkos::sqrt(static_cast<Real>(records.fastest(0))) + Kokkos::sqrt(dot(its, its));
+    const Real most =
+        Kokkos::sqrt(static_cast<Real>(records.fastest(0))) + Kokkos::sqrt(dot(its, its));
     const Real distance = shape(at.local(x)).distance;
-    if (!(distance > Kokkos::max(between, records.reach + records.span * most)) || records.grasps.holds(r))
+    if (!(distance > Kokkos::max(between, records.reach + records.span * most)) ||
+        records.grasps.holds(r))
       return look(p, r, x, at);
     records.depth(r) = -distance;
     records.leave(r);
   }
-  PLICA_CALL KOKKOS_FUNCTION void look(int p, int r, const Vec3<Real>& x, const ObstaclePose& at) const {
-    const Vec3<Real> own = value_at<B>(surface.embedding, v, p), its = at.velocity(x), speed = own - its;
+  PLICA_CALL KOKKOS_FUNCTION void look(int p, int r, const Vec3<Real>& x,
+                                       const ObstaclePose& at) const {
+    const Vec3<Real> own = value_at<B>(surface.embedding, v, p), its = at.velocity(x),
+                     speed = own - its;
     if (records.grasps.holds(r)) {
       if (!records.is_torn(r)) return hold(r, p, x, at, its);
       records.grasps.release(r);
     }
     const Vec3<Real> local = at.local(x);
     const Real far = records.reach + records.span * Kokkos::sqrt(dot(speed, speed));
-    Gap<Real> gap =
-        records.long_steps ? shape(local) : gap_along(shape, local, at.inward(records.span * speed), records.reach);
+    Gap<Real> gap = records.long_steps
+                        ? shape(local)
+                        : gap_along(shape, local, at.inward(records.span * speed), records.reach);
     watch.look(p, gap.distance);
     if (gap.distance < between) records.close(0) = 1;
     if (!(gap.distance < far)) {
@@ -56,21 +61,24 @@ struct FindOnPoints {
                 records.span * at.template rate<Real>());
     if constexpr (!Shape::convex)
       if (records.concavity.extent(0) > 0) {
-        const bool bends = gap.distance + records.span * dot(N, speed) < records.edge && !at.is_turning();
-        set_block<B>(records.concavity, r,
-                     bends ? concavity(shape, at, local, local_normal, records.edge / 4) : SymMat3<Real>{});
+        const bool bends =
+            gap.distance + records.span * dot(N, speed) < records.edge && !at.is_turning();
+        set_block<B>(
+            records.concavity, r,
+            bends ? concavity(shape, at, local, local_normal, records.edge / 4) : SymMat3<Real>{});
       }
   }
   KOKKOS_INLINE_FUNCTION void hold(int r, int p, const Vec3<Real>& x, const ObstaclePose& at,
                                    const Vec3<Real>& its) const {
     records.set_stencil(r, p, -1, -1, -1, 1, 0, 0, 0);
-    records.tie(r, records.held_law(obstacle, p), at.outward(records.grasps.stretch(r, x, at.way(x))),
-                records.span * its);
+    records.tie(r, records.held_law(obstacle, p),
+                at.outward(records.grasps.stretch(r, x, at.way(x))), records.span * its);
     if (records.concavity.extent(0) > 0) set_block<B>(records.concavity, r, {});
   }
 };
 
-/// An obstacle takes hold of every point that is no further than `reach` from it. What it holds stays as it is.
+/// An obstacle takes hold of every point that is no further than `reach` from it. What it holds
+/// stays as it is.
 template <class B, class Shape>
 struct Grasp {
   using Real = typename B::Real;

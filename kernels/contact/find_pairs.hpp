@@ -42,7 +42,9 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION void around(int p, const Look& look) const {
     grid.around(Box3<Real>(vector_at<B>(grid.built, p)), records.mesh.corner, look);
   }
-  KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const { return value_at<B>(surface.embedding, state.v, p); }
+  KOKKOS_INLINE_FUNCTION Vec3<Real> v(int p) const {
+    return value_at<B>(surface.embedding, state.v, p);
+  }
   KOKKOS_INLINE_FUNCTION Vec3<Real> rest(int p) const { return vector_at<B>(surface.rest, p); }
   KOKKOS_INLINE_FUNCTION bool one_body(int p, int t) const {
     return records.body_of(p) == records.body_of(corner(t, 0));
@@ -50,15 +52,19 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION bool allowed(int p, int t) const {
     return one_body(p, t) ? grid.limits.self : grid.limits.between;
   }
-  /// On one body, at rest, they must be far apart, or face each other across a gap: not neighbours, nor the sides of something thin.
+  /// On one body, at rest, they must be far apart, or face each other across a gap: not neighbours,
+  /// nor the sides of something thin.
   KOKKOS_INLINE_FUNCTION bool may_touch(int p, int t) const {
     if (!allowed(p, t)) return false;
     if (!one_body(p, t)) return true;
-    const Vec3<Real> at = rest(p), a = rest(corner(t, 0)), b = rest(corner(t, 1)), c = rest(corner(t, 2));
-    const Vec3<Real> w = nearest_on_triangle(at, a, b, c), d = at - (w[0] * a + w[1] * b + w[2] * c);
+    const Vec3<Real> at = rest(p), a = rest(corner(t, 0)), b = rest(corner(t, 1)),
+                     c = rest(corner(t, 2));
+    const Vec3<Real> w = nearest_on_triangle(at, a, b, c),
+                     d = at - (w[0] * a + w[1] * b + w[2] * c);
     const Vec3<Real> n = cross(b - a, c - a);
     const Real square = dot(d, d), out = dot(d, n);
-    return square > grid.limits.apart * grid.limits.apart || (out > 0 && 4 * out * out > square * dot(n, n));
+    return square > grid.limits.apart * grid.limits.apart ||
+           (out > 0 && 4 * out * out > square * dot(n, n));
   }
   /// Not normalised.
   KOKKOS_INLINE_FUNCTION Vec3<Real> face(int t) const {
@@ -72,7 +78,8 @@ struct FindPairs {
   KOKKOS_INLINE_FUNCTION Real angle_at(int t, int q) const {
     int c = 0;
     while (c < 2 && corner(t, c) != q) ++c;
-    const Vec3<Real> at = x(q), d = unit(x(corner(t, (c + 1) % 3)) - at), e = unit(x(corner(t, (c + 2) % 3)) - at);
+    const Vec3<Real> at = x(q), d = unit(x(corner(t, (c + 1) % 3)) - at),
+                     e = unit(x(corner(t, (c + 2) % 3)) - at);
     return Kokkos::acos(Kokkos::max(Real(-1), Kokkos::min(Real(1), dot(d, e))));
   }
   KOKKOS_INLINE_FUNCTION bool has(int t, int q) const {
@@ -85,7 +92,8 @@ struct FindPairs {
       if (w[c] > 0) last = corner(t, c), ++count;
     return count == 1 ? last : -1;
   }
-  /// look(triangle) for all that have the place of the triangle t with these weights: t itself, or those around an edge or a vertex.
+  /// look(triangle) for all that have the place of the triangle t with these weights: t itself, or
+  /// those around an edge or a vertex.
   template <class Look>
   KOKKOS_INLINE_FUNCTION void each_at(int t, const Vec3<Real>& w, const Look& look) const {
     int on[3], n = 0;
@@ -95,14 +103,18 @@ struct FindPairs {
     for (int s = records.mesh.first(on[0]); s < records.mesh.first(on[0] + 1); ++s)
       if (const int other = records.mesh.triangle(s); n == 1 || has(other, on[1])) look(other);
   }
-  /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see SignedDistance.
+  /// Out of the face, edge or vertex of the triangle that has these weights: angle-weighted, see
+  /// SignedDistance.
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(int t, const Vec3<Real>& w) const {
     const int vertex = lone_corner(t, w);
     Vec3<Real> sum;
-    each_at(t, w, [&](int other) { sum += (vertex < 0 ? Real(1) : angle_at(other, vertex)) * unit(face(other)); });
+    each_at(t, w, [&](int other) {
+      sum += (vertex < 0 ? Real(1) : angle_at(other, vertex)) * unit(face(other));
+    });
     return unit(sum);
   }
-  /// How fast a triangle turns about its normal, times that: the circulation of its corners' velocities over twice its area [rad/s].
+  /// How fast a triangle turns about its normal, times that: the circulation of its corners'
+  /// velocities over twice its area [rad/s].
   KOKKOS_INLINE_FUNCTION Vec3<Real> spin(int t) const {
     Real circulation = 0;
     for (int c = 0; c < 3; ++c) {
@@ -113,7 +125,8 @@ struct FindPairs {
     const Real square = dot(n, n);
     return square > 0 ? (circulation / square) * n : Vec3<Real>{};
   }
-  /// Whether d, from that place, leads into the body. Where all faces around it agree, no normal is needed.
+  /// Whether d, from that place, leads into the body. Where all faces around it agree, no normal is
+  /// needed.
   KOKKOS_INLINE_FUNCTION bool leads_in(const Vec3<Real>& d, int t, const Vec3<Real>& w) const {
     bool in = false, out = false;
     each_at(t, w, [&](int other) { (dot(d, face(other)) < 0 ? in : out) = true; });
@@ -142,15 +155,16 @@ struct ListClose {
   }
 };
 
-/// A depth grows by little more than the way that a site goes against its partner in a step, and from 0: what counts as inside for other
-/// reasons, such as another triangle that is nearest, stores no energy that nobody has put in.
+/// A depth grows by little more than the way that a site goes against its partner in a step, and
+/// from 0: what counts as inside for other reasons, such as another triangle that is nearest,
+/// stores no energy that nobody has put in.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Real grown_depth(Real depth, Real last, const Vec3<Real>& way) {
   return Kokkos::min(depth, Kokkos::max(last, Real(0)) + Real(1.5) * Kokkos::sqrt(dot(way, way)));
 }
 
-/// Each point's slot of its nearest triangle, the one with the lowest number where several are. What is fast looks as
-/// far as it may get, and is near what its path leads through.
+/// Each point's slot of its nearest triangle, the one with the lowest number where several are.
+/// What is fast looks as far as it may get, and is near what its path leads through.
 template <class B>
 struct NearestTriangles {
   using Real = typename B::Real;
@@ -173,7 +187,8 @@ struct NearestTriangles {
       records.attached.tear(p);
     }
     if (!records.attached.ties(p) && find.grid.close(p) > 0)
-      if (const Nearest found = partner(p, r, last); found.triangle >= 0 && record(p, r, found)) return;
+      if (const Nearest found = partner(p, r, last); found.triangle >= 0 && record(p, r, found))
+        return;
     records.depth(r) = -records.nowhere();
     records.leave(r);
   }
@@ -203,7 +218,8 @@ struct NearestTriangles {
     const Vec3<Real> a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
     Real sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const Real low = Kokkos::min(a[k], Kokkos::min(b[k], c[k])), high = Kokkos::max(a[k], Kokkos::max(b[k], c[k]));
+      const Real low = Kokkos::min(a[k], Kokkos::min(b[k], c[k])),
+                 high = Kokkos::max(a[k], Kokkos::max(b[k], c[k]));
       const Real d = Kokkos::max(Real(0), Kokkos::max(low - at[k], at[k] - high));
       sum += d * d;
     }
@@ -211,7 +227,8 @@ struct NearestTriangles {
   }
   KOKKOS_INLINE_FUNCTION void take_nearer(int p, int t, Nearest& nearest) const {
     const Nearest n = near(p, t);
-    if (n.square < nearest.square || (n.square == nearest.square && t < nearest.triangle)) nearest = n;
+    if (n.square < nearest.square || (n.square == nearest.square && t < nearest.triangle))
+      nearest = n;
   }
 
   /// `last`: the one of the last step, or -1
@@ -231,8 +248,8 @@ struct NearestTriangles {
     return fast ? on_path(p, r, nearest) : as_before(p, r, nearest);
   }
 
-  /// What a fast point is near: if it will be held before its path leads through anything, what it is nearest to, else what it leads
-  /// through first.
+  /// What a fast point is near: if it will be held before its path leads through anything, what it
+  /// is nearest to, else what it leads through first.
   KOKKOS_INLINE_FUNCTION Nearest on_path(int p, int r, const Nearest& nearest) const {
     constexpr Real third = Real(1) / 3, little = Real(0.05);
     const Real h = find.records.span, ordinary = find.grid.limits.reach;
@@ -251,13 +268,15 @@ struct NearestTriangles {
     return nearest.square + closing <= little * nearest.square ? nearest : sided(p, near(p, first));
   }
 
-  /// A point that is inside leaves by the nearest face that does not look the other way than the one it came by: it does not leave a
-  /// thin body on the far side.
+  /// A point that is inside leaves by the nearest face that does not look the other way than the
+  /// one it came by: it does not leave a thin body on the far side.
   KOKKOS_INLINE_FUNCTION Nearest as_before(int p, int r, const Nearest& nearest) const {
     constexpr Real other_way = Real(-0.2);
     if (!nearest.inside || find.records.near(r) == 0) return nearest;
     const Vec3<Real> N = vector_at<B>(find.records.normal, r);
-    const auto turns = [&](const Nearest& n) { return dot(find.outward(n.triangle, n.weight), N) <= other_way; };
+    const auto turns = [&](const Nearest& n) {
+      return dot(find.outward(n.triangle, n.weight), N) <= other_way;
+    };
     if (!turns(nearest)) return nearest;
     Nearest other;
     other.square = find.grid.limits.reach * find.grid.limits.reach;
@@ -269,7 +288,8 @@ struct NearestTriangles {
 
   KOKKOS_INLINE_FUNCTION void join(int p, int r, int t, const Vec3<Real>& w) const {
     find.records.partner(p) = t;
-    find.records.set_stencil(r, p, find.corner(t, 0), find.corner(t, 1), find.corner(t, 2), 1, -w[0], -w[1], -w[2]);
+    find.records.set_stencil(r, p, find.corner(t, 0), find.corner(t, 1), find.corner(t, 2), 1,
+                             -w[0], -w[1], -w[2]);
   }
 
   /// The slot of a point that is attached to a triangle.
@@ -278,11 +298,13 @@ struct NearestTriangles {
     const int t = records.attached.triangle(p);
     const Vec3<Real> w = vector_at<B>(records.attached.weight, p);
     join(p, r, t, w);
-    records.tie(r, records.attached.first_law + records.attached.attachment(p), find.off(find.x(p), t, w), {});
+    records.tie(r, records.attached.first_law + records.attached.attachment(p),
+                find.off(find.x(p), t, w), {});
   }
 
   KOKKOS_INLINE_FUNCTION bool record(int p, int r, const Nearest& found) const {
-    constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);  // of the reach: no direction is known there
+    // of the reach: no direction is known there
+    constexpr Real tiny = sizeof(Real) == 4 ? Real(1e-4) : Real(1e-8);
     const ContactRecords<B>& records = find.records;
     const int t = found.triangle;
     const bool inside = found.inside;
@@ -290,14 +312,17 @@ struct NearestTriangles {
     const Real distance = Kokkos::sqrt(found.square), limit = find.grid.limits.reach;
     const bool on_face = w[0] > 0 && w[1] > 0 && w[2] > 0;
     // The far side of a thin part of its own body is no partner
-    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart) return false;
+    if (inside && find.one_body(p, t) && distance > Real(0.25) * find.grid.limits.apart)
+      return false;
     Real depth = inside ? distance : -distance;
     if (!fresh)
-      depth = grown_depth(depth, records.near(r) > 0 ? records.depth(r) : Real(0), records.span * speed(p, t, w));
+      depth = grown_depth(depth, records.near(r) > 0 ? records.depth(r) : Real(0),
+                          records.span * speed(p, t, w));
     const bool by_surface = on_face || distance < tiny * limit;
     const Vec3<Real> N = by_surface ? find.outward(t, w) : ((inside ? -1 : 1) / distance) * d;
     join(p, r, t, w);
-    records.use(r, records.pair_law(p, find.corner(t, 0)), N, depth, {}, records.span * find.spin(t));
+    records.use(r, records.pair_law(p, find.corner(t, 0)), N, depth, {},
+                records.span * find.spin(t));
     return true;
   }
 };

@@ -7,16 +7,19 @@
 
 namespace plica {
 
-/// Distance to a solid [m], positive outside, and the unit normal out of it at the nearest point of its surface.
+/// Distance to a solid [m], positive outside, and the unit normal out of it at the nearest point of
+/// its surface.
 template <class Real>
 struct Gap {
   Real distance;
   Vec3<Real> normal;
 };
 
-/// A unit vector across `axis`, itself a unit vector: the direction of d where it has one, any where d is on the axis.
+/// A unit vector across `axis`, itself a unit vector: the direction of d where it has one, any
+/// where d is on the axis.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Vec3<Real> direction_across(const Vec3<Real>& axis, const Vec3<Real>& d, Real length) {
+KOKKOS_INLINE_FUNCTION Vec3<Real> direction_across(const Vec3<Real>& axis, const Vec3<Real>& d,
+                                                   Real length) {
   if (length > 0) return (Real(1) / length) * d;
   Vec3<Real> any;
   any[axis[0] * axis[0] < Real(0.5) ? 0 : 1] = Real(1);
@@ -36,13 +39,16 @@ inline void check_apart(const std::string& path, const Point& from, const Point&
     throw InputError(path + ".to, as a distance from .from, is 0; expected a length (m) > 0");
 }
 
-// What a fast point meets in a step. Contact looks along the normal at the nearest place, and a long path may lead elsewhere.
+// What a fast point meets in a step. Contact looks along the normal at the nearest place, and a
+// long path may lead elsewhere.
 
-/// The part of `path` after which a point that starts at p comes through the triangle a, b, c from outside; above 1: never. What passes
-/// a little beside its edges counts, for neighbours do not move alike.
+/// The part of `path` after which a point that starts at p comes through the triangle a, b, c from
+/// outside; above 1: never. What passes a little beside its edges counts, for neighbours do not
+/// move alike.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Real time_of_crossing(const Vec3<Real>& p, const Vec3<Real>& path, const Vec3<Real>& a,
-                                             const Vec3<Real>& b, const Vec3<Real>& c) {
+KOKKOS_INLINE_FUNCTION Real time_of_crossing(const Vec3<Real>& p, const Vec3<Real>& path,
+                                             const Vec3<Real>& a, const Vec3<Real>& b,
+                                             const Vec3<Real>& c) {
   constexpr Real never = 2, beside = Real(1) / 16;
   const Vec3<Real> n = cross(b - a, c - a);
   const Real above = dot(p - a, n), change = dot(path, n);
@@ -50,17 +56,20 @@ KOKKOS_INLINE_FUNCTION Real time_of_crossing(const Vec3<Real>& p, const Vec3<Rea
   const Real when = above / -change, square = dot(n, n);
   const Vec3<Real> d = p + when * path - a;
   const Real v = dot(cross(d, c - a), n), w = dot(cross(b - a, d), n);  // times `square`
-  const bool inside = v >= -beside * square && w >= -beside * square && v + w <= (1 + beside) * square;
+  const bool inside =
+      v >= -beside * square && w >= -beside * square && v + w <= (1 + beside) * square;
   return inside ? when : never;
 }
 
-/// The gap that a point at x is to go by whose step leads along `path`: where that is long, to the plane that touches the shape where
-/// the path meets it, or none. Goes on by the distance from every place (sphere tracing: J. C. Hart, The Visual Computer 12, 1996).
+/// The gap that a point at x is to go by whose step leads along `path`: where that is long, to the
+/// plane that touches the shape where the path meets it, or none. Goes on by the distance from
+/// every place (sphere tracing: J. C. Hart, The Visual Computer 12, 1996).
 template <class Real, class Shape>
-KOKKOS_INLINE_FUNCTION Gap<Real> gap_along(const Shape& shape, const Vec3<Real>& x, const Vec3<Real>& path,
-                                           Real reach) {
+KOKKOS_INLINE_FUNCTION Gap<Real> gap_along(const Shape& shape, const Vec3<Real>& x,
+                                           const Vec3<Real>& path, Real reach) {
   const Gap<Real> gap = shape(x);
-  const Real length = Kokkos::sqrt(dot(path, path)), short_path = Real(0.25) * reach, close = Real(1e-3) * reach;
+  const Real length = Kokkos::sqrt(dot(path, path)), short_path = Real(0.25) * reach,
+             close = Real(1e-3) * reach;
   if (!(length > short_path && gap.distance > close)) return gap;
   constexpr int most = 64;
   constexpr Real endless = Real(1e30);

@@ -4,28 +4,32 @@
 
 namespace plica {
 
-/// An edge of a surface: from begin to end, with the third corners of the triangles on its left and its right.
+/// An edge of a surface: from begin to end, with the third corners of the triangles on its left and
+/// its right.
 template <class Real>
 struct SurfaceEdge {
   Vec3<Real> begin, end, left, right;
 };
 
-/// Of one edge against another, of which it is `depth` inside along `normal`, out of the other's surface.
+/// Of one edge against another, of which it is `depth` inside along `normal`, out of the other's
+/// surface.
 template <class Real>
 struct EdgeGap {
   bool meet = false;  ///< else the rest is not set
   Real depth;         ///< negative: they are apart [m]
   Vec3<Real> normal;
   Real own, other;  ///< where on each, from 0 in its begin to 1 in its end
-  Real share;       ///< of the depth that counts: from 0 for flat ridges, where points find all, to 1 for steep ones
+  /// of the depth that counts: from 0 for flat ridges, where points find all, to 1 for steep ones
+  Real share;
 };
 
-/// How steeply the surface falls on both sides of an edge from a direction across it, the sine of the angle: above 0 it is a ridge,
-/// which is what another one meets first.
+/// How steeply the surface falls on both sides of an edge from a direction across it, the sine of
+/// the angle: above 0 it is a ridge, which is what another one meets first.
 template <class Real>
 KOKKOS_INLINE_FUNCTION Real steepness(const SurfaceEdge<Real>& e, const Vec3<Real>& up) {
   const Vec3<Real> left = e.left - e.begin, right = e.right - e.begin;
-  return Kokkos::min(-dot(up, left) / Kokkos::sqrt(dot(left, left)), -dot(up, right) / Kokkos::sqrt(dot(right, right)));
+  return Kokkos::min(-dot(up, left) / Kokkos::sqrt(dot(left, left)),
+                     -dot(up, right) / Kokkos::sqrt(dot(right, right)));
 }
 
 /// The least steepness of two edges that meet.
@@ -42,17 +46,20 @@ KOKKOS_INLINE_FUNCTION bool may_be_steep(const SurfaceEdge<Real>& e) {
   return dot(a, right) < 0 && dot(a, b) < most * Kokkos::sqrt(dot(a, a) * dot(b, b));
 }
 
-/// Two edges meet between their ends, ridge to ridge and neither flat, along the normal of both. The surfaces there are separated
-/// along it, as along the axes of edges in the separating axis test (D. Gregorius, The Separating Axis Test, GDC 2013).
+/// Two edges meet between their ends, ridge to ridge and neither flat, along the normal of both.
+/// The surfaces there are separated along it, as along the axes of edges in the separating axis
+/// test (D. Gregorius, The Separating Axis Test, GDC 2013).
 ///
 ///     from above:    e           across f:      ^ normal = +-(e x f)
 ///                    |                    ------|------ e
 ///              ------+------ f                  f      depth < 0: how far e is above f
 ///                    |                        /   \    the surface on both sides of f
 ///
-/// `path`: of e against f in the step; edges that come through each other in it are taken where they do.
+/// `path`: of e against f in the step; edges that come through each other in it are taken where
+/// they do.
 template <class Real>
-KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of_edges(const SurfaceEdge<Real>& e, const SurfaceEdge<Real>& f,
+KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of_edges(const SurfaceEdge<Real>& e,
+                                                  const SurfaceEdge<Real>& f,
                                                   const Vec3<Real>& path) {
   constexpr Real parallel = Real(1e-3),  // the squared sine of the angle between them
       least = least_steepness<Real>, full = 3 * least;
@@ -74,10 +81,11 @@ KOKKOS_INLINE_FUNCTION EdgeGap<Real> gap_of_edges(const SurfaceEdge<Real>& e, co
   return gap;
 }
 
-/// Squared distance of two segments. After C. Ericson, Real-Time Collision Detection (2005), section 5.1.9.
+/// Squared distance of two segments. After C. Ericson, Real-Time Collision Detection (2005),
+/// section 5.1.9.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Real squared_distance_of_segments(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& c,
-                                                         const Vec3<Real>& d) {
+KOKKOS_INLINE_FUNCTION Real squared_distance_of_segments(const Vec3<Real>& a, const Vec3<Real>& b,
+                                                         const Vec3<Real>& c, const Vec3<Real>& d) {
   const auto part = [](Real over, Real under) {
     return under > 0 ? Kokkos::max(Real(0), Kokkos::min(Real(1), over / under)) : Real(0);
   };

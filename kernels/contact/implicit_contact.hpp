@@ -4,9 +4,10 @@
 #include <plica/kernels/contact/contact_kernels.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// Contact in an implicit stage. Records are found once, at the start of the step; D = W u - way is a record's way since then, scaled
-// up to the end of the step where the stage is within it (the obstacle's part of it is that of the whole step). The law (contact_law.hpp) then gives, for the cap tau of the last iterate,
-// the potential phi + psi, its force F and its second derivative
+// Contact in an implicit stage. Records are found once, at the start of the step; D = W u - way is
+// a record's way since then, scaled up to the end of the step where the stage is within it (the
+// obstacle's part of it is that of the whole step). The law (contact_law.hpp) then gives, for the
+// cap tau of the last iterate, the potential phi + psi, its force F and its second derivative
 //
 //   C = kn N N^T + lam G + kt' (1 - N N^T), in slip (tau/|x|) (1 - N N^T - t t^T), t = x/|x|
 //
@@ -14,9 +15,9 @@
 //
 //     vertices  --W-->  records  --C-->  records  --W^T-->  vertices
 //
-// In a hollow of curvature G (see concavity()) the depth is d0 - N.D + D.G D/2, and N turns with it.
-// Points that touch obstacles couple the vertices of one tetrahedron, which is what an assembled matrix has room for; all other
-// records are in products alone.
+// In a hollow of curvature G (see concavity()) the depth is d0 - N.D + D.G D/2, and N turns with
+// it. Points that touch obstacles couple the vertices of one tetrahedron, which is what an
+// assembled matrix has room for; all other records are in products alone.
 namespace plica {
 
 /// sum += scale block
@@ -25,7 +26,8 @@ KOKKOS_INLINE_FUNCTION void add_scaled(SymMat3<Real>& sum, Real scale, const Sym
   for (int k = 0; k < 6; ++k) sum[k] += scale * block[k];
 }
 
-/// `way` becomes where D begins, the obstacle's own goes to `drift`; caps are those of the last forces.
+/// `way` becomes where D begins, the obstacle's own goes to `drift`; caps are those of the last
+/// forces.
 template <class B>
 struct BeginContact {
   using Real = typename B::Real;
@@ -85,14 +87,16 @@ struct ImplicitContact {
   }
 };
 
-/// Force [N] of each record and its block `weight` C [kg]; the potential [J], what caps are away from mu lam [N], and the sum of forces [N].
+/// Force [N] of each record and its block `weight` C [kg]; the potential [J], what caps are away
+/// from mu lam [N], and the sum of forces [N].
 template <class B>
 struct LineariseContact {
   using Real = typename B::Real;
   ImplicitContact<B> contact;
   Real weight;
-  bool blocks;          ///< else the potential alone
-  bool secant = false;  ///< blocks of what slips as if it kept its friction in all directions: it does not overshoot
+  bool blocks;  ///< else the potential alone
+  /// blocks of what slips as if it kept its friction in all directions: it does not overshoot
+  bool secant = false;
 
   KOKKOS_INLINE_FUNCTION Sums<3> operator()(int i) const {
     const ContactRecords<B>& records = contact.records;
@@ -101,20 +105,22 @@ struct LineariseContact {
     const bool tie = of.is_tie();
     const LawOfStep<Real> law(of, contact.h);
     const auto a = contact.at(r, law, tie);
-    const Real cap = records.cap(r),
-               by_shear = a.slips ? cap * (a.length - cap / (2 * law.kt)) : law.kt / 2 * a.length * a.length;
+    const Real cap = records.cap(r), by_shear = a.slips ? cap * (a.length - cap / (2 * law.kt))
+                                                        : law.kt / 2 * a.length * a.length;
     const Real by_normal = tie ? Real(0) : a.lam * a.lam / (2 * law.kn);
     if (blocks) {
       set_vector<B>(records.force, r, a.force);
       set_block<B>(records.block, r, block(r, law, a, tie));
     }
     const Real lacking = tie ? Real(0) : Kokkos::abs(of.friction * a.lam - cap);
-    return {{static_cast<double>(by_normal) + static_cast<double>(by_shear), static_cast<double>(lacking),
+    return {{static_cast<double>(by_normal) + static_cast<double>(by_shear),
+             static_cast<double>(lacking),
              static_cast<double>(Kokkos::sqrt(dot(a.force, a.force)))}};
   }
 
   KOKKOS_INLINE_FUNCTION SymMat3<Real> block(int r, const LawOfStep<Real>& law,
-                                             const typename ImplicitContact<B>::Answer& a, bool tie) const {
+                                             const typename ImplicitContact<B>::Answer& a,
+                                             bool tie) const {
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};  // as in SymMat3
     const Vec3<Real> N = vector_at<B>(contact.records.normal, r);
     const Real over = a.slips ? contact.records.cap(r) / a.length : law.kt;
@@ -141,11 +147,14 @@ struct UpdateCaps {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int r = contact.records.list.item(i);
     const ContactLaw<Real> of = contact.records.law_at(r);
-    if (!of.is_tie()) contact.records.cap(r) = of.friction * contact.at(r, LawOfStep<Real>(of, contact.h), false).lam;
+    if (!of.is_tie())
+      contact.records.cap(r) =
+          of.friction * contact.at(r, LawOfStep<Real>(of, contact.h), false).lam;
   }
 };
 
-/// The end of a step: its forces, the carried stretches, the depths there. The work of friction [J].
+/// The end of a step: its forces, the carried stretches, the depths there. The work of friction
+/// [J].
 template <class B>
 struct EndContact {
   using Real = typename B::Real;
@@ -159,18 +168,21 @@ struct EndContact {
     set_vector<B>(records.force, r, a.force);
     const Real over = a.slips ? records.cap(r) / a.length : law.kt;
     if (of.is_tie()) {
-      set_vector<B>(records.stretch, r, a.shear - (law.memory - 1) * vector_at<B>(records.stretch, r));
+      set_vector<B>(records.stretch, r,
+                    a.shear - (law.memory - 1) * vector_at<B>(records.stretch, r));
       return {};
     }
     const Vec3<Real> s = vector_at<B>(records.stretch, r);
     const bool sticks = a.lam > 0 && of.friction > 0 && law.kt > 0;
-    set_vector<B>(records.stretch, r, sticks ? (1 / law.kt) * (over * a.shear + law.rate * s) : Vec3<Real>{});
+    set_vector<B>(records.stretch, r,
+                  sticks ? (1 / law.kt) * (over * a.shear + law.rate * s) : Vec3<Real>{});
     records.depth(r) = a.end;
     return {{-static_cast<double>(over * dot(a.shear, a.way))}};
   }
 };
 
-/// The force of each record is its block times what a field has there. `beside`: of those alone that are in no matrix.
+/// The force of each record is its block times what a field has there. `beside`: of those alone
+/// that are in no matrix.
 template <class B>
 struct ContactProduct {
   EmbeddedSurface<B> surface;
@@ -181,12 +193,14 @@ struct ContactProduct {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     const int r = records.list.item(i);
     Vec3<typename B::Real> force;
-    if (!(beside && records.is_of_one(r))) force = block_at<B>(records.block, r) * records.value(surface, x, r);
+    if (!(beside && records.is_of_one(r)))
+      force = block_at<B>(records.block, r) * records.value(surface, x, r);
     set_vector<B>(product, r, force);
   }
 };
 
-/// Adds the vertex blocks of W^T C W, [vertices][6]: of a vertex, those of all records that it has a part in.
+/// Adds the vertex blocks of W^T C W, [vertices][6]: of a vertex, those of all records that it has
+/// a part in.
 template <class B>
 struct AddContactBlocks {
   EmbeddedSurface<B> surface;
@@ -204,8 +218,9 @@ struct AddContactBlocks {
   }
 };
 
-/// A += scale W^T C W of points that touch obstacles: a row of A per work item, its records in order, the blocks that are stored in it.
-/// Vertices of one tetrahedron are coupled in A already, unless the row's motion is given.
+/// A += scale W^T C W of points that touch obstacles: a row of A per work item, its records in
+/// order, the blocks that are stored in it. Vertices of one tetrahedron are coupled in A already,
+/// unless the row's motion is given.
 template <class B>
 struct AddContactToMatrix {
   using Real = typename B::Real;
@@ -215,7 +230,8 @@ struct AddContactToMatrix {
   BlockMatrix<B> A;
 
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
-    const int a = surface.vertex(records.transpose.vertices.item(item)), first = A.first(a), last = A.first(a + 1);
+    const int a = surface.vertex(records.transpose.vertices.item(item)), first = A.first(a),
+              last = A.first(a + 1);
     records.transpose.each(item, [&](int r, Real own) {
       if (!records.is_of_one(r)) return;
       const auto C = block_at<B>(records.block, r);

@@ -6,16 +6,18 @@ namespace plica {
 
 /// A tool with mass, and the springs and dampers by which it follows its motion and its turn.
 struct RigidTool {
-  double mass = 0, stiffness = 0, damping = 0;        ///< [kg], [N/m], [N s/m]
-  Mat3<double> inertia;                               ///< about its origin, as the shape has it [kg m^2]
+  double mass = 0, stiffness = 0, damping = 0;  ///< [kg], [N/m], [N s/m]
+  /// about its origin, as the shape has it [kg m^2]
+  Mat3<double> inertia;
   double angular_stiffness = 0, angular_damping = 0;  ///< [N m/rad], [N m s/rad]
 };
 
-/// A tool with mass m after a macro step T, in which it went on with its velocity: m dv/dt = F + k (x* - x) + c (v* - v) by implicit
-/// Euler for the coupling, stable for any k and c, with the mean contact force F of that step. x* and v* are where its motion asks it
-/// to be at the end of the next step and how fast it gets there. One that turns likewise: dL/dt = M + k d + c (w* - w), L = I w, with
-/// the mean torque M about its origin and the rotation vector d that leads to the attitude that its turn asks for. What turns freely
-/// keeps L.
+/// A tool with mass m after a macro step T, in which it went on with its velocity: m dv/dt = F + k
+/// (x* - x) + c (v* - v) by implicit Euler for the coupling, stable for any k and c, with the mean
+/// contact force F of that step. x* and v* are where its motion asks it to be at the end of the
+/// next step and how fast it gets there. One that turns likewise: dL/dt = M + k d + c (w* - w), L =
+/// I w, with the mean torque M about its origin and the rotation vector d that leads to the
+/// attitude that its turn asks for. What turns freely keeps L.
 template <class B>
 struct MoveTool {
   ObstaclePlace<B> place;           ///< at the end of the step
@@ -29,12 +31,14 @@ struct MoveTool {
     const double T = span;
     const int x = place.first, v = x + 3;
     const ObstaclePose is = place.now(), goal = *asked;
-    const Vec3<double> way = goal.placed(place.origin) - place.origin, speed = goal.velocity(place.origin + way);
+    const Vec3<double> way = goal.placed(place.origin) - place.origin,
+                       speed = goal.velocity(place.origin + way);
     if (place.turns) turn(is, goal);
     for (int k = 0; k < 3; ++k) {
-      const double pull = -wrench(force + k) + tool.stiffness * (way[k] - is.displacement[k]) + tool.damping * speed[k];
-      place.tools(v + k) =
-          (is.speed[k] + T / tool.mass * pull) / (1 + T / tool.mass * (tool.damping + T * tool.stiffness));
+      const double pull = -wrench(force + k) + tool.stiffness * (way[k] - is.displacement[k]) +
+                          tool.damping * speed[k];
+      place.tools(v + k) = (is.speed[k] + T / tool.mass * pull) /
+                           (1 + T / tool.mass * (tool.damping + T * tool.stiffness));
       place.tools(x + k) = is.displacement[k];
     }
     place.tools(x + ObstaclePlace<B>::at_time) = is.time;
@@ -42,21 +46,27 @@ struct MoveTool {
 
   KOKKOS_INLINE_FUNCTION void turn(const ObstaclePose& is, const ObstaclePose& goal) const {
     const double T = span, k = tool.angular_stiffness, c = tool.angular_damping;
-    const int q = place.first + ObstaclePlace<B>::attitude, w = place.first + ObstaclePlace<B>::rate;
+    const int q = place.first + ObstaclePlace<B>::attitude,
+              w = place.first + ObstaclePlace<B>::rate;
     const Mat3<double> before = place.last_attitude().rotation(), now = is.turn.rotation;
     const auto turned = [&](const Mat3<double>& R) { return R * (tool.inertia * transpose(R)); };
-    const Mat3<double> asked_rotation = goal.turn.turned ? goal.turn.rotation : Mat3<double>::identity();
+    const Mat3<double> asked_rotation =
+        goal.turn.turned ? goal.turn.rotation : Mat3<double>::identity();
     Vec3<double> L = turned(before) * is.turn.rate + T * k * rotation_between(now, asked_rotation);
     if (goal.turn.turned) L += T * c * goal.turn.rate;
     for (int i = 0; i < 3; ++i) L[i] -= T * wrench(force + 3 + i);
-    const Mat3<double> A = turned(now) + Mat3<double>::diagonal(T * (c + T * k)), of_A = cofactor(A);
+    const Mat3<double> A = turned(now) + Mat3<double>::diagonal(T * (c + T * k)),
+                       of_A = cofactor(A);
     const Vec3<double> rate = (1 / dot(A[0], of_A[0])) * (transpose(of_A) * L);
-    const Quaternion attitude = place.last_attitude().turned((is.time - last_time()) * is.turn.rate);
+    const Quaternion attitude =
+        place.last_attitude().turned((is.time - last_time()) * is.turn.rate);
     place.tools(q) = attitude.w, place.tools(q + 1) = attitude.x;
     place.tools(q + 2) = attitude.y, place.tools(q + 3) = attitude.z;
     for (int i = 0; i < 3; ++i) place.tools(w + i) = rate[i];
   }
-  KOKKOS_INLINE_FUNCTION double last_time() const { return place.tools(place.first + ObstaclePlace<B>::at_time); }
+  KOKKOS_INLINE_FUNCTION double last_time() const {
+    return place.tools(place.first + ObstaclePlace<B>::at_time);
+  }
 };
 
 }  // namespace plica

@@ -6,13 +6,15 @@
 
 namespace plica {
 
-/// How an obstacle is turned: what its shape has at X is at centre + R (X - centre) and its displacement.
+/// How an obstacle is turned: what its shape has at X is at centre + R (X - centre) and its
+/// displacement.
 struct Attitude {
   bool turned = false;    ///< false: it translates, and nothing of these is used
   Vec3<double> centre;    ///< at t = 0 [m]
   Mat3<double> rotation;  ///< R
   Vec3<double> rate;      ///< angular velocity [rad/s]
-  /// The mean velocity of a step of h, of which a place goes the chord: along sin(w h)/(w h) w x r, and inward (1 - cos(w h))/(w h)^2 h.
+  /// The mean velocity of a step of h, of which a place goes the chord: along sin(w h)/(w h) w x r,
+  /// and inward (1 - cos(w h))/(w h)^2 h.
   /// @{
   double along = 1, inward = 0;
   /// @}
@@ -26,7 +28,8 @@ struct ObstaclePose {
 
   /// Where it has a point that its shape has at X.
   KOKKOS_INLINE_FUNCTION Vec3<double> placed(const Vec3<double>& X) const {
-    return turn.turned ? turn.centre + turn.rotation * (X - turn.centre) + displacement : X + displacement;
+    return turn.turned ? turn.centre + turn.rotation * (X - turn.centre) + displacement
+                       : X + displacement;
   }
   /// A place, as the shape has it.
   template <class Real>
@@ -47,7 +50,9 @@ struct ObstaclePose {
   KOKKOS_INLINE_FUNCTION Vec3<Real> outward(const Vec3<Real>& d) const {
     return turn.turned ? rounded<Real>(turn.rotation * exact(d)) : d;
   }
-  KOKKOS_INLINE_FUNCTION bool is_turning() const { return turn.turned && dot(turn.rate, turn.rate) > 0; }
+  KOKKOS_INLINE_FUNCTION bool is_turning() const {
+    return turn.turned && dot(turn.rate, turn.rate) > 0;
+  }
   /// Its angular velocity [rad/s].
   template <class Real>
   KOKKOS_INLINE_FUNCTION Vec3<Real> rate() const {
@@ -87,8 +92,8 @@ struct Quaternion {
   /// After a turn by d [rad], to the third order: q + d q / 2, made a unit again.
   KOKKOS_INLINE_FUNCTION Quaternion turned(const Vec3<double>& d) const {
     const double a = d[0] / 2, b = d[1] / 2, c = d[2] / 2;
-    const Quaternion q{w - a * x - b * y - c * z, x + a * w + b * z - c * y, y + b * w + c * x - a * z,
-                       z + c * w + a * y - b * x};
+    const Quaternion q{w - a * x - b * y - c * z, x + a * w + b * z - c * y,
+                       y + b * w + c * x - a * z, z + c * w + a * y - b * x};
     const double over = 1 / Kokkos::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {over * q.w, over * q.x, over * q.y, over * q.z};
   }
@@ -103,13 +108,16 @@ KOKKOS_INLINE_FUNCTION Vec3<double> rotation_between(const Mat3<double>& R, cons
   return (sine > 1e-9 ? angle / (2 * sine) : 0.5) * twice_sine;
 }
 
-/// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool with mass goes, which the device knows.
+/// Where an obstacle is at a time, and how fast: where its motion and its turn say, or as a tool
+/// with mass goes, which the device knows.
 template <class B>
 struct ObstaclePlace {
-  /// Of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x, y, z) and angular velocity [rad/s].
+  /// Of a tool: displacement [m] and velocity [m/s] at a time [s], then its attitude (w, x, y, z)
+  /// and angular velocity [rad/s].
   static constexpr int numbers = 14, at_time = 6, attitude = 7, rate = 11;
 
-  Vec3<double> origin;  ///< at t = 0, what torques are about, and what a tool with mass turns about [m]
+  /// at t = 0, what torques are about, and what a tool with mass turns about [m]
+  Vec3<double> origin;
   Changing<B, ObstaclePose> pose;
   Doubles<B> tools;    ///< [numbers of each obstacle]; empty: it has no mass
   int first = 0;       ///< its own of them

@@ -4,11 +4,12 @@
 
 namespace plica {
 
-/// The weights of the corners a, b, c at the triangle's point that is nearest to p: exactly 0 for corners that the nearest face, edge
-/// or vertex does not have. After C. Ericson, Real-Time Collision Detection (2005), section 5.1.5.
+/// The weights of the corners a, b, c at the triangle's point that is nearest to p: exactly 0 for
+/// corners that the nearest face, edge or vertex does not have. After C. Ericson, Real-Time
+/// Collision Detection (2005), section 5.1.5.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Vec3<Real> nearest_on_triangle(const Vec3<Real>& p, const Vec3<Real>& a, const Vec3<Real>& b,
-                                                      const Vec3<Real>& c) {
+KOKKOS_INLINE_FUNCTION Vec3<Real> nearest_on_triangle(const Vec3<Real>& p, const Vec3<Real>& a,
+                                                      const Vec3<Real>& b, const Vec3<Real>& c) {
   const Vec3<Real> ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const Real d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return {Real(1), Real(0), Real(0)};
@@ -53,13 +54,15 @@ KOKKOS_INLINE_FUNCTION Real least_on_unit(const F& f) {
   return at_left <= at_right ? left : right;
 }
 
-/// The weights of a triangle's corners where it is deepest in a convex solid, by golden sections of golden sections: the distance to
-/// such a solid is convex, if not smooth. Where it is the same all over, that is in the triangle's middle. After Macklin, Erleben,
-/// Mueller, Chentanez, Jeschke, Corse: Local optimization for robust signed distance field collision (2020). A fixed number of
+/// The weights of a triangle's corners where it is deepest in a convex solid, by golden sections of
+/// golden sections: the distance to such a solid is convex, if not smooth. Where it is the same all
+/// over, that is in the triangle's middle. After Macklin, Erleben, Mueller, Chentanez, Jeschke,
+/// Corse: Local optimization for robust signed distance field collision (2020). A fixed number of
 /// distances, 256 of them. `size` of the triangle [m].
 template <class Real, class Shape>
-KOKKOS_INLINE_FUNCTION Vec3<Real> deepest_on_triangle(const Shape& shape, const Vec3<Real>& a, const Vec3<Real>& b,
-                                                      const Vec3<Real>& c, Real size) {
+KOKKOS_INLINE_FUNCTION Vec3<Real> deepest_on_triangle(const Shape& shape, const Vec3<Real>& a,
+                                                      const Vec3<Real>& b, const Vec3<Real>& c,
+                                                      Real size) {
   constexpr Real lean = Real(1e-3);  // to the middle
   const Vec3<Real> middle = Real(1) / 3 * (a + b + c);
   const auto at = [&](Real s, Real q) {

@@ -3,11 +3,13 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/reduce.hpp>
 
-// The broad phase of pairs: a uniform grid, of which each cell lists the triangles that may come near a point in it: those whose boxes,
-// made larger by how near that is, reach into it. A cell is as wide as such a box is on average, and cells share a table by a hash. With the
-// grid each point gets a list of the triangles that may come near; where there are more than it holds, it asks the grid itself. Both stay
-// while nothing has moved by more than half of `margin` and nothing is so fast that it meets in one step what is further away, each against
-// the mean of all points: what flies needs no new grid. The device decides that, and leaves out the work.
+// The broad phase of pairs: a uniform grid, of which each cell lists the triangles that may come
+// near a point in it: those whose boxes, made larger by how near that is, reach into it. A cell is
+// as wide as such a box is on average, and cells share a table by a hash. With the grid each point
+// gets a list of the triangles that may come near; where there are more than it holds, it asks the
+// grid itself. Both stay while nothing has moved by more than half of `margin` and nothing is so
+// fast that it meets in one step what is further away, each against the mean of all points: what
+// flies needs no new grid. The device decides that, and leaves out the work.
 namespace plica {
 
 /// A box along the axes.
@@ -16,7 +18,8 @@ struct Box3 {
   Vec3<Real> low, high;
   explicit KOKKOS_INLINE_FUNCTION Box3(const Vec3<Real>& x) : low(x), high(x) {}
   KOKKOS_INLINE_FUNCTION void add(const Vec3<Real>& x) {
-    for (int k = 0; k < 3; ++k) low[k] = Kokkos::min(low[k], x[k]), high[k] = Kokkos::max(high[k], x[k]);
+    for (int k = 0; k < 3; ++k)
+      low[k] = Kokkos::min(low[k], x[k]), high[k] = Kokkos::max(high[k], x[k]);
   }
   KOKKOS_INLINE_FUNCTION void enlarge(Real by) {
     for (int k = 0; k < 3; ++k) low[k] -= by, high[k] += by;
@@ -34,7 +37,9 @@ struct Box3 {
 /// Of a grid.
 struct GridCell {
   int i, j, k;
-  KOKKOS_INLINE_FUNCTION bool operator==(const GridCell& c) const { return i == c.i && j == c.j && k == c.k; }
+  KOKKOS_INLINE_FUNCTION bool operator==(const GridCell& c) const {
+    return i == c.i && j == c.j && k == c.k;
+  }
   KOKKOS_INLINE_FUNCTION GridCell or_after(const GridCell& c) const {
     return {Kokkos::max(i, c.i), Kokkos::max(j, c.j), Kokkos::max(k, c.k)};
   }
@@ -44,14 +49,16 @@ template <class B>
 struct PairGrid {
   using Real = typename B::Real;
   PairLimits<Real> limits;
-  int buckets = 0;    ///< a power of two
-  Vectors<B> x;       ///< [points][3] now [m]
-  Vectors<B> built;   ///< [points][3] when the grid was made [m]
-  Doubles<B> mean;    ///< [6] of all points: way between these [m], velocity [m/s]
-  Doubles<B> moved;   ///< [2] against it: largest squared way [m^2], and largest squared speed [m^2/s^2]
-  Scalars<B> reach;   ///< [1] what it was made for [m]
-  Doubles<B> stale;   ///< [1] above 0: the grid is being made
-  Doubles<B> extent;  ///< [2] of the triangles' boxes, then: the longest sides' sum and the longest of them [m]
+  int buckets = 0;   ///< a power of two
+  Vectors<B> x;      ///< [points][3] now [m]
+  Vectors<B> built;  ///< [points][3] when the grid was made [m]
+  Doubles<B> mean;   ///< [6] of all points: way between these [m], velocity [m/s]
+  /// [2] against it: largest squared way [m^2], and largest squared speed [m^2/s^2]
+  Doubles<B> moved;
+  Scalars<B> reach;  ///< [1] what it was made for [m]
+  Doubles<B> stale;  ///< [1] above 0: the grid is being made
+  /// [2] of the triangles' boxes, then: the longest sides' sum and the longest of them [m]
+  Doubles<B> extent;
   Scalars<B> width;   ///< [1] of a cell [m]
   Indices<B> first;   ///< [buckets] into item
   Indices<B> filled;  ///< [buckets] items of each
@@ -59,32 +66,40 @@ struct PairGrid {
   static constexpr int most_cells = 48;  ///< that a triangle reaches into, on average; see SetWidth
   Indices<B> ridge;                      ///< [edges] 1: it may cross another, then
   static constexpr int longest = 32;     ///< list of triangles
-  Indices<B> close;   ///< [points] how many triangles may come within reach before the grid is made anew
+  /// [points] how many triangles may come within reach before the grid is made anew
+  Indices<B> close;
   Indices<B> listed;  ///< [points * longest] these
   static constexpr int most_crossings = 16;
-  Indices<B> crossings;  ///< [points] how many edges may come to cross one that begins in the point, likewise
-  Indices<B> crossing;   ///< [points * most_crossings * 2] these: the own edge, the other
+  /// [points] how many edges may come to cross one that begins in the point, likewise
+  Indices<B> crossings;
+  Indices<B> crossing;  ///< [points * most_crossings * 2] these: the own edge, the other
 
   /// use(field) for all of its own.
   template <class Self, class Use>
   static void each_own(Self& g, const Use& use) {
-    use(g.built), use(g.mean), use(g.moved), use(g.reach), use(g.stale), use(g.extent), use(g.width), use(g.first);
+    use(g.built), use(g.mean), use(g.moved), use(g.reach), use(g.stale), use(g.extent),
+        use(g.width), use(g.first);
     use(g.filled), use(g.item), use(g.ridge), use(g.close), use(g.listed), use(g.crossings);
     use(g.crossing);
   }
-  /// How far two points can move against each other in a step of h [s]; bounded where a state is no longer sound.
+  /// How far two points can move against each other in a step of h [s]; bounded where a state is no
+  /// longer sound.
   KOKKOS_INLINE_FUNCTION Real closing(Real h) const {
     constexpr Real reaches = 32;  // 16 edges
     return Kokkos::min(2 * h * static_cast<Real>(Kokkos::sqrt(moved(1))), reaches * limits.reach);
   }
   /// How far apart edges are looked for: what is not fast moves less in a step [m].
-  KOKKOS_INLINE_FUNCTION Real edge_reach() const { return reach(0) > limits.reach ? reach(0) : Real(0.5) * reach(0); }
+  KOKKOS_INLINE_FUNCTION Real edge_reach() const {
+    return reach(0) > limits.reach ? reach(0) : Real(0.5) * reach(0);
+  }
   KOKKOS_INLINE_FUNCTION int cell(Real coordinate) const {
     constexpr Real most = Real(1 << 30);
-    return static_cast<int>(Kokkos::floor(Kokkos::max(-most, Kokkos::min(most, coordinate / width(0)))));
+    return static_cast<int>(
+        Kokkos::floor(Kokkos::max(-most, Kokkos::min(most, coordinate / width(0)))));
   }
   KOKKOS_INLINE_FUNCTION int bucket(int i, int j, int k) const {
-    const unsigned mixed = static_cast<unsigned>(i) * 73856093u ^ static_cast<unsigned>(j) * 19349663u ^
+    const unsigned mixed = static_cast<unsigned>(i) * 73856093u ^
+                           static_cast<unsigned>(j) * 19349663u ^
                            static_cast<unsigned>(k) * 83492791u;
     return static_cast<int>(mixed & static_cast<unsigned>(buckets - 1));
   }
@@ -101,10 +116,11 @@ struct PairGrid {
       for (int j = low.j; j <= high.j; ++j)
         for (int k = low.k; k <= high.k; ++k) use(GridCell{i, j, k}, bucket(i, j, k));
   }
-  /// look(triangle) for all that may come near what was in this box when the grid was made: each in the first cell that both reach into;
-  /// where cells share a bucket, some come twice.
+  /// look(triangle) for all that may come near what was in this box when the grid was made: each in
+  /// the first cell that both reach into; where cells share a bucket, some come twice.
   template <class Look>
-  KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Indices<B>& corner, const Look& look) const {
+  KOKKOS_INLINE_FUNCTION void around(const Box3<Real>& box, const Indices<B>& corner,
+                                     const Look& look) const {
     const GridCell low = cell_of(box.low);
     each_cell(box, [&](const GridCell& at, int b) {
       for (int s = first(b); s < first(b) + filled(b); ++s) {
@@ -130,9 +146,11 @@ struct MotionOfPoint {
   Vectors<B> v;
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION Sums<6> operator()(int p) const {
-    const auto way = vector_at<B>(grid.x, p) - vector_at<B>(grid.built, p), own = value_at<B>(surface.embedding, v, p);
+    const auto way = vector_at<B>(grid.x, p) - vector_at<B>(grid.built, p),
+               own = value_at<B>(surface.embedding, v, p);
     Sums<6> motion;
-    for (int k = 0; k < 3; ++k) motion[k] = static_cast<double>(way[k]), motion[3 + k] = static_cast<double>(own[k]);
+    for (int k = 0; k < 3; ++k)
+      motion[k] = static_cast<double>(way[k]), motion[3 + k] = static_cast<double>(own[k]);
     return motion;
   }
 };
@@ -186,15 +204,17 @@ struct MeasureTriangles {
   }
 };
 
-/// The mean of the sides l, but no less than a third of the longest: then triangles reach into 48 cells each, or less. One of l in cells of w
-/// reaches into (l/w + 2)^3 at most, and n of them with l <= 3 w and a mean of w into most where n/3 are as long as they can be.
+/// The mean of the sides l, but no less than a third of the longest: then triangles reach into 48
+/// cells each, or less. One of l in cells of w reaches into (l/w + 2)^3 at most, and n of them with
+/// l <= 3 w and a mean of w into most where n/3 are as long as they can be.
 template <class B>
 struct SetWidth {
   PairGrid<B> grid;
   int triangles;
   KOKKOS_INLINE_FUNCTION void operator()() const {
     if (grid.stale(0) > 0)
-      grid.width(0) = static_cast<typename B::Real>(Kokkos::max(grid.extent(0) / triangles, grid.extent(1) / 3));
+      grid.width(0) = static_cast<typename B::Real>(
+          Kokkos::max(grid.extent(0) / triangles, grid.extent(1) / 3));
   }
 };
 
@@ -207,7 +227,9 @@ struct ClearInts {
 template <class B>
 struct KeepPlaces {
   PairGrid<B> grid;
-  KOKKOS_INLINE_FUNCTION void operator()(int p) const { set_vector<B>(grid.built, p, vector_at<B>(grid.x, p)); }
+  KOKKOS_INLINE_FUNCTION void operator()(int p) const {
+    set_vector<B>(grid.built, p, vector_at<B>(grid.x, p));
+  }
 };
 
 template <class B>
@@ -215,11 +237,13 @@ struct CountCells {
   Indices<B> corner;
   PairGrid<B> grid;
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
-    grid.each_cell(grid.box_of(corner, t), [&](const GridCell&, int b) { Kokkos::atomic_inc(&grid.filled(b)); });
+    grid.each_cell(grid.box_of(corner, t),
+                   [&](const GridCell&, int b) { Kokkos::atomic_inc(&grid.filled(b)); });
   }
 };
 
-/// first(i) = the sum of count(j) for j < i, i up to one more than there are where `last`; left out where `on` is 0.
+/// first(i) = the sum of count(j) for j < i, i up to one more than there are where `last`; left out
+/// where `on` is 0.
 template <class B>
 struct SumBefore {
   Indices<B> count, first;
@@ -233,7 +257,8 @@ struct SumBefore {
   }
 };
 
-/// Puts triangles into their cells, whose counts start from 0 again. In any order: who looks takes the nearest.
+/// Puts triangles into their cells, whose counts start from 0 again. In any order: who looks takes
+/// the nearest.
 template <class B>
 struct FillCells {
   Indices<B> corner;

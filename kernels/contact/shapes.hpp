@@ -24,7 +24,8 @@
 namespace plica {
 
 /// Every obstacle shape there is. One more: its file above, its name here.
-using ObstacleShapes = TypeList<Plane, Sphere, Bowl, Capsule, Block, Cylinder, Cone, SampledSurface>;
+using ObstacleShapes =
+    TypeList<Plane, Sphere, Bowl, Capsule, Block, Cylinder, Cone, SampledSurface>;
 
 /// f(S{}, options) for the shape S whose options these are, completed; false where there is none.
 template <class F>

@@ -9,7 +9,8 @@ namespace plica {
 
 /// A force at a place, and its torque about another.
 template <class Real>
-KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const Vec3<Real>& x, const Vec3<Real>& f, const Vec3<double>& about) {
+KOKKOS_INLINE_FUNCTION Sums<6> wrench_at(const Vec3<Real>& x, const Vec3<Real>& f,
+                                         const Vec3<double>& about) {
   Vec3<double> arm, force;
   for (int k = 0; k < 3; ++k) {
     arm[k] = static_cast<double>(x[k]) - about[k];
@@ -57,8 +58,8 @@ struct BodyWrench {
   }
 };
 
-/// How the last forces are part of a step's impulse, where a method carries something on: x = weight F + again x_before is carried, and
-/// the impulse is now x + before x_before.
+/// How the last forces are part of a step's impulse, where a method carries something on: x =
+/// weight F + again x_before is carried, and the impulse is now x + before x_before.
 struct CarriedImpulse {
   double weight = 0, again = 0, now = 1, before = 0;
 };
@@ -110,7 +111,9 @@ struct SumImpulses {
   Doubles<B> impulse, wrench;
   double per_time;
   bool first;  ///< of the levels
-  KOKKOS_INLINE_FUNCTION void operator()(int k) const { wrench(k) = (first ? 0.0 : wrench(k)) + per_time * impulse(k); }
+  KOKKOS_INLINE_FUNCTION void operator()(int k) const {
+    wrench(k) = (first ? 0.0 : wrench(k)) + per_time * impulse(k);
+  }
 };
 
 }  // namespace plica

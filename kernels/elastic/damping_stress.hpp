@@ -3,14 +3,15 @@
 #include <plica/core/fields.hpp>
 #include <plica/kernels/materials/material.hpp>
 
-// Damping by stiffness over a time tau: each element has a second Piola-Kirchhoff stress against the rate of Green's strain (Kelvin and
-// Voigt's law),
+// Damping by stiffness over a time tau: each element has a second Piola-Kirchhoff stress against
+// the rate of Green's strain (Kelvin and Voigt's law),
 //
 //   S_d = tau C0 : Edot,   Edot = sym(F^T Fdot),   P_d = F S_d,   C0 = dP/dF at rest.
 //
-// A body that turns has Fdot = W F with W antisymmetric, so Edot = 0 whatever its strain. The power P_d : Fdot = tau Edot : C0 : Edot is never
-// negative. S_d is symmetric, so that angular momentum stays. The operator D(u) that takes v to -f_d is symmetric and positive
-// semi-definite in every state. At rest it is that of Rayleigh, tau K.
+// A body that turns has Fdot = W F with W antisymmetric, so Edot = 0 whatever its strain. The power
+// P_d : Fdot = tau Edot : C0 : Edot is never negative. S_d is symmetric, so that angular momentum
+// stays. The operator D(u) that takes v to -f_d is symmetric and positive semi-definite in every
+// state. At rest it is that of Rayleigh, tau K.
 namespace plica {
 
 /// P_d over tau for a change dF in the place of Fdot: a tangent as those of materials are.
@@ -39,7 +40,8 @@ struct DampingTangent {
 template <class B>
 struct DampingRate {
   using Real = typename B::Real;
-  Scalars<B> damping;                                                ///< [patches] tau [s], or empty
+  /// [patches] tau [s], or empty
+  Scalars<B> damping;
   Real over = 0;                                                     ///< times this
   bool counts() const { return over > 0 && damping.extent(0) > 0; }  ///< whether there is any
   KOKKOS_INLINE_FUNCTION Real operator()(int patch) const { return over * damping(patch); }

@@ -6,7 +6,8 @@
 #include <plica/kernels/elastic/elastic_tangent.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Assembles A = (1 + b c) M + a K(u) + b D(u) as blocks, see ImplicitWeights and damping_stress.hpp.
+// Assembles A = (1 + b c) M + a K(u) + b D(u) as blocks, see ImplicitWeights and
+// damping_stress.hpp.
 //
 //   1. ElasticBlocks, per patch    the six blocks between two corners of each element, into scratch; then, pair by pair of the patch's
 //                                  vertices, their sum, to the matrix, or to `shares` where other patches have the pair as well
@@ -14,8 +15,9 @@
 //   3. OwnBlocks                   a vertex's own block: the mass, minus the sum of its row, as the stiffness has no force against
 //                                  a motion of the whole body
 //
-// All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) + 12 (slots), and 9 s per stored block
-// of the matrix, written, and read once or twice more; in scratch, which a second-level cache holds, 56 s written and 54 s read.
+// All sums are in a fixed order. Bytes per element, s = sizeof(Real): 8 (corners) + 10 s (shape) +
+// 12 (slots), and 9 s per stored block of the matrix, written, and read once or twice more; in
+// scratch, which a second-level cache holds, 56 s written and 54 s read.
 namespace plica {
 
 constexpr int element_numbers = 56;  ///< of the six blocks, in whole quarters of a register
@@ -23,12 +25,14 @@ constexpr int element_numbers = 56;  ///< of the six blocks, in whole quarters o
 /// Where block (p, q), p < q, of an element stands among its six.
 KOKKOS_INLINE_FUNCTION constexpr int element_block(int p, int q) { return p * (5 - p) / 2 + q - 1; }
 
-/// scale * volume (dP/dF : grad N_q) grad N_p for corners p < q, column by column; those of corner 0 by balance.
+/// scale * volume (dP/dF : grad N_q) grad N_p for corners p < q, column by column; those of corner
+/// 0 by balance.
 template <class T, class Tangent>
-KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const ElementShape<T>& shape, const T& scale,
-                                           T (&K)[element_numbers]) {
+KOKKOS_INLINE_FUNCTION void element_blocks(const Tangent& tangent, const ElementShape<T>& shape,
+                                           const T& scale, T (&K)[element_numbers]) {
   const T weight = scale * shape.volume;
-  const typename Tangent::Corner corner[3] = {tangent.corner(shape.gradient[0]), tangent.corner(shape.gradient[1]),
+  const typename Tangent::Corner corner[3] = {tangent.corner(shape.gradient[0]),
+                                              tangent.corner(shape.gradient[1]),
                                               tangent.corner(shape.gradient[2])};
   for (int q = 1; q < 4; ++q)
     for (int p = 1; p < q; ++p) {
@@ -60,8 +64,8 @@ struct ElasticBlocks {
     return Patches<B>::vertex_capacity * patch_stride<B> * sizeof(Real);
   }
   static KOKKOS_FUNCTION constexpr std::size_t far_bytes() {
-    return static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) * element_numbers *
-           sizeof(Real);
+    return static_cast<std::size_t>((Patches<B>::capacity + lanes - 1) / lanes * lanes) *
+           element_numbers * sizeof(Real);
   }
   using T = typename PackOf<Real, lanes>::type;
 
@@ -81,20 +85,23 @@ struct ElasticBlocks {
     Real* const local = team_scratch<Real>(team, 0, near_bytes() / sizeof(Real));
     Real* const blocks = team_scratch<Real>(team, 1, far_bytes() / sizeof(Real));
     load_patch<B>(team, patches, p, field, local);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs),
-                         [&](int q) { element(p, first_pack + q, local, blocks + q * lanes * element_numbers); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs), [&](int q) {
+      element(p, first_pack + q, local, blocks + q * lanes * element_numbers);
+    });
     team.team_barrier();
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count),
                          [&](int i) { sum(first + i, first + i >= first_shared, blocks); });
   }
 
-  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local, Real* blocks) const {
+  PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int patch, int pack, const Real* local,
+                                                    Real* blocks) const {
     ElementShape<T> shape;
     Mat3<T> G[1];
     load_pack<B, 1>(patches, pack, local, shape, G);
     T K[element_numbers];
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    const auto c = load_constants<Material, T>(patches.constants, patch, patches.fibres, pack * lanes);
+    const auto c =
+        load_constants<Material, T>(patches.constants, patch, patches.fibres, pack * lanes);
     element_blocks(Tangent(F, c), shape, T(a), K);
     if constexpr (Damped) {
       T D[element_numbers];
@@ -168,11 +175,13 @@ struct OwnBlocks {
 /// 2. and 3.
 template <class B>
 void finish_blocks(const typename B::Exec& exec, const Model<B>& model, const PatchPairs<B>& pairs,
-                   const ImplicitWeights& weights, const Blocks9<B>& shares, const BlockMatrix<B>& A) {
+                   const ImplicitWeights& weights, const Blocks9<B>& shares,
+                   const BlockMatrix<B>& A) {
   update_vertices<B>(exec, "plica::add_shares", static_cast<int>(pairs.shared_place.extent(0)),
                      AddShares<B>{pairs, shares, A});
-  update_vertices<B>(exec, "plica::own_blocks", model.vertices,
-                     OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
+  update_vertices<B>(
+      exec, "plica::own_blocks", model.vertices,
+      OwnBlocks<B>{A, model.mass, model.damping, static_cast<typename B::Real>(weights.b)});
 }
 
 /// A of vertices that are free; the others' rows keep their mass alone.
@@ -183,7 +192,8 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
   using Real = typename B::Real;
   const DampingRate<B> rate{model.patches.damping, static_cast<Real>(weights.b)};
   by_case(rate.counts(), [&]<bool damped>(std::bool_constant<damped>) {
-    using Kernel = ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>, damped>;
+    using Kernel =
+        ElasticBlocks<B, Material, Tangent<typename PackOf<Real, B::lanes>::type>, damped>;
     typename Kernel::Policy policy(exec, model.patches.count, team_size<B>(128));
     policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::near_bytes() + 64));
     policy.set_scratch_size(1, Kokkos::PerTeam(Kernel::far_bytes() + 64));
@@ -194,10 +204,10 @@ void elastic_blocks(const typename B::Exec& exec, const Model<B>& model, const P
 }
 
 // What is the same for all materials is compiled once, in elastic_blocks.cpp.
-#define PLICA_ELASTIC_BLOCKS(EXTERN, ...)                                                                 \
-  EXTERN template void finish_blocks<__VA_ARGS__>(const __VA_ARGS__::Exec&, const Model<__VA_ARGS__>&,    \
-                                                  const PatchPairs<__VA_ARGS__>&, const ImplicitWeights&, \
-                                                  const Blocks9<__VA_ARGS__>&, const BlockMatrix<__VA_ARGS__>&);
+#define PLICA_ELASTIC_BLOCKS(EXTERN, ...)                                                  \
+  EXTERN template void finish_blocks<__VA_ARGS__>(                                         \
+      const __VA_ARGS__::Exec&, const Model<__VA_ARGS__>&, const PatchPairs<__VA_ARGS__>&, \
+      const ImplicitWeights&, const Blocks9<__VA_ARGS__>&, const BlockMatrix<__VA_ARGS__>&);
 #define PLICA_EXTERN_ELASTIC_BLOCKS(Real, Exec) PLICA_ELASTIC_BLOCKS(extern, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_ELASTIC_BLOCKS)
 #undef PLICA_EXTERN_ELASTIC_BLOCKS

@@ -5,8 +5,8 @@
 
 namespace plica {
 
-/// Elastic energy [J], as a vertex field that adds up to it: a quarter of each element's energy per corner, in the x
-/// component. It shares the force's path and so its order of summation.
+/// Elastic energy [J], as a vertex field that adds up to it: a quarter of each element's energy per
+/// corner, in the x component. It shares the force's path and so its order of summation.
 template <class B, class Material>
 struct ElasticEnergy {
   static constexpr int fields = 1;
@@ -15,8 +15,8 @@ struct ElasticEnergy {
   Scalars<B> fibres;     ///< likewise, or empty
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
-                                         int patch, int pack) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,
+                                         Vec3<T> (&corner)[4], int patch, int pack) const {
     const auto c = load_constants<Material, T>(constants, patch, fibres, pack * B::lanes);
     const T quarter = T(0.25f) * shape.volume * Material::energy(Mat3<T>::identity() + G[0], c);
     for (Vec3<T>& at : corner) at = {quarter, T(0), T(0)};

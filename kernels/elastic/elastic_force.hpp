@@ -18,11 +18,12 @@ struct ElasticForce {
   Scalars<B> fibres = {};  ///< likewise, or empty
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
-                                         int patch, int pack) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,
+                                         Vec3<T> (&corner)[4], int patch, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    stress_to_corners(Material::stress(F, load_constants<Material, T>(constants, patch, fibres, pack * B::lanes)),
-                      shape, corner);
+    stress_to_corners(
+        Material::stress(F, load_constants<Material, T>(constants, patch, fibres, pack * B::lanes)),
+        shape, corner);
     if constexpr (Watched) {
       const T J = determinant(F);
       if (!all_positive(J)) raise(J, patch, pack);
@@ -32,7 +33,8 @@ struct ElasticForce {
   template <class T>
   PLICA_SELDOM KOKKOS_FUNCTION void raise(const T& J, int patch, int pack) const {
     for (int l = 0; l < LaneOf<T>::count; ++l)
-      if (!(lane(J, l) > 0)) flags.raise(patch, *evaluation, pack * LaneOf<T>::count + l, lane(J, l));
+      if (!(lane(J, l) > 0))
+        flags.raise(patch, *evaluation, pack * LaneOf<T>::count + l, lane(J, l));
   }
 };
 
@@ -45,13 +47,15 @@ struct DampedElasticForce {
   Scalars<B> damping;  ///< [patches] s
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape, Vec3<T> (&corner)[4],
-                                         int patch, int pack) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const ElementShape<T>& shape,
+                                         Vec3<T> (&corner)[4], int patch, int pack) const {
     const Mat3<T> displacement[1] = {G[0]}, F = Mat3<T>::identity() + G[0];
     elastic(displacement, shape, corner, patch, pack);
     Vec3<T> drag[4];
-    const auto constants = load_constants<Material, T>(elastic.constants, patch, elastic.fibres, pack * B::lanes);
-    stress_to_corners(T(damping(patch)) * DampingTangent<Material, T>{F, constants}(G[1]), shape, drag);
+    const auto constants =
+        load_constants<Material, T>(elastic.constants, patch, elastic.fibres, pack * B::lanes);
+    stress_to_corners(T(damping(patch)) * DampingTangent<Material, T>{F, constants}(G[1]), shape,
+                      drag);
     for (int c = 0; c < 4; ++c) corner[c] += drag[c];
   }
 };
@@ -61,11 +65,13 @@ template <class B, class Material>
 void elastic_force(const typename B::Exec& exec, const Patches<B>& patches, const State<B>& state,
                    const ElementFlags<B>& flags, int evaluation, const Vectors<B>& partial) {
   by_case(flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
-    const ElasticForce<B, Material, watched> elastic{{state.u}, patches.constants, flags, evaluation, patches.fibres};
+    const ElasticForce<B, Material, watched> elastic{
+        {state.u}, patches.constants, flags, evaluation, patches.fibres};
     if (patches.damping.extent(0) > 0)
-      launch_patches<B>(exec, "plica::damped_elastic_force", patches,
-                        DampedElasticForce<B, Material, watched>{{state.u, state.v}, elastic, patches.damping},
-                        partial);
+      launch_patches<B>(
+          exec, "plica::damped_elastic_force", patches,
+          DampedElasticForce<B, Material, watched>{{state.u, state.v}, elastic, patches.damping},
+          partial);
     else
       launch_patches<B>(exec, "plica::elastic_force", patches, elastic, partial);
   });

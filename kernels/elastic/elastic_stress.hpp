@@ -7,7 +7,8 @@
 
 namespace plica {
 
-/// von Mises' stress [Pa] and volume ratio J of every tetrahedron, F = I + grad u; for output, one element at a time.
+/// von Mises' stress [Pa] and volume ratio J of every tetrahedron, F = I + grad u; for output, one
+/// element at a time.
 template <class B, class Material>
 struct ElasticStress {
   using Real = typename B::Real;
@@ -19,23 +20,26 @@ struct ElasticStress {
   Scalars<B> lost;               ///< to relaxation; see StressMemory
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename Policy::member_type& team) const {
-    const int p = league_rank(team), first = patches.first_pack(p) * lanes, last = patches.first_pack(p + 1) * lanes;
+    const int p = league_rank(team), first = patches.first_pack(p) * lanes,
+              last = patches.first_pack(p + 1) * lanes;
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first, last), [&](int slot) {
-      if (const int tet = patches.element(slot); tet >= 0) element(p, slot / lanes, slot % lanes, tet);
+      if (const int tet = patches.element(slot); tet >= 0)
+        element(p, slot / lanes, slot % lanes, tet);
     });
   }
 
   KOKKOS_INLINE_FUNCTION void element(int patch, int pack, int lane, int tet) const {
     int vertex[4];
-    for (int c = 0; c < 4; ++c) vertex[c] = patches.vertex(patches.first_vertex(patch) + patches.corner(pack, c, lane));
+    for (int c = 0; c < 4; ++c)
+      vertex[c] = patches.vertex(patches.first_vertex(patch) + patches.corner(pack, c, lane));
     Mat3<Real> F = Mat3<Real>::identity();
     for (int c = 0; c < 3; ++c)
       for (int r = 0; r < 3; ++r)
         for (int k = 0; k < 3; ++k)
           F[r][k] += (u(vertex[c + 1], r) - u(vertex[0], r)) * patches.shape(pack, 3 * c + k, lane);
     const int slot = pack * lanes + lane;
-    Mat3<Real> sigma =
-        cauchy_stress<Material>(F, load_constants<Material, Real>(patches.constants, patch, patches.fibres, slot));
+    Mat3<Real> sigma = cauchy_stress<Material>(
+        F, load_constants<Material, Real>(patches.constants, patch, patches.fibres, slot));
     if (lost.extent(0) > 0) sigma = sigma - pushed_forward(F, load_symmetric<B, Real>(lost, slot));
     equivalent(tet) = von_mises(sigma);
     ratio(tet) = determinant(F);
@@ -46,7 +50,8 @@ template <class B, class Material>
 void elastic_stress(const typename B::Exec& exec, const Patches<B>& patches, const Vectors<B>& u,
                     const Scalars<B>& von_mises, const Scalars<B>& J, const Scalars<B>& lost) {
   if (patches.count == 0) return;
-  launch("plica::elastic_stress", Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
+  launch("plica::elastic_stress",
+         Kokkos::TeamPolicy<typename B::Exec>(exec, patches.count, team_size<B>(128)),
          ElasticStress<B, Material>{patches, u, von_mises, J, lost});
 }
 

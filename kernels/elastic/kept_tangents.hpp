@@ -3,8 +3,9 @@
 #include <plica/kernels/elastic/nodal_diagonal.hpp>
 #include <plica/kernels/materials/positive_tangent.hpp>
 
-// Projected tangents of nodal elements, worked out once for a state and read in every product: C_a = dP/dF at F_a with its negative
-// eigenvalues dropped, less the stabiliser beta mu. Without damping and without smoothed pressures, which act beyond a domain.
+// Projected tangents of nodal elements, worked out once for a state and read in every product: C_a
+// = dP/dF at F_a with its negative eigenvalues dropped, less the stabiliser beta mu. Without
+// damping and without smoothed pressures, which act beyond a domain.
 namespace plica {
 
 /// Numbers of a symmetric 9x9 matrix: rows of its lower triangle.
@@ -34,7 +35,8 @@ struct KeepTangents {
       tangent.C.a[i][i] = tangent.C.a[i][i] - b;
       for (int j = 0; j <= i; ++j)
         for (int l = 0; l < B::lanes; ++l)
-          work.tangent(packed<B>(at.slot, i * (i + 1) / 2 + j, symmetric_nine) + l) = lane(tangent.C.a[i][j], l);
+          work.tangent(packed<B>(at.slot, i * (i + 1) / 2 + j, symmetric_nine) + l) =
+              lane(tangent.C.a[i][j], l);
     }
   }
 };
@@ -51,8 +53,8 @@ struct KeptTangent {
   static constexpr int fields = 1;
   using T = RowPack<B>;
   Scalars<B> tangent;
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&field)[1], const RowsAt<B>& at, int,
-                                         Mat3<T>& Q, Vec3<T>& v) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&field)[1],
+                                         const RowsAt<B>& at, int, Mat3<T>& Q, Vec3<T>& v) const {
     T q[9];
     for (int i = 0; i < 9; ++i) {
       q[i] = kept_number<B>(tangent, at.slot, i, i) * G[0][i / 3][i % 3];
@@ -75,12 +77,13 @@ struct KeptDiagonal {
   using T = RowPack<B>;
   Scalars<B> tangent, inverse_volume;
   int direction;
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&)[1], const Vec3<T> (&)[1], const RowsAt<B>& at, int,
-                                         Mat3<T>& Q, Vec3<T>& v) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&)[1], const Vec3<T> (&)[1],
+                                         const RowsAt<B>& at, int, Mat3<T>& Q, Vec3<T>& v) const {
     const T weight = load_rows<B>(&inverse_volume(at.slot));
     Mat3<T> dP[3];  // by the column of F that moves
     for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 9; ++i) dP[j][i / 3][i % 3] = kept_number<B>(tangent, at.slot, i, 3 * direction + j);
+      for (int i = 0; i < 9; ++i)
+        dP[j][i / 3][i % 3] = kept_number<B>(tangent, at.slot, i, 3 * direction + j);
     diagonal_record(dP, weight, direction, Q, v);
   }
 };
@@ -102,11 +105,12 @@ void kept_tangent(const typename B::Exec& exec, const Level<B>& level, const Vec
 template <class B>
 void kept_diagonal(const typename B::Exec& exec, const Level<B>& level, int direction) {
   const NodalRows<B>& rows = level.model.rows;
+  for_rows<B>(exec, "plica::nodal_diagonal", rows,
+              RowStresses<B, KeptDiagonal<B>>{
+                  rows, level.nodal, {level.nodal.tangent, rows.inverse_volume, direction}, true});
   for_rows<B>(
-      exec, "plica::nodal_diagonal", rows,
-      RowStresses<B, KeptDiagonal<B>>{rows, level.nodal, {level.nodal.tangent, rows.inverse_volume, direction}, true});
-  for_rows<B>(exec, "plica::nodal_own_blocks", rows,
-              RowDiagonal<B>{rows, RowScales<B>(rows), level.nodal.records, level.partial, direction});
+      exec, "plica::nodal_own_blocks", rows,
+      RowDiagonal<B>{rows, RowScales<B>(rows), level.nodal.records, level.partial, direction});
 }
 
 }  // namespace plica

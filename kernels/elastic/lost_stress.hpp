@@ -12,7 +12,8 @@ template <class B>
 struct CombineMemory {
   using Real = typename B::Real;
   StressMemory<B> stress;
-  Scalars<B> weight;                                     ///< [regions][1 + terms] of S_n and of each -H_i
+  /// [regions][1 + terms] of S_n and of each -H_i
+  Scalars<B> weight;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {  // number i of `lost`
     constexpr int six = 6 * B::lanes;
     const int count = 1 + stress.terms;
@@ -32,10 +33,11 @@ struct LostForce {
   Vectors<B> field[1];
   Scalars<B> lost;
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4], int,
-                                         int pack) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,
+                                         Vec3<T> (&corner)[4], int, int pack) const {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
-    stress_to_corners(T(-1) * (F * matrix_of(load_symmetric<B, T>(lost, pack * B::lanes))), shape, corner);
+    stress_to_corners(T(-1) * (F * matrix_of(load_symmetric<B, T>(lost, pack * B::lanes))), shape,
+                      corner);
   }
 };
 
@@ -53,8 +55,8 @@ struct LostEnergy {
   Vectors<B> field[1];
   Scalars<B> lost;
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape, Vec3<T> (&corner)[4], int,
-                                         int pack) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const ElementShape<T>& shape,
+                                         Vec3<T> (&corner)[4], int, int pack) const {
     const SymMat3<T> L = load_symmetric<B, T>(lost, pack * B::lanes);
     const T quarter = T(-0.25f) * shape.volume * lost_energy(Mat3<T>::identity() + G[0], L);
     for (Vec3<T>& at : corner) at = {quarter, T(0), T(0)};
@@ -67,8 +69,8 @@ struct LostRows {
   static constexpr int fields = 1;
   using T = RowPack<B>;
   Scalars<B> lost;
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1], const RowsAt<B>& at, int,
-                                         Mat3<T>& Q, Vec3<T>& v) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1],
+                                         const RowsAt<B>& at, int, Mat3<T>& Q, Vec3<T>& v) const {
     Q = T(-1) * ((Mat3<T>::identity() + G[0]) * matrix_of(load_symmetric<B, T>(lost, at.slot)));
     v = {T(0), T(0), T(0)};
   }
@@ -87,7 +89,8 @@ struct LostRowEnergy {
     Mat3<T> G[1];
     row_gradients<B, 1>(rows, work.near, at, own, G);
     const SymMat3<T> L = load_symmetric<B, T>(lost, at.slot);
-    const T energy = load_rows<B>(&rows.volume(at.slot)) * lost_energy(Mat3<T>::identity() + G[0], L);
+    const T energy =
+        load_rows<B>(&rows.volume(at.slot)) * lost_energy(Mat3<T>::identity() + G[0], L);
     for (int l = 0; l < B::lanes; ++l) partial(at.slot + l, 0) -= lane(energy, l);
   }
 };
@@ -97,11 +100,13 @@ template <class B>
 void add_lost_force(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
   if (rows.slices == 0)
-    return launch_patches<B>(exec, "plica::lost_force", level.model.patches, LostForce<B>{{u}, level.stress.lost},
-                             level.partial);
+    return launch_patches<B>(exec, "plica::lost_force", level.model.patches,
+                             LostForce<B>{{u}, level.stress.lost}, level.partial);
   lay_out<B>(exec, rows, level.nodal, {u});
-  for_rows<B>(exec, "plica::lost_stresses", rows, RowStresses<B, LostRows<B>>{rows, level.nodal, {level.stress.lost}});
-  for_rows<B>(exec, "plica::lost_forces", rows, RowForces<B, true>{rows, level.nodal.records, level.partial});
+  for_rows<B>(exec, "plica::lost_stresses", rows,
+              RowStresses<B, LostRows<B>>{rows, level.nodal, {level.stress.lost}});
+  for_rows<B>(exec, "plica::lost_forces", rows,
+              RowForces<B, true>{rows, level.nodal.records, level.partial});
 }
 
 /// Takes the energy off level.partial, in the x components.
@@ -109,10 +114,11 @@ template <class B>
 void add_lost_energy(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u) {
   const NodalRows<B>& rows = level.model.rows;
   if (rows.slices == 0)
-    return launch_patches<B>(exec, "plica::lost_energy", level.model.patches, LostEnergy<B>{{u}, level.stress.lost},
-                             level.partial);
+    return launch_patches<B>(exec, "plica::lost_energy", level.model.patches,
+                             LostEnergy<B>{{u}, level.stress.lost}, level.partial);
   lay_out<B>(exec, rows, level.nodal, {u});
-  for_rows<B>(exec, "plica::lost_energy", rows, LostRowEnergy<B>{rows, level.nodal, level.stress.lost, level.partial});
+  for_rows<B>(exec, "plica::lost_energy", rows,
+              LostRowEnergy<B>{rows, level.nodal, level.stress.lost, level.partial});
 }
 
 }  // namespace plica

@@ -2,20 +2,22 @@
 #pragma once
 #include <plica/kernels/elastic/nodal_elements.hpp>
 
-// The vertices' own blocks of the stiffness of nodal elements. A displacement of vertex b along d moves every domain a around it by
-// G_a = d (x) C_ab / V_a, so that with the tangents T_a = dP/dF at F_a
+// The vertices' own blocks of the stiffness of nodal elements. A displacement of vertex b along d
+// moves every domain a around it by G_a = d (x) C_ab / V_a, so that with the tangents T_a = dP/dF
+// at F_a
 //
 //   d.K_bb d = sum_a V_a G_a:(T_a - beta mu):G_a + beta mu w_bb |d|^2,   a: the neighbours of b, and b itself.
 //
-// Where it damps, T_a has that of damping_stress.hpp beside it. Of smoothed pressures, which act beyond neighbours, nothing is in it.
+// Where it damps, T_a has that of damping_stress.hpp beside it. Of smoothed pressures, which act
+// beyond neighbours, nothing is in it.
 namespace plica {
 
-/// As a record (Q, v), of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a neighbour's c = C_ab makes of a
-/// domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z c_z, c_x c_y, c_x c_z, c_y c_z, times `weight`. dP: by the column of F that
-/// moves.
+/// As a record (Q, v), of rows `direction` and the next (cyclic) of the symmetric 3x3 matrix that a
+/// neighbour's c = C_ab makes of a domain's stiffness, the coefficients of c_x c_x, c_y c_y, c_z
+/// c_z, c_x c_y, c_x c_z, c_y c_z, times `weight`. dP: by the column of F that moves.
 template <class T>
-KOKKOS_INLINE_FUNCTION void diagonal_record(const Mat3<T> (&dP)[3], const T& weight, int direction, Mat3<T>& Q,
-                                            Vec3<T>& v) {
+KOKKOS_INLINE_FUNCTION void diagonal_record(const Mat3<T> (&dP)[3], const T& weight, int direction,
+                                            Mat3<T>& Q, Vec3<T>& v) {
   T number[12];
   for (int row = 0; row < 2; ++row) {
     const int i = (direction + row) % 3;
@@ -42,8 +44,9 @@ struct NodalDiagonal {
   typename B::Real over;  ///< [1/s]
   int direction;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1], const RowsAt<B>& at, int region,
-                                         Mat3<T>& Q, Vec3<T>& v) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[1], const Vec3<T> (&)[1],
+                                         const RowsAt<B>& at, int region, Mat3<T>& Q,
+                                         Vec3<T>& v) const {
     const T weight = load_rows<B>(&inverse_volume(at.slot));
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
@@ -53,13 +56,15 @@ struct NodalDiagonal {
       Mat3<T> dF;
       dF[direction][j] = T(1);
       dP[j] = tangent(dF) - T(scales.stabiliser(region)) * dF;
-      if constexpr (Damped) dP[j] = dP[j] + T(over * scales.damping(region)) * DampingTangent<Material, T>{F, c}(dF);
+      if constexpr (Damped)
+        dP[j] = dP[j] + T(over * scales.damping(region)) * DampingTangent<Material, T>{F, c}(dF);
     }
     diagonal_record(dP, weight, direction, Q, v);
   }
 };
 
-/// Column `direction` of the blocks, but for its number in the third place after the diagonal's, which is left 0.
+/// Column `direction` of the blocks, but for its number in the third place after the diagonal's,
+/// which is left 0.
 template <class B>
 struct RowDiagonal {
   using T = RowPack<B>;
@@ -79,8 +84,10 @@ struct RowDiagonal {
         load_fours([&](int l) { return records.data() + slot(l) * 12 + 4 * j; }, four);
         for (int i = 0; i < 4; ++i) number[4 * j + i] = four[i];
       }
-      const T square[6] = {c[0] * c[0], c[1] * c[1], c[2] * c[2], c[0] * c[1], c[0] * c[2], c[1] * c[2]};
-      for (int k = 0; k < 6; ++k) diagonal += number[k] * square[k], next += number[6 + k] * square[k];
+      const T square[6] = {c[0] * c[0], c[1] * c[1], c[2] * c[2],
+                           c[0] * c[1], c[0] * c[2], c[1] * c[2]};
+      for (int k = 0; k < 6; ++k)
+        diagonal += number[k] * square[k], next += number[6 + k] * square[k];
     };
     Vec3<T> sum;
     for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
@@ -107,7 +114,8 @@ struct RowDiagonal {
       const int* const other = &rows.surface_neighbour(e, at.offset);
       for (int l = 0; l < B::lanes; ++l)
         if (other[l] == neighbour[l])
-          for (int k = 0; k < 3; ++k) set_lane(S[k], l, lane(S[k], l) + rows.surface_gradient(e, k, at.offset + l));
+          for (int k = 0; k < 3; ++k)
+            set_lane(S[k], l, lane(S[k], l) + rows.surface_gradient(e, k, at.offset + l));
     }
     return S;
   }
@@ -115,8 +123,8 @@ struct RowDiagonal {
 
 /// An empty u: as of nodal_tangent().
 template <class B, class Material, template <class> class Tangent>
-void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, double over,
-                    int direction) {
+void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                    double over, int direction) {
   const NodalRows<B>& rows = level.model.rows;
   const RowScales<B> scales(rows);
   const auto rate = static_cast<typename B::Real>(over);
@@ -132,8 +140,9 @@ void nodal_diagonal(const typename B::Exec& exec, const Level<B>& level, const V
 }
 
 // What is the same for all materials, as in nodal_rows.hpp.
-#define PLICA_NODAL_DIAGONAL(EXTERN, ...)                                                                          \
-  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&, \
+#define PLICA_NODAL_DIAGONAL(EXTERN, ...)                                           \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, \
+                                             const NodalRows<__VA_ARGS__>&,         \
                                              const RowDiagonal<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_DIAGONAL(Real, Exec) PLICA_NODAL_DIAGONAL(extern, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_DIAGONAL)

@@ -10,18 +10,22 @@
 //   F_a = (1/V_a) sum_t V_t/4 F_t
 //   E   = sum_a V_a Psi(F_a) + beta mu/2 [sum_t V_t |F_t|^2 - sum_a V_a |F_a|^2]
 //
-// In the family of node-based uniform strain and stabilised nodally integrated tetrahedra: Dohrmann, Heinstein, Jung, Key & Witkowski 2000;
-// Bonet, Marriott & Hassan 2001; Puso & Solberg 2006; Gee, Dohrmann, Key & Wall 2009. The bracket is sum_t sum_{a in t} V_t/4 |F_t - F_a|^2:
-// zero for affine motion, unchanged by rotations, of a constant matrix. beta was tuned, not derived: below 0.2 modes appear that
-// are no motion of a body, high ones stiffen bending. mu is that of small strains. With G = F - I,
+// In the family of node-based uniform strain and stabilised nodally integrated tetrahedra:
+// Dohrmann, Heinstein, Jung, Key & Witkowski 2000; Bonet, Marriott & Hassan 2001; Puso & Solberg
+// 2006; Gee, Dohrmann, Key & Wall 2009. The bracket is sum_t sum_{a in t} V_t/4 |F_t - F_a|^2: zero
+// for affine motion, unchanged by rotations, of a constant matrix. beta was tuned, not derived:
+// below 0.2 modes appear that are no motion of a body, high ones stiffen bending. mu is that of
+// small strains. With G = F - I,
 //
 //   Q_a = P(F_a) - beta mu G_a,   f_b = -sum_a Q_a C_ab - beta mu sum_a w_ab u_a.
 //
-// Smoothed volumes, for lambda beyond 2 mu: Psi has lambda_c = min(lambda, 2 mu), and the rest (`excess`) acts on J~ = S J, a mean over
-// neighbours: + sum_a V_a excess/2 (J~_a - 1)^2, whose stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
+// Smoothed volumes, for lambda beyond 2 mu: Psi has lambda_c = min(lambda, 2 mu), and the rest
+// (`excess`) acts on J~ = S J, a mean over neighbours: + sum_a V_a excess/2 (J~_a - 1)^2, whose
+// stress is p~_a cof F_a with p~ = S [excess (J~ - 1)], V S symmetric.
 //
-// Damping by stiffness (damping_stress.hpp) acts on the strain rates of the domains, and on that of J~ by tau S [excess S (cof F : Fdot)] cof F.
-// It does not act on the bracket: where strain varies, the rate of F_t - F_a is not 0 for a body that only turns.
+// Damping by stiffness (damping_stress.hpp) acts on the strain rates of the domains, and on that of
+// J~ by tau S [excess S (cof F : Fdot)] cof F. It does not act on the bracket: where strain varies,
+// the rate of F_t - F_a is not 0 for a body that only turns.
 namespace plica {
 
 /// Of the regions; see NodalRows.
@@ -29,10 +33,14 @@ template <class B>
 struct RowScales {
   Scalars<B> constants, fibres, stabiliser, damping;
   explicit RowScales(const NodalRows<B>& rows)
-      : constants(rows.constants), fibres(rows.fibres), stabiliser(rows.stabiliser), damping(rows.damping) {}
+      : constants(rows.constants),
+        fibres(rows.fibres),
+        stabiliser(rows.stabiliser),
+        damping(rows.damping) {}
 };
 
-/// Pressures from smoothed volumes, and their changes, in the order of the slots: `stride` numbers each.
+/// Pressures from smoothed volumes, and their changes, in the order of the slots: `stride` numbers
+/// each.
 template <class B, bool Smoothed>
 struct RowPressure {
   Scalars<B> pressure;
@@ -47,9 +55,10 @@ struct RowPressure {
 
 /// Stress of damping over its time for a change dF of a domain's F, with that of its pressure.
 template <class B, class Material, bool Smoothed>
-KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> nodal_damping(const Mat3<RowPack<B>>& F, const Mat3<RowPack<B>>& dF,
-                                                      const typename Material::template Constants<RowPack<B>>& c,
-                                                      const RowPressure<B, Smoothed>& pressure, int slot) {
+KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> nodal_damping(
+    const Mat3<RowPack<B>>& F, const Mat3<RowPack<B>>& dF,
+    const typename Material::template Constants<RowPack<B>>& c,
+    const RowPressure<B, Smoothed>& pressure, int slot) {
   using T = RowPack<B>;
   const Mat3<T> P = DampingTangent<Material, T>{F, c}(dF);
   if constexpr (Smoothed)
@@ -69,14 +78,16 @@ struct NodalForce {
   RowPressure<B, Smoothed> pressure;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&field)[fields],
-                                         const RowsAt<B>& at, int region, Mat3<T>& Q, Vec3<T>& v) const {
+                                         const RowsAt<B>& at, int region, Mat3<T>& Q,
+                                         Vec3<T>& v) const {
     const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
     const T b = T(scales.stabiliser(region));
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     Q = Material::stress(F, c) - b * G[0];
     v = field[0];
     if constexpr (Smoothed) Q = Q + pressure.template at<T>(at.slot, 0) * cofactor(F);
-    if constexpr (Damped) Q = Q + T(scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
+    if constexpr (Damped)
+      Q = Q + T(scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
     if constexpr (Watched) {
       const T J = determinant(F);
       if (!all_positive(J)) raise(J, at);
@@ -99,8 +110,9 @@ struct NodalTangent {
   typename B::Real over;  ///< [1/s]
   RowPressure<B, Smoothed> pressure;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2], const RowsAt<B>& at,
-                                         int region, Mat3<T>& Q, Vec3<T>& v) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Mat3<T> (&G)[2], const Vec3<T> (&field)[2],
+                                         const RowsAt<B>& at, int region, Mat3<T>& Q,
+                                         Vec3<T>& v) const {
     const T b = T(scales.stabiliser(region));
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     const auto c = load_constants<Material, T>(scales.constants, region, scales.fibres, at.slot);
@@ -110,7 +122,8 @@ struct NodalTangent {
       Q = Q + pressure.template at<T>(at.slot, 1) * cofactor(F) +
           pressure.template at<T>(at.slot, 0) * cofactor_change(F, G[1]);
     if constexpr (Damped)
-      Q = Q + T(over * scales.damping(region)) * nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
+      Q = Q + T(over * scales.damping(region)) *
+                  nodal_damping<B, Material>(F, G[1], c, pressure, at.slot);
   }
 };
 
@@ -136,15 +149,18 @@ struct RowVolumes {
   }
 };
 
-/// The pressures excess (J~ - 1), before they are smoothed, that an implicit stage carries beside the displacement, one a slot behind
-/// work.pressure; empty: none. Its tangent and its potential take these instead of those of the volumes; see carried_pressures.hpp.
+/// The pressures excess (J~ - 1), before they are smoothed, that an implicit stage carries beside
+/// the displacement, one a slot behind work.pressure; empty: none. Its tangent and its potential
+/// take these instead of those of the volumes; see carried_pressures.hpp.
 template <class B>
 Scalars<B> carried_pressures(const NodalRows<B>& rows, const NodalWork<B>& work) {
   const auto slots = static_cast<std::size_t>(rows.slots());
-  return work.pressure.extent(0) > 2 * slots ? Scalars<B>(work.pressure.data() + 2 * slots, slots) : Scalars<B>();
+  return work.pressure.extent(0) > 2 * slots ? Scalars<B>(work.pressure.data() + 2 * slots, slots)
+                                             : Scalars<B>();
 }
 
-/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1) and excess S dJ.
+/// to = S from for `fields` numbers per slot; `first`: from volume ratios to excess (S J - 1) and
+/// excess S dJ.
 template <class B, int fields, bool first>
 struct SmoothRows {
   NodalRows<B> rows;
@@ -170,18 +186,22 @@ struct TakeCarried {
 
 /// work.pressure of the fields that have been laid out.
 template <class B, int fields>
-void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows, const NodalWork<B>& work,
-                      const Scalars<B>& carried = {}) {
+void smooth_pressures(const typename B::Exec& exec, const NodalRows<B>& rows,
+                      const NodalWork<B>& work, const Scalars<B>& carried = {}) {
   for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, fields>{rows, work});
-  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, true>{rows, work.ratio, work.records});
+  for_rows<B>(exec, "plica::nodal_smooth", rows,
+              SmoothRows<B, fields, true>{rows, work.ratio, work.records});
   if (carried.extent(0) > 0)
-    update_vertices<B>(exec, "plica::nodal_carried", rows.slots(), TakeCarried<B, fields>{carried, work.records});
-  for_rows<B>(exec, "plica::nodal_smooth", rows, SmoothRows<B, fields, false>{rows, work.records, work.pressure});
+    update_vertices<B>(exec, "plica::nodal_carried", rows.slots(),
+                       TakeCarried<B, fields>{carried, work.records});
+  for_rows<B>(exec, "plica::nodal_smooth", rows,
+              SmoothRows<B, fields, false>{rows, work.records, work.pressure});
 }
 
 /// Damped where the rows are; with empty flags nobody watches for inverted domains.
 template <class B, class Material>
-void nodal_force(const typename B::Exec& exec, const Level<B>& level, const State<B>& state, int evaluation) {
+void nodal_force(const typename B::Exec& exec, const Level<B>& level, const State<B>& state,
+                 int evaluation) {
   const NodalRows<B>& rows = level.model.rows;
   by_case(rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
     if constexpr (damped)
@@ -192,9 +212,10 @@ void nodal_force(const typename B::Exec& exec, const Level<B>& level, const Stat
       constexpr int fields = damped ? 2 : 1;
       if constexpr (smoothed) smooth_pressures<B, fields>(exec, rows, level.nodal);
       by_case(level.flags.evaluation.extent(0) > 0, [&]<bool watched>(std::bool_constant<watched>) {
-        launch_rows<B>(exec, "plica::nodal_stresses", level,
-                       NodalForce<B, Material, watched, damped, smoothed>{
-                           RowScales<B>(rows), level.flags, evaluation, {level.nodal.pressure, fields}});
+        launch_rows<B>(
+            exec, "plica::nodal_stresses", level,
+            NodalForce<B, Material, watched, damped, smoothed>{
+                RowScales<B>(rows), level.flags, evaluation, {level.nodal.pressure, fields}});
       });
     });
   });
@@ -202,8 +223,8 @@ void nodal_force(const typename B::Exec& exec, const Level<B>& level, const Stat
 
 /// An empty u: about the state whose gradients are kept.
 template <class B, class Material, template <class> class Tangent>
-void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, const Vectors<B>& p,
-                   double over) {
+void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                   const Vectors<B>& p, double over) {
   const NodalRows<B>& rows = level.model.rows;
   const bool kept = u.extent(0) == 0;
   if (kept)
@@ -211,17 +232,20 @@ void nodal_tangent(const typename B::Exec& exec, const Level<B>& level, const Ve
   else
     lay_out<B>(exec, rows, level.nodal, {u, p});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
-    if constexpr (smoothed) smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
+    if constexpr (smoothed)
+      smooth_pressures<B, 2>(exec, rows, level.nodal, carried_pressures<B>(rows, level.nodal));
     by_case(over > 0 && rows.damping.extent(0) > 0, [&]<bool damped>(std::bool_constant<damped>) {
-      launch_rows<B>(exec, "plica::nodal_tangent", level,
-                     NodalTangent<B, Material, Tangent, damped, smoothed>{
-                         RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}},
-                     kept);
+      launch_rows<B>(
+          exec, "plica::nodal_tangent", level,
+          NodalTangent<B, Material, Tangent, damped, smoothed>{
+              RowScales<B>(rows), static_cast<typename B::Real>(over), {level.nodal.pressure, 2}},
+          kept);
     });
   });
 }
 
-/// V Psi(F) of each domain, its part of the bracket and of the smoothed volume's energy, in the x component of partial [J].
+/// V Psi(F) of each domain, its part of the bracket and of the smoothed volume's energy, in the x
+/// component of partial [J].
 template <class B, class Material, bool Smoothed>
 struct NodalEnergy {
   using T = RowPack<B>;
@@ -252,7 +276,8 @@ struct NodalEnergy {
     if constexpr (Smoothed) {
       const T x = smoothed<B>(rows, work.ratio.data(), 1, at) - T(1);
       const T excess = T(rows.excess(region));
-      if (carried.extent(0) > 0) {  // the augmented Lagrangian, which has its minimum where the energy has it
+      // the augmented Lagrangian, which has its minimum where the energy has it
+      if (carried.extent(0) > 0) {
         const T q = load_rows<B>(&carried(at.slot)), away = x - q / excess;
         const T augmented = T(Kokkos::min(rows.excess(region), 100 * rows.stabiliser(region)));
         energy += volume * (q * x + half * augmented * away * away);
@@ -272,10 +297,11 @@ void nodal_energy(const typename B::Exec& exec, const Level<B>& level, const Vec
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
-    if constexpr (smoothed) for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, 1>{rows, level.nodal});
-    for_rows<B>(
-        exec, "plica::nodal_energy", rows,
-        NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial, carried_pressures<B>(rows, level.nodal)});
+    if constexpr (smoothed)
+      for_rows<B>(exec, "plica::nodal_volumes", rows, RowVolumes<B, 1>{rows, level.nodal});
+    for_rows<B>(exec, "plica::nodal_energy", rows,
+                NodalEnergy<B, Material, smoothed>{rows, level.nodal, level.partial,
+                                                   carried_pressures<B>(rows, level.nodal)});
   });
 }
 
@@ -295,8 +321,8 @@ struct NodalStress {
     const Mat3<T> F = Mat3<T>::identity() + G[0];
     const T J = determinant(F);
     const int region = rows.region(at.slice);
-    Mat3<T> sigma =
-        cauchy_stress<Material>(F, load_constants<Material, T>(rows.constants, region, rows.fibres, at.slot));
+    Mat3<T> sigma = cauchy_stress<Material>(
+        F, load_constants<Material, T>(rows.constants, region, rows.fibres, at.slot));
     if (lost.extent(0) > 0) sigma = sigma - pushed_forward(F, load_symmetric<B, T>(lost, at.slot));
     if constexpr (Smoothed) sigma = sigma + Mat3<T>::diagonal(pressure.template at<T>(at.slot, 0));
     const T equivalent = von_mises(sigma);
@@ -317,43 +343,49 @@ struct MeanOfDomains {
     Real total = 0, stress = 0, J = 0;
     for (int s = shares.first(a); s < shares.first(a + 1); ++s) {
       const int slot = shares.row(s);
-      total += volume(slot), stress += volume(slot) * records(2 * slot), J += volume(slot) * records(2 * slot + 1);
+      total += volume(slot), stress += volume(slot) * records(2 * slot),
+          J += volume(slot) * records(2 * slot + 1);
     }
     equivalent(a) = stress / total, ratio(a) = J / total;
   }
 };
 
 template <class B>
-void mean_of_domains(const typename B::Exec& exec, const Level<B>& level, const Scalars<B>& von_mises,
-                     const Scalars<B>& J) {
+void mean_of_domains(const typename B::Exec& exec, const Level<B>& level,
+                     const Scalars<B>& von_mises, const Scalars<B>& J) {
   const NodalRows<B>& rows = level.model.rows;
   update_vertices<B>(exec, "plica::nodal_means", level.model.vertices,
                      MeanOfDomains<B>{rows.shares, rows.volume, level.nodal.records, von_mises, J});
 }
 
 template <class B, class Material>
-void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u, const Scalars<B>& von_mises,
-                  const Scalars<B>& J) {
+void nodal_stress(const typename B::Exec& exec, const Level<B>& level, const Vectors<B>& u,
+                  const Scalars<B>& von_mises, const Scalars<B>& J) {
   const NodalRows<B>& rows = level.model.rows;
   lay_out<B>(exec, rows, level.nodal, {u});
   by_case(rows.excess.extent(0) > 0, [&]<bool smoothed>(std::bool_constant<smoothed>) {
     if constexpr (smoothed) smooth_pressures<B, 1>(exec, rows, level.nodal);
     for_rows<B>(exec, "plica::nodal_stress", rows,
-                NodalStress<B, Material, smoothed>{rows, level.nodal, {level.nodal.pressure, 1}, level.stress.lost});
+                NodalStress<B, Material, smoothed>{
+                    rows, level.nodal, {level.nodal.pressure, 1}, level.stress.lost});
   });
   mean_of_domains<B>(exec, level, von_mises, J);
 }
 
 // What is the same for all materials, as in nodal_rows.hpp.
-#define PLICA_NODAL_ELEMENTS(EXTERN, ...)                                                                            \
-  EXTERN template void smooth_pressures<__VA_ARGS__, 1>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,     \
-                                                        const NodalWork<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&); \
-  EXTERN template void smooth_pressures<__VA_ARGS__, 2>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,     \
-                                                        const NodalWork<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&); \
-  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&,   \
-                                             const RowVolumes<__VA_ARGS__, 1>&);                                     \
-  EXTERN template void mean_of_domains<__VA_ARGS__>(const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&,             \
-                                                    const Scalars<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&);
+#define PLICA_NODAL_ELEMENTS(EXTERN, ...)                                                     \
+  EXTERN template void smooth_pressures<__VA_ARGS__, 1>(                                      \
+      const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
+      const Scalars<__VA_ARGS__>&);                                                           \
+  EXTERN template void smooth_pressures<__VA_ARGS__, 2>(                                      \
+      const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
+      const Scalars<__VA_ARGS__>&);                                                           \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*,           \
+                                             const NodalRows<__VA_ARGS__>&,                   \
+                                             const RowVolumes<__VA_ARGS__, 1>&);              \
+  EXTERN template void mean_of_domains<__VA_ARGS__>(                                          \
+      const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&, const Scalars<__VA_ARGS__>&,       \
+      const Scalars<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ELEMENTS(Real, Exec) PLICA_NODAL_ELEMENTS(extern, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_ELEMENTS)
 #undef PLICA_EXTERN_NODAL_ELEMENTS

@@ -5,29 +5,33 @@
 #include <plica/kernels/sliced_rows.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// How nodal elements are computed: by rows of vertices, without tetrahedra. Each domain a (core/nodal_rows.hpp) has one deformation
-// gradient F_a = I + sum_b (u_b - u_a) (x) C_ab / V_a and one stress; a force is a sum over neighbours of their stresses. Both sums
-// read the same constants C_ab, since C_ab = S_ab - C_ba with S_ab kept for pairs on the surface only:
+// How nodal elements are computed: by rows of vertices, without tetrahedra. Each domain a
+// (core/nodal_rows.hpp) has one deformation gradient F_a = I + sum_b (u_b - u_a) (x) C_ab / V_a and
+// one stress; a force is a sum over neighbours of their stresses. Both sums read the same constants
+// C_ab, since C_ab = S_ab - C_ba with S_ab kept for pairs on the surface only:
 //
 //   1. lay out   near[slot]     = fields of the slot's vertex           u [vertices][3] -> four numbers a slot
 //   2. stresses  records[slot]  = stress Q_a, field v_a                 gathers near of the neighbours
 //   3. forces    partial[slot]  = sum_a (Q_a + Q_b) C_ba - Q_a S_ab - stabiliser w_ab (v_a - v_b),   b = slot: gathers records
 //   4. gather_forces: vertices between regions add up their slots       as for linear elements
 //
-// One slice of rows is computed at a time, a row per lane; each lane's neighbour is read whole and transposed in registers:
+// One slice of rows is computed at a time, a row per lane; each lane's neighbour is read whole and
+// transposed in registers:
 //
 //   neighbours of entry e   17   4  23   9          near[17]: x y z 0  -.         x x x x
 //   (one per row)                                   near[ 4]: x y z 0   |  load   y y y y    one pack per component
 //                                                   near[23]: x y z 0   |------>  z z z z
 //                                                   near[ 9]: x y z 0  -'         0 0 0 0
 //
-// Nothing is written but rows of one's own, and every sum is in a stored order: the same bits for any number of threads. Bytes per domain, n
-// neighbours (about 14), s = sizeof(Real): 2. n (4 + 3 s) + 13 s + 12 s, 3. n (4 + 4 s) + 12 s + 3 s, 1. 7 s; gathers hit a cache.
+// Nothing is written but rows of one's own, and every sum is in a stored order: the same bits for
+// any number of threads. Bytes per domain, n neighbours (about 14), s = sizeof(Real): 2. n (4 + 3
+// s) + 13 s + 12 s, 3. n (4 + 4 s) + 12 s + 3 s, 1. 7 s; gathers hit a cache.
 namespace plica {
 
 /// C or S of one entry.
 template <class B, class Array>
-KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int entry, int offset) {
+KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int entry,
+                                                      int offset) {
   const typename B::Real* const from = &gradient(entry, 0, offset);
   constexpr int height = NodalRows<B>::height;
   return {load_rows<B>(from), load_rows<B>(from + height), load_rows<B>(from + 2 * height)};
@@ -35,7 +39,8 @@ KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> load_gradient(const Array& gradient, int
 
 /// Runs work(item) for every item of RowsAt.
 template <class B, class Work>
-void for_rows(const typename B::Exec& exec, const char* label, const NodalRows<B>& rows, const Work& work) {
+void for_rows(const typename B::Exec& exec, const char* label, const NodalRows<B>& rows,
+              const Work& work) {
   update_vertices<B>(exec, label, rows.slots() / B::lanes, work);
 }
 
@@ -64,12 +69,14 @@ void lay_out(const typename B::Exec& exec, const NodalRows<B>& rows, const Nodal
 
 /// The gradients of the fields in `near`.
 template <class B, int fields>
-KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalars<B>& near, const RowsAt<B>& at,
-                                          Vec3<RowPack<B>>* own, Mat3<RowPack<B>>* G) {
+KOKKOS_INLINE_FUNCTION void row_gradients(const NodalRows<B>& rows, const Scalars<B>& near,
+                                          const RowsAt<B>& at, Vec3<RowPack<B>>* own,
+                                          Mat3<RowPack<B>>* G) {
   using Real = typename B::Real;
   constexpr int stride = 4 * fields;
   const Real* const base = near.data();
-  for (int f = 0; f < fields; ++f) load_vectors([=](int l) { return base + (at.slot + l) * stride + 4 * f; }, own[f]);
+  for (int f = 0; f < fields; ++f)
+    load_vectors([=](int l) { return base + (at.slot + l) * stride + 4 * f; }, own[f]);
   for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
     const int* const neighbour = &rows.neighbour(e, at.offset);
     const Vec3<RowPack<B>> C = load_gradient<B>(rows.gradient, e, at.offset);
@@ -95,7 +102,8 @@ struct KeepGradients {
     Mat3<RowPack<B>> G[1];
     row_gradients<B, 1>(rows, work.near, at, own, G);
     for (int k = 0; k < 9; ++k)
-      for (int l = 0; l < B::lanes; ++l) work.gradient(packed<B>(at.slot, k, 9) + l) = lane(G[0][k / 3][k % 3], l);
+      for (int l = 0; l < B::lanes; ++l)
+        work.gradient(packed<B>(at.slot, k, 9) + l) = lane(G[0][k / 3][k % 3], l);
   }
 };
 
@@ -114,10 +122,11 @@ KOKKOS_INLINE_FUNCTION Mat3<RowPack<B>> kept_gradient(const Scalars<B>& kept, co
   return G;
 }
 
-/// (S x)_a = (x_a V_a / 4 + sum_b s_ab x_b) / V_a of a number per slot, x(slot, k) = values[slot * stride + k]; V S is symmetric.
+/// (S x)_a = (x_a V_a / 4 + sum_b s_ab x_b) / V_a of a number per slot, x(slot, k) = values[slot *
+/// stride + k]; V S is symmetric.
 template <class B>
-KOKKOS_INLINE_FUNCTION RowPack<B> smoothed(const NodalRows<B>& rows, const typename B::Real* values, int stride,
-                                           const RowsAt<B>& at) {
+KOKKOS_INLINE_FUNCTION RowPack<B> smoothed(const NodalRows<B>& rows, const typename B::Real* values,
+                                           int stride, const RowsAt<B>& at) {
   using T = RowPack<B>;
   const auto value = [&](int slot) { return values[slot * stride]; };
   T sum = T(0);
@@ -134,8 +143,8 @@ KOKKOS_INLINE_FUNCTION RowPack<B> smoothed(const NodalRows<B>& rows, const typen
 
 /// Four numbers of each of three columns to records.
 template <class B>
-KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt<B>& at, const Mat3<RowPack<B>>& Q,
-                                         const Vec3<RowPack<B>>& v) {
+KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt<B>& at,
+                                         const Mat3<RowPack<B>>& Q, const Vec3<RowPack<B>>& v) {
   typename B::Real* const base = records.data() + at.slot * 12;
   for (int j = 0; j < 3; ++j) {
     const RowPack<B> four[4] = {Q[0][j], Q[1][j], Q[2][j], v[j]};
@@ -147,7 +156,8 @@ KOKKOS_INLINE_FUNCTION void store_record(const Scalars<B>& records, const RowsAt
 ///   static constexpr int fields;        what it reads, in `near`
 ///   static constexpr bool is_tangent;   where the first field's gradient may be kept
 ///   void operator()(const Mat3<T> (&G)[fields], const Vec3<T> (&v)[fields], const RowsAt<B>&, int region, Mat3<T>& Q, Vec3<T>& v)
-/// with the gradients G of the fields, and leaves the stress that acts on the neighbours and the field that the stabiliser does.
+/// with the gradients G of the fields, and leaves the stress that acts on the neighbours and the
+/// field that the stabiliser does.
 template <class B, class Integrand>
 struct RowStresses {
   static constexpr int fields = Integrand::fields;
@@ -189,7 +199,8 @@ struct RowForces {
     const RowsAt<B> at(item);
     const Real* const base = records.data();
     T own[3][4];
-    for (int j = 0; j < 3; ++j) load_fours([=](int l) { return base + (at.slot + l) * 12 + 4 * j; }, own[j]);
+    for (int j = 0; j < 3; ++j)
+      load_fours([=](int l) { return base + (at.slot + l) * 12 + 4 * j; }, own[j]);
     Vec3<T> f, drag, sum;
     for (int e = rows.first(at.slice); e < rows.first(at.slice + 1); ++e) {
       const int* const neighbour = &rows.neighbour(e, at.offset);
@@ -226,22 +237,26 @@ struct RowForces {
 };
 
 template <class B, class Integrand>
-void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>& level, const Integrand& integrand,
-                 bool kept = false) {
+void launch_rows(const typename B::Exec& exec, const char* label, const Level<B>& level,
+                 const Integrand& integrand, bool kept = false) {
   const NodalRows<B>& rows = level.model.rows;
   for_rows<B>(exec, label, rows, RowStresses<B, Integrand>{rows, level.nodal, integrand, kept});
-  for_rows<B>(exec, "plica::nodal_forces", rows, RowForces<B>{rows, level.nodal.records, level.partial});
+  for_rows<B>(exec, "plica::nodal_forces", rows,
+              RowForces<B>{rows, level.nodal.records, level.partial});
 }
 
 // What is the same for all materials is compiled once, in nodal_elements.cpp.
-#define PLICA_NODAL_ROWS(EXTERN, ...)                                                                              \
-  EXTERN template void lay_out<__VA_ARGS__, 1>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,            \
-                                               const NodalWork<__VA_ARGS__>&, const Vectors<__VA_ARGS__>(&)[1]);   \
-  EXTERN template void lay_out<__VA_ARGS__, 2>(const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&,            \
-                                               const NodalWork<__VA_ARGS__>&, const Vectors<__VA_ARGS__>(&)[2]);   \
-  EXTERN template void keep_gradients<__VA_ARGS__>(const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&,            \
-                                                   const Vectors<__VA_ARGS__>&);                                   \
-  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*, const NodalRows<__VA_ARGS__>&, \
+#define PLICA_NODAL_ROWS(EXTERN, ...)                                                         \
+  EXTERN template void lay_out<__VA_ARGS__, 1>(                                               \
+      const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
+      const Vectors<__VA_ARGS__>(&)[1]);                                                      \
+  EXTERN template void lay_out<__VA_ARGS__, 2>(                                               \
+      const __VA_ARGS__::Exec&, const NodalRows<__VA_ARGS__>&, const NodalWork<__VA_ARGS__>&, \
+      const Vectors<__VA_ARGS__>(&)[2]);                                                      \
+  EXTERN template void keep_gradients<__VA_ARGS__>(                                           \
+      const __VA_ARGS__::Exec&, const Level<__VA_ARGS__>&, const Vectors<__VA_ARGS__>&);      \
+  EXTERN template void for_rows<__VA_ARGS__>(const __VA_ARGS__::Exec&, const char*,           \
+                                             const NodalRows<__VA_ARGS__>&,                   \
                                              const RowForces<__VA_ARGS__>&);
 #define PLICA_EXTERN_NODAL_ROWS(Real, Exec) PLICA_NODAL_ROWS(extern, Backend<Real, Exec>)
 PLICA_FOR_EACH_BACKEND(PLICA_EXTERN_NODAL_ROWS)

@@ -7,11 +7,12 @@
 
 namespace plica {
 
-/// Takes the memory at `slot` to the stress at F, S = F^-1 P of the law without a stiffness of the volume: finite for any F, as the
-/// law is, with 1/J as volume_ratio.hpp continues it.
+/// Takes the memory at `slot` to the stress at F, S = F^-1 P of the law without a stiffness of the
+/// volume: finite for any F, as the law is, with 1/J as volume_ratio.hpp continues it.
 template <class B, class Material, class T>
 KOKKOS_INLINE_FUNCTION void remember_stress(const StressMemory<B>& stress, const Mat3<T>& F,
-                                            const typename Material::template Constants<T>& c, int slot) {
+                                            const typename Material::template Constants<T>& c,
+                                            int slot) {
   const int count = 6 * (1 + stress.terms);
   const Mat3<T> H = cofactor(F);
   const VolumeRatio<T> v(dot(F[0], H[0]));
@@ -45,8 +46,9 @@ struct RememberElements {
     const int p = league_rank(team);
     Real* const local = team_scratch<Real>(team, 0, scratch_bytes() / sizeof(Real));
     load_patch<B>(team, patches, p, field, local);
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, patches.first_pack(p), patches.first_pack(p + 1)),
-                         [&](int pack) { element(p, pack, local); });
+    Kokkos::parallel_for(
+        Kokkos::TeamThreadRange(team, patches.first_pack(p), patches.first_pack(p + 1)),
+        [&](int pack) { element(p, pack, local); });
   }
   PLICA_FLATTEN KOKKOS_INLINE_FUNCTION void element(int p, int pack, const Real* local) const {
     ElementShape<T> shape;
@@ -54,7 +56,8 @@ struct RememberElements {
     load_pack<B, 1>(patches, pack, local, shape, G);
     const int slot = pack * B::lanes;
     remember_stress<B, Material>(stress, Mat3<T>::identity() + G[0],
-                                 load_constants<Material, T>(constants, p, patches.fibres, slot), slot);
+                                 load_constants<Material, T>(constants, p, patches.fibres, slot),
+                                 slot);
   }
 };
 
@@ -64,7 +67,8 @@ void remember_elements(const typename B::Exec& exec, const Level<B>& level, cons
   using Kernel = RememberElements<B, Material>;
   const Patches<B>& patches = level.model.patches;
   typename Kernel::Policy policy(exec, patches.count, team_size<B>(128));
-  launch("plica::remember_elements", policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
+  launch("plica::remember_elements",
+         policy.set_scratch_size(0, Kokkos::PerTeam(Kernel::scratch_bytes() + 64)),
          Kernel{patches, level.stress, {u}, constants});
 }
 
@@ -81,9 +85,10 @@ struct RememberDomains {
     Vec3<T> own[1];
     Mat3<T> G[1];
     row_gradients<B, 1>(rows, work.near, at, own, G);
-    remember_stress<B, Material>(stress, Mat3<T>::identity() + G[0],
-                                 load_constants<Material, T>(constants, rows.region(at.slice), rows.fibres, at.slot),
-                                 at.slot);
+    remember_stress<B, Material>(
+        stress, Mat3<T>::identity() + G[0],
+        load_constants<Material, T>(constants, rows.region(at.slice), rows.fibres, at.slot),
+        at.slot);
   }
 };
 

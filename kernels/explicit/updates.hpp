@@ -3,13 +3,14 @@
 #include <plica/kernels/contact/contact_records.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a = f/m (0 where the motion
-// is given: prescribe() replaces what they make of those). Undamped, each moves 12 s bytes in and 6 s out per vertex, s =
-// sizeof(Real).
+// The vertex updates of the explicit integrators, h the sub-step [s], c the mass damping [1/s], a =
+// f/m (0 where the motion is given: prescribe() replaces what they make of those). Undamped, each
+// moves 12 s bytes in and 6 s out per vertex, s = sizeof(Real).
 namespace plica {
 
-/// v += h a, damped implicitly: v = (v + h a)/(1 + h c); then u += h v. Second-order in the velocity's staggered sense and
-/// symplectic for c = 0 (Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2).
+/// v += h a, damped implicitly: v = (v + h a)/(1 + h c); then u += h v. Second-order in the
+/// velocity's staggered sense and symplectic for c = 0 (Hairer, Lubich & Wanner, Geometric
+/// Numerical Integration, I.1.2).
 template <class B>
 struct SymplecticEulerUpdate {
   static constexpr const char* label = "plica::symplectic_euler";
@@ -20,8 +21,10 @@ struct SymplecticEulerUpdate {
   Real h;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = h * model.inverse_mass(a), keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
-    const Vec3<Real> speed = keep * (vector_at<B>(v, a) + w * vector_at<B>(f, a)), at = vector_at<B>(u, a);
+    const Real w = h * model.inverse_mass(a),
+               keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
+    const Vec3<Real> speed = keep * (vector_at<B>(v, a) + w * vector_at<B>(f, a)),
+                     at = vector_at<B>(u, a);
     set_vector<B>(v, a, speed), set_vector<B>(u, a, at + h * speed);
   }
 };
@@ -37,7 +40,8 @@ struct HalfKickAndDrift {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = h * model.inverse_mass(a), c = w > 0 ? h * model.damping(a) : Real(0);
-    const Vec3<Real> before = vector_at<B>(state.v, a), speed = before + w * vector_at<B>(f, a) - c * before,
+    const Vec3<Real> before = vector_at<B>(state.v, a),
+                     speed = before + w * vector_at<B>(f, a) - c * before,
                      at = vector_at<B>(state.u, a);
     set_vector<B>(state.v, a, speed), set_vector<B>(state.u, a, at + 2 * h * speed);
   }
@@ -52,7 +56,8 @@ struct HalfKick {
   Real h;
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    const Real w = h * model.inverse_mass(a), keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
+    const Real w = h * model.inverse_mass(a),
+               keep = w > 0 ? 1 / (1 + h * model.damping(a)) : Real(1);
     set_vector<B>(v, a, keep * (vector_at<B>(v, a) + w * vector_at<B>(f, a)));
   }
 };
@@ -69,13 +74,15 @@ struct ForwardEulerUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     const Real w = h * model.inverse_mass(a), c = w > 0 ? h * model.damping(a) : Real(0);
-    const Vec3<Real> speed = vector_at<B>(v, a), force = vector_at<B>(f, a), at = vector_at<B>(u, a);
+    const Vec3<Real> speed = vector_at<B>(v, a), force = vector_at<B>(f, a),
+                     at = vector_at<B>(u, a);
     set_vector<B>(u, a, at + h * speed), set_vector<B>(v, a, speed + (w * force - c * speed));
   }
 };
 
-/// A stage of an explicit Runge-Kutta method in displacement and velocity: with k_u = v_s and k_v = a(u_s, v_s) - c v_s of
-/// the stage state s, adds weight * h * k to the sum and sets the next stage state to start + ahead * h * k.
+/// A stage of an explicit Runge-Kutta method in displacement and velocity: with k_u = v_s and k_v =
+/// a(u_s, v_s) - c v_s of the stage state s, adds weight * h * k to the sum and sets the next stage
+/// state to start + ahead * h * k.
 template <class B>
 struct RungeKuttaStage {
   using Real = typename B::Real;

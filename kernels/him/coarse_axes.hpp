@@ -7,23 +7,26 @@
 
 // The axes of the coarsest level, and the force that follows from their rotation.
 //
-// The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body that has turned it must be
-// R S R^T, where R turns each coarse vertex's axes. R comes from the finest mesh's displacements in three steps, the last two in one kernel:
+// The coarsest level's inverse mass is a matrix S that was made for the body at rest. For a body
+// that has turned it must be R S R^T, where R turns each coarse vertex's axes. R comes from the
+// finest mesh's displacements in three steps, the last two in one kernel:
 //
 //   u  --E-->  u_C  --gradient-->  G of each vertex      --polar-->  R of each vertex
 //   finest     coarse              deformation gradient,             the nearest rotation
 //              vertices            mean over its surroundings
 //
-// Because A = A(x) depends on where the body is, the kinetic energy p.A(x)p/2 does, too, and its gradient is a force:
-// p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That force goes the same way back, by the transposes:
+// Because A = A(x) depends on where the body is, the kinetic energy p.A(x)p/2 does, too, and its
+// gradient is a force: p' = f - d(p.A p/2)/dx, x' = A p keeps energy and angular momentum. That
+// force goes the same way back, by the transposes:
 //
 //   p  <--E^T--  g  <--gradient^T--  torque on each vertex's axes
 //
-// With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x q_a): that is the torque.
-// R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
+// With q the coarse momentum and y = b R S R^T q, turning R_a by w changes the energy by w.(y_a x
+// q_a): that is the torque. R = polar(G) turns by R (tr U 1 - U)^-1 axial(R^T dG), U = R^T G.
 //
-// The force changes the momentum q that it depends on: TurningAxes::find_torques repeats until it no longer does. From the torques to
-// what they add to q all is linear and stays the same, so that one matrix does it; the force itself is needed only once.
+// The force changes the momentum q that it depends on: TurningAxes::find_torques repeats until it
+// no longer does. From the torques to what they add to q all is linear and stays the same, so that
+// one matrix does it; the force itself is needed only once.
 namespace plica {
 
 template <class Real, class View>
@@ -34,28 +37,33 @@ KOKKOS_INLINE_FUNCTION void set_matrix(const View& x, int a, const Mat3<Real>& A
 
 /// `values` numbers for each vertex of a work item, from a matrix of CoarseAxes.
 template <class B, int values, class Matrix>
-KOKKOS_INLINE_FUNCTION void group_rows(const Matrix& matrix, int item, int columns, const Vectors<B>& x,
+KOKKOS_INLINE_FUNCTION void group_rows(const Matrix& matrix, int item, int columns,
+                                       const Vectors<B>& x,
                                        typename B::Real (&y)[values][group_size<B>]) {
-  dense_rows<B, group_size<B>, values, CoarseFilter<B>::group>(matrix.data(), item, columns, x.data(), y);
+  dense_rows<B, group_size<B>, values, CoarseFilter<B>::group>(matrix.data(), item, columns,
+                                                               x.data(), y);
 }
 
-/// The rotation nearest to A (its polar factor), by Newton's iteration (Higham 1986) scaled to determinant 1, to round-off;
-/// where A is turned inside out or flat, `before`, and false.
+/// The rotation nearest to A (its polar factor), by Newton's iteration (Higham 1986) scaled to
+/// determinant 1, to round-off; where A is turned inside out or flat, `before`, and false.
 template <class Real>
-KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Real>& before, Mat3<Real>& Q) {
+KOKKOS_INLINE_FUNCTION bool nearest_rotation(const Mat3<Real>& A, const Mat3<Real>& before,
+                                             Mat3<Real>& Q) {
   const Real det = determinant(A), size = inner(A, A);
   Q = before;
   if (!(det > Real(1e-3) * size * Kokkos::sqrt(size))) return false;
   Q = (Real(1) / Kokkos::cbrt(det)) * A;
   for (int i = 0; i < 10; ++i) {
-    const Mat3<Real> next = Real(0.5) * (Q + (Real(1) / determinant(Q)) * cofactor(Q)), change = next - Q;
+    const Mat3<Real> next = Real(0.5) * (Q + (Real(1) / determinant(Q)) * cofactor(Q)),
+                     change = next - Q;
     Q = next;
     if (inner(change, change) < Real(1e-14)) break;  // quadratic: the next change is its square
   }
   return true;
 }
 
-/// R and (tr U 1 - U)^-1 of u_C, and per work item the sum of the squares of the angles since the last time.
+/// R and (tr U 1 - U)^-1 of u_C, and per work item the sum of the squares of the angles since the
+/// last time.
 template <class B>
 struct TurnAxes {
   using Real = typename B::Real;
@@ -64,12 +72,14 @@ struct TurnAxes {
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const int n = static_cast<int>(axes.at_rest.extent(0)), first = item * group_size<B>;
     Real derivative[3][3][group_size<B>];
-    for (int j = 0; j < 3; ++j) group_rows<B, 3>(axes.gradient_of[j], item, n, axes.displacement, derivative[j]);
+    for (int j = 0; j < 3; ++j)
+      group_rows<B, 3>(axes.gradient_of[j], item, n, axes.displacement, derivative[j]);
     double sum = 0;
     for (int i = 0; i < group_size<B> && first + i < n; ++i) {
       Mat3<Real> G;
       for (int k = 0; k < 3; ++k)
-        for (int j = 0; j < 3; ++j) G[k][j] = derivative[j][k][i] + (k == j ? axes.at_rest(first + i) : Real(0));
+        for (int j = 0; j < 3; ++j)
+          G[k][j] = derivative[j][k][i] + (k == j ? axes.at_rest(first + i) : Real(0));
       sum += static_cast<double>(turn(first + i, G));
     }
     axes.angles(item) = sum;
@@ -106,13 +116,16 @@ struct StartMomentum {
   }
 };
 
-/// A round of the search for the axes' force: the squares of its share's change, of the share and of all the momentum, summed up by every work
-/// item for itself. Rounds after one that changed little do nothing, and leave sums of 0.
+/// A round of the search for the axes' force: the squares of its share's change, of the share and
+/// of all the momentum, summed up by every work item for itself. Rounds after one that changed
+/// little do nothing, and leave sums of 0.
 template <class B>
 struct RoundOfAxes {
   static constexpr double tolerance = 1e-3, least = 1e-6;
-  Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory> sums;  ///< [groups]; empty before the first round
-  /// The change over the share, 0 where that is within `tolerance`, or the change within `least` of all.
+  /// [groups]; empty before the first round
+  Kokkos::View<double* [3], Kokkos::LayoutRight, typename B::Memory> sums;
+  /// The change over the share, 0 where that is within `tolerance`, or the change within `least` of
+  /// all.
   KOKKOS_INLINE_FUNCTION double change() const {
     const int groups = static_cast<int>(sums.extent(0));
     if (groups == 0) return 1;
@@ -138,8 +151,8 @@ struct TorqueOnAxes {
     filtered(filter, item, x);
     for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a) {
       const Vec3<Real> answer{x[0][3 * i], x[0][3 * i + 1], x[0][3 * i + 2]};
-      const Vec3<Real> h =
-          matrix_at<Real>(axes.stiffness, a) * (weight * cross(vector_at<B>(filter.turned, a), answer));
+      const Vec3<Real> h = matrix_at<Real>(axes.stiffness, a) *
+                           (weight * cross(vector_at<B>(filter.turned, a), answer));
       set_matrix(axes.torque, a, transpose(matrix_at<Real>(filter.rotation, a) * cross_matrix(h)));
     }
   }
@@ -159,12 +172,15 @@ struct NextMomentum {
     if (last.goes_on()) {
       Real added[3][group_size<B>];
       group_rows<B, 3>(axes.response, item, 3 * filter.vertices, axes.torque, added);
-      for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a) {
+      for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices;
+           ++i, ++a) {
         const Vec3<Real> next = t * Vec3<Real>{added[0][i], added[1][i], added[2][i]},
-                         change = next - vector_at<B>(momentum.share, a), q = vector_at<B>(momentum.given, a) + next;
+                         change = next - vector_at<B>(momentum.share, a),
+                         q = vector_at<B>(momentum.given, a) + next;
         set_vector<B>(momentum.share, a, next);
         turn_force(filter, a, q);
-        sums[0] += static_cast<double>(dot(change, change)), sums[1] += static_cast<double>(dot(next, next));
+        sums[0] += static_cast<double>(dot(change, change)),
+            sums[1] += static_cast<double>(dot(next, next));
         sums[2] += static_cast<double>(dot(q, q));
       }
     }

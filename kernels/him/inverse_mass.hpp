@@ -9,8 +9,9 @@
 // The hierarchical inverse mass, level by level.
 namespace plica {
 
-/// A middle level: acceleration = weight Q force + P (the coarser level's), Q = 1 + (1 - M): the lumped mass, which is 1, corrected
-/// once by the consistent one (Richardson). Without a P there is no coarser one; Q without weight is not worked out.
+/// A middle level: acceleration = weight Q force + P (the coarser level's), Q = 1 + (1 - M): the
+/// lumped mass, which is 1, corrected once by the consistent one (Richardson). Without a P there is
+/// no coarser one; Q without weight is not worked out.
 template <class B>
 struct AnswerOfLevel {
   using Real = typename B::Real;
@@ -22,7 +23,8 @@ struct AnswerOfLevel {
     if (up.rows > 0) below = row_product<B>(up, a, coarser);
     if (weight == 0) return set_vector<B>(acceleration, a, below);
     const Vec3<Real> consistent = row_product<B>(mass, a, force);
-    set_vector<B>(acceleration, a, weight * (Real(2) * vector_at<B>(force, a) - consistent) + below);
+    set_vector<B>(acceleration, a,
+                  weight * (Real(2) * vector_at<B>(force, a) - consistent) + below);
   }
 };
 
@@ -34,7 +36,9 @@ struct AnswerOfFinest {
   Scalars<B> inverse_mass;
   Vectors<B> force, coarser, acceleration;
   Real weight;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(acceleration, a, of(a, vector_at<B>(force, a))); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_vector<B>(acceleration, a, of(a, vector_at<B>(force, a)));
+  }
   KOKKOS_INLINE_FUNCTION Vec3<Real> of(int a, const Vec3<Real>& own) const {
     const Vec3<Real> answer = (weight * inverse_mass(a)) * own;
     return up.rows > 0 ? answer + row_product<B>(up, a, coarser) : answer;
@@ -64,15 +68,19 @@ KOKKOS_INLINE_FUNCTION Mat3<Real> matrix_at(const View& x, int a) {
 
 /// turned = R^T force at a vertex
 template <class B>
-KOKKOS_INLINE_FUNCTION void turn_force(const CoarseFilter<B>& filter, int a, const Vec3<typename B::Real>& force) {
-  set_vector<B>(filter.turned, a, transpose(matrix_at<typename B::Real>(filter.rotation, a)) * force);
+KOKKOS_INLINE_FUNCTION void turn_force(const CoarseFilter<B>& filter, int a,
+                                       const Vec3<typename B::Real>& force) {
+  set_vector<B>(filter.turned, a,
+                transpose(matrix_at<typename B::Real>(filter.rotation, a)) * force);
 }
 
 template <class B>
 struct TurnForces {
   CoarseFilter<B> filter;
   Vectors<B> force;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { turn_force(filter, a, vector_at<B>(force, a)); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    turn_force(filter, a, vector_at<B>(force, a));
+  }
 };
 
 /// The way down to the coarsest level, and there `turn`, of what has come down.
@@ -83,8 +91,8 @@ struct DownToAxes {
   KOKKOS_INLINE_FUNCTION void operator()(int a) const { down(a), turn(a); }
 };
 
-// A dense matrix times vectors: a work item takes a whole group of vertices on a CPU, where its rows fill registers, one
-// vertex on a GPU.
+// A dense matrix times vectors: a work item takes a whole group of vertices on a CPU, where its
+// rows fill registers, one vertex on a GPU.
 
 /// Vertices of a work item.
 template <class B>
@@ -94,15 +102,18 @@ constexpr int groups_of(int vertices) {
   return (vertices + group_size<B> - 1) / group_size<B>;
 }
 
-/// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie together, [columns][block], an item has `rows`.
+/// y = the rows of work item `item` times x, [columns][values]. Of a block's rows, which lie
+/// together, [columns][block], an item has `rows`.
 template <class B, int rows, int values, int block, class Number>
-KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int columns, const typename B::Real* x,
+KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int columns,
+                                       const typename B::Real* x,
                                        typename B::Real (&y)[values][rows]) {
   constexpr int lanes = B::lanes, packs = rows / lanes;
   using T = typename PackOf<typename B::Real, lanes>::type;
   T sum[values][packs] = {};
   const int first = item * rows;
-  const Number* column = matrix + static_cast<std::size_t>(first / block) * columns * block + first % block;
+  const Number* column =
+      matrix + static_cast<std::size_t>(first / block) * columns * block + first % block;
   for (int j = 0; j < columns; ++j, column += block, x += values)
     for (int i = 0; i < packs; ++i) {
       const T number = load_lanes<T>(column + i * lanes);
@@ -112,12 +123,13 @@ KOKKOS_INLINE_FUNCTION void dense_rows(const Number* matrix, int item, int colum
     for (int i = 0; i < rows; ++i) y[v][i] = lane(sum[v][i / lanes], i % lanes);
 }
 
-/// S R^T force of a work item's vertices, in their axes: 36 bytes and 18 flops per pair of vertices.
+/// S R^T force of a work item's vertices, in their axes: 36 bytes and 18 flops per pair of
+/// vertices.
 template <class B>
 KOKKOS_INLINE_FUNCTION void filtered(const CoarseFilter<B>& filter, int item,
                                      typename B::Real (&y)[1][3 * group_size<B>]) {
-  dense_rows<B, 3 * group_size<B>, 1, CoarseFilter<B>::block>(filter.matrix.data(), item, 3 * filter.vertices,
-                                                              filter.turned.data(), y);
+  dense_rows<B, 3 * group_size<B>, 1, CoarseFilter<B>::block>(
+      filter.matrix.data(), item, 3 * filter.vertices, filter.turned.data(), y);
 }
 
 /// The coarsest level: acceleration = weight R S R^T force, of forces that are turned.
@@ -131,9 +143,9 @@ struct AnswerOfCoarsest {
     Real x[1][3 * group_size<B>];
     filtered(filter, item, x);
     for (int i = 0, a = item * group_size<B>; i < group_size<B> && a < filter.vertices; ++i, ++a)
-      set_vector<B>(
-          acceleration, a,
-          weight * (matrix_at<Real>(filter.rotation, a) * Vec3<Real>{x[0][3 * i], x[0][3 * i + 1], x[0][3 * i + 2]}));
+      set_vector<B>(acceleration, a,
+                    weight * (matrix_at<Real>(filter.rotation, a) *
+                              Vec3<Real>{x[0][3 * i], x[0][3 * i + 1], x[0][3 * i + 2]}));
   }
 };
 

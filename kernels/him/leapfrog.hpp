@@ -2,11 +2,12 @@
 #pragma once
 #include <plica/kernels/him/coarse_axes.hpp>
 
-// One step of the hierarchical inverse mass on the finest level: drift by half a step, kick the momenta, v = A p, drift by half
-// a step; see KickMomentum.
+// One step of the hierarchical inverse mass on the finest level: drift by half a step, kick the
+// momenta, v = A p, drift by half a step; see KickMomentum.
 namespace plica {
 
-/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest axes turned in the last, at most 1e-4.
+/// c of this step: given, or 0.3 times the root mean square of the angles by which the coarsest
+/// axes turned in the last, at most 1e-4.
 template <class B>
 struct Loss {
   Doubles<B> turned;  ///< its square [rad^2]
@@ -43,7 +44,8 @@ struct RigidMotion {
   }
 };
 
-/// Contact's forces on the vertices: 0 where nothing touches, and without obstacles, where the arrays are empty.
+/// Contact's forces on the vertices: 0 where nothing touches, and without obstacles, where the
+/// arrays are empty.
 template <class B>
 struct ContactForces {
   Vectors<B> force;
@@ -54,9 +56,10 @@ struct ContactForces {
   }
 };
 
-/// p = ((1 - t d / 2) p + t f - c (p - m v)) / (1 + t d / 2), d the mass damping; of p - m v without its rigid part, where the body is free:
-/// that changes neither sum p nor sum x x p. Contact's forces of the last step are among f: what the axes' force is found for
-/// should be the momenta at the end of the step, see TakeExpectedContact.
+/// p = ((1 - t d / 2) p + t f - c (p - m v)) / (1 + t d / 2), d the mass damping; of p - m v
+/// without its rigid part, where the body is free: that changes neither sum p nor sum x x p.
+/// Contact's forces of the last step are among f: what the axes' force is found for should be the
+/// momenta at the end of the step, see TakeExpectedContact.
 template <class B>
 struct KickMomentum {
   using Real = typename B::Real;
@@ -68,8 +71,8 @@ struct KickMomentum {
   Real t;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     if (!(model.inverse_mass(a) > 0)) return;
-    const Real c = static_cast<Real>(loss()), m = model.mass(a), half_damping = t * model.damping(a) / 2,
-               kept = 1 / (1 + half_damping);
+    const Real c = static_cast<Real>(loss()), m = model.mass(a),
+               half_damping = t * model.damping(a) / 2, kept = 1 / (1 + half_damping);
     const Vec3<Real> whole = rigid(a), touch = contact(a);
     for (int k = 0; k < 3; ++k) {
       const Real slowed = p(a, k) - m * v(a, k) - m * whole[k];
@@ -93,8 +96,8 @@ struct TakeExpectedContact {
   }
 };
 
-/// The kick of the velocities, contact's of both, and the second drift; sums up t^2 da.df and -dx.df of the guard, d: since the
-/// last step.
+/// The kick of the velocities, contact's of both, and the second drift; sums up t^2 da.df and
+/// -dx.df of the guard, d: since the last step.
 template <class B>
 struct KickAndDrift {
   using Real = typename B::Real;
@@ -107,9 +110,9 @@ struct KickAndDrift {
   KOKKOS_INLINE_FUNCTION Sums<2> operator()(int i) const {
     if (!(inverse_mass(i) > 0)) return {};
     const bool touches = contact.any();
-    const Vec3<Real> v = vector_at<B>(state.v, i), force = vector_at<B>(f, i), answer = vector_at<B>(a, i),
-                     df = force - vector_at<B>(f_before, i), da = answer - vector_at<B>(a_before, i),
-                     u = vector_at<B>(state.u, i);
+    const Vec3<Real> v = vector_at<B>(state.v, i), force = vector_at<B>(f, i),
+                     answer = vector_at<B>(a, i), df = force - vector_at<B>(f_before, i),
+                     da = answer - vector_at<B>(a_before, i), u = vector_at<B>(state.u, i);
     const Vec3<Real> kicked = v + t * (touches ? answer + vector_at<B>(contact_answer, i) : answer);
     if (touches) set_vector<B>(p, i, vector_at<B>(p, i) + t * contact(i));
     set_vector<B>(f_before, i, force), set_vector<B>(a_before, i, answer);
@@ -123,9 +126,10 @@ struct KickAndDrift {
   }
 };
 
-/// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over what the last step did: as stability is lost at
-/// 4 the fastest motions take over, and with them the mean. `state`: how often running it was above 3.4, 1 where that was twice,
-/// 2 where the axes' force was not found (to 1 %, see RoundOfAxes), the largest.
+/// Watches t^2 da.df / (-dx.df), a mean of t^2 times the eigenvalues of A K over what the last step
+/// did: as stability is lost at 4 the fastest motions take over, and with them the mean. `state`:
+/// how often running it was above 3.4, 1 where that was twice, 2 where the axes' force was not
+/// found (to 1 %, see RoundOfAxes), the largest.
 template <class B>
 struct WatchSpectrum {
   Doubles<B> sums, state;
@@ -156,9 +160,11 @@ struct EndOfStep {
   }
 };
 
-// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the rigid part of momenta.
+// A free body's translation, answered exactly, so that sum m v is sum p whatever A is; and the
+// rigid part of momenta.
 
-/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of p - m v: 16 sums.
+/// m, m x, m x x^T (xx yy zz xy xz yz) about the placed mesh's origin, and the sum and moment of p
+/// - m v: 16 sums.
 template <class B>
 struct BodyMoments {
   Scalars<B> mass;
@@ -171,8 +177,9 @@ struct BodyMoments {
     }
     const double m = static_cast<double>(mass(a));
     const Vec3<double> moment = cross(x, part);
-    return {{m, m * x[0], m * x[1], m * x[2], m * x[0] * x[0], m * x[1] * x[1], m * x[2] * x[2], m * x[0] * x[1],
-             m * x[0] * x[2], m * x[1] * x[2], part[0], part[1], part[2], moment[0], moment[1], moment[2]}};
+    return {{m, m * x[0], m * x[1], m * x[2], m * x[0] * x[0], m * x[1] * x[1], m * x[2] * x[2],
+             m * x[0] * x[1], m * x[0] * x[2], m * x[1] * x[2], part[0], part[1], part[2],
+             moment[0], moment[1], moment[2]}};
   }
 };
 
@@ -185,14 +192,18 @@ struct SetRigidFrame {
     RigidFrame& r = frame();
     const double m = sums(0);
     Vec3<double> c{sums(1) / m, sums(2) / m, sums(3) / m}, P{sums(10), sums(11), sums(12)};
-    const double xx = sums(4) - m * c[0] * c[0], yy = sums(5) - m * c[1] * c[1], zz = sums(6) - m * c[2] * c[2],
-                 xy = sums(7) - m * c[0] * c[1], xz = sums(8) - m * c[0] * c[2], yz = sums(9) - m * c[1] * c[2];
+    const double xx = sums(4) - m * c[0] * c[0], yy = sums(5) - m * c[1] * c[1],
+                 zz = sums(6) - m * c[2] * c[2], xy = sums(7) - m * c[0] * c[1],
+                 xz = sums(8) - m * c[0] * c[2], yz = sums(9) - m * c[1] * c[2];
     const Mat3<double> inertia{Vec3<double>{yy + zz, -xy, -xz}, Vec3<double>{-xy, xx + zz, -yz},
                                Vec3<double>{-xz, -yz, xx + yy}};
     const double det = determinant(inertia), size = trace(inertia);
-    const Mat3<double> inverse = (det > 1e-12 * size * size * size ? 1 / det : 0.0) * transpose(cofactor(inertia));
-    const Vec3<double> moment = Vec3<double>{sums(13), sums(14), sums(15)} - cross(c, P), angular = inverse * moment;
-    for (int k = 0; k < 3; ++k) r.centre[k] = c[k], r.linear[k] = P[k] / m, r.angular[k] = angular[k];
+    const Mat3<double> inverse =
+        (det > 1e-12 * size * size * size ? 1 / det : 0.0) * transpose(cofactor(inertia));
+    const Vec3<double> moment = Vec3<double>{sums(13), sums(14), sums(15)} - cross(c, P),
+                       angular = inverse * moment;
+    for (int k = 0; k < 3; ++k)
+      r.centre[k] = c[k], r.linear[k] = P[k] / m, r.angular[k] = angular[k];
   }
 };
 
@@ -202,8 +213,8 @@ struct SumOfMomenta {
   Scalars<B> mass;
   Vectors<B> p;
   KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
-    return {{static_cast<double>(mass(a)), static_cast<double>(p(a, 0)), static_cast<double>(p(a, 1)),
-             static_cast<double>(p(a, 2))}};
+    return {{static_cast<double>(mass(a)), static_cast<double>(p(a, 0)),
+             static_cast<double>(p(a, 1)), static_cast<double>(p(a, 2))}};
   }
 };
 
@@ -224,7 +235,8 @@ struct SumOfMotion {
   Vectors<B> v;
   KOKKOS_INLINE_FUNCTION Sums<4> operator()(int a) const {
     const double m = static_cast<double>(mass(a));
-    return {{m, m * static_cast<double>(v(a, 0)), m * static_cast<double>(v(a, 1)), m * static_cast<double>(v(a, 2))}};
+    return {{m, m * static_cast<double>(v(a, 0)), m * static_cast<double>(v(a, 1)),
+             m * static_cast<double>(v(a, 2))}};
   }
 };
 
@@ -236,7 +248,8 @@ struct TakeTranslation {
   Vectors<B> p, rest;
   Doubles<B> sums;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) rest(a, k) = p(a, k) - mass(a) * static_cast<Real>(sums(k + 1) / sums(0));
+    for (int k = 0; k < 3; ++k)
+      rest(a, k) = p(a, k) - mass(a) * static_cast<Real>(sums(k + 1) / sums(0));
   }
 };
 
@@ -247,7 +260,8 @@ struct PutTranslation {
   Vectors<B> v;
   Doubles<B> wanted, sums;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
-    for (int k = 0; k < 3; ++k) v(a, k) += static_cast<Real>((wanted(k + 1) - sums(k + 1)) / sums(0));
+    for (int k = 0; k < 3; ++k)
+      v(a, k) += static_cast<Real>((wanted(k + 1) - sums(k + 1)) / sums(0));
   }
 };
 

@@ -2,7 +2,8 @@
 #pragma once
 #include <plica/kernels/vectors.hpp>
 
-// Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m; residuals r in r.m r.
+// Conjugate gradients on A p = v over the vertices that forces move, preconditioned by the mass m;
+// residuals r in r.m r.
 namespace plica {
 
 /// r = v - answer
@@ -14,7 +15,8 @@ struct StartResidual {
     double square = 0;
     for (int k = 0; k < 3; ++k) {
       r(a, k) = model.inverse_mass(a) > 0 ? v(a, k) - answer(a, k) : 0;
-      square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) * static_cast<double>(r(a, k));
+      square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) *
+                static_cast<double>(r(a, k));
     }
     return {{square}};
   }
@@ -31,7 +33,8 @@ struct MoveAlong {
     double square = 0;
     for (int k = 0; k < 3 && model.inverse_mass(a) > 0; ++k) {
       p(a, k) += alpha * s(a, k), r(a, k) -= alpha * answer(a, k);
-      square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) * static_cast<double>(r(a, k));
+      square += static_cast<double>(model.mass(a)) * static_cast<double>(r(a, k)) *
+                static_cast<double>(r(a, k));
     }
     return {{square}};
   }

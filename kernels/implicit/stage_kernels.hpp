@@ -2,8 +2,8 @@
 #pragma once
 #include <plica/kernels/vectors.hpp>
 
-// What the stages of the implicit integrators start from, (u~, v~) of ImplicitWeights, h the step [s]. The acceleration a is
-// (f - c m v)/m, 0 where motion is given.
+// What the stages of the implicit integrators start from, (u~, v~) of ImplicitWeights, h the step
+// [s]. The acceleration a is (f - c m v)/m, 0 where motion is given.
 namespace plica {
 
 /// a
@@ -12,7 +12,8 @@ struct Accelerations {
   VertexModel<B> model;
   Vectors<B> f, v, a;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    const typename B::Real w = model.inverse_mass(i), c = w > 0 ? model.damping(i) : typename B::Real(0);
+    const typename B::Real w = model.inverse_mass(i),
+                           c = w > 0 ? model.damping(i) : typename B::Real(0);
     for (int k = 0; k < 3; ++k) a(i, k) = w * f(i, k) - c * v(i, k);
   }
 };
@@ -33,8 +34,8 @@ struct ExtrapolateState {
   }
 };
 
-/// u~ and v~ of the second stage of sdirk2 from its first: a_1 = (v_1 - v_n)/(c h) - w f, f being contact's forces; `part` is c h, `rest`
-/// (1 - c) h.
+/// u~ and v~ of the second stage of sdirk2 from its first: a_1 = (v_1 - v_n)/(c h) - w f, f being
+/// contact's forces; `part` is c h, `rest` (1 - c) h.
 template <class B>
 struct Sdirk2Base {
   using Real = typename B::Real;
@@ -63,15 +64,17 @@ struct GeneralizedAlphaEnd {
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
     for (int k = 0; k < 3; ++k) {
       const Real a0 = a(i, k), a1 = ((state.v(i, k) - base.v(i, k)) / cv - mass * a0) / (1 - mass);
-      state.u(i, k) = start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1);
+      state.u(i, k) =
+          start.u(i, k) + h * start.v(i, k) + h * h * ((Real(0.5) - beta) * a0 + beta * a1);
       state.v(i, k) = start.v(i, k) + h * ((1 - gamma) * a0 + gamma * a1);
       a(i, k) = a1;
     }
   }
 };
 
-// Vertex kernels of an implicit stage, see ImplicitWeights. The base (u~, v~) is what the stage starts from; for vertices
-// whose motion is given it is where they end. r = a/b, c the mass damping. Balance in newtons, as a function of u alone:
+// Vertex kernels of an implicit stage, see ImplicitWeights. The base (u~, v~) is what the stage
+// starts from; for vertices whose motion is given it is where they end. r = a/b, c the mass
+// damping. Balance in newtons, as a function of u alone:
 //   R(u) = M (u - u~)/a + c M v - f(u, v),   v = v~ + (u - u~)/r
 
 /// What is known of a stage at a vertex.
@@ -94,18 +97,20 @@ struct StageAt {
   }
 };
 
-/// How far the stage's displacement lies from where the forces were linearised: at the step's start.
+/// How far the stage's displacement lies from where the forces were linearised: at the step's
+/// start.
 template <class B>
 struct StageGap {
   StageAt<B> stage;
   Vectors<B> gap;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const {
-    for (int k = 0; k < 3; ++k) gap(i, k) = stage.displacement(i, k, stage.state.v(i, k)) - stage.state.u(i, k);
+    for (int k = 0; k < 3; ++k)
+      gap(i, k) = stage.displacement(i, k, stage.state.v(i, k)) - stage.state.u(i, k);
   }
 };
 
-/// r = M (v~ - v) + b (f - c M v - K gap): the system's right side for a change of v. K gap is minus the sum of the copies in `partial`, or
-/// what r holds of A gap = ((1 + b c) M + a K) gap.
+/// r = M (v~ - v) + b (f - c M v - K gap): the system's right side for a change of v. K gap is
+/// minus the sum of the copies in `partial`, or what r holds of A gap = ((1 + b c) M + a K) gap.
 template <class B>
 struct StageRightSide {
   using Real = typename B::Real;
@@ -123,12 +128,14 @@ struct StageRightSide {
       sum = sum_of_shares<B>(stage.model.shares, partial, i, sum);
     for (int k = 0; k < 3; ++k) {
       const Real v = stage.state.v(i, k);
-      r(i, k) = stage.is_free(i) ? m * (stage.base.v(i, k) - v) + stage.b * (sum[k] - c * m * v) : Real(0);
+      r(i, k) = stage.is_free(i) ? m * (stage.base.v(i, k) - v) + stage.b * (sum[k] - c * m * v)
+                                 : Real(0);
     }
   }
 };
 
-/// v += dv and the displacement that goes with it; what is left of dv is the change of displacement.
+/// v += dv and the displacement that goes with it; what is left of dv is the change of
+/// displacement.
 template <class B>
 struct StageUpdate {
   using Real = typename B::Real;
@@ -162,9 +169,10 @@ struct StageRetreat {
   }
 };
 
-/// Of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead u + elastic and contact energy,
-/// grad Phi = R but for forces that have none: its vertex terms [J]; |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J]; the
-/// squares of what accelerates the body and of what does not depend on its state [N^2]; of the masses [kg^2].
+/// Of the incremental potential Phi(u) = |u - u~|^2_M/2a + c |u - u~|^2_M/2r + c M v~ u - dead u +
+/// elastic and contact energy, grad Phi = R but for forces that have none: its vertex terms [J];
+/// |R|^2 [N^2]; R.change [J]; its inertia alone, for scale [J]; the squares of what accelerates the
+/// body and of what does not depend on its state [N^2]; of the masses [kg^2].
 template <class B>
 struct StagePotential {
   using Real = typename B::Real;
@@ -175,13 +183,17 @@ struct StagePotential {
   KOKKOS_INLINE_FUNCTION Sums<7> operator()(int i) const {
     Sums<7> sums;
     if (!stage.is_free(i)) return sums;
-    const double m = static_cast<double>(stage.model.mass(i)), c = static_cast<double>(stage.model.damping(i));
+    const double m = static_cast<double>(stage.model.mass(i)),
+                 c = static_cast<double>(stage.model.damping(i));
     const double a = static_cast<double>(stage.a), r = a / static_cast<double>(stage.b);
     for (int k = 0; k < 3; ++k) {
-      const double w = static_cast<double>(stage.state.u(i, k) - back * change(i, k) - stage.base.u(i, k));
-      const double start = static_cast<double>(stage.base.v(i, k)), force = static_cast<double>(f(i, k));
+      const double w =
+          static_cast<double>(stage.state.u(i, k) - back * change(i, k) - stage.base.u(i, k));
+      const double start = static_cast<double>(stage.base.v(i, k)),
+                   force = static_cast<double>(f(i, k));
       const double balance = m * w / a + c * m * (start + w / r) - force;
-      sums[0] += m * w * (w / (2 * a) + c * (w / (2 * r) + start)) - static_cast<double>(dead(i, k)) * w;
+      sums[0] +=
+          m * w * (w / (2 * a) + c * (w / (2 * r) + start)) - static_cast<double>(dead(i, k)) * w;
       sums[1] += balance * balance;
       sums[2] += balance * static_cast<double>(change(i, k));
       sums[3] += m * w * w / (2 * a);

@@ -3,11 +3,13 @@
 #include <plica/core/implicit_weights.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Vertex kernels of the system of an implicit stage, A = (1 + b c) M + a K* + contact blocks; see ImplicitWeights. Rows of
-// vertices whose motion is given are zero in the preconditioner, which keeps every search direction zero there.
+// Vertex kernels of the system of an implicit stage, A = (1 + b c) M + a K* + contact blocks; see
+// ImplicitWeights. Rows of vertices whose motion is given are zero in the preconditioner, which
+// keeps every search direction zero there.
 namespace plica {
 
-/// q = (1 + b c) M p - a * (sum of the copies of -K p) + what is beside that, in fields of any precision and order.
+/// q = (1 + b c) M p - a * (sum of the copies of -K p) + what is beside that, in fields of any
+/// precision and order.
 template <class B, class Other = B, class To = Vectors<B>>
 struct SystemProduct {
   using Real = typename B::Real;
@@ -26,8 +28,8 @@ struct SystemProduct {
   }
 };
 
-/// Vertex blocks of A: (1 + b c) m on the diagonal, plus a times column `direction` of the stiffness' own block, in the rows of the
-/// diagonal and the next (cyclic).
+/// Vertex blocks of A: (1 + b c) m on the diagonal, plus a times column `direction` of the
+/// stiffness' own block, in the rows of the diagonal and the next (cyclic).
 template <class B>
 struct DiagonalColumn {
   using Real = typename B::Real;
@@ -58,7 +60,8 @@ struct AddBlockProduct {
   }
 };
 
-/// Inverts the vertex blocks in place. A block that is not positive definite (a material that softens) gives way to its mass.
+/// Inverts the vertex blocks in place. A block that is not positive definite (a material that
+/// softens) gives way to its mass.
 template <class B>
 struct InvertBlocks {
   using Real = typename B::Real;

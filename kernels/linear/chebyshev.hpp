@@ -4,11 +4,13 @@
 #include <plica/kernels/linear/packed_rows.hpp>
 #include <plica/kernels/transfer.hpp>
 
-// Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal polynomial smoothers for multigrid V-cycles,
-// 2022, arXiv:2202.08830, alg. 1): they need the largest eigenvalue only (lanczos.hpp).
+// Chebyshev polynomials of the fourth kind in D^-1 A, D the vertex blocks (Lottes, Optimal
+// polynomial smoothers for multigrid V-cycles, 2022, arXiv:2202.08830, alg. 1): they need the
+// largest eigenvalue only (lanczos.hpp).
 //   d_1 = 4/(3 lambda) D^-1 r;   x += d_k, r -= A d_k, d_(k+1) = (2k-1)/(2k+3) d_k + (8k+4)/((2k+3) lambda) D^-1 r
-// As polynomials in D^-1 A they are self-adjoint, so that a symmetric cycle of them preconditions conjugate gradients. All vectors are by
-// the slots of packed_rows.hpp; directions d, which rows gather, are stored times its scales.
+// As polynomials in D^-1 A they are self-adjoint, so that a symmetric cycle of them preconditions
+// conjugate gradients. All vectors are by the slots of packed_rows.hpp; directions d, which rows
+// gather, are stored times its scales.
 namespace plica {
 
 /// What a polynomial works on.
@@ -39,8 +41,8 @@ struct ChebyshevStart {
   }
 };
 
-/// What a step leaves for others to gather: the next direction, or, where it is the last, the residual or x. The last that leaves x adds the
-/// next direction to it.
+/// What a step leaves for others to gather: the next direction, or, where it is the last, the
+/// residual or x. The last that leaves x adds the next direction to it.
 enum class Leaves { direction, residual, answer };
 
 /// x += d, r -= A d; the next direction is keep d + gain/lambda D^-1 r.
@@ -56,12 +58,13 @@ struct ChebyshevStep {
     const RowsAt<B> at(item);
     const T t = load_rows<B>(&on.A.scale(at.slot));
     const Vec3<T> direction = (T(1) / t) * fours_at<B>(d, at);
-    const Vec3<T> product =
-        on.product.extent(0) > 0 ? vectors_at<B>(on.product, at) : t * packed_product<B>(on.A, at, d);
+    const Vec3<T> product = on.product.extent(0) > 0 ? vectors_at<B>(on.product, at)
+                                                     : t * packed_product<B>(on.A, at, d);
     const Vec3<T> residual = vectors_at<B>(on.r, at) - product;
     const Vec3<T> x = vectors_at<B>(on.x, at) + direction;
     const Vec3<T> ahead =
-        T(keep) * direction + on.over_largest(gain) * (blocks_at<B>(on.inverse_diagonal, at) * residual);
+        T(keep) * direction +
+        on.over_largest(gain) * (blocks_at<B>(on.inverse_diagonal, at) * residual);
     if (leaves == Leaves::answer) return set_fours<B>(next, at, x + ahead);
     set_vectors<B>(on.x, at, x), set_vectors<B>(on.r, at, residual);
     set_fours<B>(next, at, leaves == Leaves::residual ? residual : t * ahead);

@@ -2,9 +2,10 @@
 #pragma once
 #include <plica/core/matrices.hpp>
 
-// The inverse of a small symmetric matrix, made and applied on the device: the sweep operator (Goodnight 1979, The American Statistician
-// 33(3)), which is Gauss-Jordan elimination in place. Without pivoting it is stable for positive definite matrices; a pivot that is not
-// positive (an empty row: a vertex whose motion is given) leaves its row and column out.
+// The inverse of a small symmetric matrix, made and applied on the device: the sweep operator
+// (Goodnight 1979, The American Statistician 33(3)), which is Gauss-Jordan elimination in place.
+// Without pivoting it is stable for positive definite matrices; a pivot that is not positive (an
+// empty row: a vertex whose motion is given) leaves its row and column out.
 namespace plica {
 
 template <class B>
@@ -20,8 +21,9 @@ struct DenseInverse {
       : size(3 * vertices),
         matrix("plica::dense.matrix", size, size),
         row(zeros<Doubles<B>>("plica::dense.row", size)),
-        inverse(zeros<Scalars<B>>("plica::dense.inverse",
-                                  static_cast<std::size_t>((size + block - 1) / block) * block * size)) {}
+        inverse(zeros<Scalars<B>>(
+            "plica::dense.inverse",
+            static_cast<std::size_t>((size + block - 1) / block) * block * size)) {}
 };
 
 /// One row of blocks of A, written out.
@@ -34,7 +36,8 @@ struct ToDense {
       for (int j = 0; j < dense.size; ++j) dense.matrix(3 * a + i, j) = 0;
     for (int s = A.first(a); s < A.first(a + 1); ++s)
       for (int k = 0; k < 9; ++k)
-        dense.matrix(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.number(a, s, k));
+        dense.matrix(3 * a + k % 3, 3 * A.column(s) + k / 3) =
+            static_cast<double>(A.number(a, s, k));
   }
 };
 
@@ -45,7 +48,8 @@ struct TakePivotRow {
   KOKKOS_INLINE_FUNCTION void operator()(int j) const { dense.row(j) = dense.matrix(pivot, j); }
 };
 
-/// M_ij -= M_ik M_kj / M_kk, M_ik /= M_kk, M_kk = -1 / M_kk for pivot k: after all pivots, minus the inverse.
+/// M_ij -= M_ik M_kj / M_kk, M_ik /= M_kk, M_kk = -1 / M_kk for pivot k: after all pivots, minus
+/// the inverse.
 template <class B>
 struct SweepRow {
   DenseInverse<B> dense;
@@ -78,7 +82,8 @@ struct PackInverse {
   }
 };
 
-/// x = A^-1 r: a work item takes a whole block of rows on a CPU, where its lanes fill registers, one row on a GPU.
+/// x = A^-1 r: a work item takes a whole block of rows on a CPU, where its lanes fill registers,
+/// one row on a GPU.
 template <class B>
 struct ApplyDense {
   using Real = typename B::Real;
@@ -89,7 +94,8 @@ struct ApplyDense {
   static int items(int size) { return (size + block - 1) / block * block / rows; }
   KOKKOS_INLINE_FUNCTION void operator()(int item) const {
     const int n = dense.size, first = item * rows;
-    const Real* matrix = dense.inverse.data() + static_cast<std::size_t>(first / block) * n * block + first % block;
+    const Real* matrix =
+        dense.inverse.data() + static_cast<std::size_t>(first / block) * n * block + first % block;
     const Real* const from = r.data();
     Real sum[rows] = {};
     for (int j = 0; j < n; ++j, matrix += block)

@@ -2,9 +2,10 @@
 #pragma once
 #include <plica/kernels/linear/vertex_blocks.hpp>
 
-// Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1) with its scalars on the device, where they
-// also decide when to stop: iterations after that change nothing, so that the host may look only now and then. What has no operator()(int)
-// follows a sum, see reduce().
+// Preconditioned conjugate gradients (Saad, Iterative Methods for Sparse Linear Systems, alg. 9.1)
+// with its scalars on the device, where they also decide when to stop: iterations after that change
+// nothing, so that the host may look only now and then. What has no operator()(int) follows a sum,
+// see reduce().
 namespace plica {
 
 /// Where a scalar stands among those of a solve.
@@ -22,11 +23,12 @@ enum : int {
   tolerance,
   count
 };
-constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3, unsound = 4;  // values of `stopped`
+// values of `stopped`
+constexpr double running = 0, converged = 1, indefinite = 2, not_finite = 3, unsound = 4;
 }  // namespace cg
 
-/// z = D r and r.z, with D the inverse vertex blocks: the square of the norm that says when it has converged, whatever the
-/// preconditioner.
+/// z = D r and r.z, with D the inverse vertex blocks: the square of the norm that says when it has
+/// converged, whatever the preconditioner.
 template <class B>
 struct CgSquare {
   Blocks<B> inverse_diagonal;
@@ -56,7 +58,9 @@ struct CgBegin {
   KOKKOS_INLINE_FUNCTION void operator()() const {
     s(cg::start) = s(cg::right_side) = s(cg::square);
     s(cg::iterations) = s(cg::last_product) = 0;
-    s(cg::stopped) = s(cg::square) > 0 ? cg::running : s(cg::square) >= 0 ? cg::converged : cg::not_finite;
+    s(cg::stopped) = s(cg::square) > 0    ? cg::running
+                     : s(cg::square) >= 0 ? cg::converged
+                                          : cg::not_finite;
     if (!Kokkos::isfinite(s(cg::square))) s(cg::stopped) = cg::not_finite;
   }
 };
@@ -73,7 +77,8 @@ struct CgTolerance {
 template <class B>
 KOKKOS_INLINE_FUNCTION bool is_solved(const Doubles<B>& s) {
   const double tolerance = s(cg::tolerance);
-  return s(cg::square) == 0 || (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side));
+  return s(cg::square) == 0 ||
+         (tolerance >= 0 && s(cg::square) <= tolerance * tolerance * s(cg::right_side));
 }
 
 /// After a guess other than zero; it may be the solution already.
@@ -101,8 +106,8 @@ struct CgDirection {
   }
 };
 
-/// alpha = r.z / p.q; a direction without positive curvature ends it, and is not followed. Where r.z is not positive, the preconditioner is
-/// not.
+/// alpha = r.z / p.q; a direction without positive curvature ends it, and is not followed. Where
+/// r.z is not positive, the preconditioner is not.
 template <class B>
 struct CgStep {
   Doubles<B> s;
@@ -144,8 +149,9 @@ struct CgJudge {
   }
 };
 
-// The first guess of a linear solve: of all combinations of the last few solutions, the one nearest to this system's in its own norm
-// (Fischer, Projection techniques for iterative solution of Ax = b with successive right-hand sides, CMAME 163, 1998).
+// The first guess of a linear solve: of all combinations of the last few solutions, the one nearest
+// to this system's in its own norm (Fischer, Projection techniques for iterative solution of Ax = b
+// with successive right-hand sides, CMAME 163, 1998).
 
 /// The last solutions w, and q = A w for the matrix of now.
 template <class B>
@@ -153,7 +159,8 @@ struct SolutionSpace {
   static constexpr int size = 4;
   static constexpr int sums = size * (size + 1) / 2 + size;
   Vectors<B> w[size], q[size];
-  Doubles<B> products;  ///< [sums] w_i.q_j for i <= j, then w_i.r; afterwards the weights come first
+  /// [sums] w_i.q_j for i <= j, then w_i.r; afterwards the weights come first
+  Doubles<B> products;
 };
 
 /// q = A w for all of them, with A read once.
@@ -167,7 +174,8 @@ struct SpaceProducts {
     BlockSum<Real> y[m];
     const int own = A.diagonal(a), last = A.first(a + 1);
     for (int s = A.first(a); s < own; ++s)
-      for (int i = 0; i < m; ++i) y[i].add_turned(&A.value(A.place(s), 0), &space.w[i](A.column(s), 0));
+      for (int i = 0; i < m; ++i)
+        y[i].add_turned(&A.value(A.place(s), 0), &space.w[i](A.column(s), 0));
     for (int s = own; s < last; ++s)
       for (int i = 0; i < m; ++i) y[i].add(&A.value(A.place(s), 0), &space.w[i](A.column(s), 0));
     for (int i = 0; i < m; ++i) set_vector<B>(space.q[i], a, y[i].sum());
@@ -184,7 +192,8 @@ struct SpaceSums {
     for (int k = 0; k < 3; ++k) {
       int at = 0;
       for (int i = 0; i < m; ++i)
-        for (int j = i; j < m; ++j) sums[at++] += static_cast<double>(space.w[i](a, k) * space.q[j](a, k));
+        for (int j = i; j < m; ++j)
+          sums[at++] += static_cast<double>(space.w[i](a, k) * space.q[j](a, k));
       for (int i = 0; i < m; ++i) sums[at++] += static_cast<double>(space.w[i](a, k) * r(a, k));
     }
     return sums;
@@ -233,7 +242,8 @@ struct SpaceGuess {
     for (int i = 0; i < SolutionSpace<B>::size; ++i) {
       const Real weight = static_cast<Real>(space.products(i));
       if (weight == 0) continue;
-      for (int k = 0; k < 3; ++k) x(a, k) += weight * space.w[i](a, k), r(a, k) -= weight * space.q[i](a, k);
+      for (int k = 0; k < 3; ++k)
+        x(a, k) += weight * space.w[i](a, k), r(a, k) -= weight * space.q[i](a, k);
     }
   }
 };

@@ -2,13 +2,15 @@
 #pragma once
 #include <plica/kernels/linear/krylov.hpp>
 
-// The Lanczos iteration for the largest eigenvalue of D^-1 A, D^-1 the inverse vertex blocks (Parlett, The Symmetric Eigenvalue Problem, 13):
-// of vectors r in the product r . D^-1 r, with q = r / beta of length 1,
+// The Lanczos iteration for the largest eigenvalue of D^-1 A, D^-1 the inverse vertex blocks
+// (Parlett, The Symmetric Eigenvalue Problem, 13): of vectors r in the product r . D^-1 r, with q =
+// r / beta of length 1,
 //
 //   r_next = A D^-1 q - alpha q - beta q_last,   alpha = q . D^-1 A D^-1 q,   beta_next = |r_next|
 //
-// The tridiagonal matrix of alphas and betas has nearly the largest eigenvalue after a few steps, also where that is of a single sliver:
-// power iterations, which have to grow out of all the rest, take a hundred there.
+// The tridiagonal matrix of alphas and betas has nearly the largest eigenvalue after a few steps,
+// also where that is of a single sliver: power iterations, which have to grow out of all the rest,
+// take a hundred there.
 namespace plica {
 
 /// Forces without order; nothing answers those where the motion is given.
@@ -43,7 +45,9 @@ template <class B>
 struct BlockLanczosProduct {
   BlockMatrix<B> A;
   LanczosProduct<B> next;
-  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const { return next.of(a, block_row_product<B>(A, a, next.z)); }
+  KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
+    return next.of(a, block_row_product<B>(A, a, next.z));
+  }
 };
 
 /// r becomes the next, q_last its q; z = D^-1 r and r.z, which is beta^2.

@@ -5,17 +5,19 @@
 #include <plica/kernels/sliced_rows.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// A symmetric matrix of 3x3 blocks in 16 bits a number, for what preconditions: 2^-16 of the vertices' own stiffness is less than a smoother
-// notices. With scales t of the vertices,
+// A symmetric matrix of 3x3 blocks in 16 bits a number, for what preconditions: 2^-16 of the
+// vertices' own stiffness is less than a smoother notices. With scales t of the vertices,
 //
 //   A_ab = t_a t_b 2^16 q_ab,   |q_ab| < 2^15,   t_a^2 2^16 (2^15 - 1) = the largest number on the diagonal of A_aa
 //
-// because no number of a positive definite matrix is above the root of its two diagonal ones. Products take the scaled vector t x, so that
-// scales cost nothing in the sum. Blocks of a row come in pairs: number k of both in one word, the first in its upper half. Either half,
-// with zeros below it, is 2^16 q as an integer.
+// because no number of a positive definite matrix is above the root of its two diagonal ones.
+// Products take the scaled vector t x, so that scales cost nothing in the sum. Blocks of a row come
+// in pairs: number k of both in one word, the first in its upper half. Either half, with zeros
+// below it, is 2^16 q as an integer.
 //
-// Rows are stored in slices, a row per lane (kernels/sliced_rows.hpp), and so are the vectors that a smoother works on: only what other rows
-// gather lies vertex by vertex, four numbers each, of which the last is 0.
+// Rows are stored in slices, a row per lane (kernels/sliced_rows.hpp), and so are the vectors that
+// a smoother works on: only what other rows gather lies vertex by vertex, four numbers each, of
+// which the last is 0.
 //
 //   entry e of a slice     column of 16 rows, twice    word 0 of 16 rows  ...  word 8 of 16 rows      float on AVX-512: 16 lanes
 //   a vector by slots      x of 16 rows    y of 16 rows    z of 16 rows
@@ -41,17 +43,21 @@ struct PackedRows {
 
 /// [slices] vectors, or symmetric blocks, of a slice's rows: component by component.
 template <class B>
-using SlotVectors = Kokkos::View<typename B::Real* [3][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
+using SlotVectors =
+    Kokkos::View<typename B::Real* [3][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
 template <class B>
-using SlotBlocks = Kokkos::View<typename B::Real* [6][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
+using SlotBlocks =
+    Kokkos::View<typename B::Real* [6][slice_height<B>], Kokkos::LayoutRight, typename B::Memory>;
 
 template <class B>
 KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> vectors_at(const SlotVectors<B>& x, const RowsAt<B>& at) {
   const typename B::Real* const from = &x(at.slice, 0, at.offset);
-  return {load_rows<B>(from), load_rows<B>(from + slice_height<B>), load_rows<B>(from + 2 * slice_height<B>)};
+  return {load_rows<B>(from), load_rows<B>(from + slice_height<B>),
+          load_rows<B>(from + 2 * slice_height<B>)};
 }
 template <class B>
-KOKKOS_INLINE_FUNCTION void set_vectors(const SlotVectors<B>& x, const RowsAt<B>& at, const Vec3<RowPack<B>>& value) {
+KOKKOS_INLINE_FUNCTION void set_vectors(const SlotVectors<B>& x, const RowsAt<B>& at,
+                                        const Vec3<RowPack<B>>& value) {
   for (int k = 0; k < 3; ++k) store_rows<B>(value[k], &x(at.slice, k, at.offset));
 }
 template <class B>
@@ -68,14 +74,16 @@ KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> fours_at(const Fours<B>& x, const RowsAt
   return value;
 }
 template <class B>
-KOKKOS_INLINE_FUNCTION void set_fours(const Fours<B>& x, const RowsAt<B>& at, const Vec3<RowPack<B>>& value) {
+KOKKOS_INLINE_FUNCTION void set_fours(const Fours<B>& x, const RowsAt<B>& at,
+                                      const Vec3<RowPack<B>>& value) {
   typename B::Real* const to = &x(at.slot, 0);
   const RowPack<B> four[4] = {value[0], value[1], value[2], RowPack<B>(0)};
   store_fours(four, [=](int l) { return to + 4 * l; });
 }
 /// The vector of one slot.
 template <class B>
-KOKKOS_INLINE_FUNCTION void set_vector(const SlotVectors<B>& x, int slot, const Vec3<typename B::Real>& value) {
+KOKKOS_INLINE_FUNCTION void set_vector(const SlotVectors<B>& x, int slot,
+                                       const Vec3<typename B::Real>& value) {
   for (int k = 0; k < 3; ++k) x(slot / slice_height<B>, k, slot % slice_height<B>) = value[k];
 }
 
@@ -92,7 +100,8 @@ struct ScaleOfVertex {
   }
 };
 
-/// A row of blocks, packed; numbers that are too large are cut: A is not positive definite, or multiplies a vertex whose motion is given.
+/// A row of blocks, packed; numbers that are too large are cut: A is not positive definite, or
+/// multiplies a vertex whose motion is given.
 template <class B>
 struct PackRow {
   BlockMatrix<B> A;
@@ -107,12 +116,14 @@ struct PackRow {
                   lower = t * rows.scale(rows.column(e, 1, l));
       for (int k = 0; k < 9; ++k)
         rows.word(e, k, l) =
-            static_cast<int>(number(a, s, k, upper) << 16 | (s + 1 < last ? number(a, s + 1, k, lower) & 0xffffU : 0U));
+            static_cast<int>(number(a, s, k, upper) << 16 |
+                             (s + 1 < last ? number(a, s + 1, k, lower) & 0xffffU : 0U));
     }
   }
   KOKKOS_INLINE_FUNCTION unsigned number(int a, int s, int k, float scale) const {
     const float q = A.number(a, s, k) / scale * 0x1p-16F;
-    return static_cast<unsigned>(static_cast<int>(Kokkos::round(Kokkos::fmin(Kokkos::fmax(q, -32767.0F), 32767.0F))));
+    return static_cast<unsigned>(
+        static_cast<int>(Kokkos::round(Kokkos::fmin(Kokkos::fmax(q, -32767.0F), 32767.0F))));
   }
 };
 
@@ -146,7 +157,8 @@ KOKKOS_INLINE_FUNCTION Vec3<RowPack<B>> packed_product(const PackedRows<B>& A, c
     const int *const column = &A.column(e, 0, at.offset), *const word = &A.word(e, 0, at.offset);
     Vec3<RowPack<B>> x, y;
     load_vectors([=](int l) { return base + 4 * static_cast<std::ptrdiff_t>(column[l]); }, x);
-    load_vectors([=](int l) { return base + 4 * static_cast<std::ptrdiff_t>(column[height + l]); }, y);
+    load_vectors([=](int l) { return base + 4 * static_cast<std::ptrdiff_t>(column[height + l]); },
+                 y);
     for (int k = 0; k < 9; ++k) {
       RowPack<B> upper, lower;
       unpack(word + k * height, upper, lower);

@@ -3,7 +3,8 @@
 #include <plica/core/matrices.hpp>
 #include <plica/kernels/vectors.hpp>
 
-// Matrices of 3x3 blocks: the vertices' own blocks, products with vectors, and the matrix of the next coarser level.
+// Matrices of 3x3 blocks: the vertices' own blocks, products with vectors, and the matrix of the
+// next coarser level.
 namespace plica {
 
 /// diagonal = A's own blocks
@@ -11,11 +12,13 @@ template <class B>
 struct TakeDiagonal {
   BlockMatrix<B> A;
   Blocks<B> diagonal;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_block<B>(diagonal, a, own_block<B>(A, a)); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_block<B>(diagonal, a, own_block<B>(A, a));
+  }
 };
 
-/// The inverse of a matrix's own block of every row. One that is not positive definite gives way to what is positive on its
-/// diagonal; an empty row's is 0.
+/// The inverse of a matrix's own block of every row. One that is not positive definite gives way to
+/// what is positive on its diagonal; an empty row's is 0.
 template <class B>
 struct InvertDiagonal {
   using Real = typename B::Real;
@@ -36,15 +39,19 @@ struct AddToDiagonal {
   Blocks<B> block;
   BlockMatrix<B> A;
   typename B::Real scale;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { add_block<B>(A, A.diagonal(a), scale, block_at<B>(block, a)); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    add_block<B>(A, A.diagonal(a), scale, block_at<B>(block, a));
+  }
 };
 
-/// A sum of blocks times vectors. A CPU takes a column as four numbers, the last of which is not used; so it adds up the products of columns
-/// with a vector, number by number, and sums up the numbers of a column at the end.
+/// A sum of blocks times vectors. A CPU takes a column as four numbers, the last of which is not
+/// used; so it adds up the products of columns with a vector, number by number, and sums up the
+/// numbers of a column at the end.
 template <class Real>
 struct BlockSum {
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(PLICA_LIKE_DEVICE)
-  typedef Real Column __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
+  typedef Real Column
+      __attribute__((vector_size(4 * sizeof(Real)), may_alias, aligned(alignof(Real))));
   Column straight[3] = {}, turned[3] = {};
 
   static const Column& four(const Real* at) { return *reinterpret_cast<const Column*>(at); }
@@ -73,14 +80,20 @@ struct BlockSum {
 #endif
 };
 
-/// Row a of A x. Per stored block 9 s + 12 bytes, 36 flops, where those of rows above are still in a cache. Of a large matrix, what rows
-/// further down need is asked for early: a processor foresees no further than the page in memory.
+/// Row a of A x. Per stored block 9 s + 12 bytes, 36 flops, where those of rows above are still in
+/// a cache. Of a large matrix, what rows further down need is asked for early: a processor foresees
+/// no further than the page in memory.
 template <class B>
-KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatrix<B>& A, int a, const Vectors<B>& x) {
+KOKKOS_INLINE_FUNCTION Vec3<typename B::Real> block_row_product(const BlockMatrix<B>& A, int a,
+                                                                const Vectors<B>& x) {
   using Real = typename B::Real;
   const int own = A.diagonal(a), last = A.first(a + 1);
-  const auto value = [&](int place) { return A.value.data() + 9 * static_cast<std::ptrdiff_t>(place); };
-  const auto vector = [&](int s) { return x.data() + 3 * static_cast<std::ptrdiff_t>(A.column(s)); };
+  const auto value = [&](int place) {
+    return A.value.data() + 9 * static_cast<std::ptrdiff_t>(place);
+  };
+  const auto vector = [&](int s) {
+    return x.data() + 3 * static_cast<std::ptrdiff_t>(A.column(s));
+  };
   BlockSum<Real> sum;
   for (int s = A.first(a); s < own; ++s) sum.add_turned(value(A.place(s)), vector(s));
   const Real* block = value(A.place(own));
@@ -102,7 +115,9 @@ template <class B>
 struct BlockProduct {
   BlockMatrix<B> A;
   Vectors<B> x, y;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(y, a, block_row_product<B>(A, a, x)); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_vector<B>(y, a, block_row_product<B>(A, a, x));
+  }
 };
 
 /// y = A x and x.y
@@ -138,20 +153,23 @@ struct SumOfBlocks {
   }
 };
 
-/// The matrix of the next coarser level, P^T A P (Galerkin). Its block (I, J) couples two coarse vertices: it is the sum of the
-/// blocks (i, j) of A over all fine vertices i that hang on I and j that hang on J, each times the two weights:
+/// The matrix of the next coarser level, P^T A P (Galerkin). Its block (I, J) couples two coarse
+/// vertices: it is the sum of the blocks (i, j) of A over all fine vertices i that hang on I and j
+/// that hang on J, each times the two weights:
 ///
 ///   coarse   I --------- J          (P^T A P)_IJ = sum over i, j of P_iI A_ij P_jJ
 ///           / \\         |
 ///   fine   i   i' ------ j          here i, i' hang on I, and j on J
 ///
-/// Which terms there are depends on the meshes alone: GalerkinMap lists them once, block by block. With A P made first there are a third
-/// as many as in the double sum.
+/// Which terms there are depends on the meshes alone: GalerkinMap lists them once, block by block.
+/// With A P made first there are a third as many as in the double sum.
 template <class B>
-void galerkin_product(const typename B::Exec& exec, const GalerkinMap<B>& map, const BlockMatrix<B>& A,
-                      const BlockMatrix<B>& coarse) {
-  update_vertices<B>(exec, "plica::galerkin", map.right.blocks(), SumOfBlocks<B>{map.right, A.value, map.between});
-  update_vertices<B>(exec, "plica::galerkin", map.left.blocks(), SumOfBlocks<B>{map.left, map.between, coarse.value});
+void galerkin_product(const typename B::Exec& exec, const GalerkinMap<B>& map,
+                      const BlockMatrix<B>& A, const BlockMatrix<B>& coarse) {
+  update_vertices<B>(exec, "plica::galerkin", map.right.blocks(),
+                     SumOfBlocks<B>{map.right, A.value, map.between});
+  update_vertices<B>(exec, "plica::galerkin", map.left.blocks(),
+                     SumOfBlocks<B>{map.left, map.between, coarse.value});
 }
 
 }  // namespace plica

@@ -5,12 +5,14 @@
 
 namespace plica {
 
-/// R is unique where (s2 + s1)(s3 + s1)(s3 + s2) > 0 with the singular values s1 >= s2 >= |s3|, s3 of the sign of det F; it is
-/// not where the product is 0, as in F = 0, in a line or in a reflection. Below this part of s |F|^2 it counts as 0.
+/// R is unique where (s2 + s1)(s3 + s1)(s3 + s2) > 0 with the singular values s1 >= s2 >= |s3|, s3
+/// of the sign of det F; it is not where the product is 0, as in F = 0, in a line or in a
+/// reflection. Below this part of s |F|^2 it counts as 0.
 inline constexpr double least_turning = 1e-3;
 
-/// The same rotation R as below for one F, where several may maximise R:F and one of them is chosen: from the unit quaternion q
-/// that maximises q.K q = R(q):F (Horn 1987), found by squaring K, shifted, until its largest eigenvalue alone is left.
+/// The same rotation R as below for one F, where several may maximise R:F and one of them is
+/// chosen: from the unit quaternion q that maximises q.K q = R(q):F (Horn 1987), found by squaring
+/// K, shifted, until its largest eigenvalue alone is left.
 template <class Real>
 PLICA_SELDOM KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F) {
   const Real shift = sqrt(Real(3) * inner(F, F)) + Real(Kokkos::Experimental::norm_min_v<Real>);
@@ -37,15 +39,17 @@ PLICA_SELDOM KOKKOS_FUNCTION Mat3<Real> any_nearest_rotation(const Mat3<Real>& F
     if (M[i][i] > M[k][k]) k = i;
   const Real square = M[0][k] * M[0][k] + M[1][k] * M[1][k] + M[2][k] * M[2][k] + M[3][k] * M[3][k];
   const Real two = Real(2) / square, w = M[0][k], x = M[1][k], y = M[2][k], z = M[3][k];
-  return {Vec3<Real>{Real(1) - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)},
-          Vec3<Real>{two * (x * y + w * z), Real(1) - two * (x * x + z * z), two * (y * z - w * x)},
-          Vec3<Real>{two * (x * z - w * y), two * (y * z + w * x), Real(1) - two * (x * x + y * y)}};
+  return {
+      Vec3<Real>{Real(1) - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)},
+      Vec3<Real>{two * (x * y + w * z), Real(1) - two * (x * x + z * z), two * (y * z - w * x)},
+      Vec3<Real>{two * (x * z - w * y), two * (y * z + w * x), Real(1) - two * (x * x + y * y)}};
 }
 
-/// The rotation R, det R = 1, that maximises R:F: R^T F = S is symmetric with the signed singular values, the smallest of the
-/// sign of det F (for det F > 0 R is the polar factor). Without an eigen-solver: R:F is the largest root s of
-/// p = s^4 - 2|F|^2 s^2 - 8 J s + |F|^4 - 4|cof F|^2, whose roots are the signed sums of the singular values; Newton's method
-/// descends to it from sqrt(3)|F| >= s. Then R = ds/dF = -(dp/dF)/(dp/ds), but where that root is not simple.
+/// The rotation R, det R = 1, that maximises R:F: R^T F = S is symmetric with the signed singular
+/// values, the smallest of the sign of det F (for det F > 0 R is the polar factor). Without an
+/// eigen-solver: R:F is the largest root s of p = s^4 - 2|F|^2 s^2 - 8 J s + |F|^4 - 4|cof F|^2,
+/// whose roots are the signed sums of the singular values; Newton's method descends to it from
+/// sqrt(3)|F| >= s. Then R = ds/dF = -(dp/dF)/(dp/ds), but where that root is not simple.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   using Real = typename LaneOf<T>::type;
@@ -79,13 +83,15 @@ KOKKOS_INLINE_FUNCTION Mat3<T> polar_rotation(const Mat3<T>& F) {
   return R;
 }
 
-/// Psi = mu |F - R|^2 + lambda/2 (R:F - 3)^2 with R the rotation nearest to F: Hooke's law in the rotated frame, with
-/// the exact derivative of R (Chao, Pinkall, Sanan & Schroeder 2010; McAdams et al. 2011). Finite everywhere, and its energy in
-/// the signed singular values has no minimum but at rest: inverted elements are pushed back along the axis that takes least.
+/// Psi = mu |F - R|^2 + lambda/2 (R:F - 3)^2 with R the rotation nearest to F: Hooke's law in the
+/// rotated frame, with the exact derivative of R (Chao, Pinkall, Sanan & Schroeder 2010; McAdams et
+/// al. 2011). Finite everywhere, and its energy in the signed singular values has no minimum but at
+/// rest: inverted elements are pushed back along the axis that takes least.
 struct Corotational : TwoConstants {
   static constexpr const char* name = "corotational";
   static constexpr const char* summary =
-      "Hooke's law in the frame turned with the element; large rotations, small strains; recovers from inversion";
+      "Hooke's law in the frame turned with the element; large rotations, small strains; recovers "
+      "from inversion";
   static constexpr bool rotation_invariant = true;
   static constexpr bool survives_inversion = true;
   static constexpr bool recovers = true;
@@ -104,18 +110,21 @@ struct Corotational : TwoConstants {
     return (c.mu + c.mu) * (F - R) + (c.lambda * (inner(R, F) - T(3))) * R;
   }
 
-  /// dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F; 0 where R is not unique.
+  /// dR = R [w]x with (tr(S) I - S) w = axial vector of R^T dF - dF^T R, S = R^T F; 0 where R is
+  /// not unique.
   template <class T>
   struct Tangent {
     Mat3<T> R, turning;  // (tr(S) I - S)^-1
     Mat3<T> turned;      // R turning R^T
     T stretch;           // lambda (tr S - 3)
     Lame<T> c;
-    KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>& F, const Lame<T>& constants) : R(polar_rotation(F)), c(constants) {
+    KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>& F, const Lame<T>& constants)
+        : R(polar_rotation(F)), c(constants) {
       using Real = typename LaneOf<T>::type;
       const Mat3<T> S = transpose(R) * F, G = Mat3<T>::diagonal(trace(S)) - S, H = cofactor(G);
       const T det = dot(G[0], H[0]), least = T(Real(least_turning)) * trace(S) * inner(F, F);
-      const T d = where_positive(det - least, T(1) / max(det, T(Kokkos::Experimental::norm_min_v<Real>)));
+      const T d =
+          where_positive(det - least, T(1) / max(det, T(Kokkos::Experimental::norm_min_v<Real>)));
       turning = d * transpose(H);
       turned = R * turning * transpose(R);
       stretch = c.lambda * (trace(S) - T(3));
@@ -124,7 +133,8 @@ struct Corotational : TwoConstants {
       const Mat3<T> Z = transpose(R) * dF;
       const Vec3<T> w = turning * Vec3<T>{Z[2][1] - Z[1][2], Z[0][2] - Z[2][0], Z[1][0] - Z[0][1]};
       const T mu2 = c.mu + c.mu;
-      return mu2 * dF + R * ((stretch - mu2) * cross_matrix(w) + Mat3<T>::diagonal(c.lambda * trace(Z)));
+      return mu2 * dF +
+             R * ((stretch - mu2) * cross_matrix(w) + Mat3<T>::diagonal(c.lambda * trace(Z)));
     }
     struct Corner {
       Vec3<T> g, r;  // r = R g
@@ -136,7 +146,8 @@ struct Corotational : TwoConstants {
       const Vec3<T> s = (c.mu + c.mu - stretch) * r;
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 3; ++i)
-          made.left[i][k] = s[(i + 1) % 3] * turned[(i + 2) % 3][k] - s[(i + 2) % 3] * turned[(i + 1) % 3][k];
+          made.left[i][k] =
+              s[(i + 1) % 3] * turned[(i + 2) % 3][k] - s[(i + 2) % 3] * turned[(i + 1) % 3][k];
       return made;
     }
     /// 2 mu (p.q) I + lambda (R p)(R q)^T + (2 mu - stretch) [R p]x R turning R^T [R q]x
@@ -148,7 +159,8 @@ struct Corotational : TwoConstants {
   };
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF,
+                                                      const Lame<T>& c) {
     return Tangent<T>(F, c)(dF);
   }
 };

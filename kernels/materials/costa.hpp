@@ -11,9 +11,10 @@ constexpr MaterialParameter strain_weight(const char* name, const char* help, do
 }
 }  // namespace parameter
 
-/// W = a/2 (e^Q - 1), Q = sum over i and j of b_ij E_ij^2, E = (C - 1)/2 in the axes of fibre f, sheet s and normal n = f x s.
-/// Costa, Holmes & McCulloch, Phil. Trans. R. Soc. A 359, 2001; with b_ss = b_nn = b_sn and b_fs = b_fn that of Guccione, McCulloch &
-/// Waldman, J. Biomech. Eng. 113, 1991.
+/// W = a/2 (e^Q - 1), Q = sum over i and j of b_ij E_ij^2, E = (C - 1)/2 in the axes of fibre f,
+/// sheet s and normal n = f x s. Costa, Holmes & McCulloch, Phil. Trans. R. Soc. A 359, 2001; with
+/// b_ss = b_nn = b_sn and b_fs = b_fn that of Guccione, McCulloch & Waldman, J. Biomech. Eng. 113,
+/// 1991.
 struct Costa : Isochoric<Costa> {
   static constexpr const char* name = "costa";
   static constexpr const char* summary =
@@ -21,11 +22,14 @@ struct Costa : Isochoric<Costa> {
   static constexpr bool isotropic = false;
   static constexpr bool has_fibres = true;
   static constexpr std::array parameters{
-      MaterialParameter{"a", {keys::pressure, keys::positive}, "of costa: times half the exponential", 2e3},
-      parameter::strain_weight("b_ff", "of costa: times the square of the strain along the fibres", 8),
+      MaterialParameter{
+          "a", {keys::pressure, keys::positive}, "of costa: times half the exponential", 2e3},
+      parameter::strain_weight("b_ff", "of costa: times the square of the strain along the fibres",
+                               8),
       parameter::strain_weight("b_ss", "of costa: along the sheet", 3),
       parameter::strain_weight("b_nn", "of costa: along the normal of both", 2),
-      parameter::strain_weight("b_fs", "of costa: of shear between fibre and sheet, counted twice", 4),
+      parameter::strain_weight("b_fs", "of costa: of shear between fibre and sheet, counted twice",
+                               4),
       parameter::strain_weight("b_fn", "of costa: between fibre and normal, counted twice", 3.5),
       parameter::strain_weight("b_sn", "of costa: between sheet and normal, counted twice", 2.5),
       parameter::bulk_modulus};
@@ -35,7 +39,8 @@ struct Costa : Isochoric<Costa> {
                      {p[0], p[1], p[2], p[3], p[4], p[5], p[6]});
   }
 
-  /// The strains E_ij in the fibres' axes and the matrices M_ij = sym(a_i a_j^T) that give them: ff ss nn fs fn sn.
+  /// The strains E_ij in the fibres' axes and the matrices M_ij = sym(a_i a_j^T) that give them: ff
+  /// ss nn fs fn sn.
   template <class T>
   struct Strains {
     Mat3<T> M[6];
@@ -72,7 +77,8 @@ struct Costa : Isochoric<Costa> {
     return T(0.5f) * c.own[0] * Exponential<T>(Strains<T>(strain(C), c).exponent(c)).less_one;
   }
   template <class T, class To>
-  static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c, To& to) {
+  static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c,
+                                             To& to) {
     const Strains<T> strains(strain(C), c);
     const Exponential<T> e(strains.exponent(c));
     const Mat3<T> G = strains.slope(c);
@@ -81,7 +87,8 @@ struct Costa : Isochoric<Costa> {
     to.stress(c.own[0] * e.first, G), to.square(c.own[0] * e.second, G);
   }
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e, const IsochoricConstants<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e,
+                                                      const IsochoricConstants<T>& c) {
     return c.own[0] * Strains<T>(e, c).slope(c);
   }
 };

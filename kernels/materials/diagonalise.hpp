@@ -17,7 +17,8 @@ KOKKOS_INLINE_FUNCTION bool is_diagonal(const T (&A)[n][n]) {
   return all_positive(T(tiny * tiny) * on + T(Kokkos::Experimental::norm_min_v<Real>) - off);
 }
 
-/// Symmetric A = V diag V^T by cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations, 4th ed., alg. 8.5.3); A becomes diag.
+/// Symmetric A = V diag V^T by cyclic Jacobi rotations (Golub & Van Loan, Matrix Computations, 4th
+/// ed., alg. 8.5.3); A becomes diag.
 template <class T, int n>
 KOKKOS_INLINE_FUNCTION void diagonalise(T (&A)[n][n], T (&V)[n][n]) {
   using Real = typename LaneOf<T>::type;
@@ -27,7 +28,8 @@ KOKKOS_INLINE_FUNCTION void diagonalise(T (&A)[n][n], T (&V)[n][n]) {
   for (int sweep = 0; sweep < 10 && !is_diagonal(A); ++sweep)
     for (int p = 0; p < n - 1; ++p)
       for (int q = p + 1; q < n; ++q) {
-        // tan t = sign(d) 2 a / (|d| + sqrt(d^2 + 4 a^2)), d = A_qq - A_pp, a = A_pq: the smaller rotation
+        // tan t = sign(d) 2 a / (|d| + sqrt(d^2 + 4 a^2)), d = A_qq - A_pp, a = A_pq: the smaller
+        // rotation
         const T d = A[q][q] - A[p][p], a2 = T(2) * A[p][q], size = sqrt(d * d + a2 * a2);
         const T magnitude = max(d, -d) + size + tiny;
         const T size_of_t = a2 / magnitude, t = size_of_t - T(2) * where_positive(-d, size_of_t);

@@ -6,8 +6,9 @@
 #include <plica/kernels/materials/material.hpp>
 #include <plica/kernels/materials/volume_ratio.hpp>
 
-// What laws of tissue have in common: Psi(F) = W(C) + U(J), C = R(J) F^T F with R = J^(-2/3). A law is a struct derived from
-// Isochoric<Law>, with W and its two derivatives; the rest, down to det F <= 0, is here, see volume_ratio.hpp. It has
+// What laws of tissue have in common: Psi(F) = W(C) + U(J), C = R(J) F^T F with R = J^(-2/3). A law
+// is a struct derived from Isochoric<Law>, with W and its two derivatives; the rest, down to det F
+// <= 0, is here, see volume_ratio.hpp. It has
 //   name, summary, parameters, kernel_constants(p), and of the statements in material.hpp those that differ from below
 //   isochoric(C, c)           W [J/m^3]
 //   respond(C, c, to)         S = 2 dW/dC and dS/dC as a sum, by calls of `to`: see IsochoricStress
@@ -17,11 +18,12 @@ namespace plica {
 /// What kernels get of every law: the same for all, so that all can share their kernels.
 template <class T>
 struct IsochoricConstants {
-  T law;            ///< its place in IsochoricLaws
-  T volume;         ///< of Volumetric
-  T bulk, mu;       ///< kappa; mu at rest, or what bounds it [Pa]
-  T own[12];        ///< of the law
-  Vec3<T> axis[2];  ///< unit vectors: of fibres and, orthogonal to it, of their sheet; or of two families of fibres
+  T law;       ///< its place in IsochoricLaws
+  T volume;    ///< of Volumetric
+  T bulk, mu;  ///< kappa; mu at rest, or what bounds it [Pa]
+  T own[12];   ///< of the law
+  /// unit vectors: of fibres and, orthogonal to it, of their sheet; or of two families of fibres
+  Vec3<T> axis[2];
 };
 
 /// U(J) and its derivatives, kappa at rest.
@@ -32,7 +34,8 @@ struct Volumetric {
   KOKKOS_INLINE_FUNCTION Volumetric(const VolumeRatio<T>& v, const IsochoricConstants<T>& c) {
     const int choice = static_cast<int>(lane(c.volume, 0));
     const T k = c.bulk, half = T(0.5f) * k;
-    if (choice == simo_hughes) {  // kappa/4 (J^2 - 1 - 2 ln J): Simo & Hughes, Computational Inelasticity, eq. 9.2.6
+    // kappa/4 (J^2 - 1 - 2 ln J): Simo & Hughes, Computational Inelasticity, eq. 9.2.6
+    if (choice == simo_hughes) {
       energy = half * (T(0.5f) * (v.J * v.J - T(1)) - v.log_ratio());
       first = half * (v.J - v.slope()), second = half * (T(1) + v.square());
     } else if (choice == logarithmic) {  // kappa/2 (ln J)^2
@@ -108,8 +111,8 @@ KOKKOS_INLINE_FUNCTION Mat3<T> gram(const Mat3<T>& F) {
   return matrix_of(c);
 }
 
-/// e^q and its derivatives for laws that stiffen exponentially; beyond q = 20, where it is 5e8, its Taylor polynomial of second order:
-/// finite for any element.
+/// e^q and its derivatives for laws that stiffen exponentially; beyond q = 20, where it is 5e8, its
+/// Taylor polynomial of second order: finite for any element.
 template <class T>
 struct Exponential {
   T less_one, first, second;
@@ -149,7 +152,9 @@ struct Isochoric {
     for (int i = 0; i < 3; ++i) c.axis[0][i] = s.axis[i], c.axis[1][i] = s.sheet[i];
     return c;
   }
-  static Lame<double> small_strains(const IsochoricConstants<double>& c) { return {c.bulk - 2 * c.mu / 3, c.mu}; }
+  static Lame<double> small_strains(const IsochoricConstants<double>& c) {
+    return {c.bulk - 2 * c.mu / 3, c.mu};
+  }
   static IsochoricConstants<double> with_lambda(IsochoricConstants<double> c, double lambda) {
     c.bulk = lambda + 2 * c.mu / 3;
     return c;
@@ -159,7 +164,8 @@ struct Isochoric {
   static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const IsochoricConstants<T>& c) {
     const VolumeRatio<T> v(determinant(F));
     const Mat3<T> C = gram(F);
-    return Law::isochoric(v.factor() * C, c) + Volumetric<T>(v, c).energy + c.mu * CrushedTerm<T>(trace(C)).energy();
+    return Law::isochoric(v.factor() * C, c) + Volumetric<T>(v, c).energy +
+           c.mu * CrushedTerm<T>(trace(C)).energy();
   }
 
   template <class T>
@@ -173,13 +179,15 @@ struct Isochoric {
     return F * (R * law.S - Mat3<T>::diagonal(c.mu * CrushedTerm<T>(trace(C)).stress())) + g * H;
   }
 
-  /// dP = dF S + F (D:dC + dJ Z) + g d(cof F) + (k dJ + Z:dC/2) cof F with S as above, Z = dR/dJ (R dS/dC:C + S).
+  /// dP = dF S + F (D:dC + dJ Z) + g d(cof F) + (k dJ + Z:dC/2) cof F with S as above, Z = dR/dJ (R
+  /// dS/dC:C + S).
   template <class T>
   struct Tangent {
     Mat3<T> F, H, S, Z;
     IsochoricStiffness<T> law;
     T g, k;
-    PLICA_CALL PLICA_FLATTEN KOKKOS_FUNCTION Tangent(const Mat3<T>& at, const IsochoricConstants<T>& c)
+    PLICA_CALL PLICA_FLATTEN KOKKOS_FUNCTION Tangent(const Mat3<T>& at,
+                                                     const IsochoricConstants<T>& c)
         : F(at), H(cofactor(at)) {
       const Mat3<T> C = gram(F);
       const VolumeRatio<T> v(dot(F[0], H[0]));
@@ -213,7 +221,9 @@ struct Isochoric {
       }
       return made;
     }
-    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const { return q.block(p); }
+    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
+      return q.block(p);
+    }
   };
 
   template <class T>
@@ -223,13 +233,16 @@ struct Isochoric {
   }
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_at_rest(const Mat3<T>& G, const IsochoricConstants<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_at_rest(const Mat3<T>& G,
+                                                       const IsochoricConstants<T>& c) {
     const T t = trace(G), third = T(1) / T(3);
-    const Mat3<T> S = Law::shape_at_rest(T(0.5f) * (G + transpose(G)) - Mat3<T>::diagonal(third * t), c);
+    const Mat3<T> S =
+        Law::shape_at_rest(T(0.5f) * (G + transpose(G)) - Mat3<T>::diagonal(third * t), c);
     return S + Mat3<T>::diagonal(c.bulk * t - third * trace(S));
   }
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e, const IsochoricConstants<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e,
+                                                      const IsochoricConstants<T>& c) {
     return (c.mu + c.mu) * e;
   }
 };
@@ -245,15 +258,16 @@ template <class Law>
 struct InvariantLaw : Isochoric<Law> {
   template <class T>
   static KOKKOS_INLINE_FUNCTION T second_invariant(const Mat3<T>& C) {
-    return C[0][0] * C[1][1] + C[1][1] * C[2][2] + C[2][2] * C[0][0] - C[0][1] * C[0][1] - C[0][2] * C[0][2] -
-           C[1][2] * C[1][2];
+    return C[0][0] * C[1][1] + C[1][1] * C[2][2] + C[2][2] * C[0][0] - C[0][1] * C[0][1] -
+           C[0][2] * C[0][2] - C[1][2] * C[1][2];
   }
   template <class T>
   static KOKKOS_INLINE_FUNCTION T isochoric(const Mat3<T>& C, const IsochoricConstants<T>& c) {
     return Law::of_invariants(trace(C) - T(3), second_invariant(C) - T(3), c).W;
   }
   template <class T, class To>
-  static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c, To& to) {
+  static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c,
+                                             To& to) {
     const T I = trace(C), two = T(2);
     const OfInvariants<T> w = Law::of_invariants(I - T(3), second_invariant(C) - T(3), c);
     const Mat3<T> one = Mat3<T>::identity(), N = Mat3<T>::diagonal(I) - C;  // dI1/dC, dI2/dC

@@ -4,8 +4,8 @@
 
 namespace plica {
 
-/// Psi = mu e:e + lambda/2 tr(e)^2 with the small strain e = (F + F^T)/2 - I. Not for rotations: turned by theta about
-/// z, the unstrained body feels sigma_xx = 2 (mu + lambda) (cos theta - 1).
+/// Psi = mu e:e + lambda/2 tr(e)^2 with the small strain e = (F + F^T)/2 - I. Not for rotations:
+/// turned by theta about z, the unstrained body feels sigma_xx = 2 (mu + lambda) (cos theta - 1).
 struct Linear : TwoConstants {
   static constexpr const char* name = "linear";
   static constexpr const char* summary = "Hooke's law; small displacements and rotations only";
@@ -29,7 +29,9 @@ struct Linear : TwoConstants {
   struct Tangent {
     Lame<T> c;
     KOKKOS_INLINE_FUNCTION Tangent(const Mat3<T>&, const Lame<T>& constants) : c(constants) {}
-    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const { return stress_at_rest(dF, c); }
+    KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
+      return stress_at_rest(dF, c);
+    }
     using Corner = Vec3<T>;
     KOKKOS_INLINE_FUNCTION Corner corner(const Vec3<T>& g) const { return g; }
     KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
@@ -38,7 +40,8 @@ struct Linear : TwoConstants {
   };
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF,
+                                                      const Lame<T>& c) {
     return Tangent<T>(F, c)(dF);
   }
 };

@@ -9,8 +9,8 @@
 
 namespace plica {
 
-/// Materials with kernels of their own. One more: its file above, its name here. Laws of invariants and fibres are better in
-/// tissue_laws.hpp, which costs no kernels.
+/// Materials with kernels of their own. One more: its file above, its name here. Laws of invariants
+/// and fibres are better in tissue_laws.hpp, which costs no kernels.
 using OwnMaterials = TypeList<StVenantKirchhoff, Corotational, NeoHookean, Linear>;
 
 /// Every material there is.

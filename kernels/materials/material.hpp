@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-// A material is a struct of pointwise functions of the deformation gradient F = dx/dX, on T = a number or a pack:
+// A material is a struct of pointwise functions of the deformation gradient F = dx/dX, on T = a
+// number or a pack:
 //   energy(F, c)              energy density per rest volume [J/m^3]
 //   stress(F, c)              first Piola-Kirchhoff stress P = d energy/dF [Pa]
 //   Tangent<T>(F, c)          dP/dF at F: (dF) -> dP/dF : dF [Pa], symmetric as a bilinear form; what dF does not enter is
@@ -17,7 +18,8 @@
 //                             a -> (dP/dF : (a q^T)) p, symmetric in (p, q) but for a transposition: an element matrix in few operations
 //   stress_change(F, dF, c)   the same for one dF
 //   stress_at_rest(G, c)      dP/dF at rest : G [Pa], symmetric; of a fibre that bears tension only as if it were under tension
-// with constants c of the type Constants<T>, a struct of members of type T and nothing else, as many as it likes. It declares
+// with constants c of the type Constants<T>, a struct of members of type T and nothing else, as
+// many as it likes. It declares
 //   parameters                std::array of the MaterialParameters that a scene gives
 //   kernel_constants(p)       Constants<double> of their values, in that order; worked out once per region
 //   small_strains(c)          Lame's constants of its tangent at rest, by which steps are bounded
@@ -42,7 +44,8 @@ struct TwoConstants {
   static Lame<double> small_strains(const Lame<double>& c) { return c; }
   static Lame<double> with_lambda(const Lame<double>& c, double lambda) { return {lambda, c.mu}; }
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_at_rest(const Mat3<T>& G, const Lame<T>& c) {  // Hooke's law
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_at_rest(const Mat3<T>& G,
+                                                       const Lame<T>& c) {  // Hooke's law
     return c.mu * (G + transpose(G)) + Mat3<T>::diagonal(c.lambda * trace(G));
   }
 };
@@ -60,12 +63,14 @@ struct ColumnsOfCorner {
 
 /// How many constants a material's kernels get.
 template <class Material>
-inline constexpr int constant_count = static_cast<int>(sizeof(typename Material::template Constants<double>) /
-                                                       sizeof(double));
+inline constexpr int constant_count =
+    static_cast<int>(sizeof(typename Material::template Constants<double>) / sizeof(double));
 
 template <class Material, class T, class View, std::size_t... k>
-KOKKOS_INLINE_FUNCTION auto load_each_constant(const View& all, int set, std::index_sequence<k...>) {
-  return typename Material::template Constants<T>{T(all(set * constant_count<Material> + static_cast<int>(k)))...};
+KOKKOS_INLINE_FUNCTION auto load_each_constant(const View& all, int set,
+                                               std::index_sequence<k...>) {
+  return typename Material::template Constants<T>{
+      T(all(set * constant_count<Material> + static_cast<int>(k)))...};
 }
 
 /// Constants<double> one after the other, as load_constants() takes them.
@@ -79,36 +84,43 @@ std::vector<double> as_list(const Constants& constants) {
 
 /// Set number `set` of a list of all sets' numbers, the same in all lanes.
 template <class Material, class T, class View>
-KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all, int set) {
-  return load_each_constant<Material, T>(all, set, std::make_index_sequence<constant_count<Material>>());
+KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all,
+                                                                               int set) {
+  return load_each_constant<Material, T>(all, set,
+                                         std::make_index_sequence<constant_count<Material>>());
 }
 
-/// Those of set `set`, with the directions of fibres at `slot` and behind it, one in each lane, where elements have their own.
+/// Those of set `set`, with the directions of fibres at `slot` and behind it, one in each lane,
+/// where elements have their own.
 template <class Material, class T, class View>
-KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(const View& all, int set,
-                                                                               [[maybe_unused]] const View& fibres,
-                                                                               [[maybe_unused]] int slot) {
+KOKKOS_INLINE_FUNCTION typename Material::template Constants<T> load_constants(
+    const View& all, int set, [[maybe_unused]] const View& fibres, [[maybe_unused]] int slot) {
   auto c = load_constants<Material, T>(all, set);
   if constexpr (requires { c.axis; }) {
     if (fibres.extent(0) == 0) return c;
     for (int k = 0; k < 6; ++k)
-      for (int l = 0; l < LaneOf<T>::count; ++l) set_lane(c.axis[k / 3][k % 3], l, fibres((slot + l) * 6 + k));
+      for (int l = 0; l < LaneOf<T>::count; ++l)
+        set_lane(c.axis[k / 3][k % 3], l, fibres((slot + l) * 6 + k));
   }
   return c;
 }
 
-/// The true stress sigma = P F^T / J [Pa]. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 5.45a.
+/// The true stress sigma = P F^T / J [Pa]. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd
+/// ed., eq. 5.45a.
 template <class Material, class T>
-KOKKOS_INLINE_FUNCTION Mat3<T> cauchy_stress(const Mat3<T>& F, const typename Material::template Constants<T>& c) {
+KOKKOS_INLINE_FUNCTION Mat3<T> cauchy_stress(const Mat3<T>& F,
+                                             const typename Material::template Constants<T>& c) {
   return (T(1) / determinant(F)) * (Material::stress(F, c) * transpose(F));
 }
 
-/// von Mises' equivalent stress sqrt(3/2 s : s), s the deviator [Pa]; of the symmetric part, since a law for small strains
-/// gives a symmetric Cauchy stress to first order only.
+/// von Mises' equivalent stress sqrt(3/2 s : s), s the deviator [Pa]; of the symmetric part, since
+/// a law for small strains gives a symmetric Cauchy stress to first order only.
 template <class T>
 KOKKOS_INLINE_FUNCTION T von_mises(const Mat3<T>& sigma) {
-  const T x = sigma[0][0] - sigma[1][1], y = sigma[1][1] - sigma[2][2], z = sigma[2][2] - sigma[0][0];
-  const T xy = sigma[0][1] + sigma[1][0], yz = sigma[1][2] + sigma[2][1], zx = sigma[2][0] + sigma[0][2];
+  const T x = sigma[0][0] - sigma[1][1], y = sigma[1][1] - sigma[2][2],
+          z = sigma[2][2] - sigma[0][0];
+  const T xy = sigma[0][1] + sigma[1][0], yz = sigma[1][2] + sigma[2][1],
+          zx = sigma[2][0] + sigma[0][2];
   return sqrt(T(0.5f) * (x * x + y * y + z * z) + T(0.75f) * (xy * xy + yz * yz + zx * zx));
 }
 

@@ -4,7 +4,8 @@
 
 namespace plica {
 
-/// W = c10 (I1 - 3) + c01 (I2 - 3). Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics, eq. 6.128.
+/// W = c10 (I1 - 3) + c01 (I2 - 3). Mooney 1940, Rivlin 1948; Holzapfel, Nonlinear Solid Mechanics,
+/// eq. 6.128.
 struct MooneyRivlin : InvariantLaw<MooneyRivlin> {
   static constexpr const char* name = "mooney_rivlin";
   static constexpr const char* summary = "rubber-like, large strains: c10 (I1 - 3) + c01 (I2 - 3)";
@@ -14,7 +15,8 @@ struct MooneyRivlin : InvariantLaw<MooneyRivlin> {
   }
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION OfInvariants<T> of_invariants(const T& x, const T& y, const IsochoricConstants<T>& c) {
+  static KOKKOS_INLINE_FUNCTION OfInvariants<T> of_invariants(const T& x, const T& y,
+                                                              const IsochoricConstants<T>& c) {
     const T zero = T(0);
     return {c.own[0] * x + c.own[1] * y, c.own[0], c.own[1], zero, zero, zero};
   }

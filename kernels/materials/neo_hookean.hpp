@@ -5,10 +5,12 @@
 
 namespace plica {
 
-/// Psi = kappa/4 (J^2 - 1 - 2 ln J) + mu/2 (J^(-2/3) I - 3), I = tr(F^T F), kappa = lambda + 2 mu/3.
-/// Simo & Hughes, Computational Inelasticity, eq. 9.2.6. That is infinite at J = 0; below J0 = 0.1 it goes on as volume_ratio.hpp says.
-/// dPsi/dJ stays below 0 down to any inversion: elements are pushed back, and with the term at F = 0 no state but rotations is a
-/// minimum: along F = r 1, r^3 < J0, the energy falls with r, which takes a factor of 10.7/2 at least; inverted r 1 may be saddles.
+/// Psi = kappa/4 (J^2 - 1 - 2 ln J) + mu/2 (J^(-2/3) I - 3), I = tr(F^T F), kappa = lambda + 2
+/// mu/3. Simo & Hughes, Computational Inelasticity, eq. 9.2.6. That is infinite at J = 0; below J0
+/// = 0.1 it goes on as volume_ratio.hpp says. dPsi/dJ stays below 0 down to any inversion: elements
+/// are pushed back, and with the term at F = 0 no state but rotations is a minimum: along F = r 1,
+/// r^3 < J0, the energy falls with r, which takes a factor of 10.7/2 at least; inverted r 1 may be
+/// saddles.
 ///
 /// Kernels, with s and w of volume_ratio.hpp and H = cof F: P = A F + g H,
 ///   A = 2 dPsi/dI = mu (R - 12 J0^(-2/3) (1 - I/I0)_+^2),   R for J^(-2/3)
@@ -16,7 +18,8 @@ namespace plica {
 struct NeoHookean : TwoConstants {
   static constexpr const char* name = "neo_hookean";
   static constexpr const char* summary =
-      "compressible, large strains; stiffens without bound, inverted elements are pushed back where they are allowed";
+      "compressible, large strains; stiffens without bound, inverted elements are pushed back "
+      "where they are allowed";
   static constexpr bool rotation_invariant = true;
   static constexpr bool survives_inversion = true;
   static constexpr bool recovers = true;
@@ -42,7 +45,9 @@ struct NeoHookean : TwoConstants {
     explicit KOKKOS_INLINE_FUNCTION Terms(const Mat3<T>& F) : Terms(F, cofactor(F)) {}
     KOKKOS_INLINE_FUNCTION Terms(const Mat3<T>& F, const Mat3<T>& cof)
         : VolumeRatio<T>(dot(F[0], cof[0])), H(cof), I(inner(F, F)), crushed(I) {}
-    KOKKOS_INLINE_FUNCTION T A(const T& mu) const { return mu * (this->factor() - crushed.stress()); }
+    KOKKOS_INLINE_FUNCTION T A(const T& mu) const {
+      return mu * (this->factor() - crushed.stress());
+    }
     /// dA/dJ
     KOKKOS_INLINE_FUNCTION T A_J(const T& mu) const { return mu * this->factor_slope(); }
   };
@@ -51,7 +56,8 @@ struct NeoHookean : TwoConstants {
   static KOKKOS_INLINE_FUNCTION T energy(const Mat3<T>& F, const Lame<T>& c) {
     const Terms<T> t(F);
     const T volume = t.J * t.J - T(1) - T(2) * t.log_ratio();
-    return T(0.25f) * bulk(c) * volume + c.mu * (T(0.5f) * (t.factor() * t.I - T(3)) + t.crushed.energy());
+    return T(0.25f) * bulk(c) * volume +
+           c.mu * (T(0.5f) * (t.factor() * t.I - T(3)) + t.crushed.energy());
   }
 
   template <class T>
@@ -75,7 +81,8 @@ struct NeoHookean : TwoConstants {
     }
     KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
       const T dJ = inner(H, dF), along = inner(F, dF);
-      return A * dF + (A_J * dJ + A_I * along) * F + g * cofactor_change(F, dF) + (g_J * dJ + A_J * along) * H;
+      return A * dF + (A_J * dJ + A_I * along) * F + g * cofactor_change(F, dF) +
+             (g_J * dJ + A_J * along) * H;
     }
     struct Corner {
       Vec3<T> g, f, h;  // with F and H
@@ -90,7 +97,8 @@ struct NeoHookean : TwoConstants {
   };
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF,
+                                                      const Lame<T>& c) {
     return Tangent<T>(F, c)(dF);
   }
 };

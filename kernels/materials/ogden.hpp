@@ -6,13 +6,15 @@
 
 namespace plica {
 
-/// W = sum over terms of c_p (l1^alpha_p + l2^alpha_p + l3^alpha_p - 3) of the isochoric principal stretches l, l^2 the eigenvalues of C,
-/// up to six terms. Ogden, Proc. R. Soc. A 326, 1972. Of mu there are three conventions, see cmake/docs/materials.md: c = mu/alpha^2,
-/// mu/alpha or 2 mu/alpha^2. Beyond stretches of 1/10 and 10 the powers of l^2 go on by their Taylor polynomial of second order.
-/// A power below 0 is a wall that flattened elements do not come back through.
+/// W = sum over terms of c_p (l1^alpha_p + l2^alpha_p + l3^alpha_p - 3) of the isochoric principal
+/// stretches l, l^2 the eigenvalues of C, up to six terms. Ogden, Proc. R. Soc. A 326, 1972. Of mu
+/// there are three conventions, see cmake/docs/materials.md: c = mu/alpha^2, mu/alpha or 2
+/// mu/alpha^2. Beyond stretches of 1/10 and 10 the powers of l^2 go on by their Taylor polynomial
+/// of second order. A power below 0 is a wall that flattened elements do not come back through.
 struct Ogden : Isochoric<Ogden> {
   static constexpr const char* name = "ogden";
-  static constexpr const char* summary = "powers of the principal stretches, up to six terms; brain, liver, rubber";
+  static constexpr const char* summary =
+      "powers of the principal stretches, up to six terms; brain, liver, rubber";
   static constexpr bool recovers = false;
   static constexpr bool has_terms = true;
   static constexpr int most_terms = TissueSettings::most_terms;
@@ -67,7 +69,8 @@ struct Ogden : Isochoric<Ogden> {
       T slope = T(0.5f) * (w[i].second + w[j].second);
       for (int l = 0; l < LaneOf<T>::count; ++l) {
         const Real g = lane(gap, l), close = closest<Real>() * (lane(x[i], l) + lane(x[j], l));
-        if (g > close || g < -close) set_lane(slope, l, (lane(w[i].first, l) - lane(w[j].first, l)) / g);
+        if (g > close || g < -close)
+          set_lane(slope, l, (lane(w[i].first, l) - lane(w[j].first, l)) / g);
       }
       return slope;
     }
@@ -84,7 +87,8 @@ struct Ogden : Isochoric<Ogden> {
     return s.w[0].value + s.w[1].value + s.w[2].value;
   }
   template <class T, class To>
-  static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c, To& to) {
+  static KOKKOS_INLINE_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c,
+                                             To& to) {
     const Spectrum<T> s(C, c);
     for (int i = 0; i < 3; ++i) {
       const Mat3<T> M = outer(s.axis[i], s.axis[i]);

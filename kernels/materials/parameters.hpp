@@ -10,17 +10,27 @@ namespace parameter {
 inline constexpr MaterialParameter young_modulus{
     "young_modulus", {keys::pressure, keys::positive}, "stiffness E", 20e3};
 inline constexpr MaterialParameter poisson_ratio{
-    "poisson_ratio", {keys::plain, {.min = 0, .max = 0.5, .max_excluded = true}}, "lateral contraction nu", 0.4};
+    "poisson_ratio",
+    {keys::plain, {.min = 0, .max = 0.5, .max_excluded = true}},
+    "lateral contraction nu",
+    0.4};
 // Those that several laws of tissue have.
-inline constexpr MaterialParameter bulk_modulus{"bulk_modulus",
-                                                {keys::pressure, keys::positive},
-                                                "of laws of tissue: kappa, stiffness of the volume at rest",
-                                                33e3};
-inline constexpr MaterialParameter mu{
-    "mu", {keys::pressure, keys::positive}, "shear stiffness; of fibrous laws that of the matrix", 5e3};
+inline constexpr MaterialParameter bulk_modulus{
+    "bulk_modulus",
+    {keys::pressure, keys::positive},
+    "of laws of tissue: kappa, stiffness of the volume at rest",
+    33e3};
+inline constexpr MaterialParameter mu{"mu",
+                                      {keys::pressure, keys::positive},
+                                      "shear stiffness; of fibrous laws that of the matrix",
+                                      5e3};
 inline constexpr MaterialParameter c10{
-    "c10", {keys::pressure}, "of mooney_rivlin and polynomial: times I1 - 3; 2 (c10 + c01) is mu at rest", 2.5e3};
-inline constexpr MaterialParameter c01{"c01", {keys::pressure}, "of mooney_rivlin and polynomial: times I2 - 3", 1e3};
+    "c10",
+    {keys::pressure},
+    "of mooney_rivlin and polynomial: times I1 - 3; 2 (c10 + c01) is mu at rest",
+    2.5e3};
+inline constexpr MaterialParameter c01{
+    "c01", {keys::pressure}, "of mooney_rivlin and polynomial: times I2 - 3", 1e3};
 }  // namespace parameter
 
 /// What laws of tissue get beside their parameters, behind them.

@@ -11,7 +11,8 @@ struct Mat9 {
   T a[9][9];
 };
 
-/// Whether A + shift I is positive definite in every lane: Cholesky's method meets positive pivots only.
+/// Whether A + shift I is positive definite in every lane: Cholesky's method meets positive pivots
+/// only.
 template <class T>
 KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) {
   T L[9][9];
@@ -29,7 +30,8 @@ KOKKOS_INLINE_FUNCTION bool positive_definite(const Mat9<T>& A, const T& shift) 
   return true;
 }
 
-/// Drops what belongs to negative eigenvalues: A = V diag V^T, then A = the sum of max(diag, 0) v v^T.
+/// Drops what belongs to negative eigenvalues: A = V diag V^T, then A = the sum of max(diag, 0) v
+/// v^T.
 template <class T>
 KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A) {
   Mat9<T> V;
@@ -44,8 +46,9 @@ KOKKOS_INLINE_FUNCTION void clamp_eigenvalues(Mat9<T>& A) {
     }
 }
 
-/// A material's dP/dF projected to positive semi-definite, per element (Teran, Sifakis, Irving & Fedkiw 2005), by numbers: it fits any
-/// material. Packs of elements that are positive semi-definite to rounding keep it as it is.
+/// A material's dP/dF projected to positive semi-definite, per element (Teran, Sifakis, Irving &
+/// Fedkiw 2005), by numbers: it fits any material. Packs of elements that are positive
+/// semi-definite to rounding keep it as it is.
 template <class Material>
 struct PositiveTangent {
   template <class T>
@@ -64,7 +67,8 @@ struct PositiveTangent {
       for (int i = 0; i < 9; ++i)
         for (int j = 0; j < i; ++j) C.a[i][j] = C.a[j][i] = T(0.5f) * (C.a[i][j] + C.a[j][i]);
       using Real = typename LaneOf<T>::type;
-      if (!positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>) * size)) clamp_eigenvalues(C);
+      if (!positive_definite(C, T(16 * Kokkos::Experimental::epsilon_v<Real>) * size))
+        clamp_eigenvalues(C);
     }
     KOKKOS_INLINE_FUNCTION Mat3<T> operator()(const Mat3<T>& dF) const {
       Mat3<T> dP;
@@ -80,10 +84,13 @@ struct PositiveTangent {
       Corner made{g, {}};
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 9; ++i)
-          made.dP[k][i / 3][i % 3] = C.a[i][3 * k] * g[0] + C.a[i][3 * k + 1] * g[1] + C.a[i][3 * k + 2] * g[2];
+          made.dP[k][i / 3][i % 3] =
+              C.a[i][3 * k] * g[0] + C.a[i][3 * k + 1] * g[1] + C.a[i][3 * k + 2] * g[2];
       return made;
     }
-    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const { return q.block(p); }
+    KOKKOS_INLINE_FUNCTION Mat3<T> block(const Corner& p, const Corner& q) const {
+      return q.block(p);
+    }
   };
 };
 

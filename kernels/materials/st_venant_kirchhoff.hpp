@@ -4,9 +4,9 @@
 
 namespace plica {
 
-/// Psi = mu E:E + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I)/2; P = F S, S = 2 mu E + lambda tr(E) I.
-/// Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 6.28. Softens in compression and has no barrier
-/// against inversion.
+/// Psi = mu E:E + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I)/2; P = F S, S = 2 mu E +
+/// lambda tr(E) I. Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 2nd ed., eq. 6.28. Softens
+/// in compression and has no barrier against inversion.
 struct StVenantKirchhoff : TwoConstants {
   static constexpr const char* name = "st_venant_kirchhoff";
   static constexpr const char* summary =
@@ -56,14 +56,15 @@ struct StVenantKirchhoff : TwoConstants {
       Mat3<T> K = Mat3<T>::diagonal(dot(p.g, q.s));
       const T w = c.mu * dot(p.g, q.g);
       for (int i = 0; i < 3; ++i)
-        K[i] +=
-            (c.lambda * p.f[i]) * q.f + (c.mu * q.f[i]) * p.f + Vec3<T>{w * FFt[i][0], w * FFt[i][1], w * FFt[i][2]};
+        K[i] += (c.lambda * p.f[i]) * q.f + (c.mu * q.f[i]) * p.f +
+                Vec3<T>{w * FFt[i][0], w * FFt[i][1], w * FFt[i][2]};
       return K;
     }
   };
 
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF, const Lame<T>& c) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>& dF,
+                                                      const Lame<T>& c) {
     return Tangent<T>(F, c)(dF);
   }
 };

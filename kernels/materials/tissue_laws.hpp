@@ -23,23 +23,27 @@ KOKKOS_INLINE_FUNCTION void with_law(TypeList<Laws...>, int place, const F& f) {
   (void)((place-- == 0 ? (f(Laws{}), true) : false) || ...);
 }
 
-/// Any of them: which one is a number among the constants, the same in all lanes. So their kernels are compiled once, and the laws
-/// once for all kernels.
+/// Any of them: which one is a number among the constants, the same in all lanes. So their kernels
+/// are compiled once, and the laws once for all kernels.
 struct TissueLaws : Isochoric<TissueLaws> {
   template <class T>
-  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION T isochoric(const Mat3<T>& C, const IsochoricConstants<T>& c) {
+  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION T isochoric(const Mat3<T>& C,
+                                                              const IsochoricConstants<T>& c) {
     T W = T(0);
-    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)), [&](auto law) { W = decltype(law)::isochoric(C, c); });
+    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)),
+             [&](auto law) { W = decltype(law)::isochoric(C, c); });
     return W;
   }
   template <class T, class To>
-  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION void respond(const Mat3<T>& C, const IsochoricConstants<T>& c,
+  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION void respond(const Mat3<T>& C,
+                                                               const IsochoricConstants<T>& c,
                                                                To& to) {
-    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)), [&](auto law) { decltype(law)::respond(C, c, to); });
+    with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)),
+             [&](auto law) { decltype(law)::respond(C, c, to); });
   }
   template <class T>
-  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION Mat3<T> shape_at_rest(const Mat3<T>& e,
-                                                                        const IsochoricConstants<T>& c) {
+  PLICA_CALL PLICA_FLATTEN static KOKKOS_FUNCTION Mat3<T> shape_at_rest(
+      const Mat3<T>& e, const IsochoricConstants<T>& c) {
     Mat3<T> S;
     with_law(IsochoricLaws{}, static_cast<int>(lane(c.law, 0)),
              [&](auto law) { S = decltype(law)::shape_at_rest(e, c); });

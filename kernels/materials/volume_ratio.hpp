@@ -5,8 +5,9 @@
 
 namespace plica {
 
-/// J = det F as laws with a barrier at J = 0 take it: ln J and J^(-2/3) with their derivatives, which below J0 = 0.1 go on, twice
-/// continuously differentiable and finite, with s = (J0 - J)/J0 and h = s^2/(1 + s):
+/// J = det F as laws with a barrier at J = 0 take it: ln J and J^(-2/3) with their derivatives,
+/// which below J0 = 0.1 go on, twice continuously differentiable and finite, with s = (J0 - J)/J0
+/// and h = s^2/(1 + s):
 ///   ln J      ->  ln J0 - s - h/2                    (to second order their Taylor polynomials about J0, to first order far away:
 ///   J^(-2/3)  ->  J0^(-2/3) (1 + 2/3 s + 5/9 h)      a pull that stays bounded, as Irving, Teran & Fedkiw 2004 have)
 /// In kernels: J_c = max(J, J0), s = (J_c - J)/J0, w = 1/(1 + s), so that above J0 s = 0 and w = 1.
@@ -27,29 +28,36 @@ struct VolumeRatio {
     r2 = r * r, inverse = (T(1) + s) * part, w = kept * part;
   }
   /// R, for J^(-2/3); dR/dJ; d2R/dJ2.
-  KOKKOS_INLINE_FUNCTION T factor() const { return r2 * (T(1) + s * (T(Real(2.0 / 3)) + T(Real(5.0 / 9)) * s * w)); }
+  KOKKOS_INLINE_FUNCTION T factor() const {
+    return r2 * (T(1) + s * (T(Real(2.0 / 3)) + T(Real(5.0 / 9)) * s * w));
+  }
   KOKKOS_INLINE_FUNCTION T factor_slope() const {
     return r2 * inverse * (T(Real(5.0 / 9)) * w * w - T(Real(11.0 / 9)));
   }
   KOKKOS_INLINE_FUNCTION T factor_bend() const { return T(Real(10.0 / 9)) * r2 * square(); }
   /// L, for ln J; dL/dJ; -d2L/dJ2.
-  KOKKOS_INLINE_FUNCTION T log_ratio() const { return -log(inverse) - s * (T(1) + T(0.5f) * s * w); }
+  KOKKOS_INLINE_FUNCTION T log_ratio() const {
+    return -log(inverse) - s * (T(1) + T(0.5f) * s * w);
+  }
   KOKKOS_INLINE_FUNCTION T slope() const { return inverse * (T(1.5f) - T(0.5f) * w * w); }
   KOKKOS_INLINE_FUNCTION T square() const { return inverse * inverse * w * w * w; }
 };
 
-/// Psi + 6 mu (1 - I/I0)^3 where I = |F|^2 < I0 = 3 J0^(2/3), which J < J0 follows from (I >= 3 |J|^(2/3)): without it F = 0 would be
-/// a dip that collapsed elements stay in (Smith, de Goes & Kim 2018 on degenerate states). Its stress is -mu stress() F.
+/// Psi + 6 mu (1 - I/I0)^3 where I = |F|^2 < I0 = 3 J0^(2/3), which J < J0 follows from (I >= 3
+/// |J|^(2/3)): without it F = 0 would be a dip that collapsed elements stay in (Smith, de Goes &
+/// Kim 2018 on degenerate states). Its stress is -mu stress() F.
 template <class T>
 struct CrushedTerm {
   using Real = typename LaneOf<T>::type;
   static constexpr double smallest = 0.6463304070095654;  ///< I0
   static constexpr double bump = 55.69906600335334;       ///< 36 / I0
   T close;                                                ///< (1 - I/I0)_+
-  explicit KOKKOS_INLINE_FUNCTION CrushedTerm(const T& I) : close(max(T(1) - T(Real(1 / smallest)) * I, T(0))) {}
+  explicit KOKKOS_INLINE_FUNCTION CrushedTerm(const T& I)
+      : close(max(T(1) - T(Real(1 / smallest)) * I, T(0))) {}
   KOKKOS_INLINE_FUNCTION T energy() const { return T(6) * close * close * close; }
   KOKKOS_INLINE_FUNCTION T stress() const { return T(Real(bump)) * close * close; }
-  KOKKOS_INLINE_FUNCTION T stiffness() const { return T(Real(4 * bump / smallest)) * close; }  ///< of F:dF
+  /// of F:dF
+  KOKKOS_INLINE_FUNCTION T stiffness() const { return T(Real(4 * bump / smallest)) * close; }
 };
 
 }  // namespace plica

@@ -14,10 +14,12 @@ struct StiffnessProduct {
   Vectors<B> partial, x, y;
   KOKKOS_INLINE_FUNCTION Sums<1> operator()(int a) const {
     const bool moves = model.inverse_mass(a) > 0;
-    const Vec3<Real> product = moves ? Real(-1) * sum_of_shares<B>(model.shares, partial, a) : Vec3<Real>{};
+    const Vec3<Real> product =
+        moves ? Real(-1) * sum_of_shares<B>(model.shares, partial, a) : Vec3<Real>{};
     set_vector<B>(y, a, product);
     double dot = 0;
-    for (int k = 0; k < 3; ++k) dot += static_cast<double>(x(a, k)) * static_cast<double>(product[k]);
+    for (int k = 0; k < 3; ++k)
+      dot += static_cast<double>(x(a, k)) * static_cast<double>(product[k]);
     return {{dot}};
   }
 };
@@ -27,7 +29,9 @@ template <class B>
 struct MultiplyByInverseMass {
   Scalars<B> inverse_mass;
   Vectors<B> x, w;
-  KOKKOS_INLINE_FUNCTION void operator()(int a) const { set_vector<B>(w, a, inverse_mass(a) * vector_at<B>(x, a)); }
+  KOKKOS_INLINE_FUNCTION void operator()(int a) const {
+    set_vector<B>(w, a, inverse_mass(a) * vector_at<B>(x, a));
+  }
 };
 
 /// w = scale w - alpha v - beta before

@@ -39,7 +39,8 @@ class MeditParser {
 
   RawMesh parse() {
     while (!ended_ && (pending_ || lines_.next())) section();
-    if (dimension_ == 0 || raw_.vertices.empty()) lines_.expected(dimension_ == 0 ? "Dimension 3" : "Vertices");
+    if (dimension_ == 0 || raw_.vertices.empty())
+      lines_.expected(dimension_ == 0 ? "Dimension 3" : "Vertices");
     for (auto& [key, group] : groups_) {
       group.name = name_of(key.second), group.dimension = key.first, group.tag = key.second;
       raw_.groups.push_back(std::move(group));
@@ -73,7 +74,8 @@ class MeditParser {
 
   void dimension() {
     dimension_ = numbers_->integer(integer, "the dimension");
-    if (dimension_ != 3) numbers_->fail("the dimension is " + std::to_string(dimension_) + "; it must be 3");
+    if (dimension_ != 3)
+      numbers_->fail("the dimension is " + std::to_string(dimension_) + "; it must be 3");
   }
 
   void vertices(const std::string& keyword) {
@@ -92,14 +94,16 @@ class MeditParser {
   }
 
   void rows(const ElementKind& kind, const std::string& keyword) {
-    const std::int64_t count = numbers_->count(integer, "the number of " + keyword, integer, kind.vertices + 1);
+    const std::int64_t count =
+        numbers_->count(integer, "the number of " + keyword, integer, kind.vertices + 1);
     std::vector<std::int64_t> row(static_cast<std::size_t>(kind.vertices));
     for (std::int64_t i = 1; i <= count; ++i) {
       for (std::int64_t& v : row) v = numbers_->integer(integer, "a vertex of an element");
       const Place place = numbers_->place();
       const std::int64_t reference = numbers_->integer(integer, "the reference of an element");
       regions_.insert(regions_.end(), add_element(kind, i, row, place, raw_, report_), reference);
-      if (kind.dimension < 3 && reference != 0) add_to_group(kind, i, row, place, groups_[{kind.dimension, reference}]);
+      if (kind.dimension < 3 && reference != 0)
+        add_to_group(kind, i, row, place, groups_[{kind.dimension, reference}]);
     }
     numbers_->end("the " + keyword);
   }
@@ -116,16 +120,20 @@ class MeditParser {
   RawMesh raw_;
   std::optional<TextNumbers> numbers_;
   std::int64_t dimension_ = 0;
-  bool ended_ = false, pending_ = false;  // pending: the current line is a keyword that is not read yet
-  std::vector<std::int64_t> regions_;     // per tetrahedron
+  // pending: the current line is a keyword that is not read yet
+  bool ended_ = false, pending_ = false;
+  std::vector<std::int64_t> regions_;  // per tetrahedron
   std::map<std::pair<int, std::int64_t>, RawGroup> groups_;
 };
 
 }  // namespace
 
-RawMesh parse_medit(const MemoryFile& file, MeshReport& report) { return MeditParser(file, report).parse(); }
+RawMesh parse_medit(const MemoryFile& file, MeshReport& report) {
+  return MeditParser(file, report).parse();
+}
 
-WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh,
+                        const MeshGroups& groups) {
   WrittenMesh written;
   leave_out_region_names(mesh, groups, "reference_", written);
   const std::vector<std::int64_t> regions = region_numbers(mesh, groups);
@@ -156,9 +164,11 @@ WrittenMesh write_medit(const std::filesystem::path& path, const TetMesh& mesh, 
   for (const ElementGroup& set : sets) {
     const std::string now = name_of(set.tag);
     if (set.dimension == 0)
-      written.left_out.push_back("the vertex set '" + set.name + "' is left out: this format has none of points");
+      written.left_out.push_back("the vertex set '" + set.name +
+                                 "' is left out: this format has none of points");
     else if (set.name != now)
-      written.left_out.push_back("the vertex set '" + set.name + "' is now '" + now + "', as this format numbers them");
+      written.left_out.push_back("the vertex set '" + set.name + "' is now '" + now +
+                                 "', as this format numbers them");
   }
   written.files = {{path.string(), out.take()}};
   return written;

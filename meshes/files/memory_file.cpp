@@ -31,7 +31,9 @@ MemoryFile load_file(const std::filesystem::path& path) {
     refuse(file.name, {}, "is a pipe or a device, not a file");
   errno = error.value();
   std::ifstream in(path, std::ios::binary);
-  if (!in) refuse(path_shown(file.name), {}, "cannot be opened: " + std::generic_category().message(errno));
+  if (!in)
+    refuse(path_shown(file.name), {},
+           "cannot be opened: " + std::generic_category().message(errno));
   file.bytes.assign(std::istreambuf_iterator<char>(in), {});
   if (in.bad()) refuse(file.name, {}, "cannot be read: " + std::generic_category().message(errno));
   return file;
@@ -43,8 +45,10 @@ std::string to_text(const Place& place) {
 }
 
 void refuse(const std::string& file, const Place& place, const std::string& message) {
-  if (place.line > std::numeric_limits<int>::max()) throw InputError(to_text(place) + ": " + message, {file});
-  if (place.line > 0 || place.byte < 0) throw InputError(message, {file, static_cast<int>(place.line)});
+  if (place.line > std::numeric_limits<int>::max())
+    throw InputError(to_text(place) + ": " + message, {file});
+  if (place.line > 0 || place.byte < 0)
+    throw InputError(message, {file, static_cast<int>(place.line)});
   throw InputError("byte " + std::to_string(place.byte) + ": " + message, {file});
 }
 
@@ -76,13 +80,14 @@ std::optional<std::string> by_lz4(std::string_view block, std::size_t size) {
   constexpr std::size_t most = std::numeric_limits<int>::max();
   if (size > most || block.size() > most) return {};
   std::string bytes(size, '\0');
-  const int length =
-      LZ4_decompress_safe(block.data(), bytes.data(), static_cast<int>(block.size()), static_cast<int>(size));
+  const int length = LZ4_decompress_safe(block.data(), bytes.data(), static_cast<int>(block.size()),
+                                         static_cast<int>(size));
   if (length < 0 || static_cast<std::size_t>(length) != size) return {};
   return bytes;
 }
 
-constexpr Compressor compressors[] = {{"vtkZLibDataCompressor", 1100, by_zlib}, {"vtkLZ4DataCompressor", 260, by_lz4}};
+constexpr Compressor compressors[] = {{"vtkZLibDataCompressor", 1100, by_zlib},
+                                      {"vtkLZ4DataCompressor", 260, by_lz4}};
 
 }  // namespace
 
@@ -94,7 +99,8 @@ const Compressor* find_compressor(std::string_view name) {
 
 std::string compressor_names() {
   std::string names;
-  for (const Compressor& one : compressors) names += (names.empty() ? "" : " and ") + std::string(one.name);
+  for (const Compressor& one : compressors)
+    names += (names.empty() ? "" : " and ") + std::string(one.name);
   return names;
 }
 

@@ -16,7 +16,8 @@ struct MemoryFile {
   std::string bytes;
 };
 
-/// Reads all of it; InputError with the system's reason when that cannot be, and for folders, pipes and devices.
+/// Reads all of it; InputError with the system's reason when that cannot be, and for folders, pipes
+/// and devices.
 MemoryFile load_file(const std::filesystem::path& path);
 
 /// Where in a file something stands: on a line, or, where a file is binary, at a byte.
@@ -37,15 +38,17 @@ std::string shown(std::string_view input);
 /// The extension of a file without its dot, in lower case.
 std::string extension_of(const std::filesystem::path& path);
 
-/// The format of a list that the extension of a file names; InputError with the choices when none does. Formats have an
-/// `extension`.
+/// The format of a list that the extension of a file names; InputError with the choices when none
+/// does. Formats have an `extension`.
 template <typename Formats>
-const auto& format_of(const std::filesystem::path& path, const Formats& formats, const std::string& kind) {
+const auto& format_of(const std::filesystem::path& path, const Formats& formats,
+                      const std::string& kind) {
   const std::string extension = extension_of(path);
   std::vector<std::string> choices;
   for (const auto& format : formats) {
     if (extension == format.extension) return format;
-    if (choices.empty() || choices.back() != format.extension) choices.emplace_back(format.extension);
+    if (choices.empty() || choices.back() != format.extension)
+      choices.emplace_back(format.extension);
   }
   throw InputError(unknown_name(kind + " file extension", extension, choices), {path.string()});
 }

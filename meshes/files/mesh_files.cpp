@@ -21,7 +21,8 @@ TetMesh read_mesh(const MemoryFile& file, MeshReport* report, Flaws flaws) {
 }
 
 TriangleSurface read_surface(const std::filesystem::path& path, SurfaceReport* report) {
-  format_of(path, surface_formats, "surface");  // a wrong extension is told before the file is looked for
+  // a wrong extension is told before the file is looked for
+  format_of(path, surface_formats, "surface");
   return read_surface(load_file(path), report);
 }
 
@@ -36,7 +37,8 @@ TriangleSurface read_surface(const MemoryFile& file, SurfaceReport* report) {
 
 std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) {
   const auto holds = [](const auto& formats, const std::string& extension) {
-    return std::ranges::any_of(formats, [&](const MeshFormat& format) { return extension == format.extension; });
+    return std::ranges::any_of(
+        formats, [&](const MeshFormat& format) { return extension == format.extension; });
   };
   std::vector<MeshFormat> formats(std::begin(mesh_formats), std::end(mesh_formats));
   for (const MeshFormat& format : surface_formats)
@@ -46,7 +48,8 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) 
   const RawMesh raw = format.parse(load_file(path), report);
   const bool may_be_mesh = holds(mesh_formats, format.extension),
              may_be_surface = holds(surface_formats, format.extension);
-  if (!may_be_mesh || (may_be_surface && raw.tets.empty() && raw.triangles.size() + raw.polygons.size() > 0)) {
+  if (!may_be_mesh ||
+      (may_be_surface && raw.tets.empty() && raw.triangles.size() + raw.polygons.size() > 0)) {
     ReadSurface read;
     read.surface = sound_surface(raw, report, read.report);
     return read;
@@ -58,8 +61,8 @@ std::variant<ReadMesh, ReadSurface> read_any(const std::filesystem::path& path) 
 namespace {
 
 template <class Writers>
-const auto& writer_of(const std::filesystem::path& path, const Writers& writers, const std::string& kind,
-                      const std::string& format, bool binary) {
+const auto& writer_of(const std::filesystem::path& path, const Writers& writers,
+                      const std::string& kind, const std::string& format, bool binary) {
   const std::string_view extension = format_of(path, writers, kind).extension;
   std::vector<std::string> names;
   bool known = false;
@@ -76,13 +79,13 @@ const auto& writer_of(const std::filesystem::path& path, const Writers& writers,
 
 }  // namespace
 
-WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh, const std::string& format, bool binary,
-                       const MeshGroups& groups) {
+WrittenMesh write_mesh(const std::filesystem::path& path, const TetMesh& mesh,
+                       const std::string& format, bool binary, const MeshGroups& groups) {
   return writer_of(path, mesh_writers, "mesh", format, binary).write(path, mesh, groups);
 }
 
-WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface, const std::string& format,
-                          bool binary) {
+WrittenMesh write_surface(const std::filesystem::path& path, const TriangleSurface& surface,
+                          const std::string& format, bool binary) {
   return writer_of(path, surface_writers, "surface", format, binary).write(path, surface);
 }
 

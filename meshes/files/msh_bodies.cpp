@@ -9,20 +9,23 @@ namespace plica {
 void MshGather::add_name(const TextLines& lines) {
   const std::int64_t dimension = lines.integer(0, "the dimension of a physical group");
   if (dimension < 0 || dimension > 3)
-    lines.fail("the dimension of a physical group is " + std::to_string(dimension) + "; it must be 0 to 3");
+    lines.fail("the dimension of a physical group is " + std::to_string(dimension) +
+               "; it must be 0 to 3");
   const Group group(static_cast<int>(dimension), lines.integer(1, "the tag of a physical group"));
   const std::string_view text = lines.text();
   const std::size_t open = text.find('"'), close = text.rfind('"');
-  if (lines.words().size() < 3 || lines.words()[2].front() != '"' || close <= open + 1 || close + 1 != text.size())
+  if (lines.words().size() < 3 || lines.words()[2].front() != '"' || close <= open + 1 ||
+      close + 1 != text.size())
     lines.expected("a dimension, a tag and a name in quotes");
   const std::string name(text.substr(open + 1, close - open - 1));
   const auto taken = names_.find(group);
-  const auto [region, is_new] = group.first == 3 ? regions_.try_emplace(name, group) : std::pair(regions_.end(), true);
+  const auto [region, is_new] =
+      group.first == 3 ? regions_.try_emplace(name, group) : std::pair(regions_.end(), true);
   if (taken != names_.end() || !is_new) {
     const Group other = taken != names_.end() ? group : region->second;
     lines.fail("physical group " + std::to_string(group.second) + " " + shown(name) + ": group " +
-               std::to_string(other.second) + " of dimension " + std::to_string(other.first) + " is " +
-               shown(names_.at(other)) + " already");
+               std::to_string(other.second) + " of dimension " + std::to_string(other.first) +
+               " is " + shown(names_.at(other)) + " already");
   }
   names_[group] = name;
 }
@@ -34,10 +37,12 @@ void MshGather::add_node(std::int64_t tag, Numbers& numbers, const Place& place)
   raw_.vertices.push_back(vertex);
 }
 
-void MshGather::add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> groups,
-                            NumberType node_type, Numbers& numbers, const Place& place) {
+void MshGather::add_element(const ElementKind& kind, std::int64_t tag,
+                            std::span<const std::int64_t> groups, NumberType node_type,
+                            Numbers& numbers, const Place& place) {
   nodes_.clear();
-  for (int k = 0; k < kind.vertices; ++k) nodes_.push_back(numbers.integer(node_type, "a node of an element"));
+  for (int k = 0; k < kind.vertices; ++k)
+    nodes_.push_back(numbers.integer(node_type, "a node of an element"));
   numbers.end(kind.name);
   const std::size_t tets = plica::add_element(kind, tag, nodes_, place, raw_, report_);
   tet_groups_.insert(tet_groups_.end(), tets, groups.empty() ? 0 : groups.front());
@@ -46,7 +51,8 @@ void MshGather::add_element(const ElementKind& kind, std::int64_t tag, std::span
     if (g != 0) add_to_group(kind, tag, nodes_, place, groups_[{kind.dimension, g}]);
 }
 
-void MshGather::add_vectors(const std::string& name, bool of_nodes, std::int64_t count, Numbers& numbers) {
+void MshGather::add_vectors(const std::string& name, bool of_nodes, std::int64_t count,
+                            Numbers& numbers) {
   RawVectors& field = raw_.vectors.emplace_back(RawVectors{name, of_nodes, {}, {}});
   for (std::int64_t i = 1; i <= count; ++i) {
     numbers.begin("vector", i, count);
@@ -73,27 +79,30 @@ RawMesh MshGather::take() {
   return std::move(raw_);
 }
 
-const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who, const Numbers& numbers) {
+const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who,
+                                 const Numbers& numbers) {
   return taken_kind(msh_elements, type, who, numbers.file(), numbers.place());
 }
 
 std::int64_t msh_tag(NumberType type, std::string_view what, Numbers& numbers) {
   const std::int64_t tag = numbers.integer(type, what);
-  if (tag < 1) numbers.fail(std::string(what) + " is " + std::to_string(tag) + "; it must be 1 or more");
+  if (tag < 1)
+    numbers.fail(std::string(what) + " is " + std::to_string(tag) + "; it must be 1 or more");
   return tag;
 }
 
 std::int64_t physical_tag(Numbers& numbers) {
   const std::int64_t tag = numbers.integer(NumberType::int32, "the physical group of an element");
   if (std::max(tag, -1 - tag) > std::numeric_limits<int>::max())
-    numbers.fail("the physical group of an element is " + std::to_string(tag) + "; it must fit 32 bits");
+    numbers.fail("the physical group of an element is " + std::to_string(tag) +
+                 "; it must fit 32 bits");
   return std::abs(tag);
 }
 
 namespace {
 
-void read_element(const ElementKind& kind, std::int64_t tag, std::int64_t tags, const Place& place, Numbers& numbers,
-                  MshGather& gather) {
+void read_element(const ElementKind& kind, std::int64_t tag, std::int64_t tags, const Place& place,
+                  Numbers& numbers, MshGather& gather) {
   const std::int64_t group = tags > 0 ? physical_tag(numbers) : 0;
   for (std::int64_t t = 1; t < tags; ++t) numbers.integer(NumberType::int32, "a tag of an element");
   gather.add_element(kind, tag, {&group, 1}, NumberType::int32, numbers, place);
@@ -121,12 +130,14 @@ void msh1_elements(std::int64_t count, Numbers& numbers, MshGather& gather) {
     const std::int64_t tag = numbers.integer(type, "the tag of an element");
     const Place place = numbers.place();
     const auto who = [&] { return "element " + std::to_string(tag); };
-    const ElementKind& kind = taken_element(numbers.integer(type, "the type of an element"), who, numbers);
+    const ElementKind& kind =
+        taken_element(numbers.integer(type, "the type of an element"), who, numbers);
     const std::int64_t group = physical_tag(numbers);
     numbers.integer(type, "the elementary group of an element");
-    if (const std::int64_t nodes = numbers.integer(type, "the number of nodes of an element"); nodes != kind.vertices)
-      numbers.fail(who() + ", a " + kind.name + ", has " + std::to_string(nodes) + " nodes; expected " +
-                   std::to_string(kind.vertices));
+    if (const std::int64_t nodes = numbers.integer(type, "the number of nodes of an element");
+        nodes != kind.vertices)
+      numbers.fail(who() + ", a " + kind.name + ", has " + std::to_string(nodes) +
+                   " nodes; expected " + std::to_string(kind.vertices));
     gather.add_element(kind, tag, {&group, 1}, type, numbers, place);
   }
 }
@@ -138,7 +149,9 @@ void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather&
     std::int64_t tag = binary ? 0 : numbers.integer(type, "the tag of an element");
     const Place place = numbers.place();
     const std::int64_t code = numbers.integer(type, "the type of an element");
-    const auto who = [&] { return binary ? "a block of elements" : "element " + std::to_string(tag); };
+    const auto who = [&] {
+      return binary ? "a block of elements" : "element " + std::to_string(tag);
+    };
     const ElementKind& kind = taken_element(code, who, numbers);
     if (!binary) {
       read_element(kind, tag, read_tags(numbers), place, numbers, gather);
@@ -147,8 +160,9 @@ void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather&
     }
     const std::int64_t block = numbers.integer(type, "the number of elements of a block");
     if (block < 1 || block > count - done)
-      numbers.fail("the number of elements of a block is " + std::to_string(block) + "; it must be 1 to " +
-                   std::to_string(count - done) + ", as there are " + std::to_string(count) + " in all");
+      numbers.fail("the number of elements of a block is " + std::to_string(block) +
+                   "; it must be 1 to " + std::to_string(count - done) + ", as there are " +
+                   std::to_string(count) + " in all");
     const std::int64_t tags = read_tags(numbers);
     for (std::int64_t i = 0; i < block; ++i, ++done) {
       tag = numbers.integer(type, "the tag of an element");
@@ -166,11 +180,13 @@ constexpr const char* dimension_names[] = {"point", "curve", "surface", "volume"
 std::int64_t read_dimension(Numbers& numbers) {
   const std::int64_t dimension = numbers.integer(tag_type, "the dimension of an entity");
   if (dimension < 0 || dimension > 3)
-    numbers.fail("the dimension of an entity is " + std::to_string(dimension) + "; it must be 0 to 3");
+    numbers.fail("the dimension of an entity is " + std::to_string(dimension) +
+                 "; it must be 0 to 3");
   return dimension;
 }
 
-// Blocks and what they hold: their number, that of all nodes or elements, the smallest and largest tag
+// Blocks and what they hold: their number, that of all nodes or elements, the smallest and largest
+// tag
 struct Blocks {
   std::int64_t blocks = 0, total = 0;
 };
@@ -185,17 +201,21 @@ Blocks read_blocks(const std::string& what, std::int64_t fewest, Numbers& number
 }
 
 // Of a block, after which `done` are read
-std::int64_t read_size(const std::string& what, std::int64_t done, const Blocks& all, Numbers& numbers) {
+std::int64_t read_size(const std::string& what, std::int64_t done, const Blocks& all,
+                       Numbers& numbers) {
   const std::int64_t size = numbers.integer(size_type, "the number of " + what + " of a block");
   if (size < 0 || size > all.total - done)
-    numbers.fail("the number of " + what + " of a block is " + std::to_string(size) + "; it must be 0 to " +
-                 std::to_string(all.total - done) + ", as there are " + std::to_string(all.total) + " in all");
+    numbers.fail("the number of " + what + " of a block is " + std::to_string(size) +
+                 "; it must be 0 to " + std::to_string(all.total - done) + ", as there are " +
+                 std::to_string(all.total) + " in all");
   return size;
 }
 
-void check_total(const std::string& what, std::int64_t done, const Blocks& all, const Numbers& numbers) {
+void check_total(const std::string& what, std::int64_t done, const Blocks& all,
+                 const Numbers& numbers) {
   if (done != all.total)
-    numbers.fail("the blocks hold " + std::to_string(done) + " " + what + " and not " + std::to_string(all.total));
+    numbers.fail("the blocks hold " + std::to_string(done) + " " + what + " and not " +
+                 std::to_string(all.total));
 }
 
 }  // namespace
@@ -208,13 +228,16 @@ void Msh4Bodies::read_entity(std::int64_t dimension, bool partitioned, Numbers& 
   if (!here.try_emplace(entity, here.size()).second) numbers.fail(who + " is defined again");
   if (partitioned) {
     numbers.skip(2, tag_type, "the dimension and tag of the parent");
-    const auto partitions = numbers.count(size_type, "the number of partitions of an entity", tag_type, 1);
+    const auto partitions =
+        numbers.count(size_type, "the number of partitions of an entity", tag_type, 1);
     numbers.skip(partitions, tag_type, "a partition");
   }
-  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) numbers.number(coordinate_type, "a coordinate of an entity");
+  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i)
+    numbers.number(coordinate_type, "a coordinate of an entity");
   std::vector<std::int64_t>& groups = groups_[entity];
   groups.clear();
-  const auto count = numbers.count(size_type, "the number of physical groups of an entity", tag_type, 1);
+  const auto count =
+      numbers.count(size_type, "the number of physical groups of an entity", tag_type, 1);
   for (std::int64_t i = 0; i < count; ++i) groups.push_back(physical_tag(numbers));
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
@@ -222,7 +245,8 @@ void Msh4Bodies::read_entity(std::int64_t dimension, bool partitioned, Numbers& 
     numbers.fail(who + " belongs to the physical groups " + std::to_string(groups[0]) + " and " +
                  std::to_string(groups[1]) + "; an element belongs in one group of volumes only");
   if (dimension > 0) {
-    const auto boundary = numbers.count(size_type, "the number of parts of the boundary of an entity", tag_type, 1);
+    const auto boundary =
+        numbers.count(size_type, "the number of parts of the boundary of an entity", tag_type, 1);
     numbers.skip(boundary, tag_type, "a part of the boundary");
   }
   numbers.end("an entity");
@@ -265,7 +289,8 @@ std::string Msh4Bodies::nodes(Numbers& numbers, MshGather& gather) const {
     numbers.integer(tag_type, "the tag of an entity");
     const std::int64_t parametric = numbers.integer(tag_type, "whether nodes are parametric");
     if (parametric != 0 && parametric != 1)
-      numbers.fail("whether nodes are parametric is " + std::to_string(parametric) + "; it must be 0 or 1");
+      numbers.fail("whether nodes are parametric is " + std::to_string(parametric) +
+                   "; it must be 0 or 1");
     const std::int64_t size = read_size("nodes", done, all, numbers);
     numbers.end("a block of nodes: dimension and tag of its entity, 0 or 1, number of nodes");
     tags.clear();
@@ -286,7 +311,8 @@ std::string Msh4Bodies::nodes(Numbers& numbers, MshGather& gather) const {
   return std::to_string(done) + " nodes";
 }
 
-const std::vector<std::int64_t>& Msh4Bodies::groups_of(const Entity& entity, const Numbers& numbers) const {
+const std::vector<std::int64_t>& Msh4Bodies::groups_of(const Entity& entity,
+                                                       const Numbers& numbers) const {
   static const std::vector<std::int64_t> none;
   if (!known_) return none;  // a file without $Entities has no groups
   const auto found = groups_.find(entity);
@@ -306,12 +332,14 @@ std::string Msh4Bodies::elements(Numbers& numbers, MshGather& gather) const {
     const std::int64_t dimension = read_dimension(numbers);
     const std::int64_t tag = numbers.integer(tag_type, "the tag of an entity");
     const auto& groups = groups_of({dimension, tag}, numbers);
-    const ElementKind& kind = taken_element(numbers.integer(tag_type, "the type of elements"), who, numbers);
+    const ElementKind& kind =
+        taken_element(numbers.integer(tag_type, "the type of elements"), who, numbers);
     if (kind.dimension != dimension)
       numbers.fail("a block of elements of dimension " + std::to_string(kind.dimension) +
                    " is in an entity of dimension " + std::to_string(dimension));
     const std::int64_t size = read_size("elements", done, all, numbers);
-    numbers.end("a block of elements: dimension and tag of its entity, type and number of elements");
+    numbers.end(
+        "a block of elements: dimension and tag of its entity, type and number of elements");
     for (std::int64_t i = 0; i < size; ++i) {
       numbers.begin("element", ++done, all.total);
       const std::int64_t element = numbers.integer(size_type, "the tag of an element");

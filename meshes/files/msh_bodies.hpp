@@ -40,7 +40,8 @@ inline constexpr ElementKind msh_elements[] = {
     {92, "third-order hexahedron", 3, 64, 8},
 };
 
-/// What the MSH formats have in common: nodes, elements, and groups of elements that may have a name.
+/// What the MSH formats have in common: nodes, elements, and groups of elements that may have a
+/// name.
 class MshGather {
  public:
   MshGather(std::string file, MeshReport& report) : report_(report) { raw_.file = std::move(file); }
@@ -71,23 +72,26 @@ class MshGather {
 };
 
 /// A kind of element that we take, else an InputError; `who` has that type.
-const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who, const Numbers& numbers);
+const ElementKind& taken_element(std::int64_t type, const std::function<std::string()>& who,
+                                 const Numbers& numbers);
 
 /// A tag of a node or element: 1 or more.
 std::int64_t msh_tag(NumberType type, std::string_view what, Numbers& numbers);
 
-/// The tag of a physical group. A minus sign says that the element is turned round against the group, and is left out.
+/// The tag of a physical group. A minus sign says that the element is turned round against the
+/// group, and is left out.
 std::int64_t physical_tag(Numbers& numbers);
 
 /// The nodes of MSH 1 and 2, the same in text and in binary: `count` times tag, x, y, z.
 void msh2_nodes(std::int64_t count, Numbers& numbers, MshGather& gather);
 /// The elements of MSH 1: each with its type, physical and elementary group, and number of nodes.
 void msh1_elements(std::int64_t count, Numbers& numbers, MshGather& gather);
-/// The elements of MSH 2: in text each with its type and number of tags, in binary in blocks of one type.
+/// The elements of MSH 2: in text each with its type and number of tags, in binary in blocks of one
+/// type.
 void msh2_elements(std::int64_t count, bool binary, Numbers& numbers, MshGather& gather);
 
-/// The sections of MSH 4.1, the same in text and in binary. Entities are parts of the geometry, or of one partition of
-/// it; blocks of elements lie in one entity, and so in its physical groups.
+/// The sections of MSH 4.1, the same in text and in binary. Entities are parts of the geometry, or
+/// of one partition of it; blocks of elements lie in one entity, and so in its physical groups.
 class Msh4Bodies {
  public:
   void entities(Numbers& numbers) { read_entities(false, numbers); }
@@ -99,7 +103,8 @@ class Msh4Bodies {
  private:
   using Entity = std::pair<std::int64_t, std::int64_t>;  // dimension, tag
   void read_entities(bool partitioned, Numbers& numbers);
-  void read_entity(std::int64_t dimension, bool partitioned, Numbers& numbers, std::map<Entity, std::size_t>& here);
+  void read_entity(std::int64_t dimension, bool partitioned, Numbers& numbers,
+                   std::map<Entity, std::size_t>& here);
   const std::vector<std::int64_t>& groups_of(const Entity& entity, const Numbers& numbers) const;
 
   bool known_ = false;

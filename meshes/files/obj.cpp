@@ -36,7 +36,8 @@ void ObjParser::line() {
   if (key == "v") return vertex();
   if (key == "f") return face();
   if (std::find(std::begin(left_out), std::end(left_out), key) == std::end(left_out))
-    lines_.fail("unknown or unsupported element " + shown(key) + "; supported are polygons: v and f");
+    lines_.fail("unknown or unsupported element " + shown(key) +
+                "; supported are polygons: v and f");
 }
 
 // A weight may follow, or a colour
@@ -45,7 +46,8 @@ void ObjParser::vertex() {
   if (words != 4 && words != 5 && words != 7) lines_.expected("a vertex with three coordinates");
   constexpr const char* what[] = {"coordinate x", "coordinate y", "coordinate z"};
   RawVertex vertex{static_cast<std::int64_t>(raw_.vertices.size() + 1), {}, lines_.place()};
-  for (int a = 0; a < 3; ++a) vertex.position[a] = lines_.number(static_cast<std::size_t>(a) + 1, what[a]);
+  for (int a = 0; a < 3; ++a)
+    vertex.position[a] = lines_.number(static_cast<std::size_t>(a) + 1, what[a]);
   for (std::size_t w = 4; w < words; ++w)
     if (const double extra = lines_.number(w, "a weight or colour"); words == 5 && extra != 1.0)
       lines_.fail("the weight of a vertex is " + shown(lines_.words()[w]) + "; supported is 1");
@@ -65,7 +67,8 @@ std::optional<std::int64_t> ObjParser::corner(std::size_t word) {
   };
   if (error != std::errc() || end != number.data() + number.size() || corner == 0)
     return bad("; it must be the number of a vertex, from 1 or to -1");
-  if (corner < -vertices) return bad(", but there are only " + std::to_string(vertices) + " vertices before it");
+  if (corner < -vertices)
+    return bad(", but there are only " + std::to_string(vertices) + " vertices before it");
   return corner < 0 ? vertices + 1 + corner : corner;
 }
 
@@ -77,9 +80,10 @@ void ObjParser::face() {
     corners.push_back(*one);
   }
   if (corners.size() < 3)
-    return raw_.bad_faces.add(lines_.place(),
-                              "expected a face with three corners or more, found " + shown(lines_.text()));
-  add_face(static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size() + 1), corners, lines_.place(), raw_);
+    return raw_.bad_faces.add(lines_.place(), "expected a face with three corners or more, found " +
+                                                  shown(lines_.text()));
+  add_face(static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size() + 1), corners,
+           lines_.place(), raw_);
 }
 
 }  // namespace
@@ -92,7 +96,8 @@ RawMesh parse_obj(const MemoryFile& file, MeshReport& report) {
 WrittenMesh write_obj(const std::filesystem::path& path, const TriangleSurface& surface) {
   TextOut out;
   for (const Point& p : surface.vertices) out << "v" << p << "\n";
-  for (const auto& [a, b, c] : surface.triangles) out << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
+  for (const auto& [a, b, c] : surface.triangles)
+    out << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
   return {{{path.string(), out.take()}}, {}};
 }
 

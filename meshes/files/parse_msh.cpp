@@ -10,7 +10,8 @@ namespace {
 
 class MshParser {
  public:
-  MshParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report), gather_(file.name, report) {}
+  MshParser(const MemoryFile& file, MeshReport& report)
+      : lines_(file), report_(report), gather_(file.name, report) {}
   RawMesh parse();
 
  private:
@@ -54,7 +55,8 @@ void MshParser::format() {
   }
   if (!lines_.next() || lines_.words().size() != 3)
     lines_.expected("the version, file type and data size, like 4.1 0 8");
-  const std::string_view version = lines_.words()[0], type = lines_.words()[1], size = lines_.words()[2];
+  const std::string_view version = lines_.words()[0], type = lines_.words()[1],
+                         size = lines_.words()[2];
   constexpr std::string_view versions_2[] = {"2", "2.0", "2.1", "2.2"};
   version_ = version == "4.1" ? 4 : 2;
   if (version_ == 2 && std::ranges::find(versions_2, version) == std::end(versions_2))
@@ -71,8 +73,11 @@ void MshParser::format() {
 
 // The integer 1 as the file writes it
 void MshParser::check_byte_order() {
-  constexpr auto other = std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
-  const auto flag = [](Numbers& numbers) { return numbers.integer(NumberType::int32, "the integer 1"); };
+  constexpr auto other =
+      std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
+  const auto flag = [](Numbers& numbers) {
+    return numbers.integer(NumberType::int32, "the integer 1");
+  };
   const std::size_t start = lines_.next_byte();
   const std::int64_t one = body(flag);
   if (one == 1) return;
@@ -86,30 +91,35 @@ void MshParser::check_byte_order() {
 
 void MshParser::end_of(const std::string& section, const std::string& after) {
   const std::string end = (version_ == 1 ? "$END" : "$End") + section;
-  if (!lines_.next() || lines_.text() != end) lines_.expected(end + (after.empty() ? "" : " after " + after));
+  if (!lines_.next() || lines_.text() != end)
+    lines_.expected(end + (after.empty() ? "" : " after " + after));
 }
 
 void MshParser::section() {
-  static const std::map<std::string, Section> known = {{"$PhysicalNames", &MshParser::physical_names},
-                                                       {"$Entities", &MshParser::entities},
-                                                       {"$PartitionedEntities", &MshParser::partitioned_entities},
-                                                       {"$Nodes", &MshParser::nodes},
-                                                       {"$NOD", &MshParser::nodes},
-                                                       {"$ELM", &MshParser::elements},
-                                                       {"$NodeData", &MshParser::data},
-                                                       {"$ElementData", &MshParser::data},
-                                                       {"$Elements", &MshParser::elements}};
+  static const std::map<std::string, Section> known = {
+      {"$PhysicalNames", &MshParser::physical_names},
+      {"$Entities", &MshParser::entities},
+      {"$PartitionedEntities", &MshParser::partitioned_entities},
+      {"$Nodes", &MshParser::nodes},
+      {"$NOD", &MshParser::nodes},
+      {"$ELM", &MshParser::elements},
+      {"$NodeData", &MshParser::data},
+      {"$ElementData", &MshParser::data},
+      {"$Elements", &MshParser::elements}};
   const std::string name(lines_.text());
   if (name.front() != '$' || name.starts_with("$End") || name.starts_with("$END"))
     lines_.expected("the start of a section, like $Nodes");
-  if (name == "$ParametricNodes") lines_.fail("$ParametricNodes is not supported: save without parametric coordinates");
+  if (name == "$ParametricNodes")
+    lines_.fail("$ParametricNodes is not supported: save without parametric coordinates");
   const auto found = known.find(name);
   if (found == known.end()) return skip(name);
-  if (found->second != &MshParser::data && !seen_.insert(name).second) lines_.fail("a second section " + name);
+  if (found->second != &MshParser::data && !seen_.insert(name).second)
+    lines_.fail("a second section " + name);
   (this->*found->second)();
 }
 
-// Binary data may hold line feeds, but hardly the name of its section. Some writers end their data without a line feed.
+// Binary data may hold line feeds, but hardly the name of its section. Some writers end their data
+// without a line feed.
 void MshParser::skip(const std::string& name) {
   report_.skipped_sections.push_back(name.substr(0, 60));
   const std::string end = (version_ == 1 ? "$END" : "$End") + name.substr(1);
@@ -123,14 +133,16 @@ void MshParser::skip(const std::string& name) {
 std::int64_t MshParser::count_of(const std::string& kind, std::int64_t fewest) {
   if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of " + kind);
   const std::int64_t count = lines_.integer(0, "the number of " + kind);
-  return body(
-      [&](Numbers& rest) { return rest.checked_count(count, "the number of " + kind, NumberType::int32, fewest); });
+  return body([&](Numbers& rest) {
+    return rest.checked_count(count, "the number of " + kind, NumberType::int32, fewest);
+  });
 }
 
 void MshParser::physical_names() {
   if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of physical names");
-  const std::int64_t count = TextNumbers(lines_).checked_count(lines_.integer(0, "the number of physical names"),
-                                                               "the number of physical names", NumberType::int32, 3);
+  const std::int64_t count =
+      TextNumbers(lines_).checked_count(lines_.integer(0, "the number of physical names"),
+                                        "the number of physical names", NumberType::int32, 3);
   for (std::int64_t i = 1; i <= count; ++i) {
     if (!lines_.next() || lines_.text().front() == '$')
       lines_.expected("physical name " + std::to_string(i) + " of " + std::to_string(count));
@@ -178,12 +190,15 @@ void MshParser::elements() {
 
 /// Lines of the heading of a section of data, behind a line that counts them.
 std::vector<std::string> MshParser::data_heading(const std::string& kind) {
-  if (!lines_.next() || lines_.words().size() != 1) lines_.expected("the number of " + kind + " tags");
-  const std::int64_t count = TextNumbers(lines_).checked_count(lines_.integer(0, "the number of " + kind + " tags"),
-                                                               "the number of " + kind + " tags", NumberType::int8, 1);
+  if (!lines_.next() || lines_.words().size() != 1)
+    lines_.expected("the number of " + kind + " tags");
+  const std::int64_t count =
+      TextNumbers(lines_).checked_count(lines_.integer(0, "the number of " + kind + " tags"),
+                                        "the number of " + kind + " tags", NumberType::int8, 1);
   std::vector<std::string> all;
   for (std::int64_t i = 1; i <= count; ++i) {
-    if (!lines_.next()) lines_.expected(kind + " tag " + std::to_string(i) + " of " + std::to_string(count));
+    if (!lines_.next())
+      lines_.expected(kind + " tag " + std::to_string(i) + " of " + std::to_string(count));
     all.emplace_back(lines_.text());
   }
   return all;
@@ -203,8 +218,8 @@ void MshParser::data() {
   std::erase(name, '"');
   if (whole[1] != "3" || name.empty()) return skip(section);
   body([&](Numbers& numbers) {
-    const std::int64_t count =
-        numbers.checked_count(std::atoll(whole[2].c_str()), "the number of vectors", NumberType::int32, 4);
+    const std::int64_t count = numbers.checked_count(std::atoll(whole[2].c_str()),
+                                                     "the number of vectors", NumberType::int32, 4);
     return gather_.add_vectors(name, section == "$NodeData", count, numbers), 0;
   });
   end_of(section.substr(1), whole[2] + " vectors");
@@ -214,7 +229,8 @@ RawMesh MshParser::parse() {
   format();
   while (lines_.next()) section();
   std::string skipped;
-  for (const std::string& name : report_.skipped_sections) skipped += (skipped.empty() ? " besides " : ", ") + name;
+  for (const std::string& name : report_.skipped_sections)
+    skipped += (skipped.empty() ? " besides " : ", ") + name;
   for (const char* name : {version_ == 1 ? "$NOD" : "$Nodes", version_ == 1 ? "$ELM" : "$Elements"})
     if (!seen_.contains(name)) lines_.expected(std::string("a section ") + name + skipped);
   return gather_.take();
@@ -222,6 +238,8 @@ RawMesh MshParser::parse() {
 
 }  // namespace
 
-RawMesh parse_msh(const MemoryFile& file, MeshReport& report) { return MshParser(file, report).parse(); }
+RawMesh parse_msh(const MemoryFile& file, MeshReport& report) {
+  return MshParser(file, report).parse();
+}
 
 }  // namespace plica

@@ -10,28 +10,34 @@ namespace plica {
 
 namespace {
 
-/// The type of numbers that a word of the line names, in any case of letters; else an InputError with the choices.
+/// The type of numbers that a word of the line names, in any case of letters; else an InputError
+/// with the choices.
 NumberType legacy_vtk_type(std::size_t word, const TextLines& lines);
 
 /// Goes past a block of METADATA, which ends with a blank line.
 void skip_vtk_metadata(TextLines& lines);
 
-/// The arrays of points and cells in VTK's legacy format: those of cells go to the grid, the others are passed over.
+/// The arrays of points and cells in VTK's legacy format: those of cells go to the grid, the others
+/// are passed over.
 class LegacyArrays {
  public:
   explicit LegacyArrays(VtkGrid& grid) : grid_(grid) {}
 
-  NumberForm form = {false, std::endian::big, true};  ///< binary data are big-endian on every machine
+  /// binary data are big-endian on every machine
+  NumberForm form = {false, std::endian::big, true};
 
   /// The following arrays are of points or cells, with so many tuples.
-  void begin(std::int64_t tuples, bool of_cells) { tuples_ = tuples, of_cells_ = of_cells, begun_ = true; }
+  void begin(std::int64_t tuples, bool of_cells) {
+    tuples_ = tuples, of_cells_ = of_cells, begun_ = true;
+  }
   /// FIELD: arrays, each with a heading "name components tuples type".
   void field(TextLines& lines);
   /// SCALARS and its like: false if the line is the heading of none.
   bool attribute(const std::string& keyword, TextLines& lines);
 
  private:
-  void values(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type, TextLines& lines);
+  void values(const std::string& name, std::int64_t tuples, std::int64_t components,
+              NumberType type, TextLines& lines);
 
   VtkGrid& grid_;
   std::int64_t tuples_ = 0;
@@ -43,11 +49,13 @@ struct TypeName {
   NumberType type;
 };
 constexpr TypeName type_names[] = {
-    {"unsigned_char", NumberType::uint8},  {"char", NumberType::int8},           {"unsigned_short", NumberType::uint16},
-    {"short", NumberType::int16},          {"unsigned_int", NumberType::uint32}, {"int", NumberType::int32},
-    {"unsigned_long", NumberType::uint64}, {"long", NumberType::int64},          {"vtktypeuint64", NumberType::uint64},
-    {"vtktypeint64", NumberType::int64},   {"vtkidtype", NumberType::int32},     {"float", NumberType::float32},
-    {"double", NumberType::float64},       {"signed_char", NumberType::int8},
+    {"unsigned_char", NumberType::uint8},   {"char", NumberType::int8},
+    {"unsigned_short", NumberType::uint16}, {"short", NumberType::int16},
+    {"unsigned_int", NumberType::uint32},   {"int", NumberType::int32},
+    {"unsigned_long", NumberType::uint64},  {"long", NumberType::int64},
+    {"vtktypeuint64", NumberType::uint64},  {"vtktypeint64", NumberType::int64},
+    {"vtkidtype", NumberType::int32},       {"float", NumberType::float32},
+    {"double", NumberType::float64},        {"signed_char", NumberType::int8},
 };
 
 // Arrays with a heading "KEYWORD name type", but for those that tell their components
@@ -89,8 +97,8 @@ void skip_vtk_metadata(TextLines& lines) {
     if (lines.words().empty()) return;
 }
 
-void LegacyArrays::values(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
-                          TextLines& lines) {
+void LegacyArrays::values(const std::string& name, std::int64_t tuples, std::int64_t components,
+                          NumberType type, TextLines& lines) {
   form.after(lines, [&](Numbers& numbers) {
     numbers.checked_count(tuples, "the number of values of " + shown(name), type, components);
     if (of_cells_)
@@ -105,12 +113,15 @@ void LegacyArrays::field(TextLines& lines) {
   const std::int64_t arrays = lines.integer(2, "the number of arrays");
   for (std::int64_t i = 1; i <= arrays; ++i) {
     bool found = lines.next();
-    if (found && lower_case(lines.words()[0]) == "metadata") skip_vtk_metadata(lines), found = lines.next();
+    if (found && lower_case(lines.words()[0]) == "metadata")
+      skip_vtk_metadata(lines), found = lines.next();
     if (!found || lines.words().size() != 4)
-      lines.expected("array " + std::to_string(i) + " of " + std::to_string(arrays) + ", a line like region 1 8 int");
+      lines.expected("array " + std::to_string(i) + " of " + std::to_string(arrays) +
+                     ", a line like region 1 8 int");
     const std::string name(lines.words()[0]);
     const std::int64_t components = read_components(1, lines);
-    values(name, lines.integer(2, "the number of tuples"), components, legacy_vtk_type(3, lines), lines);
+    values(name, lines.integer(2, "the number of tuples"), components, legacy_vtk_type(3, lines),
+           lines);
   }
 }
 
@@ -118,14 +129,18 @@ bool LegacyArrays::attribute(const std::string& keyword, TextLines& lines) {
   if (!begun_) return false;
   const std::size_t words = lines.words().size();
   const std::string name = words > 1 ? std::string(lines.words()[1]) : "";
-  // Colours are bytes in binary and fractions in text; a table of them stands apart from what it colours
+  // Colours are bytes in binary and fractions in text; a table of them stands apart from what it
+  // colours
   const NumberType colour = form.binary ? NumberType::uint8 : NumberType::float32;
-  if (keyword == "color_scalars") return values(name, tuples_, read_components(2, lines), colour, lines), true;
-  if (keyword == "lookup_table") return values("", lines.integer(2, "the size of a table"), 4, colour, lines), true;
+  if (keyword == "color_scalars")
+    return values(name, tuples_, read_components(2, lines), colour, lines), true;
+  if (keyword == "lookup_table")
+    return values("", lines.integer(2, "the size of a table"), 4, colour, lines), true;
   for (const Attribute& known : attributes) {
     if (keyword != known.keyword) continue;
     const bool told = known.components == 0 && known.components_word < words;
-    const std::int64_t components = told ? read_components(known.components_word, lines) : known.components;
+    const std::int64_t components =
+        told ? read_components(known.components_word, lines) : known.components;
     const NumberType type = legacy_vtk_type(known.type_word, lines);
     if (keyword == "scalars" && (!lines.next() || lower_case(lines.words()[0]) != "lookup_table"))
       lines.expected("a line like LOOKUP_TABLE default");
@@ -137,7 +152,9 @@ bool LegacyArrays::attribute(const std::string& keyword, TextLines& lines) {
 
 class VtkParser {
  public:
-  VtkParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) { grid_.file = file.name; }
+  VtkParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) {
+    grid_.file = file.name;
+  }
   RawMesh parse();
 
  private:
@@ -207,7 +224,8 @@ void VtkParser::section() {
   }
   if (name != "field" && name != "metadata" && !seen_.insert(name).second)
     lines_.fail("a second section " + shown(lines_.words().front()));
-  if (!seen_.contains("dataset") && name != "field" && name != "metadata") lines_.expected(dataset_line);
+  if (!seen_.contains("dataset") && name != "field" && name != "metadata")
+    lines_.expected(dataset_line);
   (this->*found->second)();
 }
 
@@ -258,8 +276,9 @@ void VtkParser::cells_before_5(std::int64_t count, std::int64_t size) {
     for (std::int64_t c = 0; c < count; ++c) {
       const std::int64_t points = numbers.integer(type, "the number of points of a cell");
       if (points < 0 || points >= left)
-        numbers.fail("the number of points of cell " + std::to_string(c) + " is " + std::to_string(points) +
-                     ", but the cells have " + std::to_string(left) + " of " + std::to_string(size) + " numbers left");
+        numbers.fail("the number of points of cell " + std::to_string(c) + " is " +
+                     std::to_string(points) + ", but the cells have " + std::to_string(left) +
+                     " of " + std::to_string(size) + " numbers left");
       left -= points + 1;
       for (std::int64_t k = 0; k < points; ++k) {
         const std::int64_t point = numbers.integer(type, "a point of a cell");
@@ -268,16 +287,20 @@ void VtkParser::cells_before_5(std::int64_t count, std::int64_t size) {
       ends_.push_back({static_cast<std::int64_t>(corners_.size()), numbers.place()});
     }
     if (left != 0)
-      numbers.fail("the cells take " + std::to_string(size - left) + " numbers and not " + std::to_string(size));
+      numbers.fail("the cells take " + std::to_string(size - left) + " numbers and not " +
+                   std::to_string(size));
     return numbers.end("the cells"), 0;
   });
 }
 
-std::vector<PlacedInteger> VtkParser::integers(const char* heading, std::int64_t count, const char* what) {
-  if (!lines_.next() || lines_.words().size() != 2 || lower_case(lines_.words()[0]) != lower_case(heading))
+std::vector<PlacedInteger> VtkParser::integers(const char* heading, std::int64_t count,
+                                               const char* what) {
+  if (!lines_.next() || lines_.words().size() != 2 ||
+      lower_case(lines_.words()[0]) != lower_case(heading))
     lines_.expected(std::string("a line like ") + heading + " vtktypeint64");
   const NumberType type = legacy_vtk_type(1, lines_);
-  if (!is_integer(type)) lines_.fail("the type of " + std::string(what) + " is no integer: " + shown(lines_.text()));
+  if (!is_integer(type))
+    lines_.fail("the type of " + std::string(what) + " is no integer: " + shown(lines_.text()));
   return arrays_.form.after(lines_, [&](Numbers& numbers) {
     numbers.checked_count(count, "the number of values of " + std::string(heading), type, 1);
     auto values = read_integers(count, type, what, numbers);
@@ -315,8 +338,8 @@ void VtkParser::data(std::size_t count, bool of_cells) {
       lines_.fail(shown(lines_.text()) + " must come after the points and cells");
   const std::int64_t tuples = lines_.integer(1, "the number of values");
   if (tuples != static_cast<std::int64_t>(count))
-    lines_.fail("the number of values is " + std::to_string(tuples) + " for " + std::to_string(count) +
-                (of_cells ? " cells" : " points"));
+    lines_.fail("the number of values is " + std::to_string(tuples) + " for " +
+                std::to_string(count) + (of_cells ? " cells" : " points"));
   arrays_.begin(tuples, of_cells);
 }
 
@@ -330,6 +353,8 @@ RawMesh VtkParser::parse() {
 
 }  // namespace
 
-RawMesh parse_vtk(const MemoryFile& file, MeshReport& report) { return VtkParser(file, report).parse(); }
+RawMesh parse_vtk(const MemoryFile& file, MeshReport& report) {
+  return VtkParser(file, report).parse();
+}
 
 }  // namespace plica

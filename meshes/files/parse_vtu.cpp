@@ -12,7 +12,8 @@ namespace {
 
 class VtuParser {
  public:
-  VtuParser(const MemoryFile& file, MeshReport& report) : file_(file), report_(report), arrays_(file) {
+  VtuParser(const MemoryFile& file, MeshReport& report)
+      : file_(file), report_(report), arrays_(file) {
     grid_.file = file.name;
   }
   RawMesh parse();
@@ -26,9 +27,13 @@ class VtuParser {
   void read_polygons();
   void read_regions();
   void read_vectors();
-  std::vector<PlacedInteger> integers(const std::string& section, const char* name, std::int64_t count);
-  std::vector<PlacedInteger> corners(const std::string& section, const std::vector<PlacedInteger>& ends);
-  [[noreturn]] void fail(const Place& place, const std::string& message) const { refuse(file_.name, place, message); }
+  std::vector<PlacedInteger> integers(const std::string& section, const char* name,
+                                      std::int64_t count);
+  std::vector<PlacedInteger> corners(const std::string& section,
+                                     const std::vector<PlacedInteger>& ends);
+  [[noreturn]] void fail(const Place& place, const std::string& message) const {
+    refuse(file_.name, place, message);
+  }
 
   const MemoryFile& file_;
   MeshReport& report_;
@@ -52,11 +57,13 @@ constexpr Section polygonal_sections[] = {{"Verts", "NumberOfVerts", 2},
 
 void VtuParser::take(const XmlElement& element) {
   if (element.parent.empty()) {
-    if (element.name != "VTKFile") fail(element.place, "expected <VTKFile>, found <" + element.name + ">");
+    if (element.name != "VTKFile")
+      fail(element.place, "expected <VTKFile>, found <" + element.name + ">");
     const std::string& type = attribute(element, "type", file_);
     polygonal_ = type == "PolyData";
     if (!polygonal_ && type != "UnstructuredGrid")
-      fail(element.place, "the type of the file is " + shown(type) + "; it must be UnstructuredGrid or PolyData");
+      fail(element.place,
+           "the type of the file is " + shown(type) + "; it must be UnstructuredGrid or PolyData");
     arrays_.header(element);
     root_ = element;
   } else if (element.name == "Piece") {
@@ -72,12 +79,15 @@ void VtuParser::take(const XmlElement& element) {
 void VtuParser::data_array(const XmlElement& array, const std::string& section) {
   if (section == "CellData") cell_data_.push_back(array);
   if (section == "PointData") point_data_.push_back(array);
-  const bool of_cells = section == "Cells" ||
-                        std::ranges::any_of(polygonal_sections, [&](const Section& s) { return section == s.name; });
+  const bool of_cells =
+      section == "Cells" ||
+      std::ranges::any_of(polygonal_sections, [&](const Section& s) { return section == s.name; });
   if (section != "Points" && !of_cells) return;
   const auto named = array.attributes.find("Name");
-  const std::string name = section == "Points" || named == array.attributes.end() ? "" : named->second;
-  const bool used = section == "Points" || name == "connectivity" || name == "offsets" || name == "types";
+  const std::string name =
+      section == "Points" || named == array.attributes.end() ? "" : named->second;
+  const bool used =
+      section == "Points" || name == "connectivity" || name == "offsets" || name == "types";
   if (used && !used_.try_emplace({section, name}, array).second)
     fail(array.place, "a second array of <" + section + "> of this name");
 }
@@ -85,8 +95,8 @@ void VtuParser::data_array(const XmlElement& array, const std::string& section) 
 const XmlElement& VtuParser::needed(const std::string& section, const std::string& name) const {
   const auto found = used_.find({section, name});
   if (found == used_.end())
-    fail(piece_->place,
-         "there is no " + (name.empty() ? "<DataArray>" : "array '" + name + "'") + " in <" + section + ">");
+    fail(piece_->place, "there is no " + (name.empty() ? "<DataArray>" : "array '" + name + "'") +
+                            " in <" + section + ">");
   return found->second;
 }
 
@@ -94,26 +104,30 @@ void VtuParser::read_points() {
   const XmlElement& array = needed("Points", "");
   const std::int64_t count = attribute_count(*piece_, "NumberOfPoints", file_);
   if (attribute_count(array, "NumberOfComponents", file_) != 3)
-    fail(array.place, "NumberOfComponents is " + shown(array.attributes.at("NumberOfComponents")) + "; it must be 3");
+    fail(array.place, "NumberOfComponents is " + shown(array.attributes.at("NumberOfComponents")) +
+                          "; it must be 3");
   arrays_.read(array, [&](Numbers& numbers, NumberType type) {
     grid_.read_points(numbers.checked_count(count, "NumberOfPoints", type, 3), type, numbers);
   });
 }
 
-std::vector<PlacedInteger> VtuParser::integers(const std::string& section, const char* name, std::int64_t count) {
+std::vector<PlacedInteger> VtuParser::integers(const std::string& section, const char* name,
+                                               std::int64_t count) {
   const XmlElement& array = needed(section, name);
   if (!is_integer(vtu_type(array, file_)))
-    fail(array.place, "the type of " + std::string(name) + " is " + shown(array.attributes.at("type")) +
-                          "; it must be one of integers");
+    fail(array.place, "the type of " + std::string(name) + " is " +
+                          shown(array.attributes.at("type")) + "; it must be one of integers");
   std::vector<PlacedInteger> values;
   arrays_.read(array, [&](Numbers& numbers, NumberType type) {
     values =
-        read_integers(numbers.checked_count(count, "the number of " + std::string(name), type, 1), type, name, numbers);
+        read_integers(numbers.checked_count(count, "the number of " + std::string(name), type, 1),
+                      type, name, numbers);
   });
   return values;
 }
 
-std::vector<PlacedInteger> VtuParser::corners(const std::string& section, const std::vector<PlacedInteger>& ends) {
+std::vector<PlacedInteger> VtuParser::corners(const std::string& section,
+                                              const std::vector<PlacedInteger>& ends) {
   return integers(section, "connectivity", ends.empty() ? 0 : ends.back().value);
 }
 
@@ -137,10 +151,13 @@ void VtuParser::read_polygons() {
 void VtuParser::read_regions() {
   const std::int64_t cells = attribute_count(*piece_, "NumberOfCells", file_);
   for (const XmlElement& array : cell_data_) {
-    const auto name = array.attributes.find("Name"), components = array.attributes.find("NumberOfComponents");
+    const auto name = array.attributes.find("Name"),
+               components = array.attributes.find("NumberOfComponents");
     const std::string called = name == array.attributes.end() ? "" : name->second;
     const bool single = components == array.attributes.end() || components->second == "1";
-    if (called != "region" && (!single || attribute(array, "type", file_).find("Int") == std::string::npos)) continue;
+    if (called != "region" &&
+        (!single || attribute(array, "type", file_).find("Int") == std::string::npos))
+      continue;
     arrays_.read(array, [&](Numbers& numbers, NumberType type) {
       const std::int64_t width = single ? 1 : attribute_count(array, "NumberOfComponents", file_);
       numbers.checked_count(cells, "NumberOfCells", type, std::max<std::int64_t>(width, 1));
@@ -150,11 +167,15 @@ void VtuParser::read_regions() {
 }
 
 void VtuParser::read_vectors() {
-  const auto read = [&](const std::vector<XmlElement>& arrays, const char* count_name, bool of_points) {
+  const auto read = [&](const std::vector<XmlElement>& arrays, const char* count_name,
+                        bool of_points) {
     const std::int64_t count = attribute_count(*piece_, count_name, file_);
     for (const XmlElement& array : arrays) {
-      const auto name = array.attributes.find("Name"), components = array.attributes.find("NumberOfComponents");
-      if (name == array.attributes.end() || components == array.attributes.end() || components->second != "3") continue;
+      const auto name = array.attributes.find("Name"),
+                 components = array.attributes.find("NumberOfComponents");
+      if (name == array.attributes.end() || components == array.attributes.end() ||
+          components->second != "3")
+        continue;
       if (name->second == "region" || is_integer(vtu_type(array, file_))) continue;
       arrays_.read(array, [&](Numbers& numbers, NumberType type) {
         numbers.checked_count(count, count_name, type, 3);
@@ -186,6 +207,8 @@ RawMesh VtuParser::parse() {
 
 }  // namespace
 
-RawMesh parse_vtu(const MemoryFile& file, MeshReport& report) { return VtuParser(file, report).parse(); }
+RawMesh parse_vtu(const MemoryFile& file, MeshReport& report) {
+  return VtuParser(file, report).parse();
+}
 
 }  // namespace plica

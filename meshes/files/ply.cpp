@@ -13,12 +13,14 @@ struct PlyType {
   NumberType type;
 };
 constexpr PlyType ply_types[] = {
-    {"char", NumberType::int8},       {"int8", NumberType::int8},       {"uchar", NumberType::uint8},
-    {"uint8", NumberType::uint8},     {"short", NumberType::int16},     {"int16", NumberType::int16},
-    {"ushort", NumberType::uint16},   {"uint16", NumberType::uint16},   {"int", NumberType::int32},
-    {"int32", NumberType::int32},     {"uint", NumberType::uint32},     {"uint32", NumberType::uint32},
-    {"float", NumberType::float32},   {"float32", NumberType::float32}, {"double", NumberType::float64},
-    {"float64", NumberType::float64},
+    {"char", NumberType::int8},      {"int8", NumberType::int8},
+    {"uchar", NumberType::uint8},    {"uint8", NumberType::uint8},
+    {"short", NumberType::int16},    {"int16", NumberType::int16},
+    {"ushort", NumberType::uint16},  {"uint16", NumberType::uint16},
+    {"int", NumberType::int32},      {"int32", NumberType::int32},
+    {"uint", NumberType::uint32},    {"uint32", NumberType::uint32},
+    {"float", NumberType::float32},  {"float32", NumberType::float32},
+    {"double", NumberType::float64}, {"float64", NumberType::float64},
 };
 
 struct Property {
@@ -35,7 +37,9 @@ struct Element {
 
 class PlyParser {
  public:
-  PlyParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) { raw_.file = file.name; }
+  PlyParser(const MemoryFile& file, MeshReport& report) : lines_(file), report_(report) {
+    raw_.file = file.name;
+  }
 
   RawMesh parse() {
     header();
@@ -74,7 +78,8 @@ void PlyParser::header() {
     if (key == "property") {
       property();
     } else if (key == "element" && lines_.words().size() == 3) {
-      elements_.push_back({std::string(lines_.words()[1]), lines_.integer(2, "the number of elements"), {}});
+      elements_.push_back(
+          {std::string(lines_.words()[1]), lines_.integer(2, "the number of elements"), {}});
     } else {
       lines_.expected("a line like element vertex 8, property float x, or end_header");
     }
@@ -115,8 +120,8 @@ void PlyParser::property() {
 void PlyParser::read(const Element& element, Numbers& numbers) {
   if (element.properties.empty()) return;
   // As small as a record can be
-  numbers.checked_count(element.count, "the number of elements " + shown(element.name), NumberType::int8,
-                        static_cast<std::int64_t>(element.properties.size()));
+  numbers.checked_count(element.count, "the number of elements " + shown(element.name),
+                        NumberType::int8, static_cast<std::int64_t>(element.properties.size()));
   if (element.name == "vertex") return read_vertices(element, numbers);
   if (element.name == "face") return read_faces(element, numbers);
   for (std::int64_t i = 0; i < element.count; ++i)
@@ -133,9 +138,12 @@ void PlyParser::skip(const Property& property, Numbers& numbers) const {
 void PlyParser::read_vertices(const Element& element, Numbers& numbers) {
   constexpr const char* axes[] = {"x", "y", "z"};
   constexpr const char* what[] = {"coordinate x", "coordinate y", "coordinate z"};
-  const auto is = [&](const Property& one, const char* name) { return !one.count && one.name == name; };
+  const auto is = [&](const Property& one, const char* name) {
+    return !one.count && one.name == name;
+  };
   for (const char* axis : axes)
-    if (std::ranges::count_if(element.properties, [&](const Property& one) { return is(one, axis); }) != 1)
+    if (std::ranges::count_if(element.properties,
+                              [&](const Property& one) { return is(one, axis); }) != 1)
       refuse(raw_.file, {}, "the vertices have not one property " + std::string(axis));
   if (!raw_.vertices.empty()) refuse(raw_.file, {}, "a second element vertex");
   for (std::int64_t i = 0; i < element.count; ++i) {
@@ -167,13 +175,15 @@ void PlyParser::read_faces(const Element& element, Numbers& numbers) {
         skip(one, numbers);
         continue;
       }
-      const std::int64_t count = numbers.count(*one.count, "the number of corners of a face", one.type, 1);
+      const std::int64_t count =
+          numbers.count(*one.count, "the number of corners of a face", one.type, 1);
       const Place place = numbers.place();
       corners.clear();
-      for (std::int64_t k = 0; k < count; ++k) corners.push_back(numbers.integer(one.type, "a corner of a face"));
+      for (std::int64_t k = 0; k < count; ++k)
+        corners.push_back(numbers.integer(one.type, "a corner of a face"));
       if (count < 3)
-        raw_.bad_faces.add(
-            place, "face " + std::to_string(i) + " has " + std::to_string(count) + " corners; expected 3 or more");
+        raw_.bad_faces.add(place, "face " + std::to_string(i) + " has " + std::to_string(count) +
+                                      " corners; expected 3 or more");
       else
         add_face(i, corners, place, raw_);
     }
@@ -181,13 +191,17 @@ void PlyParser::read_faces(const Element& element, Numbers& numbers) {
 
 }  // namespace
 
-RawMesh parse_ply(const MemoryFile& file, MeshReport& report) { return PlyParser(file, report).parse(); }
+RawMesh parse_ply(const MemoryFile& file, MeshReport& report) {
+  return PlyParser(file, report).parse();
+}
 
 WrittenMesh write_ply(const std::filesystem::path& path, const TriangleSurface& surface) {
   NumbersOut out(true, std::endian::little);
-  out.text("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(surface.vertices.size()) +
+  out.text("ply\nformat binary_little_endian 1.0\nelement vertex " +
+           std::to_string(surface.vertices.size()) +
            "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-           std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n");
+           std::to_string(surface.triangles.size()) +
+           "\nproperty list uchar int vertex_indices\nend_header\n");
   for (const Point& p : surface.vertices) out.real64(p);
   for (const auto& [a, b, c] : surface.triangles) out.text("\x03").int32(a).int32(b).int32(c);
   return {{{path.string(), out.take()}}, {}};

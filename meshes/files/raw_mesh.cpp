@@ -45,14 +45,17 @@ VertexNumbers::VertexNumbers(const RawMesh& raw) : raw_(raw) {
     const auto [first, is_new] = index_.try_emplace(vertex.tag, static_cast<int>(v));
     if (is_new) continue;
     const std::string before = to_text(raw.vertices[static_cast<std::size_t>(first->second)].place);
-    refuse(file, vertex.place, who() + " is defined again" + (before.empty() ? "" : " (first " + before + ")"));
+    refuse(file, vertex.place,
+           who() + " is defined again" + (before.empty() ? "" : " (first " + before + ")"));
   }
 }
 
-int VertexNumbers::at(std::int64_t tag, const Place& place, const std::function<std::string()>& who) const {
+int VertexNumbers::at(std::int64_t tag, const Place& place,
+                      const std::function<std::string()>& who) const {
   const int found = find(tag);
   if (found < 0)
-    refuse(raw_.file, place, who() + " names node " + std::to_string(tag) + ", which the file does not define");
+    refuse(raw_.file, place,
+           who() + " names node " + std::to_string(tag) + ", which the file does not define");
   return found;
 }
 
@@ -62,12 +65,16 @@ int VertexNumbers::find(std::int64_t tag) const {
 }
 
 const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t type,
-                              const std::function<std::string()>& who, const std::string& file, const Place& place) {
-  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const ElementKind& k) { return k.type == type; });
+                              const std::function<std::string()>& who, const std::string& file,
+                              const Place& place) {
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [&](const ElementKind& k) { return k.type == type; });
   if (kind != kinds.end() && kind->corners != not_taken) return *kind;
   refuse(file, place,
-         who() + " has type " + std::to_string(type) + (kind != kinds.end() ? ", a " + std::string(kind->name) : "") +
-             "; supported are tetrahedra, hexahedra, prisms, pyramids and elements of lower dimension");
+         who() + " has type " + std::to_string(type) +
+             (kind != kinds.end() ? ", a " + std::string(kind->name) : "") +
+             "; supported are tetrahedra, hexahedra, prisms, pyramids and elements of lower "
+             "dimension");
 }
 
 void BadFaces::add(const Place& where, const std::string& what) {
@@ -81,7 +88,8 @@ MeshGroups renumbered(const MeshGroups& groups, const std::vector<int>& renumber
     std::erase_if(group.elements, [&](std::array<int, 3>& element) {
       for (std::size_t k = 0; k < corners; ++k) {
         element[k] = renumbered[static_cast<std::size_t>(element[k])];
-        if (element[k] < 0 || std::count(element.begin(), element.begin() + k, element[k]) > 0) return true;
+        if (element[k] < 0 || std::count(element.begin(), element.begin() + k, element[k]) > 0)
+          return true;
       }
       return false;
     });
@@ -111,14 +119,18 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
   const auto of = [&](int v) { return stands_for[static_cast<std::size_t>(v)]; };
   RawMesh raw;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (stands_for[v] == static_cast<std::int64_t>(v)) raw.vertices.push_back({stands_for[v], mesh.vertices[v], {}});
+    if (stands_for[v] == static_cast<std::int64_t>(v))
+      raw.vertices.push_back({stands_for[v], mesh.vertices[v], {}});
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& [a, b, c, d] = mesh.tets[t];
-    raw.tets.push_back(
-        {static_cast<std::int64_t>(t), {of(a), of(b), of(c), of(d)}, mesh.region.empty() ? 0 : mesh.region[t], {}});
+    raw.tets.push_back({static_cast<std::int64_t>(t),
+                        {of(a), of(b), of(c), of(d)},
+                        mesh.region.empty() ? 0 : mesh.region[t],
+                        {}});
   }
   raw.region_names = mesh.region_names;
-  for (const auto& [name, vectors] : mesh.tet_vectors) raw.vectors.push_back({name, false, vectors});
+  for (const auto& [name, vectors] : mesh.tet_vectors)
+    raw.vectors.push_back({name, false, vectors});
   for (const auto& [name, vertices] : mesh.vertex_sets)
     for (auto& group = raw.groups.emplace_back(RawGroup{name, 0, 0, {}}); const int v : vertices)
       group.elements.push_back({0, {of(v), 0, 0}, 0, {}});
@@ -137,7 +149,8 @@ MergedMesh merge_duplicates(const TetMesh& mesh, double tolerance) {
   std::vector<int> place(mesh.vertices.size(), -1);
   for (std::size_t v = 0; v < result.original_vertex.size(); ++v)
     place[static_cast<std::size_t>(result.original_vertex[v])] = static_cast<int>(v);
-  for (const std::int64_t one : stands_for) result.vertex.push_back(place[static_cast<std::size_t>(one)]);
+  for (const std::int64_t one : stands_for)
+    result.vertex.push_back(place[static_cast<std::size_t>(one)]);
   return result;
 }
 
@@ -147,10 +160,11 @@ using Quadrangle = std::array<int, 4>;  // corners, outward; -1 at the end: a tr
 
 // The faces of a cell with so many corners, as Gmsh, VTK and Medit number them
 std::span<const Quadrangle> faces_of(int corners) {
-  static constexpr Quadrangle pyramid[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}},
-                              prism[] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
-                              hexahedron[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  static constexpr Quadrangle
+      pyramid[] = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}},
+      prism[] = {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+      hexahedron[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                      {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   if (corners == 5) return pyramid;
   if (corners == 6) return prism;
   return hexahedron;
@@ -165,7 +179,8 @@ std::vector<NodeTriple> cut_face(const Quadrangle& face, std::span<const std::in
     if (k >= 0) corners.push_back(cell[static_cast<std::size_t>(k)]);
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   std::vector<NodeTriple> triangles;
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k) triangles.push_back({corners[0], corners[k], corners[k + 1]});
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+    triangles.push_back({corners[0], corners[k], corners[k + 1]});
   return triangles;
 }
 
@@ -175,9 +190,10 @@ bool names_twice(const std::array<std::int64_t, 4>& v) {
   return false;
 }
 
-// Collapsed corners, such as a prism written as a hexahedron, leave out the tetrahedra that they collapse
-void cut_cell(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
-              RawMesh& raw) {
+// Collapsed corners, such as a prism written as a hexahedron, leave out the tetrahedra that they
+// collapse
+void cut_cell(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> corners,
+              const Place& place, RawMesh& raw) {
   const std::size_t begin = raw.tets.size();
   const std::int64_t lowest = *std::min_element(corners.begin(), corners.end());
   for (const Quadrangle& face : faces_of(static_cast<int>(corners.size())))
@@ -186,22 +202,26 @@ void cut_cell(const ElementKind& kind, std::int64_t tag, std::span<const std::in
       if (!names_twice(tet)) raw.tets.push_back({tag, tet, 0, place});
     }
   if (raw.tets.size() == begin)
-    refuse(raw.file, place, std::string(kind.name) + " " + std::to_string(tag) + " names too few vertices");
+    refuse(raw.file, place,
+           std::string(kind.name) + " " + std::to_string(tag) + " names too few vertices");
   raw.cut.insert(raw.cut.end(), {begin, raw.tets.size()});
 }
 
 }  // namespace
 
-void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw) {
+void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
+              RawMesh& raw) {
   if (corners.size() == 3)
     raw.triangles.push_back({tag, {corners[0], corners[1], corners[2]}, 0, place});
   else
     raw.polygons.push_back({tag, {corners.begin(), corners.end()}, place});
 }
 
-std::size_t add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices,
-                        const Place& place, RawMesh& raw, MeshReport& report) {
-  const auto corners = vertices.first(kind.corners > 0 ? static_cast<std::size_t>(kind.corners) : vertices.size());
+std::size_t add_element(const ElementKind& kind, std::int64_t tag,
+                        std::span<const std::int64_t> vertices, const Place& place, RawMesh& raw,
+                        MeshReport& report) {
+  const auto corners =
+      vertices.first(kind.corners > 0 ? static_cast<std::size_t>(kind.corners) : vertices.size());
   if (corners.size() < vertices.size()) ++report.linearised[kind.name];
   for (const std::int64_t v : vertices.subspan(corners.size())) raw.middles.push_back({v, place});
   if (kind.dimension < 3) {
@@ -222,15 +242,16 @@ std::size_t add_element(const ElementKind& kind, std::int64_t tag, std::span<con
   return raw.tets.size() - before;
 }
 
-void add_to_group(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices, const Place& place,
-                  RawGroup& group) {
+void add_to_group(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices,
+                  const Place& place, RawGroup& group) {
   std::vector<std::int64_t> v(vertices.begin(), vertices.begin() + kind.corners);
   if (kind.dimension < 2) {
     group.elements.push_back({tag, {v.front(), v.back(), v.back()}, 0, place});
     return;
   }
   std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-  for (std::size_t k = 1; k + 1 < v.size(); ++k) group.elements.push_back({tag, {v[0], v[k], v[k + 1]}, 0, place});
+  for (std::size_t k = 1; k + 1 < v.size(); ++k)
+    group.elements.push_back({tag, {v[0], v[k], v[k + 1]}, 0, place});
 }
 
 }  // namespace plica

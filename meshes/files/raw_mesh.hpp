@@ -15,10 +15,12 @@ namespace plica {
 
 /// A group of elements of lower dimension, as a file has it; a TetMesh keeps its vertices only.
 struct ElementGroup {
-  std::string name;                          ///< that of the vertex set; several groups may share it
-  int dimension = 0;                         ///< 0: of points, 1: of lines, 2: of triangles
-  std::int64_t tag = 0;                      ///< its number in the file
-  std::vector<std::array<int, 3>> elements;  ///< of each, in its first places, the vertices of the mesh
+  /// that of the vertex set; several groups may share it
+  std::string name;
+  int dimension = 0;     ///< 0: of points, 1: of lines, 2: of triangles
+  std::int64_t tag = 0;  ///< its number in the file
+  /// of each, in its first places, the vertices of the mesh
+  std::vector<std::array<int, 3>> elements;
 };
 
 /// How a file numbers and builds the groups of a mesh, so that a conversion keeps that.
@@ -27,7 +29,8 @@ struct MeshGroups {
   std::vector<ElementGroup> sets;         ///< in the order of dimensions and tags
 };
 
-/// The same groups when vertex v has become `renumbered[v]`; elements that lose a vertex (-1) or name one twice are dropped.
+/// The same groups when vertex v has become `renumbered[v]`; elements that lose a vertex (-1) or
+/// name one twice are dropped.
 MeshGroups renumbered(const MeshGroups& groups, const std::vector<int>& renumbered);
 
 /// What a reader found, repaired and left out.
@@ -35,15 +38,19 @@ struct MeshReport {
   std::string format;    ///< like "Gmsh MSH 2.2 ASCII"
   int flipped = 0;       ///< tetrahedra that were inside out
   int unreferenced = 0;  ///< vertices of no tetrahedron, dropped
-  int repeated = 0;      ///< tetrahedra with the vertices of another one, dropped where that is allowed
-  int collapsed = 0;     ///< tetrahedra that name a vertex twice, likewise
-  std::map<std::string, int> other_elements;  ///< what else the file holds: kind of element -> how many
-  std::map<std::string, int> cut;             ///< cells cut into tetrahedra, likewise
-  std::map<std::string, int> linearised;      ///< elements of higher order, of which the corners were taken, likewise
+  /// tetrahedra with the vertices of another one, dropped where that is allowed
+  int repeated = 0;
+  int collapsed = 0;  ///< tetrahedra that name a vertex twice, likewise
+  /// what else the file holds: kind of element -> how many
+  std::map<std::string, int> other_elements;
+  std::map<std::string, int> cut;  ///< cells cut into tetrahedra, likewise
+  /// elements of higher order, of which the corners were taken, likewise
+  std::map<std::string, int> linearised;
   std::vector<std::string> skipped_sections;  ///< that the reader does not know
   std::vector<std::int64_t> vertex_tags;      ///< per vertex of the mesh its number in the file
-  std::vector<std::int64_t> tet_tags;         ///< per tetrahedron of the mesh its number in the file
-  MeshGroups groups;                          ///< as the file has them
+  /// per tetrahedron of the mesh its number in the file
+  std::vector<std::int64_t> tet_tags;
+  MeshGroups groups;  ///< as the file has them
 };
 
 /// A vertex as it is in a file, under the file's own number.
@@ -100,7 +107,8 @@ struct RawVectors {
   std::string name;
   bool of_vertices = false;
   std::vector<Point> values;
-  std::unordered_map<std::int64_t, std::size_t> place = {};  ///< of a tag's value; empty: tags are the places
+  /// of a tag's value; empty: tags are the places
+  std::unordered_map<std::int64_t, std::size_t> place = {};
 
   /// The one of a vertex or element; zero where it has none.
   Point at(std::int64_t tag) const;
@@ -112,20 +120,22 @@ struct RawMesh {
   std::string vertex_file;  ///< when the vertices come from another one
   std::vector<RawVertex> vertices;
   std::vector<RawTet> tets;
-  std::vector<std::size_t> cut;        ///< where in `tets` each cell begins that was cut, and where it ends, in turns
-  std::vector<RawTriangle> triangles;  ///< of a surface; for a mesh they are only checked
-  std::vector<RawPolygon> polygons;    ///< likewise
-  BadFaces bad_faces;                  ///< left out
+  /// where in `tets` each cell begins that was cut, and where it ends, in turns
+  std::vector<std::size_t> cut;
+  std::vector<RawTriangle> triangles;     ///< of a surface; for a mesh they are only checked
+  std::vector<RawPolygon> polygons;       ///< likewise
+  BadFaces bad_faces;                     ///< left out
   std::vector<std::string> region_names;  ///< unique; empty: one nameless region
   std::vector<std::int64_t> region_tags;  ///< their numbers in the file
   std::vector<RawVectors> vectors;        ///< those of cells first
   std::vector<RawGroup> groups;           ///< their vertices become the vertex set of their name
   std::vector<RawMention> others;         ///< of elements that are not kept: only checked
-  std::vector<RawMention> middles;        ///< vertices of elements of higher order that are no corners
+  /// vertices of elements of higher order that are no corners
+  std::vector<RawMention> middles;
 };
 
-/// Regions from a number per tetrahedron, in ascending order; numbers of the same name are one region. Where all are 0
-/// there is one nameless region.
+/// Regions from a number per tetrahedron, in ascending order; numbers of the same name are one
+/// region. Where all are 0 there is one nameless region.
 void name_regions(RawMesh& raw, const std::vector<std::int64_t>& numbers,
                   const std::function<std::string(std::int64_t)>& name_of);
 
@@ -155,24 +165,29 @@ struct ElementKind {
 };
 inline constexpr int not_taken = -1;
 
-/// The kind with a number if we take it; else an InputError "WHO has type TYPE, a NAME; supported are ...".
+/// The kind with a number if we take it; else an InputError "WHO has type TYPE, a NAME; supported
+/// are ...".
 const ElementKind& taken_kind(std::span<const ElementKind> kinds, std::int64_t type,
-                              const std::function<std::string()>& who, const std::string& file, const Place& place);
+                              const std::function<std::string()>& who, const std::string& file,
+                              const Place& place);
 
 /// Adds a face, as a triangle or a polygon.
-void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw);
+void add_face(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
+              RawMesh& raw);
 
-/// Adds an element of any kind: a tetrahedron as it is, other cells cut into tetrahedra, faces as triangles or polygons; what is of
-/// lower dimension is only checked. Elements of higher order are taken by their corners.
+/// Adds an element of any kind: a tetrahedron as it is, other cells cut into tetrahedra, faces as
+/// triangles or polygons; what is of lower dimension is only checked. Elements of higher order are
+/// taken by their corners.
 ///
-/// A cell is cut from its vertex with the lowest number, and each quadrangle across from it from the lowest of its own: two cells
-/// that share a quadrangle cut it alike, whatever they are.
+/// A cell is cut from its vertex with the lowest number, and each quadrangle across from it from
+/// the lowest of its own: two cells that share a quadrangle cut it alike, whatever they are.
 /// @return how many tetrahedra
-std::size_t add_element(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices,
-                        const Place& place, RawMesh& raw, MeshReport& report);
+std::size_t add_element(const ElementKind& kind, std::int64_t tag,
+                        std::span<const std::int64_t> vertices, const Place& place, RawMesh& raw,
+                        MeshReport& report);
 
 /// Adds an element of lower dimension to a group; a quadrangle as two triangles, cut as a cell's.
-void add_to_group(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices, const Place& place,
-                  RawGroup& group);
+void add_to_group(const ElementKind& kind, std::int64_t tag, std::span<const std::int64_t> vertices,
+                  const Place& place, RawGroup& group);
 
 }  // namespace plica

@@ -31,10 +31,18 @@ std::string lower_case(std::string_view word) {
 
 // Some programs end a text with zero bytes, or with that of CP/M
 TextLines::TextLines(const MemoryFile& file, char comment)
-    : file_(file), comment_(comment), end_(file.bytes.find_last_not_of(std::string_view("\0\x1a", 2)) + 1) {}
+    : file_(file),
+      comment_(comment),
+      end_(file.bytes.find_last_not_of(std::string_view("\0\x1a", 2)) + 1) {}
 
-TextLines::TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line)
-    : file_(file), next_(begin), end_(end), next_line_(first_line), place_{first_line}, part_(true) {}
+TextLines::TextLines(const MemoryFile& file, std::size_t begin, std::size_t end,
+                     std::int64_t first_line)
+    : file_(file),
+      next_(begin),
+      end_(end),
+      next_line_(first_line),
+      place_{first_line},
+      part_(true) {}
 
 void TextLines::resume_at(std::size_t byte) {
   next_ = std::min(byte, end_);
@@ -71,12 +79,15 @@ void TextLines::split() {
     text_ = {};
     return;
   }
-  const auto first = words_.front().data() - text_.data(), last = words_.back().data() - text_.data();
-  text_ = text_.substr(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first) + words_.back().size());
+  const auto first = words_.front().data() - text_.data(),
+             last = words_.back().data() - text_.data();
+  text_ = text_.substr(static_cast<std::size_t>(first),
+                       static_cast<std::size_t>(last - first) + words_.back().size());
 }
 
 std::string_view TextLines::word(std::size_t word, std::string_view what) const {
-  if (word >= words_.size()) fail("the line ends where " + std::string(what) + " is expected: " + shown(text_));
+  if (word >= words_.size())
+    fail("the line ends where " + std::string(what) + " is expected: " + shown(text_));
   return words_[word];
 }
 
@@ -89,19 +100,22 @@ double TextLines::any_number(std::size_t word, std::string_view what) const {
 
 double TextLines::number(std::size_t word, std::string_view what) const {
   const double value = any_number(word, what);
-  if (!std::isfinite(value)) fail(std::string(what) + " is " + shown(words_[word]) + "; it must be finite");
+  if (!std::isfinite(value))
+    fail(std::string(what) + " is " + shown(words_[word]) + "; it must be finite");
   return value;
 }
 
 std::int64_t TextLines::integer(std::size_t word, std::string_view what) const {
   const std::string_view text = this->word(word, what);
   std::int64_t value = 0;
-  if (!parse(text, value)) fail(std::string(what) + " is " + shown(text) + "; it must be an integer below 2^63");
+  if (!parse(text, value))
+    fail(std::string(what) + " is " + shown(text) + "; it must be an integer below 2^63");
   return value;
 }
 
 void TextLines::expected(std::string_view what) const {
-  if (ended_) fail("expected " + std::string(what) + (part_ ? ", but it ends here" : ", but the file ends"));
+  if (ended_)
+    fail("expected " + std::string(what) + (part_ ? ", but it ends here" : ", but the file ends"));
   fail("expected " + std::string(what) + ", found " + shown(text_));
 }
 
@@ -140,7 +154,8 @@ std::size_t bytes_of(NumberType type) {
   return with_type(type, [](auto zero) { return sizeof(zero); });
 }
 
-std::int64_t Numbers::count(NumberType type, std::string_view what, NumberType each, std::int64_t numbers) {
+std::int64_t Numbers::count(NumberType type, std::string_view what, NumberType each,
+                            std::int64_t numbers) {
   return checked_count(integer(type, what), what, each, numbers);
 }
 
@@ -148,21 +163,23 @@ std::int64_t Numbers::checked_count(std::int64_t count, std::string_view what, N
                                     std::int64_t numbers) const {
   const std::int64_t most = room(each) / numbers;
   if (count < 0 || count > std::min<std::int64_t>(most, std::numeric_limits<int>::max()))
-    fail(std::string(what) + " is " + std::to_string(count) + ", but there is room for " + std::to_string(most) +
-         " at most");
+    fail(std::string(what) + " is " + std::to_string(count) + ", but there is room for " +
+         std::to_string(most) + " at most");
   return count;
 }
 
 // The mark of a section is no number: the record is missing
 void TextNumbers::begin(std::string_view what, std::int64_t number, std::int64_t of) {
   if (!lines_.next() || lines_.text().front() == '$')
-    lines_.expected(std::string(what) + (of > 0 ? " " + std::to_string(number) + " of " + std::to_string(of) : ""));
+    lines_.expected(std::string(what) +
+                    (of > 0 ? " " + std::to_string(number) + " of " + std::to_string(of) : ""));
   word_ = 0;
 }
 
 void TextNumbers::end(std::string_view what) {
   if (word_ < lines_.words().size())
-    lines_.fail(shown(lines_.words()[word_]) + " is too much for " + std::string(what) + ": " + shown(lines_.text()));
+    lines_.fail(shown(lines_.words()[word_]) + " is too much for " + std::string(what) + ": " +
+                shown(lines_.text()));
 }
 
 void TextNumbers::go_to_word(std::string_view what) {
@@ -218,18 +235,21 @@ std::int64_t ByteNumbers::integer(NumberType type, std::string_view what) {
       fail(std::string(what) + " is stored as a floating point number; it must be an integer");
     else if constexpr (std::is_same_v<decltype(zero), std::uint64_t>)
       if (value > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
-        fail(std::string(what) + " is " + std::to_string(value) + "; it must be an integer below 2^63");
+        fail(std::string(what) + " is " + std::to_string(value) +
+             "; it must be an integer below 2^63");
     return static_cast<std::int64_t>(value);
   });
 }
 
 double ByteNumbers::any_number(NumberType type, std::string_view what) {
-  return with_type(type, [&](auto zero) { return static_cast<double>(take<decltype(zero)>(what)); });
+  return with_type(type,
+                   [&](auto zero) { return static_cast<double>(take<decltype(zero)>(what)); });
 }
 
 double ByteNumbers::number(NumberType type, std::string_view what) {
   const double value = any_number(type, what);
-  if (!std::isfinite(value)) fail(std::string(what) + " is " + std::to_string(value) + "; it must be finite");
+  if (!std::isfinite(value))
+    fail(std::string(what) + " is " + std::to_string(value) + "; it must be finite");
   return value;
 }
 
@@ -243,6 +263,8 @@ Place ByteNumbers::place() const {
   return first_.line > 0 ? first_ : Place{0, first_.byte + static_cast<std::int64_t>(last_)};
 }
 
-std::int64_t ByteNumbers::room(NumberType type) const { return static_cast<std::int64_t>(left() / bytes_of(type)); }
+std::int64_t ByteNumbers::room(NumberType type) const {
+  return static_cast<std::int64_t>(left() / bytes_of(type));
+}
 
 }  // namespace plica

@@ -11,14 +11,17 @@ namespace plica {
 
 std::string lower_case(std::string_view word);
 
-/// Text, taken line by line as words between blanks; every complaint names the line. Knows what is left of the file, so
-/// that a reader can tell an absurd count before it allocates. Where lines are headings of binary data, whoever reads
-/// the data says where the lines go on; from there, lines are named by their bytes.
+/// Text, taken line by line as words between blanks; every complaint names the line. Knows what is
+/// left of the file, so that a reader can tell an absurd count before it allocates. Where lines are
+/// headings of binary data, whoever reads the data says where the lines go on; from there, lines
+/// are named by their bytes.
 class TextLines {
  public:
-  /// All of a file but zero bytes at its end; it must outlive this. What follows `comment` on a line is left out, 0: nothing does.
+  /// All of a file but zero bytes at its end; it must outlive this. What follows `comment` on a
+  /// line is left out, 0: nothing does.
   explicit TextLines(const MemoryFile& file, char comment = 0);
-  /// The part of a file that begins with line `first_line` at the byte `begin` and ends before `end`.
+  /// The part of a file that begins with line `first_line` at the byte `begin` and ends before
+  /// `end`.
   TextLines(const MemoryFile& file, std::size_t begin, std::size_t end, std::int64_t first_line);
 
   /// Goes to the next line that is not blank; false at the end of the file.
@@ -35,9 +38,11 @@ class TextLines {
   const MemoryFile& file() const { return file_; }
   Place place() const { return place_; }
 
-  /// A word as a number; InputError with `what` it was to be, when it is missing, no number, or not finite.
-  double number(std::size_t word, std::string_view what) const;      ///< finite
-  double any_number(std::size_t word, std::string_view what) const;  ///< which may be infinite or none
+  /// A word as a number; InputError with `what` it was to be, when it is missing, no number, or not
+  /// finite.
+  double number(std::size_t word, std::string_view what) const;  ///< finite
+  /// which may be infinite or none
+  double any_number(std::size_t word, std::string_view what) const;
   std::int64_t integer(std::size_t word, std::string_view what) const;
 
   /// InputError at this line.
@@ -61,13 +66,25 @@ class TextLines {
 };
 
 /// How a binary file stores a number.
-enum class NumberType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+enum class NumberType {
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64
+};
 
 std::size_t bytes_of(NumberType type);
 inline bool is_integer(NumberType type) { return type < NumberType::float32; }
 
-/// Numbers one after the other, from text or from binary data: a format that has both forms is parsed once.
-/// Everything is an InputError with place, `what` was to be read, and the value, when it is not there or not sound.
+/// Numbers one after the other, from text or from binary data: a format that has both forms is
+/// parsed once. Everything is an InputError with place, `what` was to be read, and the value, when
+/// it is not there or not sound.
 class Numbers {
  public:
   virtual ~Numbers() = default;
@@ -78,8 +95,9 @@ class Numbers {
   virtual void end(std::string_view what) = 0;
 
   virtual std::int64_t integer(NumberType type, std::string_view what) = 0;
-  virtual double number(NumberType type, std::string_view what) = 0;      ///< finite
-  virtual double any_number(NumberType type, std::string_view what) = 0;  ///< which may be infinite or none
+  virtual double number(NumberType type, std::string_view what) = 0;  ///< finite
+  /// which may be infinite or none
+  virtual double any_number(NumberType type, std::string_view what) = 0;
   virtual void skip(std::int64_t count, NumberType type, std::string_view what) = 0;
 
   virtual Place place() const = 0;                  ///< of the last number
@@ -87,18 +105,21 @@ class Numbers {
   virtual const std::string& file() const = 0;      ///< its name
   [[noreturn]] void fail(const std::string& message) const { refuse(file(), place(), message); }
 
-  /// How many `what` there are, each of at least `numbers` numbers of type `each`: from 0 to what the rest of the file
-  /// and an int have room for, so that no absurd count is ever allocated.
+  /// How many `what` there are, each of at least `numbers` numbers of type `each`: from 0 to what
+  /// the rest of the file and an int have room for, so that no absurd count is ever allocated.
   std::int64_t count(NumberType type, std::string_view what, NumberType each, std::int64_t numbers);
   /// The same of a count that has been read.
-  std::int64_t checked_count(std::int64_t count, std::string_view what, NumberType each, std::int64_t numbers) const;
+  std::int64_t checked_count(std::int64_t count, std::string_view what, NumberType each,
+                             std::int64_t numbers) const;
 };
 
 /// From lines of text, whatever the type.
 class TextNumbers final : public Numbers {
  public:
-  /// What follows the current line. `free`: a number may be on any of the following lines, as the formats of VTK have it.
-  explicit TextNumbers(TextLines& lines, bool free = false) : lines_(lines), free_(free), word_(lines.words().size()) {}
+  /// What follows the current line. `free`: a number may be on any of the following lines, as the
+  /// formats of VTK have it.
+  explicit TextNumbers(TextLines& lines, bool free = false)
+      : lines_(lines), free_(free), word_(lines.words().size()) {}
 
   /// From a word of the current line on, wherever they are.
   TextNumbers(TextLines& lines, std::size_t word) : lines_(lines), free_(true), word_(word) {}
@@ -127,7 +148,10 @@ class ByteNumbers final : public Numbers {
   /// @param bytes  of a file, or decoded from one; must outlive this
   /// @param first  the place of the first byte: a byte, or the line that all of them come from
   ByteNumbers(std::string file, std::string_view bytes, std::endian order, Place first)
-      : file_(std::move(file)), bytes_(bytes), swapped_(order != std::endian::native), first_(first) {}
+      : file_(std::move(file)),
+        bytes_(bytes),
+        swapped_(order != std::endian::native),
+        first_(first) {}
 
   void begin(std::string_view, std::int64_t, std::int64_t) override {}
   void end(std::string_view) override {}
@@ -167,8 +191,8 @@ struct NumberForm {
       return read(numbers);
     }
     const std::size_t start = lines.next_byte();
-    ByteNumbers numbers(lines.file().name, std::string_view(lines.file().bytes).substr(start), order,
-                        {0, static_cast<std::int64_t>(start)});
+    ByteNumbers numbers(lines.file().name, std::string_view(lines.file().bytes).substr(start),
+                        order, {0, static_cast<std::int64_t>(start)});
     const auto result = read(numbers);
     lines.resume_at(start + numbers.taken());
     return result;

@@ -37,25 +37,31 @@ std::array<int, 4> sorted(std::array<int, 4> tet) {
   return tet;
 }
 
-void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 4>& corners, double volume) {
+void refuse_flat(const RawMesh& raw, const RawTet& tet, const std::array<Point, 4>& corners,
+                 double volume) {
   double longest = 0.0;
   for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, (corners[j] - corners[i]).norm());
+    for (std::size_t j = i + 1; j < 4; ++j)
+      longest = std::max(longest, (corners[j] - corners[i]).norm());
   if (!(std::abs(6.0 * volume) > flat * longest * longest * longest))
-    refuse(raw, tet.place, "tetrahedron ", tet.tag, " (nodes ", nodes(tet), ") has no volume: ", volume,
-           " for a longest edge of ", longest);
+    refuse(raw, tet.place, "tetrahedron ", tet.tag, " (nodes ", nodes(tet),
+           ") has no volume: ", volume, " for a longest edge of ", longest);
 }
 
-// All vertices as yet, with their positions in the file as indices; the tetrahedra turned right side out
-void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, TetMesh& mesh, MeshReport& report) {
+// All vertices as yet, with their positions in the file as indices; the tetrahedra turned right
+// side out
+void add_tets(const RawMesh& raw, const VertexNumbers& numbering, Flaws flaws, TetMesh& mesh,
+              MeshReport& report) {
   mesh.tets.reserve(raw.tets.size());
   for (const RawTet& tet : raw.tets) {
     std::array<int, 4> v;
     for (std::size_t k = 0; k < 4; ++k)
-      v[k] = numbering.at(tet.vertices[k], tet.place, [&] { return "tetrahedron " + std::to_string(tet.tag); });
+      v[k] = numbering.at(tet.vertices[k], tet.place,
+                          [&] { return "tetrahedron " + std::to_string(tet.tag); });
     const auto ascending = sorted(v);
     if (std::adjacent_find(ascending.begin(), ascending.end()) != ascending.end()) {
-      if (flaws == Flaws::refused) refuse(raw, tet.place, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
+      if (flaws == Flaws::refused)
+        refuse(raw, tet.place, "tetrahedron ", tet.tag, " names a node twice: ", nodes(tet));
       ++report.collapsed;
       continue;
     }
@@ -77,13 +83,16 @@ void refuse_folded(const RawMesh& raw, const VertexNumbers& numbering) {
     for (std::size_t t = raw.cut[c]; t < raw.cut[c + 1]; ++t) {
       const RawTet& tet = raw.tets[t];
       const auto at = [&](std::size_t k) -> const Point& {
-        return raw.vertices[static_cast<std::size_t>(numbering.at(tet.vertices[k], tet.place, nobody))].position;
+        return raw
+            .vertices[static_cast<std::size_t>(numbering.at(tet.vertices[k], tet.place, nobody))]
+            .position;
       };
       (tet_volume(at(0), at(1), at(2), at(3)) < 0 ? below : above) = true;
     }
     const RawTet& first = raw.tets[raw.cut[c]];
     if (above && below)
-      refuse(raw, first.place, "element ", first.tag, " is folded: cut into tetrahedra, some would be inside out");
+      refuse(raw, first.place, "element ", first.tag,
+             " is folded: cut into tetrahedra, some would be inside out");
   }
 }
 
@@ -112,8 +121,9 @@ void refuse_repeats(const RawMesh& raw, const TetMesh& mesh) {
       first = keys[k - 1].second, again = keys[k].second;
   if (again == keys.size()) return;
   const RawTet &one = raw.tets[first], &other = raw.tets[again];
-  refuse(raw, other.place, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " ", to_text(one.place),
-         " (nodes ", nodes(one), "); an element belongs in one group of volumes only");
+  refuse(raw, other.place, "tetrahedron ", other.tag, " repeats tetrahedron ", one.tag, " ",
+         to_text(one.place), " (nodes ", nodes(one),
+         "); an element belongs in one group of volumes only");
 }
 
 /// After the repeats: tetrahedra of the mesh are those of the file, in its order.
@@ -122,15 +132,17 @@ void refuse_overlaps(const RawMesh& raw, const TetMesh& mesh) {
   if (found.empty()) return;
   const RawTet &one = raw.tets[found[0]], &two = raw.tets[found[1]];
   if (found.size() == 2)
-    refuse(raw, two.place, "tetrahedron ", two.tag, " lies on the same side of a face as tetrahedron ", one.tag, " ",
-           to_text(one.place),
-           ", which has it too; expected tetrahedra that do not overlap: a vertex may be out of place");
+    refuse(raw, two.place, "tetrahedron ", two.tag,
+           " lies on the same side of a face as tetrahedron ", one.tag, " ", to_text(one.place),
+           ", which has it too; expected tetrahedra that do not overlap: a vertex may be out of "
+           "place");
   const RawTet& three = raw.tets[found[2]];
-  refuse(raw, three.place, "tetrahedron ", three.tag, " shares a face with tetrahedra ", one.tag, " and ", two.tag,
-         ", which share it already; expected tetrahedra that do not overlap");
+  refuse(raw, three.place, "tetrahedron ", three.tag, " shares a face with tetrahedra ", one.tag,
+         " and ", two.tag, ", which share it already; expected tetrahedra that do not overlap");
 }
 
-void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
+void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
+              MeshReport& report) {
   const auto element = [] { return "an element"; };
   for (const RawTriangle& triangle : raw.triangles)
     for (const std::int64_t v : triangle.vertices) numbering.at(v, triangle.place, element);
@@ -138,8 +150,8 @@ void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
     for (const std::int64_t v : polygon.corners) numbering.at(v, polygon.place, element);
   for (const RawMention& mention : raw.others) numbering.at(mention.vertex, mention.place, element);
   for (const RawGroup& raw_group : raw.groups) {
-    ElementGroup& group =
-        report.groups.sets.emplace_back(ElementGroup{raw_group.name, raw_group.dimension, raw_group.tag, {}});
+    ElementGroup& group = report.groups.sets.emplace_back(
+        ElementGroup{raw_group.name, raw_group.dimension, raw_group.tag, {}});
     std::vector<int>& set = mesh.vertex_sets[group.name];
     for (const RawTriangle& raw_element : raw_group.elements) {
       std::array<int, 3>& v = group.elements.emplace_back(std::array<int, 3>{-1, -1, -1});
@@ -154,16 +166,19 @@ void add_sets(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
 }
 
 // Middles of edges and faces are used by elements, but not by ours
-int count_middles(const RawMesh& raw, const VertexNumbers& numbering, const std::vector<int>& number) {
+int count_middles(const RawMesh& raw, const VertexNumbers& numbering,
+                  const std::vector<int>& number) {
   std::set<int> middles;
   for (const RawMention& mention : raw.middles) {
-    const int v = numbering.at(mention.vertex, mention.place, [] { return std::string("an element"); });
+    const int v =
+        numbering.at(mention.vertex, mention.place, [] { return std::string("an element"); });
     if (number[static_cast<std::size_t>(v)] < 0) middles.insert(v);
   }
   return static_cast<int>(middles.size());
 }
 
-void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh, MeshReport& report) {
+void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMesh& mesh,
+                       MeshReport& report) {
   std::vector<int> number(mesh.vertices.size(), -1);
   for (const auto& tet : mesh.tets)
     for (const int v : tet) number[static_cast<std::size_t>(v)] = 0;
@@ -174,7 +189,8 @@ void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMe
     mesh.vertices[kept++] = mesh.vertices[v];
     report.vertex_tags.push_back(raw.vertices[v].tag);
   }
-  report.unreferenced = static_cast<int>(mesh.vertices.size() - kept) - count_middles(raw, numbering, number);
+  report.unreferenced =
+      static_cast<int>(mesh.vertices.size() - kept) - count_middles(raw, numbering, number);
   report.groups = renumbered(report.groups, number);
   mesh.vertices.resize(kept);
   for (auto& tet : mesh.tets)
@@ -185,20 +201,23 @@ void drop_unreferenced(const RawMesh& raw, const VertexNumbers& numbering, TetMe
   }
 }
 
-// Of each tetrahedron, that of its cell or the mean of its corners; of two fields of a name the first. After all numbers are final
+// Of each tetrahedron, that of its cell or the mean of its corners; of two fields of a name the
+// first. After all numbers are final
 void add_vectors(const RawMesh& raw, TetMesh& mesh, const MeshReport& report) {
   for (const RawVectors& field : raw.vectors) {
     const auto [place, is_new] = mesh.tet_vectors.try_emplace(field.name);
     for (std::size_t t = 0; is_new && t < mesh.tets.size(); ++t) {
       Point mean = Point::Zero();
       for (const int v : mesh.tets[t])
-        mean += field.at(field.of_vertices ? report.vertex_tags[static_cast<std::size_t>(v)] : report.tet_tags[t]);
+        mean += field.at(field.of_vertices ? report.vertex_tags[static_cast<std::size_t>(v)]
+                                           : report.tet_tags[t]);
       place->second.push_back(mean / 4);
     }
   }
 }
 
-// Files name groups in any encoding; from here on names are UTF-8. A name of a region and of a set stays one name.
+// Files name groups in any encoding; from here on names are UTF-8. A name of a region and of a set
+// stays one name.
 void name_in_utf8(TetMesh& mesh, MeshGroups& groups) {
   std::vector<std::string> names = mesh.region_names;
   for (const auto& [name, set] : mesh.vertex_sets) names.push_back(name);

@@ -30,27 +30,36 @@ class SurfaceMaker {
     for (const RawMention& mention : raw_.others)
       numbering_.at(mention.vertex, mention.place, [] { return std::string("an element"); });
     for (const RawTriangle& t : raw_.triangles)
-      if (const auto v = corners(t.tag, t.vertices, t.place)) triangle((*v)[0], (*v)[1], (*v)[2], t.tag, t.place);
+      if (const auto v = corners(t.tag, t.vertices, t.place))
+        triangle((*v)[0], (*v)[1], (*v)[2], t.tag, t.place);
     for (const RawPolygon& p : raw_.polygons)
       if (const auto v = corners(p.tag, p.corners, p.place)) polygon(*v, p);
-    const auto faces = static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size()) + raw_.bad_faces.count;
+    const auto faces = static_cast<std::int64_t>(raw_.triangles.size() + raw_.polygons.size()) +
+                       raw_.bad_faces.count;
     if (bad_.count * most_bad_faces > faces || (surface_.triangles.empty() && bad_.count > 0))
-      refuse(raw_.file, bad_.place,
-             bad_.message + (bad_.count == 1 ? ""
-                                             : "; " + std::to_string(bad_.count) + " of " + std::to_string(faces) +
-                                                   " faces are bad, and more than 1 % is too much"));
+      refuse(
+          raw_.file, bad_.place,
+          bad_.message + (bad_.count == 1
+                              ? ""
+                              : "; " + std::to_string(bad_.count) + " of " + std::to_string(faces) +
+                                    " faces are bad, and more than 1 % is too much"));
     report_.left_out = bad_.count;
-    if (surface_.triangles.empty()) refuse(raw_.file, Place{}, "all triangles of the file name a vertex twice");
+    if (surface_.triangles.empty())
+      refuse(raw_.file, Place{}, "all triangles of the file name a vertex twice");
   }
 
  private:
-  std::optional<std::vector<int>> corners(std::int64_t tag, std::span<const std::int64_t> tags, const Place& place) {
-    const auto who = [&] { return (tags.size() == 3 ? "triangle " : "face ") + std::to_string(tag); };
+  std::optional<std::vector<int>> corners(std::int64_t tag, std::span<const std::int64_t> tags,
+                                          const Place& place) {
+    const auto who = [&] {
+      return (tags.size() == 3 ? "triangle " : "face ") + std::to_string(tag);
+    };
     std::vector<int> v;
     for (const std::int64_t one : tags) {
       v.push_back(numbering_.find(one));
       if (v.back() >= 0) continue;
-      bad_.add(place, who() + " names node " + std::to_string(one) + ", which the file does not define");
+      bad_.add(place,
+               who() + " names node " + std::to_string(one) + ", which the file does not define");
       return {};
     }
     return v;
@@ -68,12 +77,15 @@ class SurfaceMaker {
     if (ab.cross(ac).norm() > flat_triangle * longest * longest)
       surface_.triangles.push_back({a, b, c});
     else
-      bad_.add(place, "triangle " + std::to_string(tag) + " has no area: its vertices lie on a line");
+      bad_.add(place,
+               "triangle " + std::to_string(tag) + " has no area: its vertices lie on a line");
   }
 
   // Twice the area of the triangle of corners `first`, k and k + 1 after it
   Point area(const std::vector<int>& v, std::size_t first, std::size_t k) const {
-    const auto corner = [&](std::size_t i) -> const Point& { return at(v[(first + i) % v.size()]); };
+    const auto corner = [&](std::size_t i) -> const Point& {
+      return at(v[(first + i) % v.size()]);
+    };
     return (corner(k) - corner(0)).cross(corner(k + 1) - corner(0));
   }
 
@@ -89,14 +101,16 @@ class SurfaceMaker {
     for (std::size_t k = 1; k + 1 < v.size(); ++k) sum += area(v, 0, k);
     for (std::size_t first = 0; first < v.size(); ++first) {
       bool one_side = true;
-      for (std::size_t k = 1; k + 1 < v.size(); ++k) one_side = one_side && area(v, first, k).dot(sum) > 0.0;
+      for (std::size_t k = 1; k + 1 < v.size(); ++k)
+        one_side = one_side && area(v, first, k).dot(sum) > 0.0;
       if (!one_side) continue;
       for (std::size_t k = 1; k + 1 < v.size(); ++k)
-        triangle(v[first], v[(first + k) % v.size()], v[(first + k + 1) % v.size()], face.tag, face.place);
+        triangle(v[first], v[(first + k) % v.size()], v[(first + k + 1) % v.size()], face.tag,
+                 face.place);
       return;
     }
-    bad_.add(face.place,
-             "a face with " + std::to_string(v.size()) + " corners cannot be cut into triangles from one of them");
+    bad_.add(face.place, "a face with " + std::to_string(v.size()) +
+                             " corners cannot be cut into triangles from one of them");
   }
 
   const RawMesh& raw_;
@@ -117,9 +131,11 @@ void drop_repeats(TriangleSurface& surface, SurfaceReport& report) {
   std::vector<std::size_t> order(surface.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t t) { return turned(surface.triangles[t]); };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   std::vector<bool> again(order.size(), false);
-  for (std::size_t k = 1; k < order.size(); ++k) again[order[k]] = key(order[k]) == key(order[k - 1]);
+  for (std::size_t k = 1; k < order.size(); ++k)
+    again[order[k]] = key(order[k]) == key(order[k - 1]);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < again.size(); ++t)
     if (!again[t]) surface.triangles[kept++] = surface.triangles[t];

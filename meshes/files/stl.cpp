@@ -15,7 +15,8 @@ constexpr std::size_t title = 80, head = title + 4, facet_bytes = 50;  // bytes
 struct Exactly {
   std::size_t operator()(const Point& p) const {
     std::uint64_t hash = 0;
-    for (const double x : p) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 32;
+    for (const double x : p)
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 32;
     return static_cast<std::size_t>(hash);
   }
 };
@@ -26,7 +27,8 @@ class StlGather {
 
   void corner(std::size_t k, Point point, const Place& place) {
     point.array() += 0.0;  // -0 becomes 0
-    const auto [found, is_new] = index_.try_emplace(point, static_cast<std::int64_t>(index_.size()));
+    const auto [found, is_new] =
+        index_.try_emplace(point, static_cast<std::int64_t>(index_.size()));
     if (is_new) raw_.vertices.push_back({found->second, point, place});
     triangle_.vertices[k] = found->second;
     if (k == 0) triangle_.place = place;
@@ -47,7 +49,8 @@ bool is(const TextLines& lines, std::size_t word, const char* expected) {
 }
 
 void expect_line(TextLines& lines, const char* first, const char* second, const std::string& what) {
-  if (!lines.next() || !is(lines, 0, first) || (second && !is(lines, 1, second))) lines.expected(what);
+  if (!lines.next() || !is(lines, 0, first) || (second && !is(lines, 1, second)))
+    lines.expected(what);
 }
 
 void read_facet(TextLines& lines, StlGather& gather) {
@@ -57,7 +60,8 @@ void read_facet(TextLines& lines, StlGather& gather) {
     expect_line(lines, "vertex", nullptr, "vertex " + std::to_string(k + 1) + " of 3");
     if (lines.words().size() != 4) lines.expected("a vertex with three coordinates");
     Point point;
-    for (int a = 0; a < 3; ++a) point[a] = lines.number(static_cast<std::size_t>(a) + 1, coordinates[a]);
+    for (int a = 0; a < 3; ++a)
+      point[a] = lines.number(static_cast<std::size_t>(a) + 1, coordinates[a]);
     gather.corner(k, point, lines.place());
   }
   expect_line(lines, "endloop", nullptr, "endloop after three vertices");
@@ -70,7 +74,8 @@ void read_text(const MemoryFile& file, StlGather& gather) {
   while (lines.next()) {
     const bool starts = is(lines, 0, "solid"),
                ends = is(lines, 0, "endsolid") || (is(lines, 0, "end") && is(lines, 1, "solid"));
-    if (open ? !ends && !is(lines, 0, "facet") : !starts) lines.expected(open ? "facet or endsolid" : "solid");
+    if (open ? !ends && !is(lines, 0, "facet") : !starts)
+      lines.expected(open ? "facet or endsolid" : "solid");
     if (starts || ends)
       open = starts;
     else
@@ -81,12 +86,14 @@ void read_text(const MemoryFile& file, StlGather& gather) {
 
 std::uint32_t told_triangles(const MemoryFile& file) {
   if (file.bytes.size() < head) return 0;
-  ByteNumbers numbers(file.name, std::string_view(file.bytes).substr(title), std::endian::little, {0, title});
+  ByteNumbers numbers(file.name, std::string_view(file.bytes).substr(title), std::endian::little,
+                      {0, title});
   return static_cast<std::uint32_t>(numbers.integer(NumberType::uint32, "the number of triangles"));
 }
 
 void read_binary(const MemoryFile& file, StlGather& gather) {
-  ByteNumbers numbers(file.name, std::string_view(file.bytes).substr(head), std::endian::little, {0, head});
+  ByteNumbers numbers(file.name, std::string_view(file.bytes).substr(head), std::endian::little,
+                      {0, head});
   constexpr NumberType real = NumberType::float32;
   for (std::uint32_t left = told_triangles(file); left > 0; --left) {
     numbers.skip(3, real, "a normal");
@@ -126,16 +133,19 @@ RawMesh parse_stl(const MemoryFile& file, MeshReport& report) {
   if (file.bytes.size() >= head && file.bytes.size() == bytes) {
     report.format = "STL binary";
     read_binary(file, gather);
-  } else if (start != std::string::npos && lower_case(std::string_view(file.bytes).substr(start, 5)) == "solid") {
+  } else if (start != std::string::npos &&
+             lower_case(std::string_view(file.bytes).substr(start, 5)) == "solid") {
     report.format = "STL ASCII";
     read_text(file, gather);
   } else if (file.bytes.size() < head) {
     refuse(file.name, {},
-           "is no STL file: it does not begin with 'solid', and has no " + std::to_string(head) + " bytes");
+           "is no STL file: it does not begin with 'solid', and has no " + std::to_string(head) +
+               " bytes");
   } else {
     refuse(file.name, {0, title},
-           "the number of triangles is " + std::to_string(told) + ", for which the file must have " +
-               std::to_string(bytes) + " bytes, but it has " + std::to_string(file.bytes.size()));
+           "the number of triangles is " + std::to_string(told) +
+               ", for which the file must have " + std::to_string(bytes) + " bytes, but it has " +
+               std::to_string(file.bytes.size()));
   }
   return raw;
 }
@@ -166,7 +176,8 @@ WrittenMesh write_stl_binary(const std::filesystem::path& path, const TriangleSu
     }
     out.text(std::string(2, '\0'));
   }
-  return {{{path.string(), out.take()}}, {"coordinates are rounded to seven digits: this format has no more"}};
+  return {{{path.string(), out.take()}},
+          {"coordinates are rounded to seven digits: this format has no more"}};
 }
 
 }  // namespace plica

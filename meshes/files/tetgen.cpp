@@ -13,25 +13,27 @@ constexpr NumberType integer = NumberType::int64, real = NumberType::float64;
 std::int64_t between(std::int64_t value, std::int64_t least, std::int64_t most, const char* what,
                      const Numbers& numbers) {
   if (value < least || value > most)
-    numbers.fail(std::string(what) + " is " + std::to_string(value) + "; it must be " + std::to_string(least) +
-                 (least == most ? "" : " to " + std::to_string(most)));
+    numbers.fail(std::string(what) + " is " + std::to_string(value) + "; it must be " +
+                 std::to_string(least) + (least == most ? "" : " to " + std::to_string(most)));
   return value;
 }
 
 void check_end(TextLines& lines, std::int64_t count, const char* what) {
-  if (lines.next()) lines.expected("the end of the file after " + std::to_string(count) + " " + what);
+  if (lines.next())
+    lines.expected("the end of the file after " + std::to_string(count) + " " + what);
 }
 
 void read_nodes(const MemoryFile& file, RawMesh& raw) {
   TextLines lines(file, '#');
   TextNumbers numbers(lines);
-  constexpr const char* heading = "the number of nodes, their dimension 3, their attributes and boundary markers";
+  constexpr const char* heading =
+      "the number of nodes, their dimension 3, their attributes and boundary markers";
   numbers.begin(heading, 0, 0);
   const std::int64_t count = numbers.count(integer, "the number of nodes", integer, 4);
   between(numbers.integer(integer, "the dimension"), 3, 3, "the dimension", numbers);
   const std::int64_t attributes = numbers.count(integer, "the number of attributes", integer, 1);
-  const std::int64_t markers =
-      between(numbers.integer(integer, "the number of markers"), 0, 1, "the number of boundary markers", numbers);
+  const std::int64_t markers = between(numbers.integer(integer, "the number of markers"), 0, 1,
+                                       "the number of boundary markers", numbers);
   numbers.end(heading);
   std::map<std::int64_t, RawGroup> groups;
   for (std::int64_t i = 1; i <= count; ++i) {
@@ -40,7 +42,8 @@ void read_nodes(const MemoryFile& file, RawMesh& raw) {
     constexpr const char* what[] = {"coordinate x", "coordinate y", "coordinate z"};
     for (int a = 0; a < 3; ++a) vertex.position[a] = numbers.number(real, what[a]);
     numbers.skip(attributes, real, "an attribute of a node");
-    if (const std::int64_t marker = markers > 0 ? numbers.integer(integer, "the boundary marker of a node") : 0)
+    if (const std::int64_t marker =
+            markers > 0 ? numbers.integer(integer, "the boundary marker of a node") : 0)
       groups[marker].elements.push_back({vertex.tag, {vertex.tag, 0, 0}, 0, vertex.place});
     numbers.end("a node");
     raw.vertices.push_back(vertex);
@@ -55,13 +58,14 @@ void read_nodes(const MemoryFile& file, RawMesh& raw) {
 void read_tets(const MemoryFile& file, RawMesh& raw, MeshReport& report) {
   TextLines lines(file, '#');
   TextNumbers numbers(lines);
-  constexpr const char* heading = "the number of tetrahedra, of nodes of each (4), and of their attributes";
+  constexpr const char* heading =
+      "the number of tetrahedra, of nodes of each (4), and of their attributes";
   numbers.begin(heading, 0, 0);
   const std::int64_t count = numbers.count(integer, "the number of tetrahedra", integer, 5);
   const std::int64_t corners = numbers.integer(integer, "the number of nodes of a tetrahedron");
   if (corners != 10) between(corners, 4, 4, "the number of nodes of a tetrahedron", numbers);
-  const ElementKind kind = {0, corners == 4 ? "tetrahedron" : "second-order tetrahedron", 3, static_cast<int>(corners),
-                            4};
+  const ElementKind kind = {0, corners == 4 ? "tetrahedron" : "second-order tetrahedron", 3,
+                            static_cast<int>(corners), 4};
   const std::int64_t attributes = numbers.count(integer, "the number of attributes", integer, 1);
   numbers.end(heading);
   std::vector<std::int64_t> regions;
@@ -71,13 +75,16 @@ void read_tets(const MemoryFile& file, RawMesh& raw, MeshReport& report) {
     const Place place = numbers.place();
     std::vector<std::int64_t> vertices(static_cast<std::size_t>(corners));
     for (std::int64_t& v : vertices) v = numbers.integer(integer, "a node of a tetrahedron");
-    regions.push_back(attributes > 0 ? numbers.integer(integer, "the attribute of a tetrahedron, its region") : 0);
+    regions.push_back(attributes > 0
+                          ? numbers.integer(integer, "the attribute of a tetrahedron, its region")
+                          : 0);
     numbers.skip(attributes - 1, real, "an attribute of a tetrahedron");
     numbers.end("a tetrahedron");
     add_element(kind, tag, vertices, place, raw, report);
   }
   check_end(lines, count, "tetrahedra");
-  name_regions(raw, regions, [](std::int64_t number) { return "attribute_" + std::to_string(number); });
+  name_regions(raw, regions,
+               [](std::int64_t number) { return "attribute_" + std::to_string(number); });
 }
 
 }  // namespace
@@ -93,7 +100,8 @@ RawMesh parse_tetgen(const MemoryFile& elements, const MemoryFile& nodes, MeshRe
 
 RawMesh parse_tetgen(const MemoryFile& file, MeshReport& report) {
   const bool is_nodes = extension_of(file.name) == "node";
-  const MemoryFile other = load_file(std::filesystem::path(file.name).replace_extension(is_nodes ? "ele" : "node"));
+  const MemoryFile other =
+      load_file(std::filesystem::path(file.name).replace_extension(is_nodes ? "ele" : "node"));
   return is_nodes ? parse_tetgen(other, file, report) : parse_tetgen(file, other, report);
 }
 
@@ -115,9 +123,11 @@ std::vector<std::int64_t> markers_of(const TetMesh& mesh, WrittenMesh& written) 
         ++taken;
     }
     if (const std::string now = "marker_" + std::to_string(numbers[s]); names[s] != now)
-      written.left_out.push_back("the vertex set '" + names[s] + "' is now '" + now + "', as this format numbers them");
+      written.left_out.push_back("the vertex set '" + names[s] + "' is now '" + now +
+                                 "', as this format numbers them");
     if (taken > 0)
-      written.left_out.push_back("the vertex set '" + names[s] + "' loses " + std::to_string(taken) +
+      written.left_out.push_back("the vertex set '" + names[s] + "' loses " +
+                                 std::to_string(taken) +
                                  " vertices to others: this format has one per vertex");
   }
   return markers;
@@ -125,10 +135,12 @@ std::vector<std::int64_t> markers_of(const TetMesh& mesh, WrittenMesh& written) 
 
 }  // namespace
 
-WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_tetgen(const std::filesystem::path& path, const TetMesh& mesh,
+                         const MeshGroups& groups) {
   WrittenMesh written;
   leave_out_region_names(mesh, groups, "attribute_", written);
-  const std::vector<std::int64_t> markers = markers_of(mesh, written), regions = region_numbers(mesh, groups);
+  const std::vector<std::int64_t> markers = markers_of(mesh, written),
+                                  regions = region_numbers(mesh, groups);
   const bool marked = !mesh.vertex_sets.empty();
   TextOut nodes, tets;
   nodes << mesh.vertices.size() << " 3 0 " << (marked ? "1\n" : "0\n");

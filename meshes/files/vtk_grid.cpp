@@ -9,30 +9,33 @@ namespace {
 constexpr const char* region_name = "region";
 
 // Refuses per-cell numbers of another count than there are cells
-void check_count(const VtkGrid& grid, const std::vector<PlacedInteger>& values, const std::string& what) {
+void check_count(const VtkGrid& grid, const std::vector<PlacedInteger>& values,
+                 const std::string& what) {
   if (values.size() != grid.ends.size())
     refuse(grid.file, values.empty() ? Place{} : values.back().place,
-           "there are " + std::to_string(values.size()) + " " + what + " for " + std::to_string(grid.ends.size()) +
-               " cells");
+           "there are " + std::to_string(values.size()) + " " + what + " for " +
+               std::to_string(grid.ends.size()) + " cells");
 }
 
 void check_ends(const VtkGrid& grid) {
   std::int64_t start = 0;
   for (std::size_t c = 0; c < grid.ends.size(); start = grid.ends[c++].value)
-    if (grid.ends[c].value < start || grid.ends[c].value > static_cast<std::int64_t>(grid.connectivity.size()))
+    if (grid.ends[c].value < start ||
+        grid.ends[c].value > static_cast<std::int64_t>(grid.connectivity.size()))
       refuse(grid.file, grid.ends[c].place,
              "cell " + std::to_string(c) + " is from " + std::to_string(start) + " to " +
-                 std::to_string(grid.ends[c].value) + " of " + std::to_string(grid.connectivity.size()) +
-                 " points of cells");
+                 std::to_string(grid.ends[c].value) + " of " +
+                 std::to_string(grid.connectivity.size()) + " points of cells");
   if (start != static_cast<std::int64_t>(grid.connectivity.size()))
     refuse(grid.file, grid.ends.empty() ? Place{} : grid.ends.back().place,
-           "the cells use " + std::to_string(start) + " of " + std::to_string(grid.connectivity.size()) +
-               " points of cells");
+           "the cells use " + std::to_string(start) + " of " +
+               std::to_string(grid.connectivity.size()) + " points of cells");
 }
 
 }  // namespace
 
-std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what, Numbers& numbers) {
+std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what,
+                                         Numbers& numbers) {
   std::vector<PlacedInteger> values;
   values.reserve(static_cast<std::size_t>(count));
   for (std::int64_t i = 0; i < count; ++i) {
@@ -56,27 +59,29 @@ void VtkGrid::read_points(std::int64_t count, NumberType type, Numbers& numbers)
   }
 }
 
-void VtkGrid::read_vectors(const std::string& name, std::int64_t tuples, NumberType type, bool of_points,
-                           Numbers& numbers) {
+void VtkGrid::read_vectors(const std::string& name, std::int64_t tuples, NumberType type,
+                           bool of_points, Numbers& numbers) {
   RawVectors field{name, of_points, std::vector<Point>(static_cast<std::size_t>(tuples))};
   for (Point& value : field.values)
     for (int k = 0; k < 3; ++k) value[k] = numbers.any_number(type, "a component of a vector");
   vectors.push_back(std::move(field));
 }
 
-void VtkGrid::read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
-                              Numbers& numbers) {
-  if (components == 3 && !is_integer(type) && !name.empty()) return read_vectors(name, tuples, type, true, numbers);
+void VtkGrid::read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components,
+                              NumberType type, Numbers& numbers) {
+  if (components == 3 && !is_integer(type) && !name.empty())
+    return read_vectors(name, tuples, type, true, numbers);
   numbers.skip(tuples * components, type, "a value");
 }
 
-void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
-                             Numbers& numbers) {
+void VtkGrid::read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components,
+                             NumberType type, Numbers& numbers) {
   if (components == 3 && !is_integer(type) && !name.empty() && name != region_name)
     return read_vectors(name, tuples, type, false, numbers);
   const bool usable = components == 1 && is_integer(type);
   if (name == region_name && !usable)
-    numbers.fail("the array 'region' of the cells must be one integer per cell, to tell their regions");
+    numbers.fail(
+        "the array 'region' of the cells must be one integer per cell, to tell their regions");
   if (!usable || region_array == region_name || (name != region_name && !region_array.empty()))
     return numbers.skip(tuples * components, type, "a value of the cells");
   region_array = name;
@@ -90,20 +95,21 @@ void VtkGrid::add_cells(int type, const std::vector<PlacedInteger>& points_of_ce
   for (const PlacedInteger& end : cell_ends) {
     if (end.value < 0 || end.value > static_cast<std::int64_t>(points_of_cells.size()))
       refuse(file, end.place,
-             "a cell ends after " + std::to_string(end.value) + " of " + std::to_string(points_of_cells.size()) +
-                 " points of cells");
+             "a cell ends after " + std::to_string(end.value) + " of " +
+                 std::to_string(points_of_cells.size()) + " points of cells");
     ends.push_back({base + end.value, end.place});
     types.push_back({type, end.place});
   }
 }
 
 // Every second triangle of a strip turns the other way
-void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw,
-                        MeshReport& report) const {
+void VtkGrid::add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
+                        RawMesh& raw, MeshReport& report) const {
   ++report.other_elements["strip of triangles"];
   for (std::size_t k = 0; k + 2 < corners.size(); ++k) {
     const bool odd = k % 2 == 1;
-    add_face(tag, std::array{corners[k], corners[k + (odd ? 2 : 1)], corners[k + (odd ? 1 : 2)]}, place, raw);
+    add_face(tag, std::array{corners[k], corners[k + (odd ? 2 : 1)], corners[k + (odd ? 1 : 2)]},
+             place, raw);
   }
 }
 
@@ -111,7 +117,8 @@ RawMesh VtkGrid::mesh(MeshReport& report) const {
   constexpr std::int64_t strip = 6, pixel = 8, voxel = 11;
   check_ends(*this);
   check_count(*this, types, "types");
-  if (!region_array.empty()) check_count(*this, regions, "values of the array " + shown(region_array));
+  if (!region_array.empty())
+    check_count(*this, regions, "values of the array " + shown(region_array));
   RawMesh raw;
   raw.file = file;
   raw.vertices = points;
@@ -127,7 +134,8 @@ RawMesh VtkGrid::mesh(MeshReport& report) const {
                           : size < static_cast<std::size_t>(kind.corners))
       refuse(file, place,
              who() + ", a " + kind.name + ", has " + std::to_string(size) + " points; expected " +
-                 (kind.vertices > 0 ? std::to_string(kind.vertices) : std::to_string(kind.corners) + " or more"));
+                 (kind.vertices > 0 ? std::to_string(kind.vertices)
+                                    : std::to_string(kind.corners) + " or more"));
     corners.clear();
     for (std::size_t k = begin; k < begin + size; ++k) corners.push_back(connectivity[k].value);
     if (type == pixel || type == voxel) std::swap(corners[2], corners[3]);
@@ -140,9 +148,11 @@ RawMesh VtkGrid::mesh(MeshReport& report) const {
   }
   for (const bool of_points : {false, true})  // a field of the whole file has no such count
     for (const RawVectors& field : vectors)
-      if (field.of_vertices == of_points && field.values.size() == (of_points ? points.size() : ends.size()))
+      if (field.of_vertices == of_points &&
+          field.values.size() == (of_points ? points.size() : ends.size()))
         raw.vectors.push_back(field);
-  name_regions(raw, numbers, [this](std::int64_t number) { return region_array + "_" + std::to_string(number); });
+  name_regions(raw, numbers,
+               [this](std::int64_t number) { return region_array + "_" + std::to_string(number); });
   return raw;
 }
 

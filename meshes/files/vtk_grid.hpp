@@ -55,38 +55,43 @@ struct PlacedInteger {
   std::int64_t value = 0;
   Place place;
 };
-std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what, Numbers& numbers);
+std::vector<PlacedInteger> read_integers(std::int64_t count, NumberType type, std::string_view what,
+                                         Numbers& numbers);
 
-/// An unstructured grid or the cells of polygonal data, as both formats of VTK hold them. Points and cells count from 0.
+/// An unstructured grid or the cells of polygonal data, as both formats of VTK hold them. Points
+/// and cells count from 0.
 struct VtkGrid {
   std::string file;
   std::vector<RawVertex> points;
   std::vector<PlacedInteger> connectivity;  ///< the points of cell after cell
   std::vector<PlacedInteger> ends;          ///< per cell where it ends in `connectivity`
   std::vector<PlacedInteger> types;         ///< per cell
-  std::string region_array;                 ///< the name of that one of the cells' arrays; empty: there is none
-  std::vector<PlacedInteger> regions;       ///< per cell
-  std::vector<RawVectors> vectors;          ///< of cells and points
+  /// the name of that one of the cells' arrays; empty: there is none
+  std::string region_array;
+  std::vector<PlacedInteger> regions;  ///< per cell
+  std::vector<RawVectors> vectors;     ///< of cells and points
 
   void read_points(std::int64_t count, NumberType type, Numbers& numbers);
-  /// Reads an array of the cells, from numbers or past them: the one named "region" tells the regions, else the first
-  /// one of an integer per cell. Three fractions per cell are vectors.
-  void read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
-                      Numbers& numbers);
+  /// Reads an array of the cells, from numbers or past them: the one named "region" tells the
+  /// regions, else the first one of an integer per cell. Three fractions per cell are vectors.
+  void read_cell_data(const std::string& name, std::int64_t tuples, std::int64_t components,
+                      NumberType type, Numbers& numbers);
   /// Likewise an array of the points: three fractions each are vectors.
-  void read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components, NumberType type,
-                       Numbers& numbers);
+  void read_point_data(const std::string& name, std::int64_t tuples, std::int64_t components,
+                       NumberType type, Numbers& numbers);
   /// Adds cells of one kind, whose ends count from their own first point.
   void add_cells(int type, const std::vector<PlacedInteger>& points_of_cells,
                  const std::vector<PlacedInteger>& cell_ends);
-  /// Checks that the parts fit each other. Cells become tetrahedra and faces; what is of lower dimension is counted and checked; region
-  /// 3 of the array "region" is named "region_3", and where all are 0 there is one nameless region.
+  /// Checks that the parts fit each other. Cells become tetrahedra and faces; what is of lower
+  /// dimension is counted and checked; region 3 of the array "region" is named "region_3", and
+  /// where all are 0 there is one nameless region.
   RawMesh mesh(MeshReport& report) const;
 
  private:
-  void read_vectors(const std::string& name, std::int64_t tuples, NumberType type, bool of_points, Numbers& numbers);
-  void add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place, RawMesh& raw,
-                 MeshReport& report) const;
+  void read_vectors(const std::string& name, std::int64_t tuples, NumberType type, bool of_points,
+                    Numbers& numbers);
+  void add_strip(std::int64_t tag, std::span<const std::int64_t> corners, const Place& place,
+                 RawMesh& raw, MeshReport& report) const;
 };
 
 }  // namespace plica

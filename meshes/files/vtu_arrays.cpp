@@ -12,7 +12,8 @@ namespace plica {
 namespace {
 
 constexpr std::array<std::int8_t, 256> base64_digits = [] {
-  constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr std::string_view alphabet =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<std::int8_t, 256> table = {};
   table.fill(-1);
   for (std::size_t i = 0; i < alphabet.size(); ++i)
@@ -31,7 +32,8 @@ std::optional<std::string> decode_base64(std::string_view text) {
   for (std::size_t at = 0; at < text.size(); at += 4) {
     std::uint32_t group = 0;
     for (std::size_t k = at; k < at + 4; ++k) {
-      const int digit = k + padding >= text.size() ? 0 : base64_digits[static_cast<unsigned char>(text[k])];
+      const int digit =
+          k + padding >= text.size() ? 0 : base64_digits[static_cast<unsigned char>(text[k])];
       if (digit < 0) return {};
       group = group << 6 | static_cast<std::uint32_t>(digit);
     }
@@ -48,10 +50,11 @@ struct TypeName {
   NumberType type;
 };
 constexpr TypeName type_names[] = {
-    {"Int8", NumberType::int8},       {"UInt8", NumberType::uint8},   {"Int16", NumberType::int16},
-    {"UInt16", NumberType::uint16},   {"Int32", NumberType::int32},   {"UInt32", NumberType::uint32},
-    {"Int64", NumberType::int64},     {"UInt64", NumberType::uint64}, {"Float32", NumberType::float32},
-    {"Float64", NumberType::float64},
+    {"Int8", NumberType::int8},       {"UInt8", NumberType::uint8},
+    {"Int16", NumberType::int16},     {"UInt16", NumberType::uint16},
+    {"Int32", NumberType::int32},     {"UInt32", NumberType::uint32},
+    {"Int64", NumberType::int64},     {"UInt64", NumberType::uint64},
+    {"Float32", NumberType::float32}, {"Float64", NumberType::float64},
 };
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -104,13 +107,16 @@ std::string place_of(const XmlElement& array) {
 
 }  // namespace
 
-const std::string& attribute(const XmlElement& element, const std::string& key, const MemoryFile& file) {
+const std::string& attribute(const XmlElement& element, const std::string& key,
+                             const MemoryFile& file) {
   const auto found = element.attributes.find(key);
-  if (found == element.attributes.end()) refuse(file.name, element.place, "<" + element.name + "> has no " + key);
+  if (found == element.attributes.end())
+    refuse(file.name, element.place, "<" + element.name + "> has no " + key);
   return found->second;
 }
 
-std::int64_t attribute_count(const XmlElement& element, const std::string& key, const MemoryFile& file) {
+std::int64_t attribute_count(const XmlElement& element, const std::string& key,
+                             const MemoryFile& file) {
   const std::string& text = attribute(element, key, file);
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -127,7 +133,8 @@ NumberType vtu_type(const XmlElement& array, const MemoryFile& file) {
     choices.emplace_back(known.name);
   }
   const std::string quoted = shown(name);
-  refuse(file.name, array.place, unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
+  refuse(file.name, array.place,
+         unknown_name("type of numbers", quoted.substr(1, quoted.size() - 2), choices));
 }
 
 std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
@@ -138,14 +145,17 @@ std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
   };
   const std::size_t data = end_of_tag(all, std::min(all.find("<AppendedData"), all.size()));
   const bool cut = data != std::string_view::npos && all[data - 2] != '/';
-  const std::string head = cut ? std::string(all.substr(0, data)) + "</AppendedData></VTKFile>" : file.bytes;
-  if (const std::size_t zero = head.find('\0'); zero != std::string::npos) refuse_at(zero, "the XML holds a zero byte");
+  const std::string head =
+      cut ? std::string(all.substr(0, data)) + "</AppendedData></VTKFile>" : file.bytes;
+  if (const std::size_t zero = head.find('\0'); zero != std::string::npos)
+    refuse_at(zero, "the XML holds a zero byte");
 
   pugi::xml_document document;
-  const auto parsed = document.load_buffer(
-      head.data(), head.size(),
-      pugi::parse_escapes | pugi::parse_comments | pugi::parse_cdata | pugi::parse_doctype | pugi::parse_fragment,
-      pugi::encoding_utf8);
+  const auto parsed =
+      document.load_buffer(head.data(), head.size(),
+                           pugi::parse_escapes | pugi::parse_comments | pugi::parse_cdata |
+                               pugi::parse_doctype | pugi::parse_fragment,
+                           pugi::encoding_utf8);
   if (!parsed) {
     std::size_t at = head.rfind('<', static_cast<std::size_t>(parsed.offset));
     if (parsed.status == pugi::status_bad_comment) {  // told at the end of the file
@@ -153,11 +163,13 @@ std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
       at = head.find("<!--", ended == std::string::npos ? 0 : ended);
     }
     if (at == std::string::npos) at = static_cast<std::size_t>(parsed.offset);
-    refuse_at(at, "the XML is malformed: " + lower_case(parsed.description()) + " at " + shown(head.substr(at)));
+    refuse_at(at, "the XML is malformed: " + lower_case(parsed.description()) + " at " +
+                      shown(head.substr(at)));
   }
   std::vector<XmlElement> elements;
   const auto take = [&](const pugi::xml_node& node) {
-    const std::size_t at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
+    const std::size_t at =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
     if (node.type() == pugi::node_cdata || node.type() == pugi::node_doctype)
       refuse_at(at, "document types and CDATA are not supported");
     const bool outermost = node.parent() == document;
@@ -166,7 +178,8 @@ std::vector<XmlElement> vtu_elements(const MemoryFile& file) {
       refuse_at(text, "expected an XML tag, found " + shown(head.substr(text)));
     }
     if (node.type() != pugi::node_element) return;
-    if (outermost && !elements.empty()) refuse_at(at, "a second outermost element <" + std::string(node.name()) + ">");
+    if (outermost && !elements.empty())
+      refuse_at(at, "a second outermost element <" + std::string(node.name()) + ">");
     XmlElement element{node.name(), node.parent().name(), {}, {lines.of(at)}};
     for (const pugi::xml_attribute& a : node.attributes())
       if (!element.attributes.emplace(a.name(), a.value()).second)
@@ -199,19 +212,22 @@ void VtuArrays::header(const XmlElement& element) {
     compressor_ = found->second;
   const std::string& order = attribute(element, "byte_order", file_);
   if (order != "LittleEndian" && order != "BigEndian")
-    refuse(file_.name, element.place, "byte_order is " + shown(order) + "; it must be LittleEndian or BigEndian");
+    refuse(file_.name, element.place,
+           "byte_order is " + shown(order) + "; it must be LittleEndian or BigEndian");
   order_ = order == "BigEndian" ? std::endian::big : std::endian::little;
   const auto length = element.attributes.find("header_type");
   if (length == element.attributes.end() || length->second == "UInt32") return;
   if (length->second != "UInt64")
-    refuse(file_.name, element.place, "header_type is " + shown(length->second) + "; it must be UInt32 or UInt64");
+    refuse(file_.name, element.place,
+           "header_type is " + shown(length->second) + "; it must be UInt32 or UInt64");
   length_type_ = NumberType::uint64;
 }
 
 void VtuArrays::appended(const XmlElement& element) {
   const std::string& encoding = attribute(element, "encoding", file_);
   if (encoding != "raw" && encoding != "base64")
-    refuse(file_.name, element.place, "encoding is " + shown(encoding) + "; it must be raw or base64");
+    refuse(file_.name, element.place,
+           "encoding is " + shown(encoding) + "; it must be raw or base64");
   const std::string_view all = file_.bytes;
   begin_ = all.find_first_not_of(blanks, element.text_begin);
   if (begin_ >= all.size() || all[begin_] != '_')
@@ -232,23 +248,26 @@ void VtuArrays::read(const XmlElement& array, const Take& take) const {
   if (format == "binary") {
     const std::string_view text =
         std::string_view(file_.bytes).substr(array.text_begin, array.text_end - array.text_begin);
-    if (!compressor_.empty()) return read_compressed(trimmed(text), true, array, array.place, type, take);
+    if (!compressor_.empty())
+      return read_compressed(trimmed(text), true, array, array.place, type, take);
     return read_bytes(decoded(trimmed(text), true, array.place), array.place, type, take);
   }
   if (format != "appended")
     refuse(file_.name, array.place,
-           "the format of " + place_of(array) + " is " + shown(format) + "; it must be ascii, binary or appended");
+           "the format of " + place_of(array) + " is " + shown(format) +
+               "; it must be ascii, binary or appended");
   const std::string_view bytes = appended_at(array);
   if (!compressor_.empty())
-    return read_compressed(bytes, !raw_, array, raw_ ? Place{0, bytes.data() - file_.bytes.data()} : array.place, type,
+    return read_compressed(bytes, !raw_, array,
+                           raw_ ? Place{0, bytes.data() - file_.bytes.data()} : array.place, type,
                            take);
   if (!raw_) return read_bytes(decoded(bytes, false, array.place), array.place, type, take);
   const Place place{0, bytes.data() - file_.bytes.data()};
   const std::uint64_t size = length(bytes, place), head = bytes_of(length_type_);
   if (size > bytes.size() - head)
     refuse(file_.name, place,
-           place_of(array) + " has " + std::to_string(size) + " bytes, but " + std::to_string(bytes.size() - head) +
-               " are left");
+           place_of(array) + " has " + std::to_string(size) + " bytes, but " +
+               std::to_string(bytes.size() - head) + " are left");
   read_bytes(bytes.substr(0, head + size), place, type, take);
 }
 
@@ -261,27 +280,33 @@ void VtuArrays::read_ascii(const XmlElement& array, NumberType type, const Take&
 }
 
 // The length in bytes, then the numbers
-void VtuArrays::read_bytes(std::string_view bytes, const Place& place, NumberType type, const Take& take) const {
+void VtuArrays::read_bytes(std::string_view bytes, const Place& place, NumberType type,
+                           const Take& take) const {
   const std::size_t head = bytes_of(length_type_);
   const std::uint64_t size = length(bytes, place);
   if (size != bytes.size() - head)
     refuse(file_.name, place,
-           "an array has " + std::to_string(bytes.size() - head) + " bytes and not " + std::to_string(size) +
-               ", as it says");
-  const Place first = place.line > 0 ? place : Place{0, place.byte + static_cast<std::int64_t>(head)};
+           "an array has " + std::to_string(bytes.size() - head) + " bytes and not " +
+               std::to_string(size) + ", as it says");
+  const Place first =
+      place.line > 0 ? place : Place{0, place.byte + static_cast<std::int64_t>(head)};
   ByteNumbers numbers(file_.name, bytes.substr(head), order_, first);
   take(numbers, type);
-  if (numbers.left() > 0) numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
+  if (numbers.left() > 0)
+    numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
 }
 
-// The number of blocks, their size, that of the last one (0: as the others), the compressed size of each; then the blocks. In
-// base64 the numbers are encoded apart.
-void VtuArrays::read_compressed(std::string_view text, bool base64, const XmlElement& array, const Place& place,
-                                NumberType type, const Take& take) const {
-  const auto bad = [&](const std::string& what) { refuse(file_.name, place, place_of(array) + " " + what); };
+// The number of blocks, their size, that of the last one (0: as the others), the compressed size of
+// each; then the blocks. In base64 the numbers are encoded apart.
+void VtuArrays::read_compressed(std::string_view text, bool base64, const XmlElement& array,
+                                const Place& place, NumberType type, const Take& take) const {
+  const auto bad = [&](const std::string& what) {
+    refuse(file_.name, place, place_of(array) + " " + what);
+  };
   const Compressor* compressor = find_compressor(compressor_);
   if (!compressor)
-    bad("is compressed by " + shown(compressor_) + "; supported are " + compressor_names() + ", or none");
+    bad("is compressed by " + shown(compressor_) + "; supported are " + compressor_names() +
+        ", or none");
   const std::size_t word = bytes_of(length_type_);
   const auto take_part = [&](std::size_t bytes) {
     const std::size_t size = base64 ? base64_size(bytes) : bytes;
@@ -292,19 +317,24 @@ void VtuArrays::read_compressed(std::string_view text, bool base64, const XmlEle
     return *decoded;
   };
   const std::size_t blocks = length(take_part(word), place);
-  if (blocks > text.size() / word) bad("has " + std::to_string(blocks) + " blocks, for which there is no room");
+  if (blocks > text.size() / word)
+    bad("has " + std::to_string(blocks) + " blocks, for which there is no room");
   const std::string head = take_part(blocks == 0 ? word : (3 + blocks) * word);
-  const auto head_at = [&](std::size_t i) { return length(std::string_view(head).substr(i * word), place); };
+  const auto head_at = [&](std::size_t i) {
+    return length(std::string_view(head).substr(i * word), place);
+  };
   text.remove_prefix(base64 ? base64_size(blocks == 0 ? word : head.size()) : head.size());
   std::size_t compressed = 0;
   for (std::size_t b = 0; b < blocks; ++b)
-    if ((compressed += std::min(head_at(3 + b), text.size() + 1)) > text.size()) bad("is cut short");
+    if ((compressed += std::min(head_at(3 + b), text.size() + 1)) > text.size())
+      bad("is cut short");
   const std::string data = take_part(compressed);
   std::string bytes;
   for (std::size_t b = 0, at = 0; b < blocks; ++b) {
     const std::size_t whole = head_at(1), last = head_at(2), packed = head_at(3 + b);
     const std::size_t size = b + 1 == blocks && last > 0 ? last : whole;
-    if (size / compressor->largest_ratio > packed) bad("tells an absurd size of a block: " + std::to_string(size));
+    if (size / compressor->largest_ratio > packed)
+      bad("tells an absurd size of a block: " + std::to_string(size));
     const auto block = compressor->decompress(std::string_view(data).substr(at, packed), size);
     if (!block) bad("has a block that cannot be decompressed");
     bytes += *block, at += packed;
@@ -312,7 +342,8 @@ void VtuArrays::read_compressed(std::string_view text, bool base64, const XmlEle
   const Place nowhere = array.place;
   ByteNumbers numbers(file_.name, bytes, order_, nowhere);
   take(numbers, type);
-  if (numbers.left() > 0) numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
+  if (numbers.left() > 0)
+    numbers.fail(std::to_string(numbers.left()) + " bytes are too much for an array");
 }
 
 std::uint64_t VtuArrays::length(std::string_view bytes, const Place& place) const {
@@ -323,15 +354,20 @@ std::uint64_t VtuArrays::length(std::string_view bytes, const Place& place) cons
 std::string_view VtuArrays::appended_at(const XmlElement& array) const {
   const std::int64_t offset = attribute_count(array, "offset", file_);
   const std::size_t room = end_ - begin_;
-  if (!has_appended_) refuse(file_.name, array.place, place_of(array) + " is appended, but there is no <AppendedData>");
+  if (!has_appended_)
+    refuse(file_.name, array.place,
+           place_of(array) + " is appended, but there is no <AppendedData>");
   if (offset > static_cast<std::int64_t>(room))
     refuse(file_.name, array.place,
-           "the offset of " + place_of(array) + " is " + std::to_string(offset) + ", but the appended data have " +
-               std::to_string(room) + " bytes");
-  return std::string_view(file_.bytes).substr(begin_, room).substr(static_cast<std::size_t>(offset));
+           "the offset of " + place_of(array) + " is " + std::to_string(offset) +
+               ", but the appended data have " + std::to_string(room) + " bytes");
+  return std::string_view(file_.bytes)
+      .substr(begin_, room)
+      .substr(static_cast<std::size_t>(offset));
 }
 
-// Length and numbers are encoded together, but some writers pad the length and begin anew. `exactly`: all of the text.
+// Length and numbers are encoded together, but some writers pad the length and begin anew.
+// `exactly`: all of the text.
 std::string VtuArrays::decoded(std::string_view text, bool exactly, const Place& place) const {
   const auto bad = [&]() { refuse(file_.name, place, "an array is no whole base64 text"); };
   const std::size_t head = bytes_of(length_type_), head_size = base64_size(head);
@@ -341,7 +377,8 @@ std::string VtuArrays::decoded(std::string_view text, bool exactly, const Place&
   const std::uint64_t size = length(*start, place);
   if (size > text.size()) bad();
   const bool apart = start->size() == head && size > 0;
-  const std::size_t from = apart ? head_size : 0, bytes = (apart ? 0 : head) + static_cast<std::size_t>(size);
+  const std::size_t from = apart ? head_size : 0,
+                    bytes = (apart ? 0 : head) + static_cast<std::size_t>(size);
   const std::size_t end = from + base64_size(bytes);
   if (text.size() < end || (exactly && text.size() != end)) bad();
   const auto rest = decode_base64(text.substr(from, end - from));

@@ -13,7 +13,8 @@ constexpr int types[] = {15, 1, 2};  // of points, lines and triangles
 
 void check_name(const std::filesystem::path& path, const std::string& name) {
   if (name.empty() || name.find_first_of("\r\n") != std::string::npos)
-    throw InputError("the name " + shown(name) + " of a region or set cannot be written", {path.string()});
+    throw InputError("the name " + shown(name) + " of a region or set cannot be written",
+                     {path.string()});
 }
 
 std::int64_t size_of(const auto& container) { return static_cast<std::int64_t>(container.size()); }
@@ -36,8 +37,8 @@ struct Parts {
 };
 
 // Vertices and elements have tags from 1
-void write_heading(const char* version, const std::filesystem::path& path, const Parts& parts, WrittenMesh& written,
-                   NumbersOut& out) {
+void write_heading(const char* version, const std::filesystem::path& path, const Parts& parts,
+                   WrittenMesh& written, NumbersOut& out) {
   out.text("$MeshFormat\n").text(version).text(out.binary() ? " 1 8\n" : " 0 8\n");
   if (out.binary()) out.int32(1).text("\n");  // tells the order of bytes
   out.text("$EndMeshFormat\n");
@@ -50,9 +51,11 @@ void write_heading(const char* version, const std::filesystem::path& path, const
   };
   for (const ElementGroup& set : parts.sets) {
     write(set.dimension, set.tag, set.name);
-    if (set.elements.empty()) written.left_out.push_back("the vertex set '" + set.name + "' is left out: it is empty");
+    if (set.elements.empty())
+      written.left_out.push_back("the vertex set '" + set.name + "' is left out: it is empty");
   }
-  for (std::size_t r = 0; r < parts.tags.size(); ++r) write(3, parts.tags[r], parts.mesh.region_names[r]);
+  for (std::size_t r = 0; r < parts.tags.size(); ++r)
+    write(3, parts.tags[r], parts.mesh.region_names[r]);
   out.text("$EndPhysicalNames\n");
 }
 
@@ -89,15 +92,21 @@ void write_blocks(const Parts& parts, NumbersOut& out) {
   const TetMesh& mesh = parts.mesh;
   std::int64_t blocks = mesh.tets.empty() ? 0 : 1;
   for (const ElementGroup& set : parts.sets) blocks += set.elements.empty() ? 0 : 1;
-  for (std::size_t t = 1; t < mesh.region.size(); ++t) blocks += mesh.region[t] != mesh.region[t - 1] ? 1 : 0;
+  for (std::size_t t = 1; t < mesh.region.size(); ++t)
+    blocks += mesh.region[t] != mesh.region[t - 1] ? 1 : 0;
   out.text("$Elements\n").int64(blocks).int64(parts.elements).int64(1).int64(parts.elements).end();
   std::int64_t tag = 0;
   for (const ElementGroup& set : parts.sets) {
     if (set.elements.empty()) continue;
-    out.int32(set.dimension).int32(set.tag).int32(types[set.dimension]).int64(size_of(set.elements)).end();
+    out.int32(set.dimension)
+        .int32(set.tag)
+        .int32(types[set.dimension])
+        .int64(size_of(set.elements))
+        .end();
     for (const auto& element : set.elements) {
       out.int64(++tag);
-      for (std::size_t k = 0; k <= static_cast<std::size_t>(set.dimension); ++k) out.int64(element[k] + 1);
+      for (std::size_t k = 0; k <= static_cast<std::size_t>(set.dimension); ++k)
+        out.int64(element[k] + 1);
       out.end();
     }
   }
@@ -117,15 +126,18 @@ void write_blocks(const Parts& parts, NumbersOut& out) {
 // The same in every version: the tetrahedra are the last elements
 void write_vectors(const Parts& parts, NumbersOut& out) {
   for (const auto& [name, vectors] : parts.mesh.tet_vectors) {
-    out.text("$ElementData\n1\n\"" + name + "\"\n1\n0\n3\n0\n3\n" + std::to_string(vectors.size()) + "\n");
+    out.text("$ElementData\n1\n\"" + name + "\"\n1\n0\n3\n0\n3\n" + std::to_string(vectors.size()) +
+             "\n");
     std::int64_t tag = parts.elements - size_of(vectors);
     for (const Point& vector : vectors) out.int32(++tag).real64(vector).end();
     end_section("ElementData", out);
   }
 }
 
-// Version 2.2 gives an element its type and number of tags in text, a whole run of elements in binary
-void write_element22(std::int64_t tag, int type, std::int64_t group, std::span<const int> vertices, NumbersOut& out) {
+// Version 2.2 gives an element its type and number of tags in text, a whole run of elements in
+// binary
+void write_element22(std::int64_t tag, int type, std::int64_t group, std::span<const int> vertices,
+                     NumbersOut& out) {
   out.int32(tag);
   if (!out.binary()) out.int32(type).int32(2);
   out.int32(group).int32(std::max<std::int64_t>(group, 1));
@@ -151,7 +163,8 @@ void write_elements22(const Parts& parts, NumbersOut& out) {
   end_section("Elements", out);
 }
 
-WrittenMesh write22(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups, bool binary) {
+WrittenMesh write22(const std::filesystem::path& path, const TetMesh& mesh,
+                    const MeshGroups& groups, bool binary) {
   WrittenMesh written;
   NumbersOut out(binary);
   const Parts parts(mesh, groups);
@@ -166,7 +179,8 @@ WrittenMesh write22(const std::filesystem::path& path, const TetMesh& mesh, cons
   return written;
 }
 
-WrittenMesh write41(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups, bool binary) {
+WrittenMesh write41(const std::filesystem::path& path, const TetMesh& mesh,
+                    const MeshGroups& groups, bool binary) {
   WrittenMesh written;
   NumbersOut out(binary);
   const Parts parts(mesh, groups);
@@ -186,16 +200,20 @@ WrittenMesh write41(const std::filesystem::path& path, const TetMesh& mesh, cons
 
 }  // namespace
 
-WrittenMesh write_msh22(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_msh22(const std::filesystem::path& path, const TetMesh& mesh,
+                        const MeshGroups& groups) {
   return write22(path, mesh, groups, false);
 }
-WrittenMesh write_msh41(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_msh41(const std::filesystem::path& path, const TetMesh& mesh,
+                        const MeshGroups& groups) {
   return write41(path, mesh, groups, false);
 }
-WrittenMesh write_msh22_binary(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_msh22_binary(const std::filesystem::path& path, const TetMesh& mesh,
+                               const MeshGroups& groups) {
   return write22(path, mesh, groups, true);
 }
-WrittenMesh write_msh41_binary(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_msh41_binary(const std::filesystem::path& path, const TetMesh& mesh,
+                               const MeshGroups& groups) {
   return write41(path, mesh, groups, true);
 }
 

@@ -27,10 +27,11 @@ std::string written_name(std::string name) {
 class Appended {
  public:
   template <typename Number>
-  std::string array(const char* type, const char* name, int components, const std::vector<Number>& values) {
+  std::string array(const char* type, const char* name, int components,
+                    const std::vector<Number>& values) {
     TextOut tag;
-    tag << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
-        << "\" format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
+    tag << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
+        << components << "\" format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
     const std::uint64_t size = values.size() * sizeof(Number);
     bytes_.append(reinterpret_cast<const char*>(&size), sizeof(size));
     bytes_.append(reinterpret_cast<const char*>(values.data()), size);
@@ -43,13 +44,14 @@ class Appended {
 };
 
 // Each array ends its line, in binary too
-WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups,
-                         bool binary) {
+WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
+                         const MeshGroups& groups, bool binary) {
   WrittenMesh written = noted(mesh, groups);
   const std::string cells = std::to_string(mesh.tets.size()), end = binary ? "\n" : "";
   NumbersOut out(binary, std::endian::big);
   out.text("# vtk DataFile Version 3.0\nmesh\n").text(binary ? "BINARY" : "ASCII");
-  out.text("\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(mesh.vertices.size()) + " double\n");
+  out.text("\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(mesh.vertices.size()) +
+           " double\n");
   for (const Point& p : mesh.vertices) out.real64(p).end();
   out.text(end + "CELLS " + cells + " " + std::to_string(5 * mesh.tets.size()) + "\n");
   for (const auto& [a, b, c, d] : mesh.tets) out.int32(4).int32(a).int32(b).int32(c).int32(d).end();
@@ -73,14 +75,17 @@ WrittenMesh write_legacy(const std::filesystem::path& path, const TetMesh& mesh,
 
 }  // namespace
 
-WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_vtk(const std::filesystem::path& path, const TetMesh& mesh,
+                      const MeshGroups& groups) {
   return write_legacy(path, mesh, groups, false);
 }
-WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_vtk_binary(const std::filesystem::path& path, const TetMesh& mesh,
+                             const MeshGroups& groups) {
   return write_legacy(path, mesh, groups, true);
 }
 
-WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const MeshGroups& groups) {
+WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh,
+                      const MeshGroups& groups) {
   WrittenMesh written = noted(mesh, groups);
   std::vector<double> points;
   for (const Point& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), p.z()});
@@ -94,14 +99,16 @@ WrittenMesh write_vtu(const std::filesystem::path& path, const TetMesh& mesh, co
   TextOut out;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.vertices.size()
-      << "\" NumberOfCells=\"" << mesh.tets.size() << "\">\n<Points>\n"
+      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
+      << mesh.vertices.size() << "\" NumberOfCells=\"" << mesh.tets.size() << "\">\n<Points>\n"
       << appended.array("Float64", "Points", 3, points) << "</Points>\n<Cells>\n"
-      << appended.array("Int64", "connectivity", 1, corners) << appended.array("Int64", "offsets", 1, ends)
-      << appended.array("UInt8", "types", 1, types) << "</Cells>\n";
+      << appended.array("Int64", "connectivity", 1, corners)
+      << appended.array("Int64", "offsets", 1, ends) << appended.array("UInt8", "types", 1, types)
+      << "</Cells>\n";
   const bool has_data = !mesh.region.empty() || !mesh.tet_vectors.empty();
   if (has_data) out << "<CellData>\n";
-  if (!mesh.region.empty()) out << appended.array("Int64", "region", 1, region_numbers(mesh, groups));
+  if (!mesh.region.empty())
+    out << appended.array("Int64", "region", 1, region_numbers(mesh, groups));
   for (const auto& [name, vectors] : mesh.tet_vectors) {
     std::vector<double> numbers;
     for (const Point& p : vectors) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});

@@ -19,7 +19,9 @@ std::int64_t number_at_end(const std::string& name) {
   if (at == std::string::npos) return 0;
   const char *begin = name.data() + at + 1, *end = name.data() + name.size();
   const auto [stop, error] = std::from_chars(begin, end, number);
-  return error == std::errc() && stop == end && *begin != '0' && number > 0 && number < tags_end ? number : 0;
+  return error == std::errc() && stop == end && *begin != '0' && number > 0 && number < tags_end
+             ? number
+             : 0;
 }
 
 // Numbers that no group can have, such as 0 for none, become free ones
@@ -55,7 +57,8 @@ std::vector<std::int64_t> numbers_of(const std::vector<std::string>& names) {
 
 std::vector<std::int64_t> region_tags(const TetMesh& mesh, const MeshGroups& groups) {
   std::vector<std::int64_t> tags = groups.region_tags;
-  return tags.size() == mesh.region_names.size() ? (make_positive(tags), tags) : numbers_of(mesh.region_names);
+  return tags.size() == mesh.region_names.size() ? (make_positive(tags), tags)
+                                                 : numbers_of(mesh.region_names);
 }
 
 std::vector<std::int64_t> region_numbers(const TetMesh& mesh, const MeshGroups& groups) {
@@ -68,7 +71,9 @@ std::vector<std::int64_t> region_numbers(const TetMesh& mesh, const MeshGroups& 
 std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& groups) {
   std::vector<ElementGroup> all = groups.sets;
   for (const auto& [name, vertices] : mesh.vertex_sets) {
-    if (std::ranges::any_of(groups.sets, [&](const ElementGroup& group) { return group.name == name; })) continue;
+    if (std::ranges::any_of(groups.sets,
+                            [&](const ElementGroup& group) { return group.name == name; }))
+      continue;
     ElementGroup& group = all.emplace_back(ElementGroup{name, 0, 0, {}});
     for (const int v : vertices) group.elements.push_back({v, -1, -1});
   }
@@ -84,8 +89,8 @@ std::vector<ElementGroup> groups_of(const TetMesh& mesh, const MeshGroups& group
   return all;
 }
 
-void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups, const std::string& prefix,
-                            WrittenMesh& written) {
+void leave_out_region_names(const TetMesh& mesh, const MeshGroups& groups,
+                            const std::string& prefix, WrittenMesh& written) {
   const std::vector<std::int64_t> numbers = region_tags(mesh, groups);
   for (std::size_t i = 0; i < numbers.size(); ++i)
     if (const std::string now = prefix + std::to_string(numbers[i]); mesh.region_names[i] != now)
@@ -116,9 +121,13 @@ NumbersOut& NumbersOut::add(Number number) {
   return *this;
 }
 
-NumbersOut& NumbersOut::int32(std::int64_t number) { return add(static_cast<std::int32_t>(number)); }
+NumbersOut& NumbersOut::int32(std::int64_t number) {
+  return add(static_cast<std::int32_t>(number));
+}
 NumbersOut& NumbersOut::int64(std::int64_t number) { return add(number); }
-NumbersOut& NumbersOut::real32(double number) { return binary_ ? add(static_cast<float>(number)) : add(number); }
+NumbersOut& NumbersOut::real32(double number) {
+  return binary_ ? add(static_cast<float>(number)) : add(number);
+}
 NumbersOut& NumbersOut::real64(double number) { return add(number); }
 
 NumbersOut& NumbersOut::end() {

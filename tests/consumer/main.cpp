@@ -22,8 +22,8 @@ int main(int argc, char** argv) {
       if (const auto failure = simulation.step_checked()) throw std::runtime_error(failure->text());
     double lowest = 0;
     for (const plica::Point& x : simulation.positions()) lowest = std::min(lowest, x[2]);
-    std::cout << "plica " << plica::version() << ": after " << simulation.time() << " s the tip hangs " << -1e3 * lowest
-              << " mm low\n";
+    std::cout << "plica " << plica::version() << ": after " << simulation.time()
+              << " s the tip hangs " << -1e3 * lowest << " mm low\n";
     return lowest < -1e-3 && lowest > -0.1 ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

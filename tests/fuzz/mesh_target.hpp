@@ -16,7 +16,8 @@ namespace plica::fuzz {
 inline bool same_regions(const std::vector<int>& a, const std::vector<int>& b) {
   std::map<int, int> there, back;
   for (std::size_t t = 0; t < a.size() && t < b.size(); ++t)
-    if (there.try_emplace(a[t], b[t]).first->second != b[t] || back.try_emplace(b[t], a[t]).first->second != a[t])
+    if (there.try_emplace(a[t], b[t]).first->second != b[t] ||
+        back.try_emplace(b[t], a[t]).first->second != a[t])
       return false;
   return a.size() == b.size();
 }
@@ -32,7 +33,8 @@ inline void check_written(const TetMesh& mesh, const MeshGroups& groups) {
       continue;
     }
     const TetMesh again = read_mesh(written.files.front());
-    require(again.vertices == mesh.vertices && again.tets == mesh.tets && same_regions(again.region, mesh.region),
+    require(again.vertices == mesh.vertices && again.tets == mesh.tets &&
+                same_regions(again.region, mesh.region),
             "a mesh that was written and read again");
   }
 }
@@ -53,7 +55,8 @@ inline void surface(const char* name, std::string_view bytes) {
     const TriangleSurface surface = read_surface(MemoryFile{name, std::string(bytes)}, &report);
     require(!surface.triangles.empty(), "no triangle");
     for (const auto& triangle : surface.triangles)
-      for (const int v : triangle) static_cast<void>(surface.vertices.at(static_cast<std::size_t>(v)));
+      for (const int v : triangle)
+        static_cast<void>(surface.vertices.at(static_cast<std::size_t>(v)));
   } catch (const InputError&) {
   }
 }

@@ -9,7 +9,8 @@
 
 namespace plica::fuzz {
 
-inline const std::filesystem::path folder = std::filesystem::path(PLICA_SOURCE_DIR) / "tests" / "fuzz";
+inline const std::filesystem::path folder =
+    std::filesystem::path(PLICA_SOURCE_DIR) / "tests" / "fuzz";
 
 /// Runs a target on what its fuzzer starts from and on what it once found; how many files that are.
 inline int replay(const Target& target) {

@@ -18,17 +18,20 @@ inline bool diagnosed(Simulation<Host>& simulation, const TetMesh& mesh) {
   const std::string said = found->text();
   require(said.find(found->region) != std::string::npos, "a diagnosis without its region");
   if (!mesh.region.empty() && found->element >= 0)
-    require(std::ranges::find(mesh.region_names, found->region) != mesh.region_names.end(), "a region that is none");
+    require(std::ranges::find(mesh.region_names, found->region) != mesh.region_names.end(),
+            "a region that is none");
   return true;
 }
 
-// The mesh as a body whose options name its regions and groups: some steps, then all elements turned inside out
+// The mesh as a body whose options name its regions and groups: some steps, then all elements
+// turned inside out
 inline void step(const TetMesh& mesh) {
   Problem problem;
   problem.body.levels = {mesh};
   problem.body.material = {"neo_hookean", 1e5, 0.3, 1000};
   for (const std::string& name : mesh.region_names) problem.body.regions[name].density = 2000;
-  if (!mesh.vertex_sets.empty()) problem.body.fixed = {GroupSelection{mesh.vertex_sets.begin()->first}};
+  if (!mesh.vertex_sets.empty())
+    problem.body.fixed = {GroupSelection{mesh.vertex_sets.begin()->first}};
   problem.gravity = {0, 0, -9.81};
   Simulation<Host> simulation(problem);
   for (int n = 0; n < 3; ++n) {

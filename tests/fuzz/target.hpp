@@ -28,13 +28,16 @@ inline void check(const TetMesh& mesh) {
     const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(tet[k])]; };
     require(tet_volume(at(0), at(1), at(2), at(3)) > 0.0, "a tetrahedron without volume");
   }
-  require(!mesh.tets.empty() && std::find(used.begin(), used.end(), false) == used.end(), "a vertex that is not used");
+  require(!mesh.tets.empty() && std::find(used.begin(), used.end(), false) == used.end(),
+          "a vertex that is not used");
   require(mesh.region.empty() == mesh.region_names.empty(), "regions without names");
   for (const int region : mesh.region)
-    require(region >= 0 && static_cast<std::size_t>(region) < mesh.region_names.size(), "a region out of range");
+    require(region >= 0 && static_cast<std::size_t>(region) < mesh.region_names.size(),
+            "a region out of range");
   for (const auto& [name, set] : mesh.vertex_sets) {
     require(std::is_sorted(set.begin(), set.end()), "a set that is not ascending");
-    for (const int v : set) require(v >= 0 && static_cast<std::size_t>(v) < used.size(), "a vertex out of range");
+    for (const int v : set)
+      require(v >= 0 && static_cast<std::size_t>(v) < used.size(), "a vertex out of range");
   }
 }
 

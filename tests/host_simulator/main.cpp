@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame loop of a simulator that owns the device: two pieces of tissue, each on an execution-space instance of its own, a
-// tool whose contact is the simulator's, and vertex buffers for its renderer. Between frames nothing waits.
+// The frame loop of a simulator that owns the device: two pieces of tissue, each on an
+// execution-space instance of its own, a tool whose contact is the simulator's, and vertex buffers
+// for its renderer. Between frames nothing waits.
 #include <Kokkos_Core.hpp>
 #include <algorithm>
 #include <iostream>
@@ -14,8 +15,9 @@ using Exec = Kokkos::DefaultExecutionSpace;
 using Tissue = plica::Backend<float, Exec>;
 using Vectors = plica::Vectors<Tissue>;
 
-constexpr double frame = 1.0 / 60;                                                  // s
-constexpr float tool_radius = 0.008f, tool_stiffness = 60.0f, tool_depth = 0.004f;  // m, N/m per surface point, m
+constexpr double frame = 1.0 / 60;  // s
+// m, N/m per surface point, m
+constexpr float tool_radius = 0.008f, tool_stiffness = 60.0f, tool_depth = 0.004f;
 
 /// The simulator's own contact: a sphere pushes the surface's points out of it.
 struct ToolContact {
@@ -25,7 +27,8 @@ struct ToolContact {
     float d[3], square = 0;
     for (int k = 0; k < 3; ++k) d[k] = x(p, k) - tip[k], square += d[k] * d[k];
     const float distance = Kokkos::sqrt(square), depth = tool_radius - distance;
-    for (int k = 0; k < 3; ++k) force(p, k) = depth > 0 && distance > 0 ? tool_stiffness * depth / distance * d[k] : 0;
+    for (int k = 0; k < 3; ++k)
+      force(p, k) = depth > 0 && distance > 0 ? tool_stiffness * depth / distance * d[k] : 0;
   }
 };
 
@@ -34,7 +37,8 @@ plica::Problem block(const plica::Point& centre) {
   const plica::Box box{{-0.04, -0.04, 0}, {0.04, 0.04, 0.02}};
   plica::Problem problem;
   problem.body.levels = {plica::box_mesh(box, {16, 16, 4}), plica::box_mesh(box, {12, 12, 3})};
-  problem.body.element = {"linear"};  // cycle rs with pushes on its surface is unstable on nodal ones
+  // cycle rs with pushes on its surface is unstable on nodal ones
+  problem.body.element = {"linear"};
   problem.body.material = {"corotational", 5e3, 0.4, 1000};
   problem.body.fixed = {plica::Box{{-1, -1, 0}, {1, 1, 0}}};
   problem.body.damping.mass = 2;
@@ -46,7 +50,8 @@ plica::Problem block(const plica::Point& centre) {
   return problem;
 }
 
-/// One piece of tissue, its tool, and what the renderer reads: six floats a vertex, position and normal.
+/// One piece of tissue, its tool, and what the renderer reads: six floats a vertex, position and
+/// normal.
 class Piece {
  public:
   Piece(const plica::Problem& problem, const Exec& exec)
@@ -56,15 +61,18 @@ class Piece {
         x_("x", points_),
         force_("force", points_),
         vertex_buffer("vertex buffer", points_, 6) {
-    simulation_.set_external_forces([this](const plica::ForceRequest<Tissue>& request) { push(request); });
+    simulation_.set_external_forces(
+        [this](const plica::ForceRequest<Tissue>& request) { push(request); });
   }
 
   /// Enqueues the steps of one frame and its rendering data.
   void advance() {
     for (long n = 0; n < steps_; ++n) simulation_.step();
-    simulation_.read_surface_positions(Kokkos::subview(vertex_buffer, Kokkos::ALL, Kokkos::pair<int, int>(0, 3)));
+    simulation_.read_surface_positions(
+        Kokkos::subview(vertex_buffer, Kokkos::ALL, Kokkos::pair<int, int>(0, 3)));
   }
-  /// Waits; false where the simulation cannot go on, and cannot come again from its last good state.
+  /// Waits; false where the simulation cannot go on, and cannot come again from its last good
+  /// state.
   bool sound() {
     auto failure = simulation_.check();
     if (failure) failure = simulation_.recover(*failure);
@@ -95,7 +103,8 @@ float lowest_near(const Piece& piece) {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), piece.vertex_buffer);
   float lowest = 1;
   for (std::size_t p = 0; p < host.extent(0); ++p)
-    if (Kokkos::hypot(host(p, 0) - piece.tip[0], host(p, 1) - piece.tip[1]) < 0.001f && host(p, 2) > 0.01f)
+    if (Kokkos::hypot(host(p, 0) - piece.tip[0], host(p, 1) - piece.tip[1]) < 0.001f &&
+        host(p, 2) > 0.01f)
       lowest = std::min(lowest, host(p, 2));
   return lowest;
 }
@@ -107,7 +116,8 @@ int main(int argc, char** argv) {
   try {
     // one instance for both where there is a single thread, which cannot be divided
     std::vector<Exec> instances = {Exec(), Exec()};
-    if (Exec().concurrency() > 1) instances = Kokkos::Experimental::partition_space(Exec(), std::vector<int>{1, 1});
+    if (Exec().concurrency() > 1)
+      instances = Kokkos::Experimental::partition_space(Exec(), std::vector<int>{1, 1});
     Piece left(block({0, 0, 0.01}), instances[0]), right(block({0.2, 0, 0.01}), instances[1]);
     right.tip[0] = 0.2f;
     for (int n = 1; n <= 30; ++n) {
@@ -117,7 +127,8 @@ int main(int argc, char** argv) {
       if (n % 10 == 0 && !(left.sound() && right.sound())) return 1;
     }
     const float a = lowest_near(left), b = lowest_near(right);
-    std::cout << "under the tools the surface lies at " << 1e3f * a << " and " << 1e3f * b << " mm\n";
+    std::cout << "under the tools the surface lies at " << 1e3f * a << " and " << 1e3f * b
+              << " mm\n";
     return a < 0.0185f && a > 0.015f && std::abs(a - b) < 1e-5f ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

@@ -42,10 +42,12 @@ inline Problem by_him() {
 /// By matrices; the first step is halved where it must be.
 inline Problem implicit(const std::string& element, const std::string& preconditioner) {
   Problem p = thrown("single", 2, element);
-  p.integration.cycle = "single", p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 2e-3;
+  p.integration.cycle = "single", p.integration.integrator = {"implicit_euler"},
+  p.integration.macro_step = 2e-3;
   p.integration.implicit.solver = "conjugate_gradients";
   p.integration.implicit.preconditioner = preconditioner;
-  p.integration.implicit.relative_residual = 1e-10;  // where a solve ends depends on the order of its sums
+  // where a solve ends depends on the order of its sums
+  p.integration.implicit.relative_residual = 1e-10;
   return p;
 }
 
@@ -68,7 +70,8 @@ inline Problem collision() {
   return p;
 }
 
-/// All that is given as a function of time: vertices, loads, pressures, and tools that move, turn and are pushed.
+/// All that is given as a function of time: vertices, loads, pressures, and tools that move, turn
+/// and are pushed.
 inline Problem driven(const std::string& cycle, const std::string& integrator) {
   Problem p = thrown(cycle, 2, "linear");
   p.integration.integrator = {integrator};
@@ -79,8 +82,10 @@ inline Problem driven(const std::string& cycle, const std::string& integrator) {
                   {right, FollowerPressure{200}, SineCourse{100, 0}}};
   ObstacleOptions turning{CapsuleOptions{{0.06, -0.1, 0.108}, {0.06, 0.2, 0.108}, 0.01}, 0.2,
                           SteadyMotion(Point(0, 0, -0.3))};
-  turning.turn = Turn{.axis = {0, 0, 1}, .about = {}, .rotation = {0, 0, 0.1}, .angle = SteadyTurn{5}};
-  ObstacleOptions heavy{SphereOptions{{0.04, 0.04, 0.114}, 0.015}, {}, SteadyMotion(Point(0, 0, -0.2))};
+  turning.turn =
+      Turn{.axis = {0, 0, 1}, .about = {}, .rotation = {0, 0, 0.1}, .angle = SteadyTurn{5}};
+  ObstacleOptions heavy{
+      SphereOptions{{0.04, 0.04, 0.114}, 0.015}, {}, SteadyMotion(Point(0, 0, -0.2))};
   heavy.mass = 0.05, heavy.coupling.stiffness = 100;
   p.contact.obstacles.push_back(turning), p.contact.obstacles.push_back(heavy);
   return p;

@@ -33,7 +33,8 @@ template <class View>
 View waves(std::size_t n, double shift = 0) {
   const View x("test.waves", n);
   for (std::size_t i = 0; i < x.span(); ++i)
-    x.data()[i] = static_cast<typename View::value_type>(std::sin(1 + shift + 0.7 * static_cast<double>(i)));
+    x.data()[i] =
+        static_cast<typename View::value_type>(std::sin(1 + shift + 0.7 * static_cast<double>(i)));
   return x;
 }
 
@@ -61,7 +62,8 @@ struct Half {
   }
 };
 
-// A team of another size adds in another order, by design: that is compared to a tolerance. The largest number is the same.
+// A team of another size adds in another order, by design: that is compared to a tolerance. The
+// largest number is the same.
 TYPED_TEST(InAnyOrder, SumsAndLargest) {
   using B = TypeParam;
   const typename B::Exec exec;
@@ -72,7 +74,8 @@ TYPED_TEST(InAnyOrder, SumsAndLargest) {
     for (const bool followed : {false, true}) {
       const auto work = [&] {
         if (followed)
-          reduce<B, 3, Statistics<B>, Sums<3, 1>, Half<B>>(exec, "test", n, {x}, blocks, result, {result, half});
+          reduce<B, 3, Statistics<B>, Sums<3, 1>, Half<B>>(exec, "test", n, {x}, blocks, result,
+                                                           {result, half});
         else
           reduce<B, 3, Statistics<B>, Sums<3, 1>>(exec, "test", n, {x}, blocks, result);
         return numbers(followed ? half : result);
@@ -85,7 +88,8 @@ TYPED_TEST(InAnyOrder, SumsAndLargest) {
           want = work();
         }
         if (team == 1) of_one = want;
-        for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(want[k], of_one[k], round_off<double>(n, 8)) << n;
+        for (std::size_t k = 0; k < 2; ++k)
+          EXPECT_NEAR(want[k], of_one[k], round_off<double>(n, 8)) << n;
         EXPECT_EQ(want[2], of_one[2]);
         expect_any_order(work, team, want);
       }
@@ -112,7 +116,8 @@ TYPED_TEST(InAnyOrder, InverseOfADenseMatrix) {
   const int vertices = 15, n = 3 * vertices;
   const DenseInverse<B> dense(vertices);
   const auto r = waves<Vectors<B>>(vertices);
-  const Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> x("test.x", vertices);
+  const Kokkos::View<typename B::Real* [4], Kokkos::LayoutRight, typename B::Memory> x("test.x",
+                                                                                       vertices);
   const auto entry = [&](int i, int j) { return i == j ? 5.0 : 1.0 / (1 + i + j); };
   const auto work = [&] {
     for (int i = 0; i < n; ++i)
@@ -140,8 +145,8 @@ TYPED_TEST(InAnyOrder, AnswerOfTheCoarsestLevel) {
   CoarseFilter<B> filter;
   constexpr int block = CoarseFilter<B>::block;
   filter.vertices = n;
-  filter.matrix =
-      waves<decltype(filter.matrix)>(static_cast<std::size_t>((columns + block - 1) / block * block * columns));
+  filter.matrix = waves<decltype(filter.matrix)>(
+      static_cast<std::size_t>((columns + block - 1) / block * block * columns));
   filter.turned = Vectors<B>("test.turned", n), filter.rotation = waves<Vectors<B>>(3 * n);
   const auto force = waves<Vectors<B>>(n, 0.3);
   const Vectors<B> answer("test.answer", n);
@@ -150,14 +155,16 @@ TYPED_TEST(InAnyOrder, AnswerOfTheCoarsestLevel) {
     update_vertices<B>({}, "test", groups_of<B>(n), AnswerOfCoarsest<B>{filter, answer, 2});
     return numbers(answer);
   });
-  const auto rotation = [&](int a, int i, int j) { return static_cast<double>(filter.rotation(3 * a + i, j)); };
+  const auto rotation = [&](int a, int i, int j) {
+    return static_cast<double>(filter.rotation(3 * a + i, j));
+  };
   for (int a = 0; a < n; ++a) {
     double product[3] = {};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < columns; ++j) {
         const int row = 3 * a + i;
-        product[i] += static_cast<double>(filter.matrix(
-                          static_cast<std::size_t>(row / block * columns * block + j * block + row % block))) *
+        product[i] += static_cast<double>(filter.matrix(static_cast<std::size_t>(
+                          row / block * columns * block + j * block + row % block))) *
                       static_cast<double>(filter.turned(j / 3, j % 3));
       }
     for (int i = 0; i < 3; ++i) {

@@ -3,8 +3,9 @@
 #include "step_problems.hpp"
 #include "support/simulate.hpp"
 
-// Launches that are gathered (core/launch_queue.hpp). What a queue keeps is replayed with its own arguments: one that changes from step to
-// step and is no Changing would show as other results, or as steps that are launched one by one for ever.
+// Launches that are gathered (core/launch_queue.hpp). What a queue keeps is replayed with its own
+// arguments: one that changes from step to step and is no Changing would show as other results, or
+// as steps that are launched one by one for ever.
 namespace {
 
 using namespace plica;
@@ -20,13 +21,16 @@ std::vector<double> numbers_of(const Simulation<Host>& simulation) {
   return all;
 }
 
-/// Other bytes on the stack each time: those between the arguments of kernels must not come from there.
+/// Other bytes on the stack each time: those between the arguments of kernels must not come from
+/// there.
 [[gnu::noinline]] void leave_rubbish(int n) {
   volatile unsigned char rubbish[1 << 17];
   for (volatile unsigned char& byte : rubbish) byte = static_cast<unsigned char>(n);
 }
 
-bool is_implicit(const Problem& problem) { return problem.integration.integrator[0] == "implicit_euler"; }
+bool is_implicit(const Problem& problem) {
+  return problem.integration.integrator[0] == "implicit_euler";
+}
 
 class Graphs : public testing::TestWithParam<StepProblem> {};
 
@@ -46,7 +50,8 @@ TEST_P(Graphs, AreWhatEveryStepIs) {
   const long more_alone = launched("launches_alone") - alone,
              more_in_graphs = launched("launches_in_graphs") - in_graphs;
   EXPECT_GE(more_in_graphs, 5 * 3);
-  // an implicit step's iterations are as many as it takes, and what is done where they end is seldom the same
+  // an implicit step's iterations are as many as it takes, and what is done where they end is
+  // seldom the same
   EXPECT_LE(more_alone, is_implicit(problem) ? more_in_graphs / 5 : 0);
   EXPECT_EQ(apart.counters().at("launches_in_graphs"), 0);
   EXPECT_EQ(apart.counters().at("launches_alone"), 0);  // that were gathered before
@@ -55,7 +60,8 @@ TEST_P(Graphs, AreWhatEveryStepIs) {
 INSTANTIATE_TEST_SUITE_P(LikeDevice, Graphs, testing::ValuesIn(step_problems()),
                          [](const auto& each) { return std::string(each.param.name); });
 
-// A step of another length, a state from outside, a tool that is told to go elsewhere: none is what came before.
+// A step of another length, a state from outside, a tool that is told to go elsewhere: none is what
+// came before.
 TEST(Graphs, FollowWhatIsDoneBetweenSteps) {
   const Problem problem = driven("single", "symplectic_euler");
   Simulation<Host> gathered(problem), apart(problem);
@@ -96,16 +102,20 @@ TEST(LaunchQueue, KeepsTheOrder) {
     update_vertices<Host>(exec, "put", 2, Put{-1, x});
   }
   EXPECT_EQ(x(1), -1);
-  EXPECT_EQ(queue.alone(), 4 * 3 + 4);  // another number is set every time, and one launch is no graph
+  // another number is set every time, and one launch is no graph
+  EXPECT_EQ(queue.alone(), 4 * 3 + 4);
 }
 
 struct PutByTeam {
   Changing<Host, double> value;
   Doubles<Host> to;
-  void operator()(const Kokkos::TeamPolicy<Exec>::member_type& team) const { to(team.league_rank()) += *value; }
+  void operator()(const Kokkos::TeamPolicy<Exec>::member_type& team) const {
+    to(team.league_rank()) += *value;
+  }
 };
 
-// A kernel that Kokkos lends memory is not gathered: it comes between what was launched before and after it.
+// A kernel that Kokkos lends memory is not gathered: it comes between what was launched before and
+// after it.
 TEST(LaunchQueue, LetsSomeLaunchesThrough) {
   const Exec exec;
   Queue queue(exec);
@@ -134,7 +144,8 @@ TEST(LaunchQueue, GoesOutInPartsWhereValuesAreMany) {
       {
         const Queue::Scope gather(&queue);
         for (int i = 0; i < values; ++i)
-          update_vertices<Host>(exec, "put", 1, Put{100.0 * n + i, Kokkos::subview(x, std::pair(i, i + 1))});
+          update_vertices<Host>(exec, "put", 1,
+                                Put{100.0 * n + i, Kokkos::subview(x, std::pair(i, i + 1))});
         queue.launch_all();
       }
       for (int i = 0; i < values; ++i) ASSERT_EQ(x(i), 100.0 * n + i);

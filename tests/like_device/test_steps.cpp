@@ -5,8 +5,8 @@
 #include "step_problems.hpp"
 #include "support/simulate.hpp"
 
-// Whole macro steps as a device might do them. What is right is known from the other tests, and from test_stored_values.cpp, which this
-// program has, too.
+// Whole macro steps as a device might do them. What is right is known from the other tests, and
+// from test_stored_values.cpp, which this program has, too.
 namespace {
 
 using namespace plica;
@@ -26,8 +26,8 @@ std::vector<double> after_some_steps(const Problem& problem) {
 
 class Steps : public testing::TestWithParam<StepProblem> {};
 
-// Sums of a team of another size are added in another order, by design: the bits are the same in any order of the teams. What touches is
-// decided by signs, which rounding may turn.
+// Sums of a team of another size are added in another order, by design: the bits are the same in
+// any order of the teams. What touches is decided by signs, which rounding may turn.
 TEST_P(Steps, AreTheSameInAnyOrder) {
   const Problem problem = GetParam().make();
   std::vector<double> by_one;
@@ -38,12 +38,14 @@ TEST_P(Steps, AreTheSameInAnyOrder) {
     }();
     for (const unsigned order : {1U, 2U}) {
       const LikeDevice like(team, order);
-      EXPECT_TRUE(same_bits(after_some_steps(problem), want)) << "teams of " << team << ", order " << order;
+      EXPECT_TRUE(same_bits(after_some_steps(problem), want))
+          << "teams of " << team << ", order " << order;
     }
     if (team == 1) by_one = want;
     double size = 0, difference = 0;
     for (std::size_t i = 0; i < want.size(); ++i)
-      size = std::max(size, std::abs(want[i])), difference = std::max(difference, std::abs(want[i] - by_one[i]));
+      size = std::max(size, std::abs(want[i])),
+      difference = std::max(difference, std::abs(want[i] - by_one[i]));
     const bool touches = !problem.contact.obstacles.empty() || !problem.body.parts.empty();
     EXPECT_LE(difference, (touches ? 2e-5 : 1e-8) * size) << "teams of " << team;
   }

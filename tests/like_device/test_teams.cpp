@@ -12,8 +12,8 @@
 
 #include "support/plain_elements.hpp"
 
-// What teams do with a patch, and what threads do with the rows of a slice: every number has its place, so that the size of the teams
-// must not matter either.
+// What teams do with a patch, and what threads do with the rows of a slice: every number has its
+// place, so that the size of the teams must not matter either.
 namespace {
 
 using namespace plica;
@@ -63,11 +63,13 @@ TYPED_TEST(Teams, ForceAndTangentOfPatches) {
   Body<B> body;
   ASSERT_GT(body.model.patches.count, 8);
   const auto force = [&] {
-    elastic_force<B, Material>({}, body.model.patches, body.state, body.level.flags, 1, body.level.partial);
+    elastic_force<B, Material>({}, body.model.patches, body.state, body.level.flags, 1,
+                               body.level.partial);
     return body.gathered();
   };
   const auto tangent = [&] {
-    elastic_tangent<B, Material>({}, body.model.patches, body.state.u, body.v, 100, body.level.partial);
+    elastic_tangent<B, Material>({}, body.model.patches, body.state.u, body.v, 100,
+                                 body.level.partial);
     return body.gathered();
   };
   expect_any_order(force), expect_any_order(tangent);
@@ -83,7 +85,8 @@ TYPED_TEST(Teams, BlocksOfPatches) {
   const auto [A, pairs] = block_pattern<B>(body.model);
   const Blocks9<B> shares("test.shares", static_cast<std::size_t>(pairs.shares));
   const auto work = [&, &A = A, &pairs = pairs] {
-    elastic_blocks<B, Material, Material::Tangent>({}, body.model, pairs, body.state.u, {1e-4, 1e-2}, shares, A);
+    elastic_blocks<B, Material, Material::Tangent>({}, body.model, pairs, body.state.u,
+                                                   {1e-4, 1e-2}, shares, A);
     return numbers(A.value);
   };
   expect_any_order(work);
@@ -94,14 +97,15 @@ TYPED_TEST(Teams, StressAndWhatIsRememberedOfIt) {
   Body<B> body;
   const Patches<B>& patches = body.model.patches;
   const auto slots = static_cast<std::size_t>(patches.packs * B::lanes);
-  body.level.stress = {1, Indices<B>("test.region", slots), Body<B>::ones(2), Scalars<B>("test.memory", 12 * slots),
-                       Scalars<B>()};
+  body.level.stress = {1, Indices<B>("test.region", slots), Body<B>::ones(2),
+                       Scalars<B>("test.memory", 12 * slots), Scalars<B>()};
   expect_any_order([&] {
     fill(typename B::Exec(), body.level.stress.memory, 0);
     remember_elements<B, Material>({}, body.level, body.state.u, patches.constants);
     return numbers(body.level.stress.memory);
   });
-  const Scalars<B> equivalent("test.equivalent", body.mesh.tets.size()), ratio("test.ratio", body.mesh.tets.size());
+  const Scalars<B> equivalent("test.equivalent", body.mesh.tets.size()),
+      ratio("test.ratio", body.mesh.tets.size());
   expect_any_order([&] {
     elastic_stress<B, Material>({}, patches, body.state.u, equivalent, ratio, {});
     return numbers(equivalent);
@@ -134,13 +138,15 @@ TYPED_TEST(Teams, KeepOneInvertedElement) {
     std::vector<double> all = numbers(body.level.flags.evaluation);
     const auto& word = body.level.flags.word;
     for (std::size_t p = 0; p < word.extent(0); ++p)
-      all.push_back(body.level.flags.slot(word(p))), all.push_back(static_cast<double>(body.level.flags.J(word(p))));
+      all.push_back(body.level.flags.slot(word(p))),
+          all.push_back(static_cast<double>(body.level.flags.J(word(p))));
     return all;
   };
   body.level.flags = make_element_flags<B>(body.model.patches.count);
   expect_any_order([&] {
     body.level.flags.clear({});
-    elastic_force<B, Material>({}, body.model.patches, turned, body.level.flags, 1, body.level.partial);
+    elastic_force<B, Material>({}, body.model.patches, turned, body.level.flags, 1,
+                               body.level.partial);
     return kept();
   });
   body.make_nodal(false);

@@ -21,8 +21,9 @@
 #include "support/bodies.hpp"
 #include "support/simulate.hpp"
 
-// Standard runs, down to the last bit: the same for every number of threads, and what they were when they were pinned.
-// Threads are chosen once per process, so this program runs itself again for each number of them.
+// Standard runs, down to the last bit: the same for every number of threads, and what they were
+// when they were pinned. Threads are chosen once per process, so this program runs itself again for
+// each number of them.
 namespace {
 
 using namespace plica;
@@ -32,7 +33,8 @@ using namespace plica::test;
 Problem organ() {
   Problem p;
   for (const char* mesh : {"fine", "coarse"})
-    p.body.levels.push_back(read_mesh(std::string(PLICA_SOURCE_DIR "/meshes/data/liver_") + mesh + ".msh"));
+    p.body.levels.push_back(
+        read_mesh(std::string(PLICA_SOURCE_DIR "/meshes/data/liver_") + mesh + ".msh"));
   const Box box = bounding_box(p.body.levels[0].vertices);
   p.body.element = {"linear"};
   p.body.material = {"neo_hookean", 20e3, 0.4, 1000};
@@ -59,7 +61,8 @@ Problem him_run() {
 Problem implicit_run() {
   Problem p = organ();
   p.integration.integrator = {"newmark"}, p.integration.macro_step = 2e-3;
-  p.integration.implicit.solver = "conjugate_gradients", p.integration.implicit.preconditioner = "multigrid";
+  p.integration.implicit.solver = "conjugate_gradients",
+  p.integration.implicit.preconditioner = "multigrid";
   return p;
 }
 
@@ -107,11 +110,13 @@ Hashes all_hashes() {
   Hashes hashes;
   const auto add = [&](const std::string& backend, const auto& hash) {
     for (const auto& [name, run] :
-         {std::pair{"explicit", &explicit_run}, std::pair{"him", &him_run}, std::pair{"implicit", &implicit_run},
-          std::pair{"nodal", &nodal_run}, std::pair{"nodal_implicit", &nodal_implicit_run}})
+         {std::pair{"explicit", &explicit_run}, std::pair{"him", &him_run},
+          std::pair{"implicit", &implicit_run}, std::pair{"nodal", &nodal_run},
+          std::pair{"nodal_implicit", &nodal_implicit_run}})
       hashes[backend + "." + name] = hash(run());
   };
-#define PLICA_HASHES(Real, Exec) add(#Real "." + std::string(Exec::name()), &hash_of<Backend<Real, Exec>>);
+#define PLICA_HASHES(Real, Exec) \
+  add(#Real "." + std::string(Exec::name()), &hash_of<Backend<Real, Exec>>);
   PLICA_FOR_EACH_BACKEND(PLICA_HASHES)
 #undef PLICA_HASHES
   return hashes;
@@ -119,8 +124,9 @@ Hashes all_hashes() {
 
 /// What this program writes when it runs itself with so many threads.
 Hashes hashes_with(int threads) {
-  const std::string file = std::filesystem::temp_directory_path() /
-                           ("plica-hashes-" + std::to_string(getpid()) + "-" + std::to_string(threads));
+  const std::string file =
+      std::filesystem::temp_directory_path() /
+      ("plica-hashes-" + std::to_string(getpid()) + "-" + std::to_string(threads));
   setenv("PLICA_HASHES_TO", file.c_str(), 1);
   setenv("OMP_WAIT_POLICY", "passive", 1);  // there may be fewer processors than threads
   const std::string self = std::filesystem::read_symlink("/proc/self/exe");
@@ -146,7 +152,8 @@ Hashes hashes_with(int threads) {
   return hashes;
 }
 
-/// The processor that the compiler tunes for, where runs on it are pinned: tuning decides which products are fused with sums.
+/// The processor that the compiler tunes for, where runs on it are pinned: tuning decides which
+/// products are fused with sums.
 #if defined(__tune_znver3__)
 constexpr const char* processor = "znver3";
 #elif defined(__tune_sapphirerapids__)
@@ -155,13 +162,15 @@ constexpr const char* processor = "sapphirerapids";
 constexpr const char* processor = "another processor";
 #endif
 
-/// By processor and bytes of a vector register, then by precision and run. They hold for GNU 12, optimised. A change of method
-/// changes them, which is then what its commit says.
+/// By processor and bytes of a vector register, then by precision and run. They hold for GNU 12,
+/// optimised. A change of method changes them, which is then what its commit says.
 const std::map<std::pair<std::string, int>, Hashes> pinned = {
-    // none since contact became implicit in the step, which changes every run here; what a run prints goes here
+    // none since contact became implicit in the step, which changes every run here; what a run
+    // prints goes here
 };
 
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ == 12 && defined(__OPTIMIZE__) && defined(NDEBUG)
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ == 12 && defined(__OPTIMIZE__) && \
+    defined(NDEBUG)
 constexpr bool compiler_of_the_pins = true;
 #else
 constexpr bool compiler_of_the_pins = false;
@@ -183,9 +192,11 @@ TEST(PinnedRuns, AreTheSameForEveryNumberOfThreads) {
     const bool on_host = name.find("Cuda") == std::string::npos;
     const bool is_pinned = pins != pinned.end() && pins->second.contains(run);
     if (is_pinned && on_host && compiler_of_the_pins)
-      EXPECT_EQ(hash, pins->second.at(run)) << name << ", " << processor << ", " << PLICA_VECTOR_BYTES << " bytes";
+      EXPECT_EQ(hash, pins->second.at(run))
+          << name << ", " << processor << ", " << PLICA_VECTOR_BYTES << " bytes";
     else
-      std::cout << name << ", " << processor << ", " << PLICA_VECTOR_BYTES << " bytes: " << hash << ", not pinned\n";
+      std::cout << name << ", " << processor << ", " << PLICA_VECTOR_BYTES << " bytes: " << hash
+                << ", not pinned\n";
   }
 }
 

@@ -9,8 +9,8 @@
 #include "support/bodies.hpp"
 #include "support/simulate.hpp"
 
-// Results that must not change unnoticed: a ball drops into a bowl. No reference but what came out once; where a change of
-// method is meant to change them, the new ones are printed on failure.
+// Results that must not change unnoticed: a ball drops into a bowl. No reference but what came out
+// once; where a change of method is meant to change them, the new ones are printed on failure.
 namespace {
 
 using namespace plica;
@@ -38,7 +38,8 @@ void expect_values(const Problem& p, const std::array<double, 7>& want) {
   const auto x = simulation.positions();
   for (const Point& a : x) centre += a / static_cast<double>(x.size());
   const Energies e = simulation.energies();
-  const std::array<double, 7> got = {centre[0], centre[1], centre[2], e.kinetic, e.elastic, e.potential, e.contact};
+  const std::array<double, 7> got = {centre[0], centre[1],   centre[2], e.kinetic,
+                                     e.elastic, e.potential, e.contact};
   std::string text;
   for (double value : got) {
     char number[32];
@@ -46,17 +47,18 @@ void expect_values(const Problem& p, const std::array<double, 7>& want) {
     text += number;
   }
   for (std::size_t i = 0; i < got.size(); ++i)
-    EXPECT_NEAR(got[i], want[i], i < 3 ? 1e-6 : 1e-4 * std::abs(want[i]) + 1e-9) << i << " of " << text;
+    EXPECT_NEAR(got[i], want[i], i < 3 ? 1e-6 : 1e-4 * std::abs(want[i]) + 1e-9)
+        << i << " of " << text;
 }
 
 TEST(StoredValues, SingleLevel) {
-  expect_values(ball_in_bowl("single", {8}),
-                {0.01281037153, 0, 0.04548514277, 0.2059780544, 0.03596734069, -0.275494048, 0.0003799194664});
+  expect_values(ball_in_bowl("single", {8}), {0.01281037153, 0, 0.04548514277, 0.2059780544,
+                                              0.03596734069, -0.275494048, 0.0003799194664});
 }
 
 TEST(StoredValues, StatesThroughThreeLevels) {
-  expect_values(ball_in_bowl("rs", {8, 6, 4}),
-                {0.01256812848, 0, 0.04760723364, 0.1639156488, 0.006485012921, -0.2649287053, 0.0001685397029});
+  expect_values(ball_in_bowl("rs", {8, 6, 4}), {0.01256812848, 0, 0.04760723364, 0.1639156488,
+                                                0.006485012921, -0.2649287053, 0.0001685397029});
 }
 
 TEST(StoredValues, HybridOfTwoLevels) {
@@ -65,7 +67,8 @@ TEST(StoredValues, HybridOfTwoLevels) {
   p.integration.distribution = "inverse_elements", p.integration.shift_to_coarsest = 0.5;
   p.integration.macro_step = 0.005;
   p.integration.implicit.relative_residual = 1e-9;
-  expect_values(p, {0.01258859379, 0, 0.04546662485, 0.05915123276, 0.01920014924, -0.2756373517, 0.0005726041085});
+  expect_values(p, {0.01258859379, 0, 0.04546662485, 0.05915123276, 0.01920014924, -0.2756373517,
+                    0.0005726041085});
 }
 
 TEST(StoredValues, ImplicitSingleLevel) {
@@ -73,7 +76,8 @@ TEST(StoredValues, ImplicitSingleLevel) {
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.005;
   p.integration.implicit.relative_residual = 1e-9;
-  expect_values(p, {0.01263001569, 0, 0.04477473316, 0.04085054134, 0.02767579754, -0.2791182289, 0.00028313662});
+  expect_values(p, {0.01263001569, 0, 0.04477473316, 0.04085054134, 0.02767579754, -0.2791182289,
+                    0.00028313662});
 }
 
 }  // namespace

@@ -16,8 +16,12 @@ int beyond_the_end(int size) {
 
 int too_large(int number) { return number + std::numeric_limits<int>::max(); }
 
-TEST(Sanitizers, CatchWhatReadsBeyondTheEnd) { EXPECT_DEATH(beyond_the_end(7), "heap-buffer-overflow"); }
-TEST(Sanitizers, CatchWhatOverflows) { EXPECT_DEATH(std::exit(too_large(7)), "signed integer overflow"); }
+TEST(Sanitizers, CatchWhatReadsBeyondTheEnd) {
+  EXPECT_DEATH(beyond_the_end(7), "heap-buffer-overflow");
+}
+TEST(Sanitizers, CatchWhatOverflows) {
+  EXPECT_DEATH(std::exit(too_large(7)), "signed integer overflow");
+}
 
 }  // namespace
 }  // namespace plica::test

@@ -19,7 +19,10 @@ struct Choose<Keep, testing::Types<Kept...>, End> {
 };
 template <template <class> class Keep, class... Kept, class B, class... Rest>
 struct Choose<Keep, testing::Types<Kept...>, B, Rest...>
-    : Choose<Keep, std::conditional_t<Keep<B>::value, testing::Types<Kept..., B>, testing::Types<Kept...>>, Rest...> {};
+    : Choose<
+          Keep,
+          std::conditional_t<Keep<B>::value, testing::Types<Kept..., B>, testing::Types<Kept...>>,
+          Rest...> {};
 
 template <class B>
 using Any = std::true_type;
@@ -27,8 +30,10 @@ template <class B>
 using InDouble = std::is_same<typename B::Real, double>;
 
 #define PLICA_TEST_BACKEND(Real, Exec) Backend<Real, Exec>,
-using EachBackend = Choose<Any, testing::Types<>, PLICA_FOR_EACH_BACKEND(PLICA_TEST_BACKEND) End>::type;
-using EachDoubleBackend = Choose<InDouble, testing::Types<>, PLICA_FOR_EACH_BACKEND(PLICA_TEST_BACKEND) End>::type;
+using EachBackend =
+    Choose<Any, testing::Types<>, PLICA_FOR_EACH_BACKEND(PLICA_TEST_BACKEND) End>::type;
+using EachDoubleBackend =
+    Choose<InDouble, testing::Types<>, PLICA_FOR_EACH_BACKEND(PLICA_TEST_BACKEND) End>::type;
 #undef PLICA_TEST_BACKEND
 
 /// Where physics is tested that does not depend on the backend.

@@ -10,7 +10,8 @@
 namespace plica::test {
 
 /// Divides a mesh into two regions at a plane x = at.
-inline TetMesh with_regions(TetMesh mesh, double at, const std::string& below, const std::string& above) {
+inline TetMesh with_regions(TetMesh mesh, double at, const std::string& below,
+                            const std::string& above) {
   mesh.region_names = {below, above};
   mesh.region.clear();
   for (const auto& t : mesh.tets) {
@@ -22,7 +23,8 @@ inline TetMesh with_regions(TetMesh mesh, double at, const std::string& below, c
 }
 
 /// A soft body without loads, of the given resolutions.
-inline Problem body_of(std::vector<TetMesh> levels, const std::string& material = "st_venant_kirchhoff") {
+inline Problem body_of(std::vector<TetMesh> levels,
+                       const std::string& material = "st_venant_kirchhoff") {
   Problem p;
   p.body.levels = std::move(levels);
   p.body.element = {"linear"};
@@ -30,8 +32,8 @@ inline Problem body_of(std::vector<TetMesh> levels, const std::string& material 
   return p;
 }
 
-/// Makes some tetrahedra very flat: of every thirtieth, a vertex inside the box goes next to the face across from it, where
-/// no element around it turns inside out.
+/// Makes some tetrahedra very flat: of every thirtieth, a vertex inside the box goes next to the
+/// face across from it, where no element around it turns inside out.
 inline TetMesh with_slivers(TetMesh mesh, double height = 0.04) {
   const Box box = bounding_box(mesh.vertices);
   const auto volume = [&](const std::array<int, 4>& t) {
@@ -69,7 +71,8 @@ inline Problem small_cube(const std::string& material = "st_venant_kirchhoff", i
 /// Two or more levels of one cube, coarser by one cell each.
 inline Problem cube_levels(int levels, int finest, const std::string& cycle) {
   std::vector<TetMesh> meshes;
-  for (int i = 0; i < levels; ++i) meshes.push_back(jittered_box(decimetre, {finest - i, finest - i, finest - i}));
+  for (int i = 0; i < levels; ++i)
+    meshes.push_back(jittered_box(decimetre, {finest - i, finest - i, finest - i}));
   Problem p = body_of(std::move(meshes));
   p.integration.cycle = cycle;
   return p;
@@ -78,14 +81,17 @@ inline Problem cube_levels(int levels, int finest, const std::string& cycle) {
 /// The cycles in which the levels share the macro step, level 0 alone included.
 inline std::vector<std::string> sharing_cycles() {
   std::vector<std::string> list = names(cycles());
-  std::erase_if(list, [](const std::string& cycle) { return cycle != "single" && !integrates_coarse_levels(cycle); });
+  std::erase_if(list, [](const std::string& cycle) {
+    return cycle != "single" && !integrates_coarse_levels(cycle);
+  });
   return list;
 }
 
 /// doubts() but for those of elements, which small meshes of linear ones always have.
 inline std::vector<std::string> other_doubts(const Problem& problem) {
   std::vector<std::string> sentences = doubts(problem);
-  std::erase_if(sentences, [](const std::string& sentence) { return sentence.starts_with("body.element:"); });
+  std::erase_if(sentences,
+                [](const std::string& sentence) { return sentence.starts_with("body.element:"); });
   return sentences;
 }
 

@@ -5,8 +5,9 @@
 
 namespace plica::test {
 
-/// Memory of views that behaves like a device's on a host: while it is closed, only kernels and copies get at it. What else touches it
-/// goes on, and is written down. One at a time; Kokkos's callbacks are its own meanwhile.
+/// Memory of views that behaves like a device's on a host: while it is closed, only kernels and
+/// copies get at it. What else touches it goes on, and is written down. One at a time; Kokkos's
+/// callbacks are its own meanwhile.
 class DeviceMemory {
  public:
   /// Views allocated from now on lie in it.

@@ -47,27 +47,30 @@ struct Pieces {
       constrained.emplace_back(levels[i].vertices.size(), 0);
       for (std::size_t a = 0; a < levels[i].vertices.size() && !problem.body.fixed.empty(); ++a)
         constrained[i][a] = levels[i].vertices[a][0] < 1e-9;
-      up.push_back(i == 0 ? Embedding{} : embed(levels[i - 1].vertices, levels[i], Outside::extrapolate));
+      up.push_back(i == 0 ? Embedding{}
+                          : embed(levels[i - 1].vertices, levels[i], Outside::extrapolate));
     }
     std::vector<RowMatrix> transfers;
     for (std::size_t i = 1; i < levels.size(); ++i)
-      transfers.push_back(transfer_matrix(levels[i - 1], constrained[i - 1], levels[i], constrained[i], up[i], true));
+      transfers.push_back(transfer_matrix(levels[i - 1], constrained[i - 1], levels[i],
+                                          constrained[i], up[i], true));
     const MaterialOptions& m = problem.body.material;
     const Lame<double> lame = lame_constants(m.young_modulus, m.poisson_ratio);
     const std::vector<std::array<double, 2>> constants{{lame.lambda, lame.mu}};
     const bool made = levels.size() == 1;
     if (made)
-      for (CoarseSpace& space :
-           coarse_spaces(levels[0], constrained[0], probe.mass(), rest_stiffness(levels[0], constants),
-                         {.sizes = space_sizes(problem.body.coarsen, constrained[0]), .slivers = true}))
+      for (CoarseSpace& space : coarse_spaces(
+               levels[0], constrained[0], probe.mass(), rest_stiffness(levels[0], constants),
+               {.sizes = space_sizes(problem.body.coarsen, constrained[0]), .slivers = true}))
         transfers.push_back(std::move(space.up));
     const auto spaces = mass_spaces(transfers, probe.mass());
     const RowMatrix whole = to_finest(spaces);
-    inverse_mass =
-        std::make_unique<InverseMass<Host>>(level.model.inverse_mass, spaces,
-                                            made ? axes_of_space(levels.front(), whole, probe.mass())
-                                                 : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
-    const std::shared_ptr<const Elasticity<Host>> elasticity = make_elasticity<Host>(problem.body.material.model);
+    inverse_mass = std::make_unique<InverseMass<Host>>(
+        level.model.inverse_mass, spaces,
+        made ? axes_of_space(levels.front(), whole, probe.mass())
+             : axes_of_mesh(levels.front(), levels.back(), probe.mass()));
+    const std::shared_ptr<const Elasticity<Host>> elasticity =
+        make_elasticity<Host>(problem.body.material.model);
     const Vectors<Host> rest("rest", levels[0].vertices.size());
     fitter = std::make_unique<InertiaFitter<Host>>(
         typename Host::Exec{}, level, RowsOfBody{0, level.model.vertices}, elasticity,

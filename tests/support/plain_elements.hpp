@@ -13,8 +13,8 @@
 #include "support/gradients.hpp"
 #include "support/tolerance.hpp"
 
-// Sums over elements written out one by one in double, and the same through the patch kernel: with few parts of the library, so that
-// they can be compiled for any width of vectors.
+// Sums over elements written out one by one in double, and the same through the patch kernel: with
+// few parts of the library, so that they can be compiled for any width of vectors.
 namespace plica::test {
 
 using Field = std::vector<Point>;
@@ -23,7 +23,8 @@ inline Field disorder(std::size_t n, double size, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> within(-size, size);
   Field field;
-  for (std::size_t i = 0; i < n; ++i) field.emplace_back(within(random), within(random), within(random));
+  for (std::size_t i = 0; i < n; ++i)
+    field.emplace_back(within(random), within(random), within(random));
   return field;
 }
 
@@ -41,23 +42,27 @@ using Stress = std::function<Eigen::Matrix3d(const Eigen::Matrix3d& F, const Eig
 template <class Material>
 Eigen::Matrix3d stress_of(const Eigen::Matrix3d& F, const Eigen::Matrix3d* dF) {
   const auto constants = sample_constants<Material>();
-  return dF == nullptr ? eigen(Material::stress(mat3<double>(F), constants))
-                       : eigen(Material::stress_change(mat3<double>(F), mat3<double>(*dF), constants));
+  return dF == nullptr
+             ? eigen(Material::stress(mat3<double>(F), constants))
+             : eigen(Material::stress_change(mat3<double>(F), mat3<double>(*dF), constants));
 }
 
 /// f_a = -sum V P(F) grad N_a; with a direction p, its change dP/dF : grad p instead of P.
-inline Field plain_force(const Stress& stress, const TetMesh& mesh, const Field& u, const Field* p) {
+inline Field plain_force(const Stress& stress, const TetMesh& mesh, const Field& u,
+                         const Field* p) {
   Field f(mesh.vertices.size(), Point::Zero());
   for (const auto& t : mesh.tets) {
     const auto edges = [&](const Field& x) {
       Eigen::Matrix3d E;
       for (int c = 0; c < 3; ++c)
-        E.col(c) = x[static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)])] - x[static_cast<std::size_t>(t[0])];
+        E.col(c) = x[static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)])] -
+                   x[static_cast<std::size_t>(t[0])];
       return E;
     };
     const Eigen::Matrix3d D = edges(mesh.vertices), inverse = D.inverse();
     const Eigen::Matrix3d F = Eigen::Matrix3d::Identity() + edges(u) * inverse;
-    const Eigen::Matrix3d dF = p == nullptr ? Eigen::Matrix3d::Zero() : Eigen::Matrix3d(edges(*p) * inverse);
+    const Eigen::Matrix3d dF =
+        p == nullptr ? Eigen::Matrix3d::Zero() : Eigen::Matrix3d(edges(*p) * inverse);
     const Eigen::Matrix3d P = stress(F, p == nullptr ? nullptr : &dF);
     const Eigen::Matrix3d H = -D.determinant() / 6 * P * inverse.transpose();
     for (int c = 0; c < 3; ++c) {
@@ -86,7 +91,8 @@ Vectors<B> device(const Field& field) {
 template <class B, class Integrand>
 Field through_patches(const TetMesh& mesh, const Patches<B>& patches, const Integrand& integrand) {
   const typename B::Exec exec;
-  const Vectors<B> partial("test.partial", patches.vertex.extent(0)), f("test.f", mesh.vertices.size());
+  const Vectors<B> partial("test.partial", patches.vertex.extent(0)),
+      f("test.f", mesh.vertices.size());
   Model<B> model;
   model.vertices = static_cast<int>(mesh.vertices.size());
   model.patches = patches, model.shares = patches.shares;

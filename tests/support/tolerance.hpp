@@ -5,7 +5,8 @@
 #include <plica/core/mesh.hpp>
 #include <vector>
 
-// How close two results must be. Every test states its tolerance as a number of roundings of the precision under test.
+// How close two results must be. Every test states its tolerance as a number of roundings of the
+// precision under test.
 namespace plica::test {
 
 /// So many roundings of a number of this size.
@@ -21,7 +22,8 @@ inline double largest(const std::vector<Point>& field) {
   return most;
 }
 
-/// The largest distance between points of the same index; infinite where the fields differ in length.
+/// The largest distance between points of the same index; infinite where the fields differ in
+/// length.
 inline double largest_difference(const std::vector<Point>& a, const std::vector<Point>& b) {
   if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
   double most = 0;
@@ -36,7 +38,8 @@ inline bool same_bits(const std::vector<Point>& a, const std::vector<Point>& b) 
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
 
-inline std::vector<Point> along(const std::vector<Point>& u, double t, const std::vector<Point>& p) {
+inline std::vector<Point> along(const std::vector<Point>& u, double t,
+                                const std::vector<Point>& p) {
   std::vector<Point> moved = u;
   for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];
   return moved;

@@ -8,25 +8,30 @@
 
 namespace plica::test {
 
-/// Counts kernels, allocations, fences and regions by label, through Kokkos' profiling callbacks, while it lives. One at a time.
+/// Counts kernels, allocations, fences and regions by label, through Kokkos' profiling callbacks,
+/// while it lives. One at a time.
 class Watch {
  public:
   Watch() {
     current() = this;
     namespace tools = Kokkos::Tools::Experimental;
-    tools::set_begin_parallel_for_callback([](const char* label, std::uint32_t, std::uint64_t*) { launched(label); });
+    tools::set_begin_parallel_for_callback(
+        [](const char* label, std::uint32_t, std::uint64_t*) { launched(label); });
     tools::set_begin_parallel_reduce_callback(
         [](const char* label, std::uint32_t, std::uint64_t*) { launched(label); });
-    tools::set_begin_parallel_scan_callback([](const char* label, std::uint32_t, std::uint64_t*) { launched(label); });
-    tools::set_allocate_data_callback([](Kokkos_Profiling_SpaceHandle, const char* label, const void*, std::uint64_t) {
-      if (current()) ++current()->allocations[label];
-    });
+    tools::set_begin_parallel_scan_callback(
+        [](const char* label, std::uint32_t, std::uint64_t*) { launched(label); });
+    tools::set_allocate_data_callback(
+        [](Kokkos_Profiling_SpaceHandle, const char* label, const void*, std::uint64_t) {
+          if (current()) ++current()->allocations[label];
+        });
     tools::set_push_region_callback([](const char* label) {
       if (current()) ++current()->regions[label];
     });
     tools::set_begin_fence_callback([](const char* label, std::uint32_t, std::uint64_t*) {
       // watching makes Kokkos itself wait, before and after each kernel
-      if (current() && !std::string_view(label).starts_with("Kokkos::Tools::")) ++current()->fences[label];
+      if (current() && !std::string_view(label).starts_with("Kokkos::Tools::"))
+        ++current()->fences[label];
     });
   }
   ~Watch() {

@@ -18,7 +18,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Every problem of `plica verify`, on coarse meshes; and largest stable steps of bodies that are not among them.
+// Every problem of `plica verify`, on coarse meshes; and largest stable steps of bodies that are
+// not among them.
 namespace {
 
 using namespace plica;
@@ -30,10 +31,11 @@ TEST_P(KnownAnswer, IsFound) {
   const VerifyResult result = verify({{GetParam()}, true});
   EXPECT_FALSE(result.rows.empty());
   for (const VerifyRow& row : result.rows) {
-    EXPECT_NE(row.outcome, "not ok") << row.quantity << " " << (row.ours.empty() ? 0 : row.ours.back().value) << " "
-                                     << row.note;
+    EXPECT_NE(row.outcome, "not ok")
+        << row.quantity << " " << (row.ours.empty() ? 0 : row.ours.back().value) << " " << row.note;
     EXPECT_FALSE(row.source.empty()) << row.quantity;
-    for (const VerifyValue& v : row.ours) EXPECT_TRUE(std::isfinite(v.value)) << row.quantity << " " << v.mesh;
+    for (const VerifyValue& v : row.ours)
+      EXPECT_TRUE(std::isfinite(v.value)) << row.quantity << " " << v.mesh;
   }
 }
 
@@ -60,10 +62,14 @@ TEST(KnownAnswers, AreTheseNumbers) {
 TEST(KnownAnswers, NotesOfTheCantileverAreTheirOwn) {
   for (const VerifyRow& row : verify({{"cantilever"}, true}).rows) {
     const bool extrapolated = row.judged == Judged::limit;
-    const std::string percent = std::to_string(std::lround(100 * std::abs(row.ours.back().value / *row.accepted - 1)));
-    EXPECT_EQ(row.note.find("lock") != std::string::npos, extrapolated) << row.quantity << ": " << row.note;
-    EXPECT_EQ(row.note.find(" " + percent + " % off") != std::string::npos, extrapolated) << row.note;
-    EXPECT_EQ(row.note.find("shear") != std::string::npos, row.quantity.starts_with("first bending frequency"))
+    const std::string percent =
+        std::to_string(std::lround(100 * std::abs(row.ours.back().value / *row.accepted - 1)));
+    EXPECT_EQ(row.note.find("lock") != std::string::npos, extrapolated)
+        << row.quantity << ": " << row.note;
+    EXPECT_EQ(row.note.find(" " + percent + " % off") != std::string::npos, extrapolated)
+        << row.note;
+    EXPECT_EQ(row.note.find("shear") != std::string::npos,
+              row.quantity.starts_with("first bending frequency"))
         << row.quantity << ": " << row.note;
   }
 }
@@ -79,7 +85,8 @@ TEST(LargestStableStep, OfAStiffInclusion) {
   EXPECT_NEAR(*row.ratio, 1, 0.02);
 }
 
-// Deep in a plane, pressed on by every point: the limit is still that of the elements, and no lower one shows.
+// Deep in a plane, pressed on by every point: the limit is still that of the elements, and no lower
+// one shows.
 TEST(LargestStableStep, IsNotBoundByContact) {
   Problem p = small_cube("linear");
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.049, 2);
@@ -95,8 +102,8 @@ TEST(LargestStableStep, IsNotBoundByContact) {
             1e4);  // so fast it leaves the plane; what grows is beyond that in 20 steps
 }
 
-// Integrators on bars and beams: against direct solves on the same mesh, beam theory and waves. `plica verify` has the direct
-// solves themselves, refined.
+// Integrators on bars and beams: against direct solves on the same mesh, beam theory and waves.
+// `plica verify` has the direct solves themselves, refined.
 
 Problem beam(const std::string& material) {
   Problem p = body_of({jittered_box(beam_box, {12, 3, 3})}, material);
@@ -105,7 +112,8 @@ Problem beam(const std::string& material) {
   return p;
 }
 
-std::vector<Point> weight(const LevelProbe<Host>&, const std::vector<double>& mass, const Point& g) {
+std::vector<Point> weight(const LevelProbe<Host>&, const std::vector<double>& mass,
+                          const Point& g) {
   std::vector<Point> f;
   for (double m : mass) f.push_back(m * g);
   return f;
@@ -115,7 +123,8 @@ double relative(const std::vector<Point>& a, const std::vector<Point>& b) {
   return largest_difference(a, b) / largest(b);
 }
 
-std::vector<Point> settled(Problem p, const std::string& integrator, double step, double damping, double time) {
+std::vector<Point> settled(Problem p, const std::string& integrator, double step, double damping,
+                           double time) {
   p.integration.integrator = {integrator};
   p.integration.macro_step = step;
   p.body.damping.mass = damping;
@@ -174,8 +183,8 @@ std::array<double, 2> sag_and_frequency(TetMesh mesh) {
   return {sag / whole, K.frequencies(1).at(0)};
 }
 
-// What linear tetrahedra give on a mesh of this resolution follows from coarser and finer ones: a stiffness that falls with a power
-// of the cells' size, to that of beam theory.
+// What linear tetrahedra give on a mesh of this resolution follows from coarser and finer ones: a
+// stiffness that falls with a power of the cells' size, to that of beam theory.
 TEST(Cantilever, SagAndFrequencyOnThisMeshAreThoseOfItsResolution) {
   VerifyRow sag, frequency;
   sag.power = -1, frequency.power = 2;
@@ -186,7 +195,8 @@ TEST(Cantilever, SagAndFrequencyOnThisMeshAreThoseOfItsResolution) {
   judge(sag), judge(frequency);
   ASSERT_TRUE(sag.limit && frequency.limit);
   // Timoshenko: bending and shear; of the frequency Dunkerley's sum of both
-  const double L = 0.4, EI = 1e5 * 1e-4 / 12, rho_A = 10, kGA = 5.0 / 6 * 1e5 / 2.6 * 0.01, q = 2 * rho_A;
+  const double L = 0.4, EI = 1e5 * 1e-4 / 12, rho_A = 10, kGA = 5.0 / 6 * 1e5 / 2.6 * 0.01,
+               q = 2 * rho_A;
   const double bending = 1.8751 * 1.8751 / (2 * M_PI * L * L) * std::sqrt(EI / rho_A);
   const double shear = std::sqrt(kGA / rho_A) / (4 * L);
   const double mean = q * std::pow(L, 4) / (20 * EI) + q * L * L / (3 * kGA);
@@ -194,7 +204,8 @@ TEST(Cantilever, SagAndFrequencyOnThisMeshAreThoseOfItsResolution) {
   const double both = bending * shear / std::hypot(bending, shear);
   EXPECT_NEAR(*frequency.limit, both, 0.03 * both);
   const auto expected = [](const VerifyRow& row) {
-    const double limit = std::pow(*row.limit, row.power), coarse = std::pow(row.ours[0].value, row.power);
+    const double limit = std::pow(*row.limit, row.power),
+                 coarse = std::pow(row.ours[0].value, row.power);
     return std::pow(limit + (coarse - limit) * std::pow(2.0 / 3, *row.order), 1 / row.power);
   };
   const auto even = sag_and_frequency(box_mesh(beam_box, {12, 3, 3})),
@@ -205,8 +216,8 @@ TEST(Cantilever, SagAndFrequencyOnThisMeshAreThoseOfItsResolution) {
   EXPECT_NEAR(irregular[1], even[1], 0.01 * even[1]);
 }
 
-// Under its own weight, hung at one end: u = rho g x (L - x/2) / E with nu = 0. The mesh shares mass out unevenly within a
-// cross-section, so that the mean over each is what is exact.
+// Under its own weight, hung at one end: u = rho g x (L - x/2) / E with nu = 0. The mesh shares
+// mass out unevenly within a cross-section, so that the mean over each is what is exact.
 TEST(Bar, StretchUnderItsOwnWeight) {
   Problem p = body_of({box_mesh(beam_box, {16, 2, 2})}, "linear");
   p.body.material.young_modulus = 1e5, p.body.material.poisson_ratio = 0;
@@ -224,20 +235,23 @@ TEST(Bar, StretchUnderItsOwnWeight) {
   EXPECT_EQ(sections.size(), 17u);
   for (const auto& [i, section] : sections) {
     const double x = 0.025 * static_cast<double>(i);
-    EXPECT_NEAR(section[0] / section[1], 1000 * 9.81 * x * (0.4 - x / 2) / 1e5, 0.01 * longest) << x;
+    EXPECT_NEAR(section[0] / section[1], 1000 * 9.81 * x * (0.4 - x / 2) / 1e5, 0.01 * longest)
+        << x;
   }
 }
 
-/// A bar of linear material, pulled at both ends with the same traction until it is at rest: strain p/E along, -nu p/E across,
-/// which linear tetrahedra take exactly.
+/// A bar of linear material, pulled at both ends with the same traction until it is at rest: strain
+/// p/E along, -nu p/E across, which linear tetrahedra take exactly.
 TEST(UniaxialTension, StrainIsTractionOverYoungsModulus) {
   const double E = 20e3, nu = 0.3, p_over_E = 1e-3;
   for (const char* integrator : {"symplectic_euler", "implicit_euler"}) {
     SCOPED_TRACE(integrator);
     Problem p = body_of({jittered_box(beam_box, {6, 2, 2})}, "linear");
     p.body.material.poisson_ratio = nu;
-    p.body.loads = {{HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}, Traction{{-p_over_E * E, 0, 0}}, RampCourse{0.5}},
-                    {HalfSpaceSelection{{0.4, 0, 0}, {-1, 0, 0}}, Traction{{p_over_E * E, 0, 0}}, RampCourse{0.5}}};
+    p.body.loads = {{HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}, Traction{{-p_over_E * E, 0, 0}},
+                     RampCourse{0.5}},
+                    {HalfSpaceSelection{{0.4, 0, 0}, {-1, 0, 0}}, Traction{{p_over_E * E, 0, 0}},
+                     RampCourse{0.5}}};
     p.body.damping.mass = 20;
     p.integration.integrator = {integrator};
     if (std::string(integrator) == "implicit_euler") p.integration.macro_step = 5e-3;
@@ -245,11 +259,13 @@ TEST(UniaxialTension, StrainIsTractionOverYoungsModulus) {
     Simulation<Host> simulation(p);
     while (simulation.time() < 2) advance(simulation, 1);
     const auto u = displacements(simulation, p.body.levels[0]);
-    const Eigen::Matrix3d want = p_over_E * Eigen::Vector3d(1, -nu, -nu).asDiagonal().toDenseMatrix();
+    const Eigen::Matrix3d want =
+        p_over_E * Eigen::Vector3d(1, -nu, -nu).asDiagonal().toDenseMatrix();
     for (const auto& t : p.body.levels[0].tets) {
       Eigen::Matrix3d rest, change;
       for (int k = 0; k < 3; ++k) {
-        const auto a = static_cast<std::size_t>(t[static_cast<std::size_t>(k) + 1]), o = static_cast<std::size_t>(t[0]);
+        const auto a = static_cast<std::size_t>(t[static_cast<std::size_t>(k) + 1]),
+                   o = static_cast<std::size_t>(t[0]);
         rest.col(k) = p.body.levels[0].vertices[a] - p.body.levels[0].vertices[o];
         change.col(k) = u[a] - u[o];
       }
@@ -259,10 +275,11 @@ TEST(UniaxialTension, StrainIsTractionOverYoungsModulus) {
   }
 }
 
-/// A bar whose one end shakes along its axis. With mass damping c its steady answer at the free end is
-/// 1 / cos(k L), k^2 = (w^2 - i w c) rho / E (one-dimensional: nu = 0).
+/// A bar whose one end shakes along its axis. With mass damping c its steady answer at the free end
+/// is 1 / cos(k L), k^2 = (w^2 - i w c) rho / E (one-dimensional: nu = 0).
 TEST(ShakenBar, FreeEndAnswersAsTheWaveEquationSays) {
-  const double L = 0.4, speed = std::sqrt(20e3 / 1000), c = 5, f = 1.4, w = 2 * std::numbers::pi * f;
+  const double L = 0.4, speed = std::sqrt(20e3 / 1000), c = 5, f = 1.4,
+               w = 2 * std::numbers::pi * f;
   Problem p = body_of({box_mesh(beam_box, {16, 2, 2})}, "linear");
   p.body.material.poisson_ratio = 0;
   p.body.damping.mass = c;
@@ -274,9 +291,11 @@ TEST(ShakenBar, FreeEndAnswersAsTheWaveEquationSays) {
     advance(simulation, 1);
     const auto u = displacements(simulation, p.body.levels[0]);
     for (std::size_t a = 0; a < u.size(); ++a)
-      if (p.body.levels[0].vertices[a][0] > L - 1e-9) largest_motion = std::max(largest_motion, std::abs(u[a][0]));
+      if (p.body.levels[0].vertices[a][0] > L - 1e-9)
+        largest_motion = std::max(largest_motion, std::abs(u[a][0]));
   }
-  const double want = 1e-4 / std::abs(std::cos(std::sqrt(std::complex<double>(w * w, -w * c)) / speed * L));
+  const double want =
+      1e-4 / std::abs(std::cos(std::sqrt(std::complex<double>(w * w, -w * c)) / speed * L));
   EXPECT_GT(want, 1.3e-4);
   EXPECT_NEAR(largest_motion, want, 0.01 * want);
 }

@@ -44,8 +44,9 @@ struct SceneArguments {
 struct RunArguments : SceneArguments {
   std::filesystem::path folder;  ///< empty: out/SCENE
   std::filesystem::path resume;  ///< the folder of the run to go on with; empty: a new run
-  std::string checkpoint;        ///< "every=100", "every=0.1s"; empty: none, or as the run to go on with
-  bool force = false;            ///< a run that is in the folder is replaced
+  /// "every=100", "every=0.1s"; empty: none, or as the run to go on with
+  std::string checkpoint;
+  bool force = false;  ///< a run that is in the folder is replaced
   bool quiet = false;
   bool time_stages = false;        ///< also where that slows the run
   std::vector<std::string> words;  ///< the command line as it was given
@@ -82,8 +83,9 @@ struct ViewArguments {
 struct MeshInfoArguments {
   std::filesystem::path file;
   bool json = false;
-  std::string scale = "1";                      ///< metres per unit of the file, as text
-  std::map<std::string, std::string> material;  ///< keys of a scene's body.material, as text; the rest has its defaults
+  std::string scale = "1";  ///< metres per unit of the file, as text
+  /// keys of a scene's body.material, as text; the rest has its defaults
+  std::map<std::string, std::string> material;
   KokkosArguments kokkos;
 };
 
@@ -101,12 +103,13 @@ struct MakeMeshArguments {
   std::string scale = "1";  ///< metres per unit of the file, as text
   std::string size;         ///< of the cells of a lattice, as text
   int vertices = 0;         ///< of a coarser mesh, at most
-  std::string with;         ///< what fills a surface: gmsh or lattice; empty: Gmsh where it is installed and able
+  /// what fills a surface: gmsh or lattice; empty: Gmsh where it is installed and able
+  std::string with;
   std::string time_limit = "10 min";  ///< of Gmsh, as text
 };
 
-/// plica run: simulates the scene and writes its files. A folder that holds a run already is refused, unless the arguments say
-/// `force` or `resume`.
+/// plica run: simulates the scene and writes its files. A folder that holds a run already is
+/// refused, unless the arguments say `force` or `resume`.
 ExitStatus run(const RunArguments& arguments);
 
 /// plica explain: what a run of the scene would do, level by level and part by part.
@@ -115,22 +118,25 @@ ExitStatus explain(const SceneArguments& arguments);
 /// plica check: sets the scene up, says so, runs nothing.
 ExitStatus check(const SceneArguments& arguments);
 
-/// plica study: measures methods on a scene, keeps study.json and study.csv up to date row by row, and says what came out. Goes
-/// on with the study that it finds in the folder, where that is of the same scene, program and machine.
+/// plica study: measures methods on a scene, keeps study.json and study.csv up to date row by row,
+/// and says what came out. Goes on with the study that it finds in the folder, where that is of the
+/// same scene, program and machine.
 ExitStatus study(const RunArguments& arguments, const StudyArguments& more);
 
-/// plica stability: searches the largest stable macro steps of a scene's methods, or runs the matrix of stiff and extreme cases;
-/// keeps stability.json and stability.csv up to date, and says what came out.
+/// plica stability: searches the largest stable macro steps of a scene's methods, or runs the
+/// matrix of stiff and extreme cases; keeps stability.json and stability.csv up to date, and says
+/// what came out.
 ExitStatus stability(const RunArguments& arguments, const StabilityArguments& more);
 
 /// Of the matrix: failed where a row is wrong.
 ExitStatus status_of(const MatrixResult& result);
 
-/// plica verify: solves problems with known answers, writes the table, and says which rows are not ok.
+/// plica verify: solves problems with known answers, writes the table, and says which rows are not
+/// ok.
 ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more);
 
-/// plica doctor: what this program is and runs on, what the machine can do, and whether a short run gives the stored answer;
-/// `failed` where it does not.
+/// plica doctor: what this program is and runs on, what the machine can do, and whether a short run
+/// gives the stored answer; `failed` where it does not.
 ExitStatus doctor(bool json, const KokkosArguments& kokkos);
 
 /// The problems' names, each with what it is, for the manual.
@@ -139,20 +145,24 @@ std::string verify_problems_text();
 /// plica report: writes report.html, a page that shows what a run or a study left in its folder.
 ExitStatus report(const ReportArguments& arguments);
 
-/// plica view: lets the scene run and serves a page that shows it and reaches into it, until Ctrl-C.
+/// plica view: lets the scene run and serves a page that shows it and reaches into it, until
+/// Ctrl-C.
 ExitStatus view(const SceneArguments& arguments, const ViewArguments& more);
 
-/// plica mesh info: what a mesh or surface file holds, what was repaired in it, how well its tetrahedra are shaped, and which
-/// explicit step they allow.
+/// plica mesh info: what a mesh or surface file holds, what was repaired in it, how well its
+/// tetrahedra are shaped, and which explicit step they allow.
 ExitStatus mesh_info(const MeshInfoArguments& arguments);
 
-/// plica mesh convert: writes a mesh or surface in another format. The file OUT may be IN, and is replaced as a whole.
+/// plica mesh convert: writes a mesh or surface in another format. The file OUT may be IN, and is
+/// replaced as a whole.
 ExitStatus mesh_convert(const ConvertArguments& arguments);
 
-/// plica mesh repair: writes a mesh with its duplicates merged, loose parts dropped and slivers shaped better; says what changed.
+/// plica mesh repair: writes a mesh with its duplicates merged, loose parts dropped and slivers
+/// shaped better; says what changed.
 ExitStatus mesh_repair(const MakeMeshArguments& arguments);
 
-/// plica mesh fill: writes a mesh that fits a closed surface, by Gmsh, or a lattice of cubes over it, cut into tetrahedra.
+/// plica mesh fill: writes a mesh that fits a closed surface, by Gmsh, or a lattice of cubes over
+/// it, cut into tetrahedra.
 ExitStatus mesh_fill(const MakeMeshArguments& arguments);
 
 /// plica mesh coarsen: writes such a lattice over a mesh, with at most so many vertices.
@@ -171,11 +181,12 @@ ExitStatus list_families(bool json);
 std::string families_text();
 std::vector<std::string> list_names();
 
-/// plica completion: a script for `bash` or `zsh` that completes commands, options, and the names that arguments choose from.
-/// InputError for another shell.
+/// plica completion: a script for `bash` or `zsh` that completes commands, options, and the names
+/// that arguments choose from. InputError for another shell.
 std::string completion_script(const CLI::App& app, const std::string& shell);
 
-/// What `plica COMMAND --help` says beneath the options: what the command does with its input, files, examples, exit statuses.
+/// What `plica COMMAND --help` says beneath the options: what the command does with its input,
+/// files, examples, exit statuses.
 std::string manual_of(const std::string& command);
 
 }  // namespace plica::app

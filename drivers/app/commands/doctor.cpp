@@ -29,7 +29,8 @@ struct Limits {
 };
 
 Limits measure_limits() {
-  return {triad_bandwidth(in_memory), triad_bandwidth(in_cache * Kokkos::DefaultExecutionSpace().concurrency()),
+  return {triad_bandwidth(in_memory),
+          triad_bandwidth(in_cache * Kokkos::DefaultExecutionSpace().concurrency()),
           fma_peak<double>(), fma_peak<float>()};
 }
 
@@ -37,12 +38,13 @@ Limits measure_limits() {
 struct Answer {
   std::string name, unit;
   double got = 0, stored = 0;
-  double tolerance =
-      0;  ///< absolute: far above what rounding on another processor does, far below what a wrong force does
+  double tolerance = 0;  ///< absolute: far above what rounding on another processor does, far below
+                         ///< what a wrong force does
   bool ok() const { return std::abs(got - stored) <= tolerance; }
 };
 
-/// A soft ball of three meshes falls askew into a bowl, in cycle him on nodal elements, and is pressed against it.
+/// A soft ball of three meshes falls askew into a bowl, in cycle him on nodal elements, and is
+/// pressed against it.
 Problem ball_in_bowl() {
   Problem p;
   for (const int cells : {14, 9, 5}) p.body.levels.push_back(ball_mesh({0, 0, 0.1}, 0.05, cells));
@@ -61,7 +63,8 @@ std::vector<Answer> self_test() {
   Simulation<Backend<double, Kokkos::DefaultExecutionSpace>> simulation(ball_in_bowl());
   constexpr double end = 0.09;  // [s]
   while (simulation.time() < end - simulation.macro_step() / 2)
-    if (const auto bad = simulation.step_checked()) throw std::runtime_error("the self-test diverged: " + bad->text());
+    if (const auto bad = simulation.step_checked())
+      throw std::runtime_error("the self-test diverged: " + bad->text());
   Point centre = Point::Zero();
   const std::vector<Point> x = simulation.positions();
   for (const Point& vertex : x) centre += vertex / static_cast<double>(x.size());
@@ -99,36 +102,44 @@ ExitStatus doctor(bool json, const KokkosArguments& kokkos) {
   const bool ok = std::ranges::all_of(answers, &Answer::ok);
   const ExitStatus status = ok ? ExitStatus::done : ExitStatus::failed;
   if (json) {
-    std::cout << json_text({{"machine", machine_json(machine)},
-                            {"vector_bytes", PLICA_VECTOR_BYTES},
-                            {"limits",
-                             {{"memory_bandwidth", limits.memory},
-                              {"cache_bandwidth", limits.cache},
-                              {"flops_double", limits.flops},
-                              {"flops_float", limits.flops_float},
-                              {"wall_time", measured}}},
-                            {"self_test", {{"ok", ok}, {"wall_time", tested}, {"answers", answers_json(answers)}}}});
+    std::cout << json_text(
+        {{"machine", machine_json(machine)},
+         {"vector_bytes", PLICA_VECTOR_BYTES},
+         {"limits",
+          {{"memory_bandwidth", limits.memory},
+           {"cache_bandwidth", limits.cache},
+           {"flops_double", limits.flops},
+           {"flops_float", limits.flops_float},
+           {"wall_time", measured}}},
+         {"self_test", {{"ok", ok}, {"wall_time", tested}, {"answers", answers_json(answers)}}}});
     return status;
   }
-  const auto giga = [](double value, const char* unit) { return fmt::format("{:.1f} {}", value / 1e9, unit); };
-  std::cout << version_text() << "\n\n"
-            << text_table({{"processor", fmt::format("{}, {}", machine.cpu, counted(machine.cores, "core"))},
-                           {"back end", fmt::format("{}, {}", machine.backend, counted(machine.threads, "thread"))},
-                           {"vectors", fmt::format("{} bytes: {} numbers in double, {} in float", PLICA_VECTOR_BYTES,
-                                                   Backend<double, Kokkos::DefaultExecutionSpace>::lanes,
-                                                   Backend<float, Kokkos::DefaultExecutionSpace>::lanes)},
-                           {"memory", giga(limits.memory, "GB/s")},
-                           {"cache", giga(limits.cache, "GB/s")},
-                           {"arithmetic",
-                            giga(limits.flops, "Gflop/s in double, ") + giga(limits.flops_float, "Gflop/s in float")}},
-                          "<<")
-            << fmt::format("  (measured in {:.1f} s: triad over {} in all and {} a thread, multiply-adds)\n\n",
-                           measured, in_bytes(static_cast<std::size_t>(in_memory)),
-                           in_bytes(static_cast<std::size_t>(in_cache)));
+  const auto giga = [](double value, const char* unit) {
+    return fmt::format("{:.1f} {}", value / 1e9, unit);
+  };
+  std::cout
+      << version_text() << "\n\n"
+      << text_table(
+             {{"processor", fmt::format("{}, {}", machine.cpu, counted(machine.cores, "core"))},
+              {"back end",
+               fmt::format("{}, {}", machine.backend, counted(machine.threads, "thread"))},
+              {"vectors",
+               fmt::format("{} bytes: {} numbers in double, {} in float", PLICA_VECTOR_BYTES,
+                           Backend<double, Kokkos::DefaultExecutionSpace>::lanes,
+                           Backend<float, Kokkos::DefaultExecutionSpace>::lanes)},
+              {"memory", giga(limits.memory, "GB/s")},
+              {"cache", giga(limits.cache, "GB/s")},
+              {"arithmetic", giga(limits.flops, "Gflop/s in double, ") +
+                                 giga(limits.flops_float, "Gflop/s in float")}},
+             "<<")
+      << fmt::format(
+             "  (measured in {:.1f} s: triad over {} in all and {} a thread, multiply-adds)\n\n",
+             measured, in_bytes(static_cast<std::size_t>(in_memory)),
+             in_bytes(static_cast<std::size_t>(in_cache)));
   std::vector<std::vector<std::string>> rows = {{"self-test", "", "stored", ""}};
   for (const Answer& a : answers)
-    rows.push_back({a.name, fmt::format("{:.7f} {}", a.got, a.unit), fmt::format("{:.7f} {}", a.stored, a.unit),
-                    a.ok() ? "ok" : "WRONG"});
+    rows.push_back({a.name, fmt::format("{:.7f} {}", a.got, a.unit),
+                    fmt::format("{:.7f} {}", a.stored, a.unit), a.ok() ? "ok" : "WRONG"});
   std::cout << text_table(rows, "<>><")
             << fmt::format("  a ball falls into a bowl, cycle him, {:.1f} s: {}\n", tested,
                            ok ? "all ok" : "not the stored answer");

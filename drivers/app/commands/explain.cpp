@@ -35,19 +35,22 @@ void check_its_study(const Scene& scene) {
 }
 
 std::string used_levels(const Scene& scene, std::size_t used) {
-  const std::string levels = counted(static_cast<long>(used), "level"), &cycle = scene.problem.integration.cycle;
+  const std::string levels = counted(static_cast<long>(used), "level"),
+                    &cycle = scene.problem.integration.cycle;
   const std::size_t given = scene.levels.size();
   if (cycle == "auto") return fmt::format("{} given", counted(static_cast<long>(given), "level"));
-  return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given) : levels;
+  return used < given ? fmt::format("{} (cycle '{}' uses no more of {})", levels, cycle, given)
+                      : levels;
 }
 
 }  // namespace
 
 ExitStatus explain(const SceneArguments& arguments) {
-  with_simulation(arguments, [&](const Scene& scene, const auto& simulation, const Machine& machine, double) {
-    const Plan plan = plan_of(scene, simulation, machine);
-    std::cout << (arguments.json ? plan_json(scene, plan) : plan_text(scene, plan));
-  });
+  with_simulation(arguments,
+                  [&](const Scene& scene, const auto& simulation, const Machine& machine, double) {
+                    const Plan plan = plan_of(scene, simulation, machine);
+                    std::cout << (arguments.json ? plan_json(scene, plan) : plan_text(scene, plan));
+                  });
   return ExitStatus::done;
 }
 
@@ -55,17 +58,19 @@ ExitStatus check(const SceneArguments& arguments) {
   try {
     const auto say = [&](const Scene& scene, const auto& simulation, const Machine&, double) {
       check_its_study(scene);
-      const std::string ahead =
-          trials_ahead(scene.problem, scene.duration, simulation.levels().front(), simulation.macro_step());
+      const std::string ahead = trials_ahead(scene.problem, scene.duration,
+                                             simulation.levels().front(), simulation.macro_step());
       if (arguments.json)
-        std::cout << json_text({{"scene", scene.file},
-                                {"sound", true},
-                                {"error", nullptr},
-                                {"warnings", scene.warnings},
-                                {"cycle_auto", ahead.empty() ? Json(nullptr) : Json(ahead)},
-                                {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
+        std::cout << json_text(
+            {{"scene", scene.file},
+             {"sound", true},
+             {"error", nullptr},
+             {"warnings", scene.warnings},
+             {"cycle_auto", ahead.empty() ? Json(nullptr) : Json(ahead)},
+             {"levels", levels_json(in_input_numbers(simulation.levels(), scene))}});
       else
-        std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size()) << "\n"
+        std::cout << scene.file << ": sound, " << used_levels(scene, simulation.levels().size())
+                  << "\n"
                   << (ahead.empty() ? "" : wrapped("cycle auto: " + ahead, 98, "  "));
     };
     with_simulation(arguments, say, {false, {}});

@@ -25,14 +25,17 @@ namespace plica::app {
 
 namespace {
 
-constexpr double same_volume = 0.1;                // edges of the size cut corners
-constexpr std::uintmax_t many_words = 10'000'000;  // bytes; Gmsh 4.8 splits a surface of four triangles without end
+constexpr double same_volume = 0.1;  // edges of the size cut corners
+// bytes; Gmsh 4.8 splits a surface of four triangles without end
+constexpr std::uintmax_t many_words = 10'000'000;
 
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / ("plica-" + std::string(6, 'X'))).string();
-    if (mkdtemp(name.data()) == nullptr) throw FileError("cannot make a folder for temporary files: " + name);
+    std::string name =
+        (std::filesystem::temp_directory_path() / ("plica-" + std::string(6, 'X'))).string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw FileError("cannot make a folder for temporary files: " + name);
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -73,28 +76,31 @@ std::string errors_in(const std::filesystem::path& said) {
 }
 
 // Why a process that runs since `start` is to be stopped; nothing: it is not
-std::string why_stopped(const std::filesystem::path& said, std::chrono::steady_clock::time_point start,
-                        double time_limit) {
+std::string why_stopped(const std::filesystem::path& said,
+                        std::chrono::steady_clock::time_point start, double time_limit) {
   std::error_code none_yet;
   if (const auto size = std::filesystem::file_size(said, none_yet); !none_yet && size > many_words)
     return "its messages did not end";
-  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < time_limit) return "";
+  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < time_limit)
+    return "";
   return fmt::format(
-      "it had made no mesh after {:.3g} s: give it longer (--time-limit), choose a larger --size, or mend "
+      "it had made no mesh after {:.3g} s: give it longer (--time-limit), choose a larger --size, "
+      "or mend "
       "the surface (it may meet itself)",
       time_limit);
 }
 
 // Its exit status, negative where it did not end by itself; what it says goes to a file
-int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh, const std::filesystem::path& said,
-             double time_limit) {
+int run_gmsh(const std::filesystem::path& script, const std::filesystem::path& mesh,
+             const std::filesystem::path& said, double time_limit) {
   std::array<std::string, 8> words = {"gmsh", script.string(), "-3",      "-format", "msh22",
                                       "-o",   mesh.string(),   "-nopopup"};
   std::array<char*, words.size() + 1> pointers = {};
   for (std::size_t i = 0; i < words.size(); ++i) pointers[i] = words[i].data();
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, said.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
   pid_t id = 0;
   const int failure = posix_spawnp(&id, "gmsh", &files, nullptr, pointers.data(), environ);
@@ -125,7 +131,8 @@ bool has_gmsh() {
 
 TetMesh fill_with_gmsh(const TriangleSurface& surface, double size, double time_limit) {
   const TemporaryFolder folder;
-  const auto stl = folder / "surface.stl", geo = folder / "fill.geo", msh = folder / "mesh.msh", said = folder / "said";
+  const auto stl = folder / "surface.stl", geo = folder / "fill.geo", msh = folder / "mesh.msh",
+             said = folder / "said";
   write_files(write_surface(stl, surface).files);
   write_file(geo, gmsh_script(stl, size));
   if (run_gmsh(geo, msh, said, time_limit) != 0 || !std::filesystem::exists(msh))
@@ -134,8 +141,9 @@ TetMesh fill_with_gmsh(const TriangleSurface& surface, double size, double time_
   mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();
   const double volume = mesh_quality(mesh).volume, enclosed = enclosed_volume(surface);
   if (std::abs(volume - enclosed) > same_volume * enclosed)
-    throw InputError(fmt::format("Gmsh made a mesh of {:.4g} m^3 of a surface that encloses {:.4g} m^3; it says:{}",
-                                 volume, enclosed, errors_in(said)));
+    throw InputError(fmt::format(
+        "Gmsh made a mesh of {:.4g} m^3 of a surface that encloses {:.4g} m^3; it says:{}", volume,
+        enclosed, errors_in(said)));
   return mesh;
 }
 

@@ -42,9 +42,11 @@ void set_handlers(void (*handler)(int)) {
 
 bool interrupted() { return raised != 0; }
 
-InterruptWatch::InterruptWatch() : leave_([] { message("interrupted during the set-up; nothing was written"); }) {
+InterruptWatch::InterruptWatch()
+    : leave_([] { message("interrupted during the set-up; nothing was written"); }) {
   raised = 0;
-  if (pipe2(wake_up, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+  if (pipe2(wake_up, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
   thread_ = std::thread([this] { wait(); });
   set_handlers(on_signal);
 }

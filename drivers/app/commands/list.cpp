@@ -45,28 +45,30 @@ std::vector<Choice> shapes_with_keys() {
     const std::string above = "contact.obstacles[]." + shape.name + ".";
     std::string between = ": ";
     for (const KeyInfo& key : scene_keys())
-      if (key.path.starts_with(above)) shape.summary += between + key.path.substr(above.size()), between = ", ";
+      if (key.path.starts_with(above))
+        shape.summary += between + key.path.substr(above.size()), between = ", ";
   }
   return shapes;
 }
 
-constexpr Family families[] = {{"presets", "published methods, as what they consist of here", presets},
-                               {"materials", "constitutive laws", materials},
-                               {"tissues", "materials with values of a source, by name", tissues},
-                               {"volumes", "stiffness of the volume in laws of tissue", volumes},
-                               {"ogden_conventions", "what mu is in the terms of ogden", ogden_conventions},
-                               {"elements", "how strains follow from the vertices", elements},
-                               {"integrators", "how a level is stepped in time", integrators},
-                               {"cycles", "how the levels take a macro step together", cycle_choices},
-                               {"error_classes", "how far cycle auto may be from the finest level", error_classes},
-                               {"distributions", "how they share its time", distributions},
-                               {"shapes", "what a body can touch", shapes_with_keys},
-                               {"solvers", "of the implicit levels' linear systems", linear_solvers},
-                               {"preconditioners", "of conjugate gradients", preconditioners},
-                               {"outside", "what becomes of vertices outside another level's mesh", outside_rules},
-                               {"relaxations", "how the stresses of Prony series go on in time", relaxation_rules},
-                               {"formats", "mesh files that are read", meshes_read},
-                               {"units", "of numbers in scenes and on the command line", unit_choices}};
+constexpr Family families[] = {
+    {"presets", "published methods, as what they consist of here", presets},
+    {"materials", "constitutive laws", materials},
+    {"tissues", "materials with values of a source, by name", tissues},
+    {"volumes", "stiffness of the volume in laws of tissue", volumes},
+    {"ogden_conventions", "what mu is in the terms of ogden", ogden_conventions},
+    {"elements", "how strains follow from the vertices", elements},
+    {"integrators", "how a level is stepped in time", integrators},
+    {"cycles", "how the levels take a macro step together", cycle_choices},
+    {"error_classes", "how far cycle auto may be from the finest level", error_classes},
+    {"distributions", "how they share its time", distributions},
+    {"shapes", "what a body can touch", shapes_with_keys},
+    {"solvers", "of the implicit levels' linear systems", linear_solvers},
+    {"preconditioners", "of conjugate gradients", preconditioners},
+    {"outside", "what becomes of vertices outside another level's mesh", outside_rules},
+    {"relaxations", "how the stresses of Prony series go on in time", relaxation_rules},
+    {"formats", "mesh files that are read", meshes_read},
+    {"units", "of numbers in scenes and on the command line", unit_choices}};
 constexpr const char* keys_summary = "everything that a scene can say";
 
 void list_choices(const std::vector<Choice>& choices, bool json) {
@@ -84,12 +86,17 @@ void list_keys(bool json) {
   Json array = Json::array();
   std::string text;
   for (const KeyInfo& key : scene_keys()) {
-    array.push_back({{"key", key.path}, {"expects", key.expects}, {"otherwise", key.otherwise}, {"help", key.help}});
-    const bool has_default =
-        !key.otherwise.empty() && key.otherwise != "required" && !key.otherwise.ends_with("one of these");
-    const std::string otherwise = key.otherwise.empty() ? "" : (has_default ? "; default " : "; ") + key.otherwise;
+    array.push_back({{"key", key.path},
+                     {"expects", key.expects},
+                     {"otherwise", key.otherwise},
+                     {"help", key.help}});
+    const bool has_default = !key.otherwise.empty() && key.otherwise != "required" &&
+                             !key.otherwise.ends_with("one of these");
+    const std::string otherwise =
+        key.otherwise.empty() ? "" : (has_default ? "; default " : "; ") + key.otherwise;
     if (!text.empty() && key.path.find('.') == std::string::npos) text += "\n";
-    text += key.path + "\n" + wrapped(key.expects + otherwise, 96, "    ") + wrapped(key.help, 96, "    ");
+    text += key.path + "\n" + wrapped(key.expects + otherwise, 96, "    ") +
+            wrapped(key.help, 96, "    ");
   }
   std::cout << (json ? array.dump(2) + "\n" : text);
 }
@@ -112,7 +119,8 @@ std::string families_text() {
 
 ExitStatus list_families(bool json) {
   Json array = Json::array();
-  for (const Family& family : families) array.push_back({{"name", family.name}, {"summary", family.summary}});
+  for (const Family& family : families)
+    array.push_back({{"name", family.name}, {"summary", family.summary}});
   array.push_back({{"name", "keys"}, {"summary", keys_summary}});
   std::cout << (json ? array.dump(2) + "\n" : families_text());
   return ExitStatus::done;
@@ -129,7 +137,8 @@ ExitStatus list(const std::string& name, bool json) {
 namespace {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App* command) { return command->get_group() != "Planned"; });
+  return app.get_subcommands(
+      [](const CLI::App* command) { return command->get_group() != "Planned"; });
 }
 
 // What may stand after a command: its own commands and its options
@@ -176,8 +185,9 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
       add(fmt::format("\"{} {}\"*", command->get_name(), own->get_name()), *own);
     add(fmt::format("\"{} \"*", command->get_name()), *command);
   }
-  const std::string text = fmt::format(script, fmt::join(names(precisions()), " "), fmt::join(list_names(), " "),
-                                       fmt::join(names(verify_problems()), " "), cases, words_of(app));
+  const std::string text =
+      fmt::format(script, fmt::join(names(precisions()), " "), fmt::join(list_names(), " "),
+                  fmt::join(names(verify_problems()), " "), cases, words_of(app));
   return shell == "zsh" ? "autoload -U +X bashcompinit && bashcompinit\n" + text : text;
 }
 

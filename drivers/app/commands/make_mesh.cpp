@@ -39,7 +39,8 @@ TetMesh read_scaled(const MakeMeshArguments& arguments, MeshReport& report, Flaw
   return mesh;
 }
 
-ExitStatus write_new(const MakeMeshArguments& arguments, const TetMesh& mesh, const MeshGroups& groups = {}) {
+ExitStatus write_new(const MakeMeshArguments& arguments, const TetMesh& mesh,
+                     const MeshGroups& groups = {}) {
   write(arguments.out, write_mesh(arguments.out, mesh, "", false, groups));
   std::cout << fmt::format("{} vertices, {} tetrahedra\n", mesh.vertices.size(), mesh.tets.size());
   return ExitStatus::done;
@@ -59,7 +60,8 @@ TetMesh filled(const TriangleSurface& surface, double size, const MakeMeshArgume
       why = error.what();
     }
   }
-  if (arguments.with == "gmsh") throw InputError("--with gmsh: " + why + "; expected --with lattice");
+  if (arguments.with == "gmsh")
+    throw InputError("--with gmsh: " + why + "; expected --with lattice");
   std::cout << why << "\na lattice of cubes instead, which does not fit the surface\n";
   return lattice_mesh(surface, size);
 }
@@ -85,10 +87,12 @@ ExitStatus mesh_fill(const MakeMeshArguments& arguments) {
   const double scale = scale_of(arguments);
   SurfaceReport report;
   TriangleSurface surface = read_surface(arguments.in, &report);
-  if (!report.closed()) throw InputError("the surface " + why_open(report), {arguments.in.string()});
+  if (!report.closed())
+    throw InputError("the surface " + why_open(report), {arguments.in.string()});
   for (Point& p : surface.vertices) p *= scale;
   warn(arguments.in, surface_warnings(report));
-  return write_new(arguments, placed(arguments.in, [&] { return filled(surface, size, arguments); }));
+  return write_new(arguments,
+                   placed(arguments.in, [&] { return filled(surface, size, arguments); }));
 }
 
 ExitStatus mesh_coarsen(const MakeMeshArguments& arguments) {
@@ -99,7 +103,8 @@ ExitStatus mesh_coarsen(const MakeMeshArguments& arguments) {
   if (!mesh.vertex_sets.empty())
     warn(arguments.in, {counted(static_cast<long>(mesh.vertex_sets.size()), "vertex set") +
                         " left out: select by shape on this mesh"});
-  return write_new(arguments, placed(arguments.in, [&] { return coarse_lattice(mesh, arguments.vertices); }));
+  return write_new(arguments,
+                   placed(arguments.in, [&] { return coarse_lattice(mesh, arguments.vertices); }));
 }
 
 }  // namespace plica::app

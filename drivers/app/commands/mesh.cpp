@@ -29,7 +29,8 @@ double bound_of(const TetMesh& mesh, int tet, const MaterialOptions& material) {
     alone.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
   alone.tets = {{0, 1, 2, 3}};
   const MaterialInfo& info = *find_material(material.model);
-  return element_bound(alone, {info.small_strains(parameter_values(info, material, {}))}, {material.density});
+  return element_bound(alone, {info.small_strains(parameter_values(info, material, {}))},
+                       {material.density});
 }
 
 // As a run of this mesh alone would find it
@@ -41,10 +42,12 @@ void find_steps(MeshDescription& m, const KokkosArguments& kokkos) {
   const Simulation<Backend<double, Kokkos::DefaultExecutionSpace>> simulation(problem);
   m.critical_step = simulation.levels().front().critical_step;
   m.element_bound = simulation.levels().front().element_bound;
-  for (const TetShape& shape : m.quality.worst) m.worst_bounds.push_back(bound_of(m.read.mesh, shape.tet, m.material));
+  for (const TetShape& shape : m.quality.worst)
+    m.worst_bounds.push_back(bound_of(m.read.mesh, shape.tet, m.material));
 }
 
-std::string info_of(ReadMesh& read, double scale, const MaterialOptions& material, const MeshInfoArguments& arguments) {
+std::string info_of(ReadMesh& read, double scale, const MaterialOptions& material,
+                    const MeshInfoArguments& arguments) {
   for (Point& p : read.mesh.vertices) p *= scale;
   MeshDescription m;
   m.file = arguments.file.string(), m.read = std::move(read), m.material = material;
@@ -54,11 +57,12 @@ std::string info_of(ReadMesh& read, double scale, const MaterialOptions& materia
   return arguments.json ? mesh_json(m) : mesh_text(m);
 }
 
-std::string info_of(ReadSurface& read, double scale, const MaterialOptions&, const MeshInfoArguments& arguments) {
+std::string info_of(ReadSurface& read, double scale, const MaterialOptions&,
+                    const MeshInfoArguments& arguments) {
   if (!arguments.material.empty())
-    throw InputError(
-        option_of(arguments.material.begin()->first) + ": this file holds a surface, which has no material",
-        {arguments.file});
+    throw InputError(option_of(arguments.material.begin()->first) +
+                         ": this file holds a surface, which has no material",
+                     {arguments.file});
   for (Point& p : read.surface.vertices) p *= scale;
   SurfaceDescription s = {arguments.file.string(), std::move(read), {}};
   s.warnings = surface_warnings(s.read.report);
@@ -74,7 +78,8 @@ ExitStatus mesh_info(const MeshInfoArguments& arguments) {
   OptionReader reader(arguments.material);
   describe(reader, material);
   auto read = read_any(arguments.file);
-  std::cout << std::visit([&](auto& one) { return info_of(one, scale, material, arguments); }, read);
+  std::cout << std::visit([&](auto& one) { return info_of(one, scale, material, arguments); },
+                          read);
   return ExitStatus::done;
 }
 
@@ -95,7 +100,8 @@ ConvertNumbers numbers_of(const ConvertArguments& arguments) {
 }
 
 bool is_surface_file(const std::filesystem::path& file) {
-  return std::ranges::any_of(surface_writers, [&](const auto& one) { return extension_of(file) == one.extension; });
+  return std::ranges::any_of(surface_writers,
+                             [&](const auto& one) { return extension_of(file) == one.extension; });
 }
 
 void check_extension(const std::filesystem::path& file) {
@@ -108,7 +114,8 @@ void check_extension(const std::filesystem::path& file) {
   format_of(file, known, "mesh or surface");
 }
 
-WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const ConvertNumbers& numbers) {
+WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments,
+                      const ConvertNumbers& numbers) {
   for (Point& p : read.mesh.vertices) p *= numbers.scale;
   if (numbers.merge_duplicates) {
     MergedMesh merged = merge_duplicates(read.mesh, *numbers.merge_duplicates);
@@ -118,17 +125,22 @@ WrittenMesh converted(ReadMesh& read, const ConvertArguments& arguments, const C
   }
   warn(arguments.in, mesh_warnings(read.mesh, read.report));
   for (const auto& [kind, count] : read.report.other_elements)
-    if (kind != "point") warn(arguments.in, {counted(count, kind) + " left out, but for their groups"});
+    if (kind != "point")
+      warn(arguments.in, {counted(count, kind) + " left out, but for their groups"});
   if (!is_surface_file(arguments.out))
-    return write_mesh(arguments.out, read.mesh, arguments.format, arguments.binary, read.report.groups);
-  WrittenMesh written =
-      write_surface(arguments.out, boundary_surface(read.mesh).surface, arguments.format, arguments.binary);
-  written.left_out.push_back("this format holds triangles only, so the boundary of the mesh was written");
+    return write_mesh(arguments.out, read.mesh, arguments.format, arguments.binary,
+                      read.report.groups);
+  WrittenMesh written = write_surface(arguments.out, boundary_surface(read.mesh).surface,
+                                      arguments.format, arguments.binary);
+  written.left_out.push_back(
+      "this format holds triangles only, so the boundary of the mesh was written");
   return written;
 }
 
-WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments, const ConvertNumbers& numbers) {
-  if (numbers.merge_duplicates) throw InputError("--merge-duplicates is for meshes of tetrahedra", {arguments.in});
+WrittenMesh converted(ReadSurface& read, const ConvertArguments& arguments,
+                      const ConvertNumbers& numbers) {
+  if (numbers.merge_duplicates)
+    throw InputError("--merge-duplicates is for meshes of tetrahedra", {arguments.in});
   for (Point& p : read.surface.vertices) p *= numbers.scale;
   warn(arguments.in, surface_warnings(read.report));
   return write_surface(arguments.out, read.surface, arguments.format, arguments.binary);
@@ -140,7 +152,8 @@ ExitStatus mesh_convert(const ConvertArguments& arguments) {
   check_extension(arguments.out);
   const ConvertNumbers numbers = numbers_of(arguments);
   auto read = read_any(arguments.in);
-  const WrittenMesh written = std::visit([&](auto& mesh) { return converted(mesh, arguments, numbers); }, read);
+  const WrittenMesh written =
+      std::visit([&](auto& mesh) { return converted(mesh, arguments, numbers); }, read);
   write(arguments.out, written);
   return ExitStatus::done;
 }
@@ -162,8 +175,8 @@ std::string written_formats_text() {
   const auto add = [&](const auto& writers) {
     for (const auto& writer : writers) {
       const bool has_text = !rows.empty() && rows.back()[1] == writer.name;
-      rows.push_back({"." + std::string(writer.extension), writer.name, writer.binary && has_text ? "--binary" : "",
-                      writer.description});
+      rows.push_back({"." + std::string(writer.extension), writer.name,
+                      writer.binary && has_text ? "--binary" : "", writer.description});
     }
   };
   add(mesh_writers), add(surface_writers);

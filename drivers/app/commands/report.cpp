@@ -11,14 +11,17 @@ namespace plica::app {
 
 ExitStatus report(const ReportArguments& arguments) {
   const Report made = make_report(arguments.folder, static_cast<std::size_t>(arguments.frames));
-  for (const std::string& warning : made.warnings) message(coloured("warning: ", Colour::yellow) + warning);
+  for (const std::string& warning : made.warnings)
+    message(coloured("warning: ", Colour::yellow) + warning);
   const auto file = arguments.folder / "report.html";
   write_file(file, made.html);
   const std::string there = counted(static_cast<long>(made.frames_there), "frame");
-  const std::string frames = made.frames_there == 0            ? ""
-                             : made.frames < made.frames_there ? fmt::format("{} of {}, ", made.frames, there)
-                                                               : there + ", ";
-  if (!arguments.quiet) std::cout << fmt::format("{} ({}{})\n", file.string(), frames, in_bytes(made.html.size()));
+  const std::string frames = made.frames_there == 0 ? ""
+                             : made.frames < made.frames_there
+                                 ? fmt::format("{} of {}, ", made.frames, there)
+                                 : there + ", ";
+  if (!arguments.quiet)
+    std::cout << fmt::format("{} ({}{})\n", file.string(), frames, in_bytes(made.html.size()));
   return ExitStatus::done;
 }
 

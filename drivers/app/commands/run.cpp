@@ -21,48 +21,57 @@ namespace plica::app {
 namespace {
 
 template <class B>
-void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& start) {
+void announce(const Scene& scene, const Simulation<B>& simulation, const Machine& machine,
+              const RunEnd& start) {
   std::string tets;
   for (const LevelReport& level : simulation.levels())
     if (level.tets > 0) tets += (tets.empty() ? "" : " + ") + std::to_string(level.tets);
   message(fmt::format("{}: {} tetrahedra, {}, macro step {}; {} on {}, {}", scene.name, tets,
-                      cycle_name(scene, machine.choice), in_units(simulation.macro_step(), "s"), machine.precision,
-                      machine.backend, counted(machine.threads, "thread")));
+                      cycle_name(scene, machine.choice), in_units(simulation.macro_step(), "s"),
+                      machine.precision, machine.backend, counted(machine.threads, "thread")));
   if (start.macro_steps > 0)
-    message(fmt::format("resumed after {} at {:.5g} s", counted(start.macro_steps, "macro step"), start.time));
+    message(fmt::format("resumed after {} at {:.5g} s", counted(start.macro_steps, "macro step"),
+                        start.time));
 }
 
-void warn_of(const std::string& sentence) { message(coloured("warning: ", Colour::yellow) + sentence); }
+void warn_of(const std::string& sentence) {
+  message(coloured("warning: ", Colour::yellow) + sentence);
+}
 
 /// What is to be said of a run's step before it is taken.
 template <class B>
-std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& simulation, const Summary& summary) {
+std::vector<std::string> step_advice(const Scene& scene, const Simulation<B>& simulation,
+                                     const Summary& summary) {
   std::vector<std::string> sentences;
   if (const auto him = simulation.him())
     sentences = him_advice(scene.problem, *him, summary.levels, summary.macro_step);
   if (!scene.problem.integration.macro_step && summary.macro_step > scene.duration)
-    sentences.push_back(fmt::format(
-        "integration.macro_step: the step of {} that fits this body is longer than the duration, {}: the run is one "
-        "shorter step; expected a longer duration, or the body's sizes in metres and its young_modulus in Pa",
-        in_units(summary.macro_step, "s"), in_units(scene.duration, "s")));
-  if (std::string many = many_steps_text(scene, summary); !many.empty()) sentences.push_back(std::move(many));
+    sentences.push_back(
+        fmt::format("integration.macro_step: the step of {} that fits this body is longer than the "
+                    "duration, {}: the run is one "
+                    "shorter step; expected a longer duration, or the body's sizes in metres and "
+                    "its young_modulus in Pa",
+                    in_units(summary.macro_step, "s"), in_units(scene.duration, "s")));
+  if (std::string many = many_steps_text(scene, summary); !many.empty())
+    sentences.push_back(std::move(many));
   return sentences;
 }
 
 /// What it has shown. A step that was not solved may be what ended it: then the diagnosis says so.
 template <class B>
-std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunEnd& end, const RunOutput<B>& output) {
+std::vector<std::string> end_warnings(const Simulation<B>& simulation, const RunEnd& end,
+                                      const RunOutput<B>& output) {
   std::vector<std::string> sentences = output.warnings();
   if (end.diagnosis) return sentences;
-  for (std::string sentence :
-       {unsolved_text(simulation.counters()), mostly_explicit_text(simulation.counters(), end.macro_steps)})
+  for (std::string sentence : {unsolved_text(simulation.counters()),
+                               mostly_explicit_text(simulation.counters(), end.macro_steps)})
     if (!sentence.empty()) sentences.push_back(std::move(sentence));
   return sentences;
 }
 
 template <class B>
-Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Machine& machine, const RunEnd& end,
-                   const RunOutput<B>& output) {
+Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Machine& machine,
+                   const RunEnd& end, const RunOutput<B>& output) {
   Summary summary;
   summary.status = end.status;
   summary.simulated_time = end.time;
@@ -87,14 +96,17 @@ Summary summary_of(const Scene& scene, const Simulation<B>& simulation, const Ma
   summary.penetrations = output.penetrations();
   summary.diagnosis = end.diagnosis;
   summary.warnings = scene.warnings;
-  for (const std::string& sentence : step_advice(scene, simulation, summary)) summary.warnings.push_back(sentence);
-  for (const std::string& sentence : end_warnings(simulation, end, output)) summary.warnings.push_back(sentence);
+  for (const std::string& sentence : step_advice(scene, simulation, summary))
+    summary.warnings.push_back(sentence);
+  for (const std::string& sentence : end_warnings(simulation, end, output))
+    summary.warnings.push_back(sentence);
   return summary;
 }
 
 // Of its element, or its vertex; numbered as the library numbers them
 template <class B>
-std::vector<Point> corners_of(const Diagnosis& diagnosis, const Scene& scene, const Simulation<B>& simulation) {
+std::vector<Point> corners_of(const Diagnosis& diagnosis, const Scene& scene,
+                              const Simulation<B>& simulation) {
   if (diagnosis.level < 0 || (diagnosis.element < 0 && diagnosis.vertex < 0)) return {};
   const std::vector<Point> positions = simulation.positions(diagnosis.level);
   if (diagnosis.element < 0) return {positions.at(static_cast<std::size_t>(diagnosis.vertex))};
@@ -127,7 +139,8 @@ void take_over(Checkpoint& checkpoint, const Machine& machine) {
   const bool resumed = !checkpoint.program.empty();
   if (resumed && (checkpoint.program != program || checkpoint.backend != machine.backend))
     message(coloured("warning: ", Colour::yellow) +
-            fmt::format("the checkpoint was written by plica {} on {}, this is {} on {}: the last bits may differ",
+            fmt::format("the checkpoint was written by plica {} on {}, this is {} on {}: the last "
+                        "bits may differ",
                         checkpoint.program, checkpoint.backend, program, machine.backend));
   checkpoint.program = program, checkpoint.backend = machine.backend;
 }
@@ -141,17 +154,19 @@ std::filesystem::path folder_of(const RunArguments& arguments) {
 void refuse_to_replace(const std::filesystem::path& folder) {
   const std::vector<std::string> found = former_run(folder);
   if (found.empty()) return;
-  const std::string resume =
-      found.front() == "checkpoint.bin" ? fmt::format(", --resume {} to go on with it", folder.string()) : "";
-  throw InputError(
-      fmt::format("the folder {} holds a run already ({}); expected --force to replace it{}, or another "
-                  "folder with -o",
-                  folder.string(), fmt::join(found, ", "), resume));
+  const std::string resume = found.front() == "checkpoint.bin"
+                                 ? fmt::format(", --resume {} to go on with it", folder.string())
+                                 : "";
+  throw InputError(fmt::format(
+      "the folder {} holds a run already ({}); expected --force to replace it{}, or another "
+      "folder with -o",
+      folder.string(), fmt::join(found, ", "), resume));
 }
 
 // Where a run starts: at the beginning, or where the checkpoint stands
 template <class B>
-RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint, const std::filesystem::path& folder) {
+RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint,
+                const std::filesystem::path& folder) {
   RunEnd start;
   if (checkpoint.state.bytes.empty()) return start;
   try {
@@ -159,16 +174,19 @@ RunEnd start_of(Simulation<B>& simulation, const Checkpoint& checkpoint, const s
   } catch (const InputError& error) {
     throw InputError(error.what(), {(folder / "checkpoint.bin").string()});
   }
-  start.macro_steps = checkpoint.macro_steps, start.time = simulation.time(), start.wall_time = checkpoint.wall_time;
+  start.macro_steps = checkpoint.macro_steps, start.time = simulation.time(),
+  start.wall_time = checkpoint.wall_time;
   return start;
 }
 
-// What Ctrl-C leaves where a macro step does not end: the files as they are, and the summary of the last step that did
+// What Ctrl-C leaves where a macro step does not end: the files as they are, and the summary of the
+// last step that did
 void leave_run(const Scene& scene, Summary summary, const RunArguments& arguments,
                const std::filesystem::path& folder) {
   summary.status = "interrupted";
   write_file(folder / "summary.json", summary_json(scene, summary, arguments.words));
-  message(fmt::format("interrupted within a macro step; the files go up to {:.5g} s", summary.last_good_time));
+  message(fmt::format("interrupted within a macro step; the files go up to {:.5g} s",
+                      summary.last_good_time));
   if (!arguments.quiet) std::cout << summary_text(scene, summary, folder.string());
 }
 
@@ -177,17 +195,19 @@ Interval interval_of(const RunArguments& arguments) {
 }
 
 template <class B>
-ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine& machine, double set_up_time,
-                    const RunArguments& arguments, Checkpoint checkpoint, InterruptWatch& watch) {
+ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine& machine,
+                    double set_up_time, const RunArguments& arguments, Checkpoint checkpoint,
+                    InterruptWatch& watch) {
   const std::filesystem::path folder = folder_of(arguments);
-  const long steps = steps_to_cover(scene.duration, simulation.macro_step());  // refused before there is a folder
+  // refused before there is a folder
+  const long steps = steps_to_cover(scene.duration, simulation.macro_step());
   make_folder(folder);
   const FolderLock alone(folder);
   take_over(checkpoint, machine);
   const RunEnd start = start_of(simulation, checkpoint, folder);
   if (start.macro_steps > steps)
-    throw InputError(fmt::format("the run is at {} already, beyond a duration of {}", in_units(start.time, "s"),
-                                 in_units(scene.duration, "s")));
+    throw InputError(fmt::format("the run is at {} already, beyond a duration of {}",
+                                 in_units(start.time, "s"), in_units(scene.duration, "s")));
   auto lock = watch.hold();
   RunOutput<B> output(scene, simulation, folder, checkpoint, !arguments.resume.empty());
   const CoreWait wait;
@@ -203,7 +223,8 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
   if (!arguments.quiet) announce(scene, simulation, machine, start);
   for (const std::string& sentence : step_advice(scene, simulation, latest)) warn_of(sentence);
   simulation.share_cores();
-  simulation.time_stages(B::on_host || arguments.time_stages);  // on a host there is nothing to wait for
+  // on a host there is nothing to wait for
+  simulation.time_stages(B::on_host || arguments.time_stages);
   RunEnd end = [&] {
     Progress progress(scene.duration, arguments.quiet, start.time, start.macro_steps);
     return run_loop(simulation, scene, start, output, progress, watch,
@@ -228,25 +249,33 @@ ExitStatus simulate(const Scene& scene, Simulation<B>& simulation, const Machine
 
 Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from) {
   if (!arguments.precision.empty() && arguments.precision != from.precision)
-    throw InputError("cannot resume in " + arguments.precision + ": the run is in " + from.precision);
+    throw InputError("cannot resume in " + arguments.precision + ": the run is in " +
+                     from.precision);
   Tree tree = arguments.scene.empty() ? from.scene : read_tree(arguments.scene);
-  for (const Override& given : arguments.overrides) override_value(tree, given.assignment, given.label);
+  for (const Override& given : arguments.overrides)
+    override_value(tree, given.assignment, given.label);
   tree = shared_integration(tree);  // as that of the checkpoint
-  if (const std::string difference = first_difference(from.scene, tree, "duration"); !difference.empty())
-    throw InputError("cannot resume another scene: " + difference + "; only the duration may change");
+  if (const std::string difference = first_difference(from.scene, tree, "duration");
+      !difference.empty())
+    throw InputError("cannot resume another scene: " + difference +
+                     "; only the duration may change");
   Scene scene = load_scene(tree);
   if (mesh_digest(scene.problem.body) != from.meshes)
-    throw InputError("cannot resume: the meshes are not those of the run; has a mesh file changed?", {from.scene_file});
+    throw InputError("cannot resume: the meshes are not those of the run; has a mesh file changed?",
+                     {from.scene_file});
   scene.file = from.scene_file;
   return scene;
 }
 
 Interval checkpoint_interval(const std::string& text) {
   const std::string expected =
-      "--checkpoint: expected every=N macro steps or every=TIME, such as every=100 or every=0.1s, got '" + text + "'";
+      "--checkpoint: expected every=N macro steps or every=TIME, such as every=100 or every=0.1s, "
+      "got '" +
+      text + "'";
   if (!text.starts_with("every=")) throw InputError(expected);
   const std::string interval = text.substr(6);
-  const bool digits = !interval.empty() && interval.find_first_not_of("0123456789") == std::string::npos;
+  const bool digits =
+      !interval.empty() && interval.find_first_not_of("0123456789") == std::string::npos;
   try {
     return parse_interval(digits ? interval + " steps" : interval);
   } catch (const std::invalid_argument& problem) {
@@ -262,15 +291,16 @@ ExitStatus run(const RunArguments& arguments) {
   Checkpoint checkpoint;
   if (resumed) checkpoint = read_checkpoint(arguments.resume);
   progress.phase("reading the scene and its meshes");
-  const Scene scene =
-      resumed ? scene_to_resume(arguments, checkpoint) : load_scene(arguments.scene, arguments.overrides);
+  const Scene scene = resumed ? scene_to_resume(arguments, checkpoint)
+                              : load_scene(arguments.scene, arguments.overrides);
   if (!resumed && !arguments.force) refuse_to_replace(folder_of(arguments));
   warn(scene);
   if (!resumed) checkpoint = new_checkpoint(scene, arguments);
   checkpoint.scene = scene.source;  // with a new duration
   if (every != Interval{}) checkpoint.every = every;
   const CycleAuto made{true, checkpoint.choice};
-  const auto action = [&](const Scene&, auto& simulation, const Machine& machine, double set_up_time) {
+  const auto action = [&](const Scene&, auto& simulation, const Machine& machine,
+                          double set_up_time) {
     checkpoint.choice = machine.choice;
     return simulate(scene, simulation, machine, set_up_time, arguments, checkpoint, watch);
   };

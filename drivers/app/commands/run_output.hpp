@@ -18,8 +18,8 @@
 
 namespace plica::app {
 
-/// The scene of the run to go on with: the checkpoint's own, or the given one where it says the same. Only a longer or shorter
-/// duration may be new. InputError that names what else is.
+/// The scene of the run to go on with: the checkpoint's own, or the given one where it says the
+/// same. Only a longer or shorter duration may be new. InputError that names what else is.
 Scene scene_to_resume(const RunArguments& arguments, const Checkpoint& from);
 
 /// "every=100" macro steps, "every=100 steps", or "every=0.1s" of simulated time.
@@ -39,14 +39,18 @@ template <class B>
 class Probes {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
-  Probes(const Scene& scene, const std::filesystem::path& file, std::optional<std::uint64_t> kept = {})
+  Probes(const Scene& scene, const std::filesystem::path& file,
+         std::optional<std::uint64_t> kept = {})
       : points_(scene.problem.body.levels.front(), points_of(scene.output.probes)),
         placement_(placement_of(scene.problem.body)),
-        file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, probe_head(names_of(scene.output.probes)))) {}
+        file_(kept ? GrowingFile(file, *kept)
+                   : GrowingFile(file, probe_head(names_of(scene.output.probes)))) {}
 
   void write(const Simulation<B>& simulation, double time) {
-    auto [positions, velocities] = points_.sample({}, simulation.displacement(), simulation.velocity());
-    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += points_.rest()[i] + placement_;
+    auto [positions, velocities] =
+        points_.sample({}, simulation.displacement(), simulation.velocity());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      positions[i] += points_.rest()[i] + placement_;
     file_.add(probe_row(time, positions, velocities));
   }
   GrowingFile& file() { return file_; }
@@ -58,13 +62,15 @@ class Probes {
   GrowingFile file_;
 };
 
-/// What a run writes while it goes on, each thing at its times: frames with history, probes, checkpoints.
+/// What a run writes while it goes on, each thing at its times: frames with history, probes,
+/// checkpoints.
 template <class B>
 class RunOutput {
  public:
-  /// `checkpoint` says which run this is; its files are cut back to where it stands where the run is `resumed`.
-  RunOutput(const Scene& scene, const Simulation<B>& simulation, const std::filesystem::path& folder,
-            Checkpoint checkpoint, bool resumed)
+  /// `checkpoint` says which run this is; its files are cut back to where it stands where the run
+  /// is `resumed`.
+  RunOutput(const Scene& scene, const Simulation<B>& simulation,
+            const std::filesystem::path& folder, Checkpoint checkpoint, bool resumed)
       : simulation_(simulation),
         problem_(scene.problem),
         folder_(folder),
@@ -90,18 +96,21 @@ class RunOutput {
     if (!scene.output.probes.empty())
       probes_.emplace(scene, folder / "probes.csv",
                       resumed ? std::optional(checkpoint_.files.probe_bytes) : std::nullopt);
-    if (checkpoint_.every != Interval{}) saving_.emplace(checkpoint_.every, simulation.macro_step());
+    if (checkpoint_.every != Interval{})
+      saving_.emplace(checkpoint_.every, simulation.macro_step());
     marks_.push_back(mark());
   }
 
   /// After a macro step, and once before the first.
   void record(const RunEnd& now) {
     add(now);
-    if (saving_ && saved_ < now.macro_steps && (replaces_saved_ || saving_->due(now.macro_steps))) save(now);
+    if (saving_ && saved_ < now.macro_steps && (replaces_saved_ || saving_->due(now.macro_steps)))
+      save(now);
   }
 
-  /// After a macro step that is taken again: it replaces what was written of it, and of all that came after it. What a resumed run found
-  /// written stays. A checkpoint of what is replaced is replaced at once.
+  /// After a macro step that is taken again: it replaces what was written of it, and of all that
+  /// came after it. What a resumed run found written stays. A checkpoint of what is replaced is
+  /// replaced at once.
   void record_again(const RunEnd& now) {
     if (now.macro_steps <= marks_.front().macro_steps) return;
     if (now.macro_steps <= recorded_) go_back(now.macro_steps - 1);
@@ -120,13 +129,15 @@ class RunOutput {
     if (saved_ > macro_steps) saved_ = -1, replaces_saved_ = true;
   }
 
-  /// Before a step that is shorter because the run ends with it: a longer run goes on from here, so nothing is saved later.
+  /// Before a step that is shorter because the run ends with it: a longer run goes on from here, so
+  /// nothing is saved later.
   void before_shorter_step(const RunEnd& now) {
     if (saving_ && saved_ != now.macro_steps) save(now);
     saving_.reset();
   }
 
-  /// After the last step. The last frame comes after the last checkpoint: a longer run has it at its own time, if at all.
+  /// After the last step. The last frame comes after the last checkpoint: a longer run has it at
+  /// its own time, if at all.
   void finish(const RunEnd& end, double last_time) {
     if (saving_ && (replaces_saved_ || (!end.diagnosis && saved_ != end.macro_steps))) save(end);
     if (files_.last_time() < last_time) write_frame(last_time);
@@ -136,7 +147,8 @@ class RunOutput {
   const Penetrations& penetrations() const { return depth_.all(); }
   /// What frames and the rows of history.csv have shown to be wrong, in a sentence each.
   std::vector<std::string> warnings() const {
-    std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning(), depth_.warning()};
+    std::vector<std::string> sentences = {energy_.warning(), inside_out_.warning(),
+                                          depth_.warning()};
     std::erase(sentences, "");
     return sentences;
   }
@@ -156,20 +168,27 @@ class RunOutput {
     std::vector<double> energy, inside_out, depth;
   };
   Mark mark() const {
-    return {recorded_,      files_.frames(),    files_.history_bytes(), probes_ ? probes_->file().size() : 0,
-            energy_.save(), inside_out_.save(), depth_.save()};
+    return {recorded_,
+            files_.frames(),
+            files_.history_bytes(),
+            probes_ ? probes_->file().size() : 0,
+            energy_.save(),
+            inside_out_.save(),
+            depth_.save()};
   }
 
   void add(const RunEnd& now) {
     if (now.macro_steps <= recorded_) return;  // where the run goes on: it is on the disk
     if (recorded_ >= 0 && watches_energy_) work_.step(simulation_);
     recorded_ = now.macro_steps;
-    const bool frame = frames_.due(now.macro_steps), probe = probes_ && probing_.due(now.macro_steps);
+    const bool frame = frames_.due(now.macro_steps),
+               probe = probes_ && probing_.due(now.macro_steps);
     if (frame) write_frame(now.time);
     if (probe) probes_->write(simulation_, now.time);
     if (!frame && !probe) return;
     marks_.push_back(mark());
-    while (marks_.size() > 1 && marks_[1].macro_steps <= simulation_.earliest_kept()) marks_.pop_front();
+    while (marks_.size() > 1 && marks_[1].macro_steps <= simulation_.earliest_kept())
+      marks_.pop_front();
   }
 
   void write_frame(double time) {
@@ -178,13 +197,15 @@ class RunOutput {
     if (inside_out_.looks()) inside_out_.look(time, simulation_.element_fields());
     if (depth_.looks()) {
       const std::vector<double> depths = simulation_.contact_depths();
-      depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths), simulation_.pair_depth());
+      depth_.look(time, depths, obstacles_inside(simulation_, problem_, depths),
+                  simulation_.pair_depth());
     }
     files_.write(now);
     for (const std::string& name : empty_handed(problem_.contact, now, simulation_.macro_step()))
       if (warned_.insert(name).second)
         message(coloured("warning: ", Colour::yellow) + name +
-                " has closed and holds no point; expected the surface to touch it by then, or a longer grasp.reach");
+                " has closed and holds no point; expected the surface to touch it by then, or a "
+                "longer grasp.reach");
   }
 
   void save(const RunEnd& now) {
@@ -223,13 +244,14 @@ class RunOutput {
   std::deque<Mark> marks_;       // from the earliest state on that the run may go back to
 };
 
-/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up to date. The last step is
-/// shorter where the macro step is automatic; macro steps of a given size are whole, and the last may reach beyond the
-/// duration. Calls reached(end) after the start and after macro steps, at most ten times a second and
-/// after every frame: what it keeps is what `watch` may write where a macro step takes too long after Ctrl-C.
+/// Steps on to the end of the scene, or until Ctrl-C or divergence, and keeps the files on disk up
+/// to date. The last step is shorter where the macro step is automatic; macro steps of a given size
+/// are whole, and the last may reach beyond the duration. Calls reached(end) after the start and
+/// after macro steps, at most ten times a second and after every frame: what it keeps is what
+/// `watch` may write where a macro step takes too long after Ctrl-C.
 template <class B, class Reached>
-RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOutput<B>& output, Progress& progress,
-                InterruptWatch& watch, const Reached& reached) {
+RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOutput<B>& output,
+                Progress& progress, InterruptWatch& watch, const Reached& reached) {
   using Clock = std::chrono::steady_clock;
   const long steps = steps_to_cover(scene.duration, simulation.macro_step());
   const bool automatic = !scene.problem.integration.macro_step;
@@ -277,7 +299,8 @@ RunEnd run_loop(Simulation<B>& simulation, const Scene& scene, RunEnd end, RunOu
     if (replaced) output.go_back(simulation.macro_steps());
   }
   simulation.on_repeated_step({});
-  if (end.diagnosis || end.macro_steps < steps) end.status = end.diagnosis ? "diverged" : "interrupted";
+  if (end.diagnosis || end.macro_steps < steps)
+    end.status = end.diagnosis ? "diverged" : "interrupted";
   output.finish(end, last);
   return end;
 }

@@ -52,7 +52,8 @@ void SetUpProgress::listen() {
 void SetUpProgress::begin_region(const char* name) {
   if (tools_of_users.push_region != nullptr) tools_of_users.push_region(name);
   const std::string_view text = name;
-  if (listener->depth_++ == 0 && text.starts_with(ours)) listener->enter(std::string(text.substr(ours.size())));
+  if (listener->depth_++ == 0 && text.starts_with(ours))
+    listener->enter(std::string(text.substr(ours.size())));
 }
 
 void SetUpProgress::end_region() {
@@ -80,11 +81,13 @@ void SetUpProgress::wait() {
 }
 
 KokkosSession::KokkosSession(const KokkosArguments& arguments) {
-  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too late from here.
+  // Kokkos warns where OpenMP's threads are not bound. Binding is the user's choice, and comes too
+  // late from here.
   setenv("OMP_PROC_BIND", "false", 0);
   std::vector<std::string> words = {"plica"};
   words.insert(words.end(), arguments.pass_through.begin(), arguments.pass_through.end());
-  if (arguments.threads > 0) words.push_back("--kokkos-num-threads=" + std::to_string(arguments.threads));
+  if (arguments.threads > 0)
+    words.push_back("--kokkos-num-threads=" + std::to_string(arguments.threads));
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -117,7 +120,8 @@ Scene loaded(const SceneArguments& arguments, SetUpProgress& progress) {
 }
 
 void warn(const Scene& scene) {
-  for (const std::string& warning : scene.warnings) message(coloured("warning: ", Colour::yellow) + warning);
+  for (const std::string& warning : scene.warnings)
+    message(coloured("warning: ", Colour::yellow) + warning);
 }
 
 }  // namespace plica::app

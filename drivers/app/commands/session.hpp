@@ -16,9 +16,9 @@
 
 namespace plica::app {
 
-/// Says on the standard error what a set-up is doing, once it takes more than two seconds: one line per phase, on a terminal or
-/// not. The library names its phases as regions of Kokkos' profiling interface, "plica: ...", and this listens to them. One at a
-/// time.
+/// Says on the standard error what a set-up is doing, once it takes more than two seconds: one line
+/// per phase, on a terminal or not. The library names its phases as regions of Kokkos' profiling
+/// interface, "plica: ...", and this listens to them. One at a time.
 class SetUpProgress {
  public:
   explicit SetUpProgress(bool quiet);
@@ -83,21 +83,25 @@ struct CycleAuto {
 
 /// The simulation of a scene, and what cycle auto has come to.
 template <class B>
-std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, const Scene& scene, const CycleAuto& made) {
+std::optional<CycleChoice> set_up(std::optional<Simulation<B>>& simulation, const Scene& scene,
+                                  const CycleAuto& made) {
   const Problem& problem = scene.problem;
   if (problem.integration.cycle != "auto") return simulation.emplace(problem), std::nullopt;
   validate(problem);
   std::optional<CycleChoice> choice = made.choice;
   if (!choice) simulation.emplace(level_0_alone(problem));
   if (!choice && made.trials) choice = choose_cycle<B>(problem, *simulation, {scene.duration, {}});
-  if (choice && (!simulation || choice->cycle != "single")) simulation.emplace(with_choice(problem, choice));
+  if (choice && (!simulation || choice->cycle != "single"))
+    simulation.emplace(with_choice(problem, choice));
   return choice;
 }
 
-/// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `progress` began [s]).
+/// Starts Kokkos and calls action(scene, simulation, machine, set-up time since `progress` began
+/// [s]).
 template <class Action>
-auto with_simulation(const Scene& scene, const std::string& precision, const KokkosArguments& kokkos,
-                     SetUpProgress& progress, const Action& action, const CycleAuto& made = {}) {
+auto with_simulation(const Scene& scene, const std::string& precision,
+                     const KokkosArguments& kokkos, SetUpProgress& progress, const Action& action,
+                     const CycleAuto& made = {}) {
   const KokkosSession session(kokkos);
   progress.listen();
   const auto run = [&]<class B>(std::type_identity<B>) {
@@ -125,7 +129,8 @@ Scene loaded(const SceneArguments& arguments, SetUpProgress& progress);
 
 /// The same for that scene.
 template <class Action>
-auto with_simulation(const SceneArguments& arguments, const Action& action, const CycleAuto& made = {}) {
+auto with_simulation(const SceneArguments& arguments, const Action& action,
+                     const CycleAuto& made = {}) {
   SetUpProgress progress(false);
   const Scene scene = loaded(arguments, progress);
   return with_simulation(scene, arguments.precision, arguments.kokkos, progress, action, made);

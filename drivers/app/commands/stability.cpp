@@ -19,7 +19,8 @@ namespace {
 
 std::optional<double> budget_of(const StabilityArguments& more) {
   std::optional<double> budget;
-  if (!more.budget.empty()) read_option("--budget", more.budget, Quantity{duration, positive}, budget.emplace());
+  if (!more.budget.empty())
+    read_option("--budget", more.budget, Quantity{duration, positive}, budget.emplace());
   return budget;
 }
 
@@ -27,7 +28,8 @@ std::vector<MemoryFile> files_of(const std::filesystem::path& folder, const Stab
   return {{folder / "stability.json", texts.json}, {folder / "stability.csv", texts.csv}};
 }
 
-ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& more, InterruptWatch& interrupts) {
+ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& more,
+                    InterruptWatch& interrupts) {
   SetUpProgress progress(arguments.quiet);
   const Scene scene = loaded(arguments, progress);
   StudyOptions options = scene.study;
@@ -37,7 +39,8 @@ ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& mor
   try {
     check_study(scene.problem, options);
     progress.finish();
-    const auto folder = arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
+    const auto folder =
+        arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
     make_folder(folder);
     const StudyMachine machine = this_machine();
     const auto texts = [&](const StabilityResult& result, const std::string& status) {
@@ -46,15 +49,16 @@ ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& mor
     std::vector<MemoryFile> left;  // by Ctrl-C
     const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, folder); });
     const ProgressLine line(arguments.quiet);
-    const StabilityResult result = plica::stability(scene.problem, options, [&](const StabilityProgress& p) {
-      if (p.new_row) {
-        const auto lock = interrupts.hold();
-        write_files(texts(*p.so_far, "unfinished"));
-        left = texts(*p.so_far, "interrupted");
-      }
-      line.update(fmt::format("{}/{}  {}", p.done, p.of, p.doing));
-      return !interrupts.noticed();
-    });
+    const StabilityResult result =
+        plica::stability(scene.problem, options, [&](const StabilityProgress& p) {
+          if (p.new_row) {
+            const auto lock = interrupts.hold();
+            write_files(texts(*p.so_far, "unfinished"));
+            left = texts(*p.so_far, "interrupted");
+          }
+          line.update(fmt::format("{}/{}  {}", p.done, p.of, p.doing));
+          return !interrupts.noticed();
+        });
     interrupts.end_in_order();
     write_files(texts(result, result.stopped ? "interrupted" : "completed"));
     line.clear();
@@ -65,12 +69,14 @@ ExitStatus of_scene(const RunArguments& arguments, const StabilityArguments& mor
   }
 }
 
-ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& more, InterruptWatch& interrupts) {
+ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& more,
+                     InterruptWatch& interrupts) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const std::optional<double> budget = budget_of(more);
   const KokkosSession session(arguments.kokkos);
-  const std::filesystem::path folder = arguments.folder.empty() ? "out/stability" : arguments.folder;
+  const std::filesystem::path folder =
+      arguments.folder.empty() ? "out/stability" : arguments.folder;
   make_folder(folder);
   const StudyMachine machine = this_machine();
   const auto texts = [&](const MatrixResult& result, const std::string& status) {
@@ -87,9 +93,10 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
       write_files(texts(result, "unfinished"));
       left = texts(result, "interrupted"), written = now;
     }
-    line.update(
-        fmt::format("{}/{}  {}, {}", result.rows.size(), of, result.rows.back().name, result.rows.back().method));
-    return !interrupts.noticed() && !(budget && std::chrono::duration<double>(now - start).count() > *budget);
+    line.update(fmt::format("{}/{}  {}, {}", result.rows.size(), of, result.rows.back().name,
+                            result.rows.back().method));
+    return !interrupts.noticed() &&
+           !(budget && std::chrono::duration<double>(now - start).count() > *budget);
   };
   std::vector<std::function<MatrixRow()>> others = invariance_cases();
   std::ranges::move(organ_cases(), std::back_inserter(others));
@@ -103,11 +110,14 @@ ExitStatus of_matrix(const RunArguments& arguments, const StabilityArguments& mo
 
 }  // namespace
 
-ExitStatus status_of(const MatrixResult& result) { return result.ok() ? ExitStatus::done : ExitStatus::failed; }
+ExitStatus status_of(const MatrixResult& result) {
+  return result.ok() ? ExitStatus::done : ExitStatus::failed;
+}
 
 ExitStatus stability(const RunArguments& arguments, const StabilityArguments& more) {
   InterruptWatch interrupts;
-  return more.matrix ? of_matrix(arguments, more, interrupts) : of_scene(arguments, more, interrupts);
+  return more.matrix ? of_matrix(arguments, more, interrupts)
+                     : of_scene(arguments, more, interrupts);
 }
 
 }  // namespace plica::app

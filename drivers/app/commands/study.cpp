@@ -14,7 +14,8 @@
 namespace plica::app {
 namespace {
 
-StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const StudyArguments& more) {
+StudyOptions options_of(const Scene& scene, const RunArguments& arguments,
+                        const StudyArguments& more) {
   StudyOptions options = scene.study;
   options.duration = scene.duration, options.probes = scene.output.probes;
   options.growth = options.growth || more.growth;
@@ -23,25 +24,29 @@ StudyOptions options_of(const Scene& scene, const RunArguments& arguments, const
     read_option("--budget", more.budget, Quantity{duration, positive}, options.budget.emplace());
   if (more.truth && !options.truth) options.truth.emplace();
   if (more.space && options.truth)
-    throw InputError("--space: the study is against the truth (study.truth), which has the error in space",
-                     place_of(scene.source, "study.truth"));
+    throw InputError(
+        "--space: the study is against the truth (study.truth), which has the error in space",
+        place_of(scene.source, "study.truth"));
   if (more.space) options.finer = finer_mesh(scene);
   return options;
 }
 
-StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files, bool quiet,
-                      InterruptWatch& interrupts) {
+StudyResult run_study(const Scene& scene, const StudyOptions& options, const StudyFiles& files,
+                      bool quiet, InterruptWatch& interrupts) {
   StudyResult before = files.read();
   if (before.rows.empty() && files.holds_another())
-    message(coloured("warning: ", Colour::yellow) +
-            fmt::format("{} holds a study of another scene, options, program or machine: this one replaces it",
-                        files.folder().string()));
+    message(
+        coloured("warning: ", Colour::yellow) +
+        fmt::format(
+            "{} holds a study of another scene, options, program or machine: this one replaces it",
+            files.folder().string()));
   if (!quiet && !before.rows.empty())
     message(fmt::format("going on with {}: {} there", files.folder().string(),
                         counted(static_cast<long>(before.rows.size()), "row")));
   std::vector<MemoryFile> left;  // by Ctrl-C
   std::string doing;
-  const auto leaving = interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, files.folder()); });
+  const auto leaving =
+      interrupts.on_leave(interrupts.hold(), [&] { leave_files(left, files.folder()); });
   const ProgressLine line(quiet);
   const StudyWatch watch = [&](const StudyProgress& p) {
     const bool has_news = p.new_reference || p.new_row;
@@ -73,19 +78,22 @@ ExitStatus study(const RunArguments& arguments, const StudyArguments& more) {
   try {
     check_study(scene.problem, options);
     progress.finish();
-    const auto folder = arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
+    const auto folder =
+        arguments.folder.empty() ? "out" / arguments.scene.stem() : arguments.folder;
     make_folder(folder);
     const StudyFiles files(scene, options, folder);
     if (!arguments.quiet)
       message(fmt::format("{}: {:g} s, {} tetrahedra; {} on {}, {}", scene.name, scene.duration,
-                          scene.problem.body.levels.front().tets.size(), fmt::join(options.precision, " and "),
-                          files.machine().backend, counted(files.machine().threads, "thread")));
+                          scene.problem.body.levels.front().tets.size(),
+                          fmt::join(options.precision, " and "), files.machine().backend,
+                          counted(files.machine().threads, "thread")));
     const auto start = std::chrono::steady_clock::now();
     const StudyResult result = run_study(scene, options, files, arguments.quiet, interrupts);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     if (!arguments.quiet && options.budget && taken.count() > 1.1 * *options.budget)
       message(
-          fmt::format("the study took {}, more than its budget of {}: the reference and every level alone are run "
+          fmt::format("the study took {}, more than its budget of {}: the reference and every "
+                      "level alone are run "
                       "whatever they take",
                       in_units(taken.count(), "s"), in_units(*options.budget, "s")));
     if (!arguments.quiet) std::cout << study_text(scene, result, folder.string());

@@ -13,8 +13,8 @@
 namespace plica::app {
 namespace {
 
-std::vector<MemoryFile> verify_files(const std::filesystem::path& folder, VerifyHead head, const std::string& status,
-                                     const VerifyResult& result) {
+std::vector<MemoryFile> verify_files(const std::filesystem::path& folder, VerifyHead head,
+                                     const std::string& status, const VerifyResult& result) {
   head.status = status;
   return {{folder / "verify.json", verify_json(head, result)},
           {folder / "verify.csv", verify_csv(result)},
@@ -28,7 +28,8 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more) {
   using Clock = std::chrono::steady_clock;
   check_problems(more.problems);
   const KokkosSession session(arguments.kokkos);
-  const auto folder = arguments.folder.empty() ? std::filesystem::path("out/verify") : arguments.folder;
+  const auto folder =
+      arguments.folder.empty() ? std::filesystem::path("out/verify") : arguments.folder;
   make_folder(folder);
   const auto start = Clock::now();
   VerifyHead head{this_machine(), "", more.small, 0};
@@ -56,7 +57,8 @@ ExitStatus verify(const RunArguments& arguments, const VerifyArguments& more) {
 
 std::string verify_problems_text() {
   std::string text;
-  for (const Choice& problem : verify_problems()) text += fmt::format("  {:<22}{}\n", problem.name, problem.summary);
+  for (const Choice& problem : verify_problems())
+    text += fmt::format("  {:<22}{}\n", problem.name, problem.summary);
   return text;
 }
 

@@ -41,13 +41,14 @@ void invite(const std::string& address, const ViewArguments& arguments) {
 ExitStatus view(const SceneArguments& arguments, const ViewArguments& more) {
   InterruptWatch watch;
   const Port port(more.port);  // before the set-up, which may take long
-  with_simulation(arguments, [&](const Scene& scene, auto& simulation, const Machine& machine, double) {
-    watch.end_in_order();
-    LiveOptions options{port, live_method(scene, simulation, machine.choice)};
-    options.listening = [&](const std::string& address) { invite(address, more); };
-    options.ended = interrupted;
-    show_live(scene, simulation, options);
-  });
+  with_simulation(arguments,
+                  [&](const Scene& scene, auto& simulation, const Machine& machine, double) {
+                    watch.end_in_order();
+                    LiveOptions options{port, live_method(scene, simulation, machine.choice)};
+                    options.listening = [&](const std::string& address) { invite(address, more); };
+                    options.ended = interrupted;
+                    show_live(scene, simulation, options);
+                  });
   return ExitStatus::done;
 }
 

@@ -30,7 +30,9 @@ std::string path_of(const Json& json) {
 }
 
 Json interval_json(const Interval& interval) { return {interval.time, interval.steps}; }
-Interval interval_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<long>()}; }
+Interval interval_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<long>()};
+}
 
 Json header_of(const Checkpoint& c) {
   return {{"scene_file", path_json(c.scene_file)},
@@ -85,9 +87,11 @@ std::uint64_t digest_of(const std::string& text) {
 // The next number of the text, up to a blank or the end of the line
 std::uint64_t next_number(const std::string& text, std::size_t& at, int base, const Where& where) {
   std::uint64_t value = 0;
-  const auto [rest, error] = std::from_chars(text.data() + at, text.data() + text.size(), value, base);
+  const auto [rest, error] =
+      std::from_chars(text.data() + at, text.data() + text.size(), value, base);
   const bool ends = rest != text.data() + text.size() && (*rest == ' ' || *rest == '\n');
-  if (error != std::errc{} || !ends) throw InputError("the checkpoint is damaged: its head cannot be read", where);
+  if (error != std::errc{} || !ends)
+    throw InputError("the checkpoint is damaged: its head cannot be read", where);
   at = static_cast<std::size_t>(rest - text.data()) + 1;
   return value;
 }
@@ -118,8 +122,8 @@ void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& che
   const std::string header = header_of(checkpoint).dump();
   std::string body = header;
   body.append(checkpoint.state.bytes.begin(), checkpoint.state.bytes.end());
-  const std::string head = fmt::format("{}{}\n{} {} {:016x}\n", checkpoint_title, version_written, header.size(),
-                                       body.size() - header.size(), digest_of(body));
+  const std::string head = fmt::format("{}{}\n{} {} {:016x}\n", checkpoint_title, version_written,
+                                       header.size(), body.size() - header.size(), digest_of(body));
   write_file(folder / "checkpoint.bin", head + body, Durable::yes);
 }
 
@@ -127,25 +131,31 @@ Checkpoint read_checkpoint(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "checkpoint.bin";
   const Where where{file.string()};
   if (!std::filesystem::exists(file))
-    throw InputError("there is no checkpoint to resume from; a run writes one only with --checkpoint", where);
+    throw InputError(
+        "there is no checkpoint to resume from; a run writes one only with --checkpoint", where);
   std::ostringstream read;
   read << std::ifstream(file, std::ios::binary).rdbuf();
   const std::string text = read.str();
-  if (!text.starts_with(checkpoint_title)) throw InputError("this is no checkpoint, or a damaged one", where);
+  if (!text.starts_with(checkpoint_title))
+    throw InputError("this is no checkpoint, or a damaged one", where);
   std::size_t at = std::string_view(checkpoint_title).size();
   if (const auto version = next_number(text, at, 10, where); version != version_written)
-    throw InputError(fmt::format("the checkpoint is of version {}; this program reads {}", version, version_written),
+    throw InputError(fmt::format("the checkpoint is of version {}; this program reads {}", version,
+                                 version_written),
                      where);
-  const std::uint64_t header = next_number(text, at, 10, where), state = next_number(text, at, 10, where),
+  const std::uint64_t header = next_number(text, at, 10, where),
+                      state = next_number(text, at, 10, where),
                       digest = next_number(text, at, 16, where), left = text.size() - at;
   if (header > left || state != left - header)
-    throw InputError(
-        fmt::format("the checkpoint is damaged: {} bytes after its head, {} expected", left, header + state), where);
+    throw InputError(fmt::format("the checkpoint is damaged: {} bytes after its head, {} expected",
+                                 left, header + state),
+                     where);
   const std::string body = text.substr(at);
-  if (digest_of(body) != digest) throw InputError("the checkpoint is damaged: its checksum is wrong", where);
+  if (digest_of(body) != digest)
+    throw InputError("the checkpoint is damaged: its checksum is wrong", where);
   try {
-    Checkpoint checkpoint =
-        checkpoint_of(Json::parse(body.begin(), body.begin() + static_cast<std::ptrdiff_t>(header)));
+    Checkpoint checkpoint = checkpoint_of(
+        Json::parse(body.begin(), body.begin() + static_cast<std::ptrdiff_t>(header)));
     checkpoint.state.bytes.assign(body.begin() + static_cast<std::ptrdiff_t>(header), body.end());
     return checkpoint;
   } catch (const Json::exception& error) {

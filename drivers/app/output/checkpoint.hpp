@@ -22,7 +22,8 @@ struct Checkpoint {
   std::map<std::string, double> stages;  ///< so far [s]
   std::optional<CycleChoice> choice;     ///< of cycle auto
   FilesMark files;
-  std::vector<double> energy;      ///< of EnergyBudget; then the work of obstacles [J], and 1 where that is known
+  /// of EnergyBudget; then the work of obstacles [J], and 1 where that is known
+  std::vector<double> energy;
   std::vector<double> inside_out;  ///< of InsideOut
   std::vector<double> depth;       ///< of ContactDepth
   SavedState state;
@@ -31,9 +32,9 @@ struct Checkpoint {
 /// Of all levels' meshes and the surface, as the simulation gets them.
 std::uint64_t mesh_digest(const Body& body);
 
-/// FOLDER/checkpoint.bin: a line with the format's version, one with the sizes and the digest of what follows, then that: all but
-/// the state as JSON, and the state's bytes. Written as a whole, and on the disk when this returns: whoever looks finds the last
-/// one or this one.
+/// FOLDER/checkpoint.bin: a line with the format's version, one with the sizes and the digest of
+/// what follows, then that: all but the state as JSON, and the state's bytes. Written as a whole,
+/// and on the disk when this returns: whoever looks finds the last one or this one.
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
 /// InputError for a folder without one, one that is damaged, or of another version.

@@ -19,8 +19,9 @@ struct Penetration {
 struct Penetrations {
   double edge = 0;                          ///< mean one of the surface [m]
   std::vector<std::string> obstacles = {};  ///< their names
-  std::vector<Penetration> deepest = {};    ///< in each of them, then, where bodies touch, in a body
-  bool pairs = false;                       ///< they do
+  /// in each of them, then, where bodies touch, in a body
+  std::vector<Penetration> deepest = {};
+  bool pairs = false;  ///< they do
 };
 
 /// Of a surface's triangles [m].
@@ -34,14 +35,17 @@ inline double mean_edge_of(const TriangleSurface& surface) {
   return surface.triangles.empty() ? 0 : sum / (3 * static_cast<double>(surface.triangles.size()));
 }
 
-/// Looks whether obstacles come visibly deep into the surface, or through it: contact is by penalties, and too soft a one lets a tool sink in.
+/// Looks whether obstacles come visibly deep into the surface, or through it: contact is by
+/// penalties, and too soft a one lets a tool sink in.
 class ContactDepth {
  public:
   static constexpr double visible = 0.5;  ///< of a mean edge, or of the radius of a thinner tool
 
   /// @param edge  mean one of the finest level [m]
   /// @param pairs bodies touch, or a body itself
-  ContactDepth(const ContactOptions& contact, double edge, const TriangleSurface& surface, bool pairs) : edge_(edge) {
+  ContactDepth(const ContactOptions& contact, double edge, const TriangleSurface& surface,
+               bool pairs)
+      : edge_(edge) {
     for (std::size_t o = 0; o < contact.obstacles.size(); ++o) {
       all_.obstacles.push_back(obstacle_name(contact, o));
       radius_.push_back(radius_of(contact.obstacles[o].shape));
@@ -52,8 +56,10 @@ class ContactDepth {
 
   bool looks() const { return !all_.deepest.empty(); }
 
-  /// At this time [s]; depths of all obstacles [m], what obstacles_inside() says, and the depth in bodies.
-  void look(double time, const std::vector<double>& depths, const std::vector<int>& inside, double of_pairs = 0) {
+  /// At this time [s]; depths of all obstacles [m], what obstacles_inside() says, and the depth in
+  /// bodies.
+  void look(double time, const std::vector<double>& depths, const std::vector<int>& inside,
+            double of_pairs = 0) {
     if (inside_ < 0 && !inside.empty()) inside_ = inside.front(), inside_at_ = time;
     for (std::size_t o = 0; o < depths.size(); ++o) {
       if (depth_ * limit(o) < depths[o] * limit(static_cast<std::size_t>(obstacle_)))
@@ -72,25 +78,31 @@ class ContactDepth {
   }
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 5 + 2 * all_.deepest.size()) return;
-    depth_ = saved[0], at_ = saved[1], obstacle_ = saved[2], inside_ = saved[3], inside_at_ = saved[4];
-    for (std::size_t i = 0; i < all_.deepest.size(); ++i) all_.deepest[i] = {saved[5 + 2 * i], saved[6 + 2 * i]};
+    depth_ = saved[0], at_ = saved[1], obstacle_ = saved[2], inside_ = saved[3],
+    inside_at_ = saved[4];
+    for (std::size_t i = 0; i < all_.deepest.size(); ++i)
+      all_.deepest[i] = {saved[5 + 2 * i], saved[6 + 2 * i]};
   }
 
   /// A sentence where one was, else nothing.
   std::string warning() const {
     if (inside_ >= 0)
-      return text(
-          "contact: at ", number(inside_at_, 4), " s ", all_.obstacles.at(static_cast<std::size_t>(inside_)),
-          " was inside the body and touched nothing: it has come through the surface, and the body does not feel "
-          "it there; expected a slower obstacle, a smaller integration.macro_step, or contact.stiffness_scale "
-          "above 1");
+      return text("contact: at ", number(inside_at_, 4), " s ",
+                  all_.obstacles.at(static_cast<std::size_t>(inside_)),
+                  " was inside the body and touched nothing: it has come through the surface, and "
+                  "the body does not feel "
+                  "it there; expected a slower obstacle, a smaller integration.macro_step, or "
+                  "contact.stiffness_scale "
+                  "above 1");
     const auto which = static_cast<std::size_t>(obstacle_);
     if (all_.obstacles.empty() || !(depth_ > limit(which))) return {};
     const bool thin = radius_[which] < edge_;
-    return text("contact: at ", number(at_, 4), " s ", all_.obstacles[which], " was ", number(depth_, 3),
-                " m deep in the surface, ", number(depth_ / (thin ? radius_[which] : edge_), 3), " of ",
+    return text("contact: at ", number(at_, 4), " s ", all_.obstacles[which], " was ",
+                number(depth_, 3), " m deep in the surface, ",
+                number(depth_ / (thin ? radius_[which] : edge_), 3), " of ",
                 thin ? "its radius, and may come through" : "a mean edge",
-                ": its force is less than that of a hard one; expected contact.stiffness_scale above 1, which on "
+                ": its force is less than that of a hard one; expected contact.stiffness_scale "
+                "above 1, which on "
                 "implicit levels needs a smaller integration.macro_step, or a slower obstacle");
   }
 

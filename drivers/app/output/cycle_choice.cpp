@@ -43,24 +43,30 @@ std::string choice_line(const CycleChoice& choice) {
 
 std::string choice_text(const CycleChoice& choice) {
   std::string text = "\nCycle auto\n";
-  text += wrapped(fmt::format("{} at {:.3g} x the critical step; {}: {}", choice.cycle, choice.over_critical,
-                              choice.error_class, choice.reason),
+  text += wrapped(fmt::format("{} at {:.3g} x the critical step; {}: {}", choice.cycle,
+                              choice.over_critical, choice.error_class, choice.reason),
                   98, "  ");
   text += wrapped(fmt::format("a scene repeats it with {}", choice.keys()), 98, "  ");
   if (choice.trials.empty()) return text;
-  std::vector<std::vector<std::string>> rows = {
-      {"tried", "macro step", "of critical", "error of displacement", "set-up", "a step", "the run"}};
+  std::vector<std::vector<std::string>> rows = {{"tried", "macro step", "of critical",
+                                                 "error of displacement", "set-up", "a step",
+                                                 "the run"}};
   std::string out;
   for (const CycleTrial& trial : choice.trials) {
-    rows.push_back({trial.cycle, in_units(trial.macro_step, "s"), fmt::format("{:.3g} x", trial.over_critical),
+    rows.push_back({trial.cycle, in_units(trial.macro_step, "s"),
+                    fmt::format("{:.3g} x", trial.over_critical),
                     trial.error ? fmt::format("{:.2g} %", 100 * *trial.error) : "none",
-                    in_units(trial.set_up_time, "s"), in_units(trial.step_time, "s"), in_units(trial.run_time, "s")});
+                    in_units(trial.set_up_time, "s"), in_units(trial.step_time, "s"),
+                    in_units(trial.run_time, "s")});
     if (!trial.reason.empty())
-      out += wrapped(fmt::format("{} at {:.3g} x: {}", trial.cycle, trial.over_critical, trial.reason), 98, "  ");
+      out +=
+          wrapped(fmt::format("{} at {:.3g} x: {}", trial.cycle, trial.over_critical, trial.reason),
+                  98, "  ");
   }
   return text + text_table(rows, "<>>>>>>") + out +
-         fmt::format("  in trials of {} from {} on, which took {}\n", in_units(choice.duration, "s"),
-                     in_units(choice.start, "s"), in_units(choice.spent, "s"));
+         fmt::format("  in trials of {} from {} on, which took {}\n",
+                     in_units(choice.duration, "s"), in_units(choice.start, "s"),
+                     in_units(choice.spent, "s"));
 }
 
 ChoiceJson choice_json(const std::optional<CycleChoice>& choice) {

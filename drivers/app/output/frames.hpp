@@ -33,16 +33,19 @@ struct VtuGrid {
 };
 
 /// The grid as VTK's XML file (.vtu), its numbers appended in raw binary, double precision.
-/// Source: the VTK file formats, https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
+/// Source: the VTK file formats,
+/// https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 std::string vtu_text(const VtuGrid& grid);
 
-/// A film: one file per point in time in the folder `frames`, and beside it the collection that viewers open. After
-/// every frame the collection on disk names the frames that are there.
+/// A film: one file per point in time in the folder `frames`, and beside it the collection that
+/// viewers open. After every frame the collection on disk names the frames that are there.
 class Frames {
  public:
-  /// Writes folder/frames/NAME_0000.vtu ... and folder/NAME.pvd, or another COLLECTION. The first frames, at these `times`,
-  /// are there already; those of a former run behind them are removed. InputError where one is missing.
-  Frames(std::filesystem::path folder, std::string name, std::string collection, const std::vector<double>& times = {});
+  /// Writes folder/frames/NAME_0000.vtu ... and folder/NAME.pvd, or another COLLECTION. The first
+  /// frames, at these `times`, are there already; those of a former run behind them are removed.
+  /// InputError where one is missing.
+  Frames(std::filesystem::path folder, std::string name, std::string collection,
+         const std::vector<double>& times = {});
   void write(const VtuGrid& grid);
   void cut_back(std::size_t count);  ///< to the first so many: what comes next replaces the others
   std::size_t count() const { return entries_; }

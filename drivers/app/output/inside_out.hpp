@@ -10,39 +10,49 @@
 
 namespace plica::app {
 
-/// Elements that the frames of a run have shown inside out, J <= 0, where the material lets them be so and nobody asked for it.
+/// Elements that the frames of a run have shown inside out, J <= 0, where the material lets them be
+/// so and nobody asked for it.
 class InsideOut {
  public:
   explicit InsideOut(const MaterialOptions& material)
-      : material_(material.model), looks_(allows_inversion(material) && !material.allow_inversion) {}
+      : material_(material.model),
+        looks_(allows_inversion(material) && !material.allow_inversion) {}
 
   /// Whether there is anything to look for.
   bool looks() const { return looks_; }
 
   void look(double time, const ElementFields& fields) {
-    const auto count = static_cast<double>(std::ranges::count_if(fields.J, [](double J) { return J <= 0; }));
+    const auto count =
+        static_cast<double>(std::ranges::count_if(fields.J, [](double J) { return J <= 0; }));
     if (count == 0) return;
     if (most_ == 0) first_ = time;
     least_ = std::min(least_, *std::ranges::min_element(fields.J));
     if (count > most_)
-      most_ = count, at_ = time, all_ = static_cast<double>(fields.J.size()), per_vertex_ = fields.per_vertex;
+      most_ = count, at_ = time, all_ = static_cast<double>(fields.J.size()),
+      per_vertex_ = fields.per_vertex;
   }
 
   /// What there is to go on from, and going on from it.
-  std::vector<double> save() const { return {most_, all_, first_, at_, least_, per_vertex_ ? 1.0 : 0.0}; }
+  std::vector<double> save() const {
+    return {most_, all_, first_, at_, least_, per_vertex_ ? 1.0 : 0.0};
+  }
   void restore(const std::vector<double>& saved) {
     if (saved.size() < 6) return;
-    most_ = saved[0], all_ = saved[1], first_ = saved[2], at_ = saved[3], least_ = saved[4], per_vertex_ = saved[5] > 0;
+    most_ = saved[0], all_ = saved[1], first_ = saved[2], at_ = saved[3], least_ = saved[4],
+    per_vertex_ = saved[5] > 0;
   }
 
   /// A sentence where there were any, else nothing.
   std::string warning() const {
     if (most_ == 0) return {};
-    return text("body.material: elements turned inside out, first at ", number(first_, 4), " s; at ", number(at_, 4),
-                " s ", per_vertex_ ? "those around " : "", static_cast<long>(most_), " of ", static_cast<long>(all_),
-                per_vertex_ ? " vertices" : " elements", " were, with J down to ", number(least_, 3), ". ", material_,
-                " does not stop the run there, but tissue cannot do this: expected a material that does, such as "
-                "neo_hookean, or allow_inversion: false; allow_inversion: true leaves out this warning");
+    return text(
+        "body.material: elements turned inside out, first at ", number(first_, 4), " s; at ",
+        number(at_, 4), " s ", per_vertex_ ? "those around " : "", static_cast<long>(most_), " of ",
+        static_cast<long>(all_), per_vertex_ ? " vertices" : " elements", " were, with J down to ",
+        number(least_, 3), ". ", material_,
+        " does not stop the run there, but tissue cannot do this: expected a material that does, "
+        "such as "
+        "neo_hookean, or allow_inversion: false; allow_inversion: true leaves out this warning");
   }
 
  private:

@@ -10,8 +10,8 @@
 /// What several results have in common: rows, materials, obstacles, the machine.
 namespace plica::app {
 
-/// JSON as the program writes it: indented, with an end of line. Bytes that are not UTF-8, as names of files may have them, become
-/// U+FFFD.
+/// JSON as the program writes it: indented, with an end of line. Bytes that are not UTF-8, as names
+/// of files may have them, become U+FFFD.
 inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -34,7 +34,8 @@ inline std::string csv_field(const nlohmann::ordered_json& value) {
   if (!value.is_string()) return value.dump();
   std::string text = value.get<std::string>();
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '"');
   return '"' + text + '"';
 }
 
@@ -43,7 +44,8 @@ inline std::string csv_table(const nlohmann::ordered_json& rows) {
   std::string text;
   const auto add_line = [&text](const nlohmann::ordered_json& row, bool names) {
     std::string line;
-    for (const auto& [name, value] : row.items()) line += "," + csv_field(names ? nlohmann::ordered_json(name) : value);
+    for (const auto& [name, value] : row.items())
+      line += "," + csv_field(names ? nlohmann::ordered_json(name) : value);
     text += line.substr(std::min<std::size_t>(1, line.size())) + "\n";
   };
   for (const auto& row : rows) {
@@ -53,8 +55,8 @@ inline std::string csv_table(const nlohmann::ordered_json& rows) {
   return text;
 }
 
-/// A material of this kind: "neo_hookean, young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3". The parameters are those
-/// that the material declares.
+/// A material of this kind: "neo_hookean, young_modulus 20 kPa, poisson_ratio 0.4, density 1000
+/// kg/m^3". The parameters are those that the material declares.
 std::string material_text(const MaterialInfo& info, const MaterialOptions& material);
 
 /// The same: {"model", each parameter by its name, "density"}, in SI units.

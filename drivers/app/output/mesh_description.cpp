@@ -14,13 +14,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json range_json(const Range& range) { return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}}; }
+Json range_json(const Range& range) {
+  return {{"min", range.min}, {"mean", range.mean}, {"max", range.max}};
+}
 
-Json histogram_json(const Histogram& histogram) { return {{"bounds", histogram.bounds}, {"counts", histogram.counts}}; }
+Json histogram_json(const Histogram& histogram) {
+  return {{"bounds", histogram.bounds}, {"counts", histogram.counts}};
+}
 
 Json point_json(const Point& p) { return Json{p.x(), p.y(), p.z()}; }
 
-Json box_json(const Box& box) { return {{"min", point_json(box.min)}, {"max", point_json(box.max)}}; }
+Json box_json(const Box& box) {
+  return {{"min", point_json(box.min)}, {"max", point_json(box.max)}};
+}
 
 Json worst_json(const MeshDescription& m) {
   Json worst = Json::array();
@@ -31,7 +37,8 @@ Json worst_json(const MeshDescription& m) {
     worst.push_back(
         {{"tet", s.tet},
          {"number", m.read.report.tet_tags[tet]},
-         {"region", mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[tet])]},
+         {"region",
+          mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[tet])]},
          {"volume", s.volume},
          {"height_ratio", s.height_ratio},
          {"smallest_angle", s.smallest_angle},
@@ -113,16 +120,19 @@ std::string spread(const Range& range) {
 }
 
 std::string lengths(const Range& range) {
-  return in_units(range.min, "m") + " / " + in_units(range.mean, "m") + " / " + in_units(range.max, "m");
+  return in_units(range.min, "m") + " / " + in_units(range.mean, "m") + " / " +
+         in_units(range.max, "m");
 }
 
-std::string at(const Point& p) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}] m", p.x(), p.y(), p.z()); }
+std::string at(const Point& p) {
+  return fmt::format("[{:.4g}, {:.4g}, {:.4g}] m", p.x(), p.y(), p.z());
+}
 
 void add_box(const Box& box, Rows& rows) {
   const Point size = box.max - box.min;
   rows.push_back({"box", at(box.min) + " to " + at(box.max)});
-  rows.push_back(
-      {"", fmt::format("{} x {} x {}", in_units(size.x(), "m"), in_units(size.y(), "m"), in_units(size.z(), "m"))});
+  rows.push_back({"", fmt::format("{} x {} x {}", in_units(size.x(), "m"), in_units(size.y(), "m"),
+                                  in_units(size.z(), "m"))});
 }
 
 std::string warnings_text(const std::vector<std::string>& warnings) {
@@ -133,13 +143,15 @@ std::string warnings_text(const std::vector<std::string>& warnings) {
 
 std::string facts_text(const MeshDescription& m) {
   const MeshQuality& q = m.quality;
-  Rows rows = {{"format", m.read.report.format},
-               {"vertices", std::to_string(q.vertices)},
-               {"tetrahedra", std::to_string(q.tets)},
-               {"boundary", fmt::format("{} triangles, {:.4g} m^2", q.boundary_triangles, q.boundary_area)},
-               {"volume", fmt::format("{:.4g} m^3 in {}", q.volume, counted(q.parts, "connected part"))}};
+  Rows rows = {
+      {"format", m.read.report.format},
+      {"vertices", std::to_string(q.vertices)},
+      {"tetrahedra", std::to_string(q.tets)},
+      {"boundary", fmt::format("{} triangles, {:.4g} m^2", q.boundary_triangles, q.boundary_area)},
+      {"volume", fmt::format("{:.4g} m^3 in {}", q.volume, counted(q.parts, "connected part"))}};
   add_box(q.box, rows);
-  for (const auto& [kind, count] : m.read.report.other_elements) rows.push_back({"not used", counted(count, kind)});
+  for (const auto& [kind, count] : m.read.report.other_elements)
+    rows.push_back({"not used", counted(count, kind)});
   return text_table(rows, "<<");
 }
 
@@ -147,12 +159,14 @@ std::string groups_text(const MeshDescription& m) {
   Rows rows;
   for (const RegionSize& region : m.quality.regions)
     if (!region.name.empty())
-      rows.push_back(
-          {region.name, "region", fmt::format("{} tetrahedra", region.tets), fmt::format("{:.4g} m^3", region.volume)});
+      rows.push_back({region.name, "region", fmt::format("{} tetrahedra", region.tets),
+                      fmt::format("{:.4g} m^3", region.volume)});
   for (const auto& [name, vertices] : m.read.mesh.vertex_sets)
     rows.push_back(
-        {name, "vertices", fmt::format("{} {}", vertices.size(), vertices.size() == 1 ? "vertex" : "vertices"), ""});
-  return rows.empty() ? "" : "\nGroups, by the names that a scene uses\n" + text_table(rows, "<<>>");
+        {name, "vertices",
+         fmt::format("{} {}", vertices.size(), vertices.size() == 1 ? "vertex" : "vertices"), ""});
+  return rows.empty() ? ""
+                      : "\nGroups, by the names that a scene uses\n" + text_table(rows, "<<>>");
 }
 
 std::string steps_text(const MeshDescription& m) {
@@ -166,15 +180,17 @@ std::string steps_text(const MeshDescription& m) {
 std::string shapes_text(const MeshDescription& m) {
   const MeshQuality& q = m.quality;
   const bool regions = !m.read.mesh.region.empty();
-  Rows worst = {{"tetrahedron", "region", "edge / height", "angles between faces", "step alone", "at"}};
+  Rows worst = {
+      {"tetrahedron", "region", "edge / height", "angles between faces", "step alone", "at"}};
   for (std::size_t i = 0; i < q.worst.size(); ++i) {
     const TetShape& shape = q.worst[i];
     const auto tet = static_cast<std::size_t>(shape.tet);
-    worst.push_back({std::to_string(m.read.report.tet_tags[tet]),
-                     regions ? m.read.mesh.region_names[static_cast<std::size_t>(m.read.mesh.region[tet])] : "",
-                     fmt::format("{:.3g}", shape.height_ratio),
-                     fmt::format("{:.1f} - {:.1f} deg", shape.smallest_angle, shape.largest_angle),
-                     in_units(m.worst_bounds[i], "s"), at(shape.centroid)});
+    worst.push_back(
+        {std::to_string(m.read.report.tet_tags[tet]),
+         regions ? m.read.mesh.region_names[static_cast<std::size_t>(m.read.mesh.region[tet])] : "",
+         fmt::format("{:.3g}", shape.height_ratio),
+         fmt::format("{:.1f} - {:.1f} deg", shape.smallest_angle, shape.largest_angle),
+         in_units(m.worst_bounds[i], "s"), at(shape.centroid)});
   }
   if (!regions)
     for (auto& row : worst) row.erase(row.begin() + 1);
@@ -183,7 +199,8 @@ std::string shapes_text(const MeshDescription& m) {
                      {"longest edge / smallest height", spread(q.height_ratios) + " (best: 1.22)"},
                      {"angles between faces", spread(q.dihedral_angles) + " deg (best: 70.5)"}},
                     "<<") +
-         "\nThe worst, by their numbers in the file\n" + text_table(worst, regions ? "><>>><" : ">>>><");
+         "\nThe worst, by their numbers in the file\n" +
+         text_table(worst, regions ? "><>>><" : ">>>><");
 }
 
 std::string histogram_text(const std::string& title, const Histogram& histogram) {
@@ -192,7 +209,8 @@ std::string histogram_text(const std::string& title, const Histogram& histogram)
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     if (histogram.counts[i] == 0) continue;
     const auto length = static_cast<std::size_t>(40.0 * histogram.counts[i] / largest + 0.999);
-    rows.push_back({fmt::format("{:g}", histogram.bounds[i]), fmt::format("{:g}", histogram.bounds[i + 1]),
+    rows.push_back({fmt::format("{:g}", histogram.bounds[i]),
+                    fmt::format("{:g}", histogram.bounds[i + 1]),
                     std::to_string(histogram.counts[i]), std::string(length, '#')});
   }
   return rows.empty() ? "" : "\n" + title + ", from and to\n" + text_table(rows, ">>><");
@@ -201,7 +219,8 @@ std::string histogram_text(const std::string& title, const Histogram& histogram)
 }  // namespace
 
 std::string mesh_text(const MeshDescription& m) {
-  return m.file + "\n" + facts_text(m) + warnings_text(m.warnings) + groups_text(m) + steps_text(m) + shapes_text(m) +
+  return m.file + "\n" + facts_text(m) + warnings_text(m.warnings) + groups_text(m) +
+         steps_text(m) + shapes_text(m) +
          histogram_text("Longest edge / smallest height", m.quality.height_ratio_counts) +
          histogram_text("Angles between faces [deg]", m.quality.dihedral_angle_counts);
 }
@@ -209,13 +228,14 @@ std::string mesh_text(const MeshDescription& m) {
 std::string surface_text(const SurfaceDescription& s) {
   const TriangleSurface& surface = s.read.surface;
   const SurfaceReport& report = s.read.report;
-  Rows rows = {
-      {"format", report.format},
-      {"vertices", std::to_string(surface.vertices.size())},
-      {"triangles", std::to_string(surface.triangles.size())},
-      {"closed", report.closed() ? "yes" : "no"},
-      {"area", fmt::format("{:.4g} m^2 in {}", surface_area(surface), counted(report.parts, "connected part"))}};
-  if (report.closed()) rows.push_back({"volume", fmt::format("{:.4g} m^3", enclosed_volume(surface))});
+  Rows rows = {{"format", report.format},
+               {"vertices", std::to_string(surface.vertices.size())},
+               {"triangles", std::to_string(surface.triangles.size())},
+               {"closed", report.closed() ? "yes" : "no"},
+               {"area", fmt::format("{:.4g} m^2 in {}", surface_area(surface),
+                                    counted(report.parts, "connected part"))}};
+  if (report.closed())
+    rows.push_back({"volume", fmt::format("{:.4g} m^3", enclosed_volume(surface))});
   add_box(bounding_box(surface.vertices), rows);
   rows.push_back({"edges", lengths(edge_range(surface)) + " (smallest / mean / largest)"});
   return s.file + "\n" + text_table(rows, "<<") + warnings_text(s.warnings);

@@ -15,7 +15,8 @@ struct MeshDescription {
   MeshQuality quality;
   std::vector<std::string> warnings;
   MaterialOptions material;
-  double critical_step = 0;          ///< with that material, of symplectic Euler, without contact [s]
+  /// with that material, of symplectic Euler, without contact [s]
+  double critical_step = 0;
   double element_bound = 0;          ///< the same from the worst single element [s]
   std::vector<double> worst_bounds;  ///< of each of quality.worst alone [s]
 };

@@ -31,28 +31,34 @@ std::string elements_text(const Body& body, const Plan& plan) {
     if (!has_elements(level)) continue;
     text += (text.empty() ? "" : ", ") + level.element;
     if (level.element == name_of(Element::nodal))
-      text += fmt::format(" (stabilisation {:g}{}{})", body.stabilisation, smoothed ? ", pressures smoothed" : "",
-                          smoothed && !level.explicit_integrator ? " and carried by implicit steps" : "");
+      text += fmt::format(
+          " (stabilisation {:g}{}{})", body.stabilisation, smoothed ? ", pressures smoothed" : "",
+          smoothed && !level.explicit_integrator ? " and carried by implicit steps" : "");
   }
-  return text + fmt::format("; about {:.2g} across the thickness of level 0", elements_across(body.levels.front()));
+  return text + fmt::format("; about {:.2g} across the thickness of level 0",
+                            elements_across(body.levels.front()));
 }
 
 std::string head_text(const Scene& scene, const Plan& plan) {
   const MaterialOptions& m = scene.problem.body.material;
   const IntegrationOptions& i = scene.problem.integration;
-  const std::string shift =
-      i.shift_to_coarsest > 0 ? fmt::format(", {:g} of each to the coarsest", i.shift_to_coarsest) : "";
+  const std::string shift = i.shift_to_coarsest > 0
+                                ? fmt::format(", {:g} of each to the coarsest", i.shift_to_coarsest)
+                                : "";
   return fmt::format("{} ({})\n", scene.name, scene.file) +
          text_table(
-             {{"time", fmt::format("{:g} s in {} of {}", scene.duration,
-                                   counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
-                                   in_units(plan.macro_step, "s"))},
-              {"cycle",
-               fmt::format("{}{}", cycle_name(scene, plan.choice),
-                           plan.him || plan.choice ? "" : fmt::format(", {} shares{}", i.distribution, shift))},
+             {{"time",
+               fmt::format("{:g} s in {} of {}", scene.duration,
+                           counted(steps_to_cover(scene.duration, plan.macro_step), "macro step"),
+                           in_units(plan.macro_step, "s"))},
+              {"cycle", fmt::format("{}{}", cycle_name(scene, plan.choice),
+                                    plan.him || plan.choice
+                                        ? ""
+                                        : fmt::format(", {} shares{}", i.distribution, shift))},
               {"material", material_text(*find_material(m.model), m)},
               {"elements", elements_text(scene.problem.body, plan)},
-              {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend, counted(plan.threads, "thread"))}},
+              {"machine", fmt::format("{} on {}, {}", plan.precision, plan.backend,
+                                      counted(plan.threads, "thread"))}},
              "<<");
 }
 
@@ -63,28 +69,33 @@ std::string inertia_text(const Scene& scene, const Plan& plan) {
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
     const double own = level.detail_step;
-    rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia), own > 0 ? in_units(own, "s") : "",
+    rows.push_back({std::to_string(i), fmt::format("{:.3g} x", level.inertia),
+                    own > 0 ? in_units(own, "s") : "",
                     own > 0 ? fmt::format("{:.3g}", plan.macro_step / own) : ""});
   }
   std::string advice;
-  for (const std::string& sentence : him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step))
+  for (const std::string& sentence :
+       him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step))
     advice += wrapped(sentence, 98, "  ");
   return "\nThe hierarchical inverse mass\n" + text_table(rows, ">>>>") +
          fmt::format(
-             "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the levels' own: {:.3f}\n",
+             "t^2 times the largest eigenvalue of A K at rest: {:.3f}, below 4 is stable; by the "
+             "levels' own: {:.3f}\n",
              plan.him->product, plan.him->bound) +
          advice;
 }
 
-// The elements that set a level's critical step, where they are out of the ordinary: below half the median
+// The elements that set a level's critical step, where they are out of the ordinary: below half the
+// median
 std::string slivers_text(const Plan& plan) {
   std::vector<std::vector<std::string>> rows = {
       {"level", "element", "edge / height", "step by itself", "of the median", "region"}};
   for (std::size_t i = 0; i < plan.levels.size(); ++i)
     for (const StiffElement& e : plan.levels[i].stiffest)
       if (const double median = plan.levels[i].typical_element; e.step < named_below * median)
-        rows.push_back({std::to_string(i), std::to_string(e.element), fmt::format("{:.3g}", e.height_ratio),
-                        in_units(e.step, "s"), fmt::format("{:.2g}", e.step / median), e.region});
+        rows.push_back({std::to_string(i), std::to_string(e.element),
+                        fmt::format("{:.3g}", e.height_ratio), in_units(e.step, "s"),
+                        fmt::format("{:.2g}", e.step / median), e.region});
   if (rows.size() == 1) return {};
   return "\nElements that limit the step, at most ten of a level\n" + text_table(rows, ">>>>><");
 }
@@ -95,9 +106,10 @@ std::string spaces_text(const Plan& plan) {
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
     if (!has_elements(level))
-      rows.push_back({std::to_string(i), std::to_string(level.vertices),
-                      level.kind == LevelKind::space ? in_units(level.mean_edge, "m") : "slivers follow",
-                      fmt::format("{:.1f}", level.nonzeros)});
+      rows.push_back(
+          {std::to_string(i), std::to_string(level.vertices),
+           level.kind == LevelKind::space ? in_units(level.mean_edge, "m") : "slivers follow",
+           fmt::format("{:.1f}", level.nonzeros)});
   }
   return rows.size() == 1 ? "" : "\nCoarse spaces, made of level 0\n" + text_table(rows, ">>>>");
 }
@@ -111,10 +123,12 @@ std::string levels_text(const Scene& scene, const Plan& plan) {
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const LevelReport& level = plan.levels[i];
     if (!has_elements(level)) continue;
-    const std::string filled =
-        level.kind == LevelKind::lattice ? fmt::format(", {:.1f} % filled", 100 * level.filled) : "";
-    meshes.push_back({std::to_string(i), std::to_string(level.vertices), std::to_string(level.tets) + filled,
-                      in_units(level.mean_edge, "m"), in_units(level.mass, "kg"),
+    const std::string filled = level.kind == LevelKind::lattice
+                                   ? fmt::format(", {:.1f} % filled", 100 * level.filled)
+                                   : "";
+    meshes.push_back({std::to_string(i), std::to_string(level.vertices),
+                      std::to_string(level.tets) + filled, in_units(level.mean_edge, "m"),
+                      in_units(level.mass, "kg"),
                       level.critical_step > 0 ? in_units(level.critical_step, "s") : "",
                       in_units(level.element_bound, "s")});
     if (level.share == 0) continue;
@@ -124,9 +138,11 @@ std::string levels_text(const Scene& scene, const Plan& plan) {
                      fmt::format("{:.2f}", substep / level.critical_step),
                      level.integrator + (level.explicit_integrator ? "" : " (no limit)")});
   }
-  const std::string list = "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + spaces_text(plan);
+  const std::string list =
+      "\nLevels, finest first\n" + text_table(meshes, ">>>>>>>") + spaces_text(plan);
   if (plan.him) return list + inertia_text(scene, plan);
-  return list + "\nIn a macro step (the coarsest level goes first)\n" + text_table(steps, ">>>>>><");
+  return list + "\nIn a macro step (the coarsest level goes first)\n" +
+         text_table(steps, ">>>>>><");
 }
 
 std::string transfers_text(const Plan& plan) {
@@ -146,7 +162,8 @@ std::string parts_text(const Plan& plan) {
   std::vector<std::vector<std::string>> rows;
   std::size_t bytes = 0;
   for (const Part& part : plan.parts) {
-    rows.push_back({part.in ? "in" : "out", part.name, part.in ? in_bytes(part.bytes) : "", part.reason});
+    rows.push_back(
+        {part.in ? "in" : "out", part.name, part.in ? in_bytes(part.bytes) : "", part.reason});
     bytes += part.bytes;
   }
   return fmt::format("\nParts, {} on the device\n", in_bytes(bytes)) + text_table(rows, "<<><");
@@ -155,33 +172,34 @@ std::string parts_text(const Plan& plan) {
 }  // namespace
 
 std::string plan_text(const Scene& scene, const Plan& plan) {
-  return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") + levels_text(scene, plan) +
-         slivers_text(plan) + transfers_text(plan) + parts_text(plan);
+  return head_text(scene, plan) + (plan.choice ? choice_text(*plan.choice) : "") +
+         levels_text(scene, plan) + slivers_text(plan) + transfers_text(plan) + parts_text(plan);
 }
 
 std::string plan_json(const Scene& scene, const Plan& plan) {
   Json parts = Json::array();
   for (const Part& part : plan.parts)
-    parts.push_back({{"name", part.name}, {"in", part.in}, {"reason", part.reason}, {"bytes", part.bytes}});
-  const Json json = {
-      {"name", scene.name},
-      {"scene", scene.file},
-      {"duration", scene.duration},
-      {"macro_step", plan.macro_step},
-      {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
-      {"cycle", cycle_name(scene, plan.choice)},
-      {"choice", choice_json(plan.choice)},
-      {"precision", plan.precision},
-      {"backend", plan.backend},
-      {"threads", plan.threads},
-      {"levels", levels_json(plan.levels)},
-      {"him", plan.him ? Json{{"product", plan.him->product},
-                              {"bound", plan.him->bound},
-                              {"coarsest_vertices", plan.him->coarsest},
-                              {"all_modes", plan.him->all_modes},
-                              {"advice", him_advice(scene.problem, *plan.him, plan.levels, plan.macro_step)}}
-                       : Json(nullptr)},
-      {"parts", parts}};
+    parts.push_back(
+        {{"name", part.name}, {"in", part.in}, {"reason", part.reason}, {"bytes", part.bytes}});
+  const Json json = {{"name", scene.name},
+                     {"scene", scene.file},
+                     {"duration", scene.duration},
+                     {"macro_step", plan.macro_step},
+                     {"macro_steps", steps_to_cover(scene.duration, plan.macro_step)},
+                     {"cycle", cycle_name(scene, plan.choice)},
+                     {"choice", choice_json(plan.choice)},
+                     {"precision", plan.precision},
+                     {"backend", plan.backend},
+                     {"threads", plan.threads},
+                     {"levels", levels_json(plan.levels)},
+                     {"him", plan.him ? Json{{"product", plan.him->product},
+                                             {"bound", plan.him->bound},
+                                             {"coarsest_vertices", plan.him->coarsest},
+                                             {"all_modes", plan.him->all_modes},
+                                             {"advice", him_advice(scene.problem, *plan.him,
+                                                                   plan.levels, plan.macro_step)}}
+                                      : Json(nullptr)},
+                     {"parts", parts}};
   return json_text(json);
 }
 

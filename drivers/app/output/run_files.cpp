@@ -19,13 +19,15 @@ namespace {
 
 bool is_closed(const GraspOptions& grasp, double time, double macro_step) {
   for (std::size_t i = 0; i < grasp.from.size(); ++i)
-    if (grasp.from[i] + macro_step < time && (i >= grasp.until.size() || time < grasp.until[i])) return true;
+    if (grasp.from[i] + macro_step < time && (i >= grasp.until.size() || time < grasp.until[i]))
+      return true;
   return false;
 }
 
 }  // namespace
 
-std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now, double macro_step) {
+std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now,
+                                      double macro_step) {
   std::vector<std::string> names;
   for (std::size_t o = 0; o < contact.obstacles.size(); ++o) {
     const auto& grasp = contact.obstacles[o].grasp;
@@ -49,7 +51,8 @@ constexpr const char* history_columns =
     "com_x,com_y,com_z,max_speed,rms_speed";
 
 bool has_strength(const ContactOptions& contact) {
-  return std::ranges::any_of(contact.attachments, [](const auto& a) { return a.strength.has_value(); });
+  return std::ranges::any_of(contact.attachments,
+                             [](const auto& a) { return a.strength.has_value(); });
 }
 
 std::vector<std::size_t> rubbing_obstacles(const ContactOptions& contact) {
@@ -81,7 +84,8 @@ std::string history_head(const Problem& problem) {
         add(obstacle_name(problem.contact, o), {"rotation", "angular_velocity"});
     }
   for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
-    if (problem.contact.obstacles[o].grasp) all += fmt::format(",{}.held", obstacle_name(problem.contact, o));
+    if (problem.contact.obstacles[o].grasp)
+      all += fmt::format(",{}.held", obstacle_name(problem.contact, o));
   for (std::size_t i = 0; i < problem.body.loads.size(); ++i)
     if (std::holds_alternative<EnclosedVolume>(problem.body.loads[i].load))
       all += fmt::format(",load_{0}.volume,load_{0}.pressure", i);
@@ -94,8 +98,8 @@ std::string history_head(const Problem& problem) {
 
 }  // namespace
 
-History::History(const std::filesystem::path& file, std::vector<double> masses, const Problem& problem,
-                 std::optional<std::uint64_t> kept)
+History::History(const std::filesystem::path& file, std::vector<double> masses,
+                 const Problem& problem, std::optional<std::uint64_t> kept)
     : file_(kept ? GrowingFile(file, *kept) : GrowingFile(file, history_head(problem))),
       masses_(std::move(masses)),
       tears_(has_strength(problem.contact)),
@@ -115,17 +119,21 @@ void History::write(const Snapshot& s) {
   }
   centre /= mass;
   const Energies& e = s.energies;
-  std::string row = fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", s.time,
-                                e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(), centre.y(),
-                                centre.z(), std::sqrt(max_square), std::sqrt(sum_square / mass));
-  const auto add = [&](const Point& p) { row += fmt::format(",{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z()); };
+  std::string row =
+      fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}",
+                  s.time, e.kinetic, e.elastic, e.potential, e.contact, e.total(), centre.x(),
+                  centre.y(), centre.z(), std::sqrt(max_square), std::sqrt(sum_square / mass));
+  const auto add = [&](const Point& p) {
+    row += fmt::format(",{:.9g},{:.9g},{:.9g}", p.x(), p.y(), p.z());
+  };
   for (const Wrench& w : s.wrenches) add(w.force), add(w.torque);
   for (const ToolState& t : s.tools) {
     add(t.displacement), add(t.velocity);
     if (t.turns) add(t.rotation), add(t.angular_velocity);
   }
   for (const HeldBy& h : s.held) row += fmt::format(",{}", h.points.size());
-  for (const CavityState& c : s.cavities) row += fmt::format(",{:.9g},{:.9g}", c.volume, c.pressure);
+  for (const CavityState& c : s.cavities)
+    row += fmt::format(",{:.9g},{:.9g}", c.volume, c.pressure);
   if (halves_) row += fmt::format(",{}", s.step_halvings);
   if (rubs_) row += fmt::format(",{:.9g}", s.friction_work);
   for (const std::size_t o : rubbing_) row += fmt::format(",{:.9g}", s.slipping.at(o));
@@ -137,8 +145,8 @@ namespace {
 
 constexpr const char* fibre_field = "fibre";
 
-std::vector<Point> displacements(const std::vector<Point>& positions, const std::vector<Point>& rest,
-                                 const Point& placement) {
+std::vector<Point> displacements(const std::vector<Point>& positions,
+                                 const std::vector<Point>& rest, const Point& placement) {
   std::vector<Point> result(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) result[i] = positions[i] - rest[i] - placement;
   return result;
@@ -160,7 +168,8 @@ std::vector<int> flat(const std::vector<std::array<int, N>>& cells) {
 }
 
 Body with_regions(Body body) {
-  for (std::size_t i = 0; i < body.levels.size(); ++i) add_regions(body.levels[i], body.regions, static_cast<int>(i));
+  for (std::size_t i = 0; i < body.levels.size(); ++i)
+    add_regions(body.levels[i], body.regions, static_cast<int>(i));
   return body;
 }
 
@@ -172,7 +181,9 @@ void add_fibres(Body& body, std::size_t level) {
   body.levels[level].tet_vectors[fibre_field] = std::move(directions);
 }
 
-std::string volume_name(int level) { return level == 0 ? "volume" : fmt::format("volume_level{}", level); }
+std::string volume_name(int level) {
+  return level == 0 ? "volume" : fmt::format("volume_level{}", level);
+}
 
 std::vector<int> written_levels(const Scene& scene) {
   const VolumeLevels& chosen = scene.output.volume;
@@ -182,8 +193,8 @@ std::vector<int> written_levels(const Scene& scene) {
   return levels;
 }
 
-// The checkpoint is removed first: without its files it is worthless. A page is removed with the run that it shows; where there is none, it
-// is of something else
+// The checkpoint is removed first: without its files it is worthless. A page is removed with the
+// run that it shows; where there is none, it is of something else
 const std::filesystem::path& without_former_run(const std::filesystem::path& folder) {
   std::error_code ignored;
   const bool has_run = !former_run(folder).empty();
@@ -192,7 +203,8 @@ const std::filesystem::path& without_former_run(const std::filesystem::path& fol
   if (has_run) std::filesystem::remove(folder / "report.html", ignored);
   std::vector<std::string> films = {"volume"};
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".pvd" && entry.path().stem().string().starts_with("volume_level"))
+    if (entry.path().extension() == ".pvd" &&
+        entry.path().stem().string().starts_with("volume_level"))
       films.push_back(entry.path().stem().string());
   for (const std::string& film : films) Frames(folder, film, film + ".pvd");
   return folder;
@@ -202,24 +214,28 @@ const std::filesystem::path& without_former_run(const std::filesystem::path& fol
 
 std::vector<std::string> former_run(const std::filesystem::path& folder) {
   std::vector<std::string> found;
-  for (const char* file : {"checkpoint.bin", "summary.json", "history.csv", "probes.csv", "frames.pvd"})
+  for (const char* file :
+       {"checkpoint.bin", "summary.json", "history.csv", "probes.csv", "frames.pvd"})
     if (std::filesystem::exists(folder / file)) found.emplace_back(file);
   return found;
 }
 
-RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from)
+RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder,
+                   const std::optional<FilesMark>& from)
     : body_(with_regions(scene.problem.body)),
       numbering_(scene.numbering),
       placement_(placement_of(body_)),
       volume_levels_(written_levels(scene)),
       frame_times_(from ? from->frame_times : std::vector<double>{}),
-      surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd", frame_times_),
+      surface_frames_(from ? folder : without_former_run(folder), "surface", "frames.pvd",
+                      frame_times_),
       history_(folder / "history.csv", vertex_masses(body_), scene.problem,
                from ? std::optional(from->history_bytes) : std::nullopt) {
   std::error_code ignored;
   std::filesystem::remove(folder / "summary.json", ignored);
   for (const int level : volume_levels_) {
-    volume_frames_.emplace_back(folder, volume_name(level), volume_name(level) + ".pvd", frame_times_);
+    volume_frames_.emplace_back(folder, volume_name(level), volume_name(level) + ".pvd",
+                                frame_times_);
     const auto i = static_cast<std::size_t>(level);
     if (has_fibres(body_)) add_fibres(body_, i);
     volumes_.push_back({in_input_order(body_.levels[i], numbering_[i]),
@@ -228,15 +244,17 @@ RunFiles::RunFiles(const Scene& scene, const std::filesystem::path& folder, cons
   if (body_.surface) {
     skin_ = *body_.surface;
   } else {
-    BoundarySurface boundary = boundary_surface(in_input_order(body_.levels.front(), numbering_.front()));
+    BoundarySurface boundary =
+        boundary_surface(in_input_order(body_.levels.front(), numbering_.front()));
     skin_ = std::move(boundary.surface);
     skin_vertex_ = std::move(boundary.mesh_vertex);
     if (const auto& vertices = numbering_.front().input.vertices; !vertices.empty())
       for (int& v : skin_vertex_) v = vertices[static_cast<std::size_t>(v)];
   }
   if (body_.parts.empty()) return;
-  const std::vector<int> part =
-      body_.surface ? parts_of_points(body_.parts) : parts_of_vertices(body_.levels.front(), body_.parts);
+  const std::vector<int> part = body_.surface
+                                    ? parts_of_points(body_.parts)
+                                    : parts_of_vertices(body_.levels.front(), body_.parts);
   for (const auto& t : skin_.triangles) {
     const auto p = static_cast<std::size_t>(t[0]);
     skin_body_.push_back(part[body_.surface ? p : static_cast<std::size_t>(skin_vertex_[p])]);
@@ -270,14 +288,15 @@ VtuGrid RunFiles::surface_grid(const Snapshot& snapshot) const {
   grid.time = snapshot.time;
   grid.points = embedded ? snapshot.surface : gathered(snapshot.positions, skin_vertex_);
   grid.connectivity = flat(skin_.triangles);
-  grid.point_fields = {
-      {"displacement", displacements(grid.points, skin_.vertices, placement_)},
-      {"velocity", embedded ? snapshot.surface_velocities : gathered(snapshot.velocities, skin_vertex_)}};
+  grid.point_fields = {{"displacement", displacements(grid.points, skin_.vertices, placement_)},
+                       {"velocity", embedded ? snapshot.surface_velocities
+                                             : gathered(snapshot.velocities, skin_vertex_)}};
   if (!skin_body_.empty()) grid.cell_fields.push_back({"body", skin_body_});
   return grid;
 }
 
-VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& constant, double time) const {
+VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& constant,
+                              double time) const {
   VtuGrid grid;
   const Numbering& numbering = numbering_[static_cast<std::size_t>(volume.level)];
   const TetMesh& mesh = constant.mesh;
@@ -297,7 +316,8 @@ VtuGrid RunFiles::volume_grid(const VolumeSnapshot& volume, const Volume& consta
   if (has_fibres(body_)) grid.cell_vectors = {{fibre_field, mesh.tet_vectors.at(fibre_field)}};
   const bool has_numbers = !numbering.tet_ids.empty();  // a reader must not take them for regions
   if (!mesh.region.empty() || has_numbers)
-    grid.cell_fields.push_back({"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});
+    grid.cell_fields.push_back(
+        {"region", mesh.region.empty() ? std::vector<int>(mesh.tets.size(), 0) : mesh.region});
   if (has_numbers) grid.cell_fields.push_back({"number", in_input_order(numbering.tet_ids, tets)});
   return grid;
 }
@@ -321,7 +341,8 @@ std::string probe_head(const std::vector<std::string>& names) {
   return head + "\n";
 }
 
-std::string probe_row(double time, const std::vector<Point>& positions, const std::vector<Point>& velocities) {
+std::string probe_row(double time, const std::vector<Point>& positions,
+                      const std::vector<Point>& velocities) {
   std::string row = fmt::format("{:.9g}", time);
   for (std::size_t i = 0; i < positions.size(); ++i)
     for (const Point* p : {&positions[i], &velocities[i]})

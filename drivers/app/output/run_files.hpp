@@ -48,7 +48,8 @@ long halvings_of(const Simulation<B>& simulation) {
 bool has_friction(const ContactOptions& contact);
 
 template <class B>
-Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::vector<int>& volumes) {
+Snapshot take_snapshot(const Simulation<B>& simulation, double time,
+                       const std::vector<int>& volumes) {
   Snapshot snapshot{time,
                     simulation.positions(),
                     simulation.velocities(),
@@ -65,21 +66,24 @@ Snapshot take_snapshot(const Simulation<B>& simulation, double time, const std::
                     simulation.friction_work(),
                     simulation.slipping()};
   for (const int level : volumes)
-    snapshot.volumes.push_back(
-        {level, simulation.positions(level), simulation.velocities(level), simulation.element_fields(level)});
+    snapshot.volumes.push_back({level, simulation.positions(level), simulation.velocities(level),
+                                simulation.element_fields(level)});
   return snapshot;
 }
 
 /// The obstacles that closed by their `grasp`, at least a macro step [s] ago, and hold nothing.
-std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now, double macro_step);
+std::vector<std::string> empty_handed(const ContactOptions& contact, const Snapshot& now,
+                                      double macro_step);
 
 /// Mass at each vertex of a level: a quarter of every tetrahedron around it. [kg]
 std::vector<double> vertex_masses(const Body& body, int level = 0);
 
-/// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad macro steps are retried, how often
-/// one was halved so far; what each of wrench_names() does or feels, over the macro step that ends there; where obstacles with mass are;
-/// how many points those hold that can; volume and pressure in cavities; how often implicit steps were halved so far; with friction its work
-/// so far, and of each obstacle that rubs the part of what touches it that slips; how many attached points are torn.
+/// history.csv: energies, centre of mass and speeds of level 0, a row per output time; where bad
+/// macro steps are retried, how often one was halved so far; what each of wrench_names() does or
+/// feels, over the macro step that ends there; where obstacles with mass are; how many points those
+/// hold that can; volume and pressure in cavities; how often implicit steps were halved so far;
+/// with friction its work so far, and of each obstacle that rubs the part of what touches it that
+/// slips; how many attached points are torn.
 class History {
  public:
   /// Starts the file, or goes on after its first `kept` bytes.
@@ -96,7 +100,8 @@ class History {
   std::vector<std::size_t> rubbing_;  // obstacles with friction
 };
 
-/// Which of the files that tell of a run are in a folder, its checkpoint first; none: it holds no run.
+/// Which of the files that tell of a run are in a folder, its checkpoint first; none: it holds no
+/// run.
 std::vector<std::string> former_run(const std::filesystem::path& folder);
 
 /// How far a run's files are: what a checkpoint remembers of them.
@@ -105,16 +110,18 @@ struct FilesMark {
   std::uint64_t history_bytes = 0, probe_bytes = 0;
 };
 
-/// What a run leaves in its folder while it goes on: frames and history. A former run's files there give way, or are cut
-/// back to the mark of the checkpoint from which this run goes on.
+/// What a run leaves in its folder while it goes on: frames and history. A former run's files there
+/// give way, or are cut back to the mark of the checkpoint from which this run goes on.
 class RunFiles {
  public:
-  RunFiles(const Scene& scene, const std::filesystem::path& folder, const std::optional<FilesMark>& from = {});
+  RunFiles(const Scene& scene, const std::filesystem::path& folder,
+           const std::optional<FilesMark>& from = {});
   /// Writes the volumes that volumes() names, and all else.
   void write(const Snapshot& snapshot);
   const std::vector<int>& volumes() const { return volume_levels_; }
   std::size_t frames() const { return frame_times_.size(); }
-  double last_time() const { return frame_times_.empty() ? 0 : frame_times_.back(); }  ///< of what is on disk [s]
+  /// of what is on disk [s]
+  double last_time() const { return frame_times_.empty() ? 0 : frame_times_.back(); }
   FilesMark mark() const { return {frame_times_, history_.file().size(), 0}; }
   std::uint64_t history_bytes() const { return history_.file().size(); }
   /// To the first so many frames, and so much of the history: what comes next replaces the rest.
@@ -149,6 +156,7 @@ std::vector<Point> points_of(const std::map<std::string, Point>& probes);
 
 /// "time,tip_x,tip_y,tip_z,tip_vx,tip_vy,tip_vz" and a row of it.
 std::string probe_head(const std::vector<std::string>& names);
-std::string probe_row(double time, const std::vector<Point>& positions, const std::vector<Point>& velocities);
+std::string probe_row(double time, const std::vector<Point>& positions,
+                      const std::vector<Point>& velocities);
 
 }  // namespace plica::app

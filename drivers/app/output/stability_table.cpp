@@ -62,8 +62,8 @@ StabilityTexts texts(Json json, const std::vector<Row>& rows) {
 
 }  // namespace
 
-StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine, const StabilityResult& result,
-                               const std::string& status) {
+StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine,
+                               const StabilityResult& result, const std::string& status) {
   Json tets;
   for (const TetMesh& mesh : scene.problem.body.levels) tets.push_back(mesh.tets.size());
   const Json json = {{"scene", scene.file},
@@ -77,9 +77,12 @@ StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine, 
   return texts(json, result.rows);
 }
 
-StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result, const std::string& status) {
-  const Json json = {
-      {"status", status}, {"ok", result.ok()}, {"machine", machine_json(machine)}, {"left_out", result.left_out}};
+StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result,
+                               const std::string& status) {
+  const Json json = {{"status", status},
+                     {"ok", result.ok()},
+                     {"machine", machine_json(machine)},
+                     {"left_out", result.left_out}};
   return texts(json, result.rows);
 }
 
@@ -92,12 +95,14 @@ std::string step_or(const std::optional<double>& step, const std::string& none) 
 }
 
 std::string measured_of(const StabilityRow& row) {
-  return row.stable_up_to ? "none up to " + in_units(*row.stable_up_to, "s") : step_or(row.measured, "");
+  return row.stable_up_to ? "none up to " + in_units(*row.stable_up_to, "s")
+                          : step_or(row.measured, "");
 }
 
 std::string growth_of(const StabilityRow& row) {
   if (!row.growth_per_second || *row.spectral_radius <= 1 + 1e-6) return "";
-  return fmt::format("{:.2g} per second at {}", *row.growth_per_second, in_units(*row.growth_step, "s"));
+  return fmt::format("{:.2g} per second at {}", *row.growth_per_second,
+                     in_units(*row.growth_step, "s"));
 }
 
 std::string scene_of(const StabilityRow& row) {
@@ -109,33 +114,41 @@ std::string scene_of(const StabilityRow& row) {
 std::string failures_text(const StabilityResult& result) {
   std::string text;
   for (const StabilityRow& row : result.rows) {
-    if (row.status == "refused") text += wrapped(row.label() + " refused: " + row.reason, width, "  ");
+    if (row.status == "refused")
+      text += wrapped(row.label() + " refused: " + row.reason, width, "  ");
     if (row.scene && row.scene->failed_step)
-      text += wrapped(fmt::format("{} at {}, after {}: {}", row.label(), in_units(*row.scene->failed_step, "s"),
-                                  in_units(row.scene->failed_time, "s"), row.scene->reason),
-                      width, "  ");
+      text += wrapped(
+          fmt::format("{} at {}, after {}: {}", row.label(), in_units(*row.scene->failed_step, "s"),
+                      in_units(row.scene->failed_time, "s"), row.scene->reason),
+          width, "  ");
   }
   return text.empty() ? text : "How they end beyond it:\n" + text;
 }
 
 }  // namespace
 
-std::string stability_text(const Scene& scene, const StabilityResult& result, const std::string& folder) {
-  const bool own = std::ranges::any_of(result.rows, [](const StabilityRow& row) { return row.scene.has_value(); });
-  std::vector<std::vector<std::string>> table = {
-      {"largest stable macro step", "predicted", "of small motions", "ratio", own ? "of the scene" : "", "growth"}};
+std::string stability_text(const Scene& scene, const StabilityResult& result,
+                           const std::string& folder) {
+  const bool own = std::ranges::any_of(
+      result.rows, [](const StabilityRow& row) { return row.scene.has_value(); });
+  std::vector<std::vector<std::string>> table = {{"largest stable macro step", "predicted",
+                                                  "of small motions", "ratio",
+                                                  own ? "of the scene" : "", "growth"}};
   for (const StabilityRow& row : result.rows)
-    table.push_back({row.label(), step_or(row.predicted, row.status == "refused" ? "refused" : "no limit"),
-                     measured_of(row), row.ratio ? fmt::format("{:.3f}", *row.ratio) : "", scene_of(row),
-                     growth_of(row)});
-  std::string text = fmt::format("{}: {}{}\n", scene.name, counted(static_cast<long>(result.rows.size()), "method"),
+    table.push_back({row.label(),
+                     step_or(row.predicted, row.status == "refused" ? "refused" : "no limit"),
+                     measured_of(row), row.ratio ? fmt::format("{:.3f}", *row.ratio) : "",
+                     scene_of(row), growth_of(row)});
+  std::string text = fmt::format("{}: {}{}\n", scene.name,
+                                 counted(static_cast<long>(result.rows.size()), "method"),
                                  result.stopped ? ", interrupted" : "");
   text += text_table(table, "<>>>>>") + failures_text(result);
   if (!result.left_out.empty())
     text += wrapped(fmt::format("Left out: {}", fmt::join(result.left_out, "; ")), width, "");
-  return text +
-         fmt::format("Files: {0}: stability.json, stability.csv. The picture: python3 drivers/plots/stability.py {0}\n",
-                     folder);
+  return text + fmt::format(
+                    "Files: {0}: stability.json, stability.csv. The picture: python3 "
+                    "drivers/plots/stability.py {0}\n",
+                    folder);
 }
 
 std::string stability_text(const MatrixResult& result, const std::string& folder) {
@@ -147,16 +160,18 @@ std::string stability_text(const MatrixResult& result, const std::string& folder
     ++outcomes[differs ? row.ok ? "the same but for rounding" : "not the same" : row.outcome];
     if (row.ok) continue;
     ++wrongs;
-    wrong +=
-        wrapped(fmt::format("{}, {}: {}; expected {}. {}", row.name, row.method, row.outcome, row.expected, row.detail),
-                width, "  ");
+    wrong += wrapped(fmt::format("{}, {}: {}; expected {}. {}", row.name, row.method, row.outcome,
+                                 row.expected, row.detail),
+                     width, "  ");
   }
   std::string counts;
   for (const auto& [outcome, count] : outcomes)
     counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, outcome);
-  std::string text = fmt::format("{}: {}\n", counted(static_cast<long>(result.rows.size()), "case"), counts);
+  std::string text =
+      fmt::format("{}: {}\n", counted(static_cast<long>(result.rows.size()), "case"), counts);
   text += wrongs == 0 ? "Each as expected.\n" : fmt::format("Wrong, {}:\n{}", wrongs, wrong);
-  if (result.left_out > 0) text += fmt::format("Left out: {}\n", counted(static_cast<long>(result.left_out), "case"));
+  if (result.left_out > 0)
+    text += fmt::format("Left out: {}\n", counted(static_cast<long>(result.left_out), "case"));
   return text + fmt::format("Files: {}: stability.json, stability.csv\n", folder);
 }
 

@@ -13,14 +13,16 @@ struct StabilityTexts {
 };
 
 /// Of a scene's methods; status: completed | interrupted | unfinished.
-StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine, const StabilityResult& result,
-                               const std::string& status);
+StabilityTexts stability_texts(const Scene& scene, const StudyMachine& machine,
+                               const StabilityResult& result, const std::string& status);
 
 /// Of the matrix.
-StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result, const std::string& status);
+StabilityTexts stability_texts(const StudyMachine& machine, const MatrixResult& result,
+                               const std::string& status);
 
 /// What was found, in words.
-std::string stability_text(const Scene& scene, const StabilityResult& result, const std::string& folder);
+std::string stability_text(const Scene& scene, const StabilityResult& result,
+                           const std::string& folder);
 
 /// How the matrix ended: counts, and every row that is wrong.
 std::string stability_text(const MatrixResult& result, const std::string& folder);

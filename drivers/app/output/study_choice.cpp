@@ -22,8 +22,8 @@ namespace {
 std::string reason_of(const StudyRow& row, const std::vector<StudyRow>& rows) {
   std::string text;
   if (row.total_error)
-    text = fmt::format("Its mesh and elements are {} off the truth, its steps {}.", percent(*row.space_error),
-                       percent(*row.error));
+    text = fmt::format("Its mesh and elements are {} off the truth, its steps {}.",
+                       percent(*row.space_error), percent(*row.error));
   long faster = 0;
   const StudyRow* best = nullptr;
   for (const StudyRow& other : rows)
@@ -34,7 +34,8 @@ std::string reason_of(const StudyRow& row, const std::vector<StudyRow>& rows) {
   const std::string space = text.empty() ? "" : " ";
   if (best == nullptr) return text + space + "No row is faster.";
   return text + space +
-         fmt::format("Of {} the best, {}, has {}.", counted(faster, "faster row"), best->key, percent(*best->judged()));
+         fmt::format("Of {} the best, {}, has {}.", counted(faster, "faster row"), best->key,
+                     percent(*best->judged()));
 }
 
 // "coarse/1/rk4" in parts
@@ -49,7 +50,9 @@ std::vector<std::string> parts_of(const std::string& method) {
 Json settings_of(const StudyRow& row, const std::vector<Json>& levels) {
   const std::vector<std::string> parts = parts_of(row.method);
   Json settings = Json::array();
-  const auto set = [&](const std::string& key, const std::string& value) { settings.push_back(key + "=" + value); };
+  const auto set = [&](const std::string& key, const std::string& value) {
+    settings.push_back(key + "=" + value);
+  };
   if (!row.variant.empty()) return {};
   if (!row.element.empty()) set("body.element", row.element);
   const auto steps = [&](const std::string& cycle, const std::string& distribution) {
@@ -71,7 +74,9 @@ Json settings_of(const StudyRow& row, const std::vector<Json>& levels) {
   if (!coarse) return settings;
   const auto level = static_cast<std::size_t>(std::stoul(parts[1]));
   if (level >= levels.size()) return {};
-  set("body.levels", Json(std::vector<Json>(levels.begin() + static_cast<std::ptrdiff_t>(level), levels.end())).dump());
+  set("body.levels",
+      Json(std::vector<Json>(levels.begin() + static_cast<std::ptrdiff_t>(level), levels.end()))
+          .dump());
   return settings;
 }
 
@@ -82,7 +87,8 @@ std::vector<StudyChoice> choices_of(const StudyResult& result) {
   ErrorClasses::for_each([&](auto one) {
     StudyChoice choice{decltype(one)::name, decltype(one)::error, nullptr, {}};
     const double own =
-        result.reference.own_error;  // counted in: the error is within the class wherever the reference is
+        result.reference
+            .own_error;  // counted in: the error is within the class wherever the reference is
     choice.row = fastest_below(result.rows, choice.allowed - own);
     choice.reason = choice.row ? reason_of(*choice.row, result.rows) : "none";
     if (!choice.row && own > 0.1 * choice.allowed)
@@ -117,7 +123,8 @@ Json choices_json(const StudyResult& result, const std::vector<Json>& levels) {
   return json;
 }
 
-std::vector<Override> settings_of_study(const std::filesystem::path& folder, const std::filesystem::path& scene,
+std::vector<Override> settings_of_study(const std::filesystem::path& folder,
+                                        const std::filesystem::path& scene,
                                         const std::vector<Override>& overrides) {
   const std::string file = (folder / "study.json").string();
   Tree tree = read_tree(scene);
@@ -129,15 +136,17 @@ std::vector<Override> settings_of_study(const std::filesystem::path& folder, con
     const Json study = Json::parse(load_file(folder / "study.json").bytes);
     const std::filesystem::path of = study.at("scene").get<std::string>();
     if (of.filename() != scene.filename())
-      throw InputError("--study: it is of " + of.string() + ", expected one of " + scene.string(), {file});
+      throw InputError("--study: it is of " + of.string() + ", expected one of " + scene.string(),
+                       {file});
     for (const Json& choice : study.at("choices")) {
       if (choice.at("error_class") != error_class) continue;
       const std::string reason = choice.at("reason").get<std::string>();
       if (choice.at("settings").is_null())
         throw InputError(
             "--study: nothing to take for integration.error_class " + error_class + ": " +
-                (choice.at("case").is_null() ? "the study has found " + reason
-                                             : choice.at("case").get<std::string>() + " is not a matter of settings"),
+                (choice.at("case").is_null()
+                     ? "the study has found " + reason
+                     : choice.at("case").get<std::string>() + " is not a matter of settings"),
             {file});
       message(fmt::format("{}: {}, {}. {}", error_class, choice.at("case").get<std::string>(),
                           percent(choice.at("error").get<double>()), reason));

@@ -39,7 +39,8 @@ void append(std::string& bytes, const Trajectory& trajectory) {
       for (const Point& p : field) add(p.data(), 3);
 }
 
-Trajectory take(const std::string& bytes, std::size_t& at, std::size_t samples, std::size_t vertices) {
+Trajectory take(const std::string& bytes, std::size_t& at, std::size_t samples,
+                std::size_t vertices) {
   const auto next = [&](double* to, std::size_t count) {
     std::memcpy(to, bytes.data() + at, count * sizeof(double));
     at += count * sizeof(double);
@@ -99,16 +100,22 @@ std::optional<StudyReference> parse_reference(const std::string& bytes, std::uin
   head.at("own_error_velocity").get_to(r.own_error_velocity);
   head.at("wall_time").get_to(r.wall_time);
   head.at("seconds_per_evaluation").get_to(r.seconds_per_evaluation);
-  const auto samples = head.at("samples").get<std::size_t>(), vertices = head.at("vertices").get<std::size_t>();
+  const auto samples = head.at("samples").get<std::size_t>(),
+             vertices = head.at("vertices").get<std::size_t>();
   const bool finer = head.at("finer").get<bool>(), truth = !head.at("truth").is_null();
   r.meshes = meshes_of(head.at("meshes"));
-  const auto size_of = [&](std::size_t points) { return samples * (1 + 6 * points) * sizeof(double); };
+  const auto size_of = [&](std::size_t points) {
+    return samples * (1 + 6 * points) * sizeof(double);
+  };
   const auto probes = head.at("probes").get<std::size_t>();
-  if (states.size() != (1 + (finer ? 1U : 0U) + r.meshes.size()) * size_of(vertices) + (truth ? size_of(probes) : 0))
+  if (states.size() !=
+      (1 + (finer ? 1U : 0U) + r.meshes.size()) * size_of(vertices) + (truth ? size_of(probes) : 0))
     return {};
   std::size_t at = 0;
   r.trajectory = take(states, at, samples, vertices);
-  if (finer) r.finer = take(states, at, samples, vertices), r.space_error = head.at("space_error").get<double>();
+  if (finer)
+    r.finer = take(states, at, samples, vertices),
+    r.space_error = head.at("space_error").get<double>();
   if (truth) r.truth = truth_of(head.at("truth")), r.probes = take(states, at, samples, probes);
   for (MeshReference& mesh : r.meshes) mesh.trajectory = take(states, at, samples, vertices);
   return r;
@@ -121,7 +128,8 @@ namespace {
 // What a scene says but for some keys of its top level
 std::string said_without(const Tree& source, const std::vector<std::string>& keys) {
   Tree tree = source;
-  std::erase_if(tree.items, [&](const Tree& item) { return std::ranges::find(keys, item.key) != keys.end(); });
+  std::erase_if(tree.items,
+                [&](const Tree& item) { return std::ranges::find(keys, item.key) != keys.end(); });
   return json_of(tree).dump();
 }
 
@@ -137,11 +145,14 @@ std::uint64_t reference_digest(const Scene& scene, const StudyOptions& o) {
   digest.add(said_without(scene.source, {"name", "output", "study", "integration"}));
   for (std::size_t i = 0; i < scene.problem.body.levels.size(); ++i)
     digest.add(std::string(name_of(element_of(scene.problem.body, i))));
-  digest.add(fmt::format("{} {} {} {} {} {}", mesh_digest(scene.problem.body), o.samples, o.reference_integrator,
-                         o.reference_step, o.reference_error, o.finer.has_value()));
+  digest.add(fmt::format("{} {} {} {} {} {}", mesh_digest(scene.problem.body), o.samples,
+                         o.reference_integrator, o.reference_step, o.reference_error,
+                         o.finer.has_value()));
   if (o.truth) {
-    digest.add(fmt::format("truth {} {}", o.truth->refinements.value_or(0), o.truth->jitter.value_or(0)));
-    for (const auto& [name, p] : o.probes) digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
+    digest.add(
+        fmt::format("truth {} {}", o.truth->refinements.value_or(0), o.truth->jitter.value_or(0)));
+    for (const auto& [name, p] : o.probes)
+      digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
   }
   add_tools(digest, scene.problem);
   return digest.value();
@@ -153,10 +164,12 @@ std::uint64_t study_digest(const Scene& scene, const StudyOptions& o, const Stud
   Digest digest;
   digest.add(said_without(scene.source, {"name", "output", "study"}));
   const Tree* section = scene.source.find("study");
-  if (const Tree* variants = section ? section->find("variants") : nullptr) digest.add(json_of(*variants).dump());
-  for (const auto& [name, p] : o.probes) digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
-  digest.add(fmt::format("{} {} {} {} {} {} {} {}", reference, o.timed_runs, machine.cpu, machine.backend,
-                         machine.threads, version(), git_revision(), compiler()));
+  if (const Tree* variants = section ? section->find("variants") : nullptr)
+    digest.add(json_of(*variants).dump());
+  for (const auto& [name, p] : o.probes)
+    digest.add(fmt::format("{} {} {} {}", name, p.x(), p.y(), p.z()));
+  digest.add(fmt::format("{} {} {} {} {} {} {} {}", reference, o.timed_runs, machine.cpu,
+                         machine.backend, machine.threads, version(), git_revision(), compiler()));
   return digest.value();
 }
 
@@ -169,8 +182,11 @@ std::string content_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-StudyFiles::StudyFiles(const Scene& scene, const StudyOptions& options, const std::filesystem::path& folder)
-    : folder_(folder), machine_(this_machine()), reference_digest_(reference_digest(scene, options)) {
+StudyFiles::StudyFiles(const Scene& scene, const StudyOptions& options,
+                       const std::filesystem::path& folder)
+    : folder_(folder),
+      machine_(this_machine()),
+      reference_digest_(reference_digest(scene, options)) {
   head_.scene = scene.file, head_.name = scene.name;
   head_.duration = options.duration, head_.samples = options.samples;
   for (const TetMesh& mesh : scene.problem.body.levels) head_.tets.push_back(mesh.tets.size());
@@ -187,7 +203,9 @@ StudyResult StudyFiles::read() const {
   return before;
 }
 
-bool StudyFiles::holds_another() const { return holds_other_rows(content_of(folder_ / "study.json"), head_.digest); }
+bool StudyFiles::holds_another() const {
+  return holds_other_rows(content_of(folder_ / "study.json"), head_.digest);
+}
 
 std::vector<MemoryFile> StudyFiles::texts(const StudyResult& result, const std::string& status,
                                           const std::string& stopped) const {

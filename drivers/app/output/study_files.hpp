@@ -8,14 +8,15 @@
 
 namespace plica::app {
 
-/// reference.bin: a line of JSON with the digest of what the reference is of, the digest of what follows, its numbers and sizes; then
-/// the states, as doubles.
+/// reference.bin: a line of JSON with the digest of what the reference is of, the digest of what
+/// follows, its numbers and sizes; then the states, as doubles.
 std::string reference_bytes(const StudyReference& reference, std::uint64_t digest);
 
 /// None where the bytes are no such file, are damaged, or are of another problem.
 std::optional<StudyReference> parse_reference(const std::string& bytes, std::uint64_t digest);
 
-/// A study's files: study.json, study.csv, each replaced as a whole, and reference.bin, what errors are measured against.
+/// A study's files: study.json, study.csv, each replaced as a whole, and reference.bin, what errors
+/// are measured against.
 class StudyFiles {
  public:
   /// Needs Kokkos for what it says of the machine.
@@ -24,12 +25,13 @@ class StudyFiles {
   const std::filesystem::path& folder() const { return folder_; }
   const StudyMachine& machine() const { return machine_; }
 
-  /// The rows in the folder, where they are of the same scene, options, program and machine, and the reference, where it is of
-  /// the same problem.
+  /// The rows in the folder, where they are of the same scene, options, program and machine, and
+  /// the reference, where it is of the same problem.
   StudyResult read() const;
   /// Whether it has the rows of another study.
   bool holds_another() const;
-  /// study.json and study.csv; status: completed | interrupted | unfinished. `stopped`: the case that was interrupted.
+  /// study.json and study.csv; status: completed | interrupted | unfinished. `stopped`: the case
+  /// that was interrupted.
   std::vector<MemoryFile> texts(const StudyResult& result, const std::string& status,
                                 const std::string& stopped = {}) const;
   void write_reference(const StudyReference& reference) const;

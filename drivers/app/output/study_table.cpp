@@ -101,8 +101,9 @@ Json reference_json(const StudyResult& result) {
 
 }  // namespace
 
-std::string study_json(const StudyHead& head, const StudyMachine& machine, const StudyResult& result,
-                       const std::string& status, const std::string& stopped) {
+std::string study_json(const StudyHead& head, const StudyMachine& machine,
+                       const StudyResult& result, const std::string& status,
+                       const std::string& stopped) {
   Json json = {{"scene", head.scene},
                {"name", head.name},
                {"status", status},
@@ -116,9 +117,11 @@ std::string study_json(const StudyHead& head, const StudyMachine& machine, const
                {"rows", Json::array()},
                {"left_out", Json::array()}};
   for (const StudyRow& row : result.rows) json["rows"].push_back(row_json(row));
-  for (const LeftOut& one : result.left_out) json["left_out"].push_back({{"case", one.key}, {"reason", one.reason}});
+  for (const LeftOut& one : result.left_out)
+    json["left_out"].push_back({{"case", one.key}, {"reason", one.reason}});
   if (!stopped.empty())
-    json["left_out"].push_back({{"case", stopped}, {"reason", "the study was stopped during this case"}});
+    json["left_out"].push_back(
+        {{"case", stopped}, {"reason", "the study was stopped during this case"}});
   return json_text(json);
 }
 
@@ -169,7 +172,8 @@ constexpr std::size_t table_width = text_width;
 // With what tells it from other rows of its name
 std::string name_of(const StudyRow& row, const StudyResult& result) {
   const auto differs = [&](auto member) {
-    return std::ranges::any_of(result.rows, [&](const StudyRow& other) { return other.*member != row.*member; });
+    return std::ranges::any_of(result.rows,
+                               [&](const StudyRow& other) { return other.*member != row.*member; });
   };
   std::string name = row.label();
   if (differs(&StudyRow::element)) name += ", " + row.element;
@@ -181,15 +185,16 @@ std::string name_of(const StudyRow& row, const StudyResult& result) {
 std::string reference_text(const StudyResult& result) {
   const StudyReference& r = result.reference;
   if (r.truth) return truth_text(result);
-  std::string text = fmt::format("Reference: {} at {}; doubling that step changes it by {}.", r.method,
-                                 in_units(r.macro_step, "s"), percent(r.own_error));
+  std::string text = fmt::format("Reference: {} at {}; doubling that step changes it by {}.",
+                                 r.method, in_units(r.macro_step, "s"), percent(r.own_error));
   if (!good_enough(result))
     text += fmt::format(
-        " The smallest error reported, {}, is too small for this reference: errors below {} cannot be compared.",
+        " The smallest error reported, {}, is too small for this reference: errors below {} cannot "
+        "be compared.",
         percent(*smallest_error(result.rows)), percent(10 * r.own_error));
   if (r.space_error)
-    text +=
-        fmt::format(" A mesh twice as fine differs by {}: the finest mesh's error in space.", percent(*r.space_error));
+    text += fmt::format(" A mesh twice as fine differs by {}: the finest mesh's error in space.",
+                        percent(*r.space_error));
   return wrapped(text, table_width, "");
 }
 
@@ -205,17 +210,21 @@ std::string pareto_text(const StudyResult& result) {
     if (row.pareto) front.push_back(&row);
   if (front.empty()) return "No method completed.\n";
   std::ranges::sort(front, {}, [](const StudyRow* row) { return *row->wall_time; });
-  const bool growth = std::ranges::any_of(front, [](const StudyRow* row) { return row->spectral_radius.has_value(); });
-  std::vector<std::vector<std::string>> table = {
-      {"the best for their time", "macro step", "x critical", "error", "of velocity", "time", "work"}};
+  const bool growth = std::ranges::any_of(
+      front, [](const StudyRow* row) { return row->spectral_radius.has_value(); });
+  std::vector<std::vector<std::string>> table = {{"the best for their time", "macro step",
+                                                  "x critical", "error", "of velocity", "time",
+                                                  "work"}};
   const bool truth = result.reference.truth.has_value();
   if (truth) table[0].insert(table[0].end(), {"in space", "in time"});
   if (growth) table[0].emplace_back("growth");
   for (const StudyRow* row : front) {
     table.push_back({name_of(*row, result), in_units(*row->macro_step, "s"),
                      fmt::format("{:.3g}", *row->macro_step_over_critical), percent(*row->judged()),
-                     percent(*row->error_velocity), in_units(*row->wall_time, "s"), fmt::format("{:.3g}", *row->work)});
-    if (truth) table.back().insert(table.back().end(), {percent(*row->space_error), percent(*row->error)});
+                     percent(*row->error_velocity), in_units(*row->wall_time, "s"),
+                     fmt::format("{:.3g}", *row->work)});
+    if (truth)
+      table.back().insert(table.back().end(), {percent(*row->space_error), percent(*row->error)});
     if (growth) table.back().push_back(growth_of(*row));
   }
   return text_table(table, "<>>>>>>>>>");
@@ -228,26 +237,33 @@ std::string growth_text(const StudyResult& result) {
   for (const StudyRow& row : result.rows) {
     if (!row.spectral_radius) continue;
     ++found, growing += grows(row) ? 1 : 0;
-    if (grows(row) && (fastest == nullptr || *row.growth_per_second > *fastest->growth_per_second)) fastest = &row;
+    if (grows(row) && (fastest == nullptr || *row.growth_per_second > *fastest->growth_per_second))
+      fastest = &row;
     if (!grows(row) && (stable == nullptr || *row.macro_step > *stable->macro_step)) stable = &row;
   }
   if (found == 0) return {};
   const auto at = [&](const StudyRow& row) {
-    return fmt::format("{} at {:.3g} x critical", name_of(row, result), *row.macro_step_over_critical);
+    return fmt::format("{} at {:.3g} x critical", name_of(row, result),
+                       *row.macro_step_over_critical);
   };
   std::string text =
-      fmt::format("Small motions about rest: {} of cycles, of which {} let them grow.", counted(found, "row"), growing);
+      fmt::format("Small motions about rest: {} of cycles, of which {} let them grow.",
+                  counted(found, "row"), growing);
   if (fastest != nullptr)
-    text += fmt::format(" {} grows fastest, by {:.3g} per second.", at(*fastest), *fastest->growth_per_second);
-  if (stable != nullptr) text += fmt::format(" The longest macro step without growth: {}.", at(*stable));
+    text += fmt::format(" {} grows fastest, by {:.3g} per second.", at(*fastest),
+                        *fastest->growth_per_second);
+  if (stable != nullptr)
+    text += fmt::format(" The longest macro step without growth: {}.", at(*stable));
   return wrapped(text, table_width, "");
 }
 
 std::string choice_text(const StudyResult& result, const StudyChoice& choice) {
-  std::string text = fmt::format("Under {:g} % error ({}): ", 100 * choice.allowed, choice.error_class);
+  std::string text =
+      fmt::format("Under {:g} % error ({}): ", 100 * choice.allowed, choice.error_class);
   if (const StudyRow* row = choice.row) {
-    text += fmt::format("{} at {}, {} for {}. ", name_of(*row, result), in_units(*row->macro_step, "s"),
-                        in_units(*row->wall_time, "s"), percent(*row->judged()));
+    text +=
+        fmt::format("{} at {}, {} for {}. ", name_of(*row, result), in_units(*row->macro_step, "s"),
+                    in_units(*row->wall_time, "s"), percent(*row->judged()));
     if (row->method.starts_with("coarse/")) text += "A coarser mesh alone is enough here. ";
   }
   return wrapped(text + choice.reason, table_width, "");
@@ -255,16 +271,18 @@ std::string choice_text(const StudyResult& result, const StudyChoice& choice) {
 
 std::string missing_text(const StudyResult& result) {
   const auto count = [&](const char* status) {
-    return std::ranges::count_if(result.rows, [&](const StudyRow& row) { return row.status == status; });
+    return std::ranges::count_if(result.rows,
+                                 [&](const StudyRow& row) { return row.status == status; });
   };
   std::string text;
   if (count("diverged") + count("refused") > 0)
-    text += fmt::format("Not completed: {} diverged, {} refused; study.json says why.\n", count("diverged"),
-                        count("refused"));
+    text += fmt::format("Not completed: {} diverged, {} refused; study.json says why.\n",
+                        count("diverged"), count("refused"));
   std::map<std::string, int> left_out;
   for (const LeftOut& one : result.left_out) ++left_out[one.key.substr(0, one.key.find(','))];
   std::string names;
-  for (const auto& [name, runs] : left_out) names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", name, runs);
+  for (const auto& [name, runs] : left_out)
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", name, runs);
   if (!names.empty())
     text += fmt::format("Left out, {} (study.json says why):\n",
                         counted(static_cast<long>(result.left_out.size()), "run")) +
@@ -276,15 +294,19 @@ std::string missing_text(const StudyResult& result) {
 
 std::string study_text(const Scene& scene, const StudyResult& result, const std::string& folder) {
   if (result.reference.trajectory.u.empty())
-    return fmt::format("{}: stopped before there was a reference; nothing is written\n", scene.name);
-  std::string text = fmt::format("{}: {}{}\n", scene.name, counted(static_cast<long>(result.rows.size()), "row"),
-                                 result.stopped ? ", interrupted: the same command goes on with them" : "");
+    return fmt::format("{}: stopped before there was a reference; nothing is written\n",
+                       scene.name);
+  std::string text =
+      fmt::format("{}: {}{}\n", scene.name, counted(static_cast<long>(result.rows.size()), "row"),
+                  result.stopped ? ", interrupted: the same command goes on with them" : "");
   text += reference_text(result) + pareto_text(result);
   for (const StudyChoice& choice : choices_of(result)) text += choice_text(result, choice);
   text += growth_text(result) + missing_text(result);
-  return text + fmt::format("Files: {0}: study.json, study.csv. To look at: plica report {0}\n", folder) +
-         fmt::format("To run what is chosen: plica run {} --study {} --set integration.error_class=CLASS\n", scene.file,
-                     folder);
+  return text +
+         fmt::format("Files: {0}: study.json, study.csv. To look at: plica report {0}\n", folder) +
+         fmt::format(
+             "To run what is chosen: plica run {} --study {} --set integration.error_class=CLASS\n",
+             scene.file, folder);
 }
 
 }  // namespace plica::app

@@ -28,8 +28,9 @@ long steps_to_cover(double duration, double macro_step) {
   constexpr double most = 1e12;
   const double steps = std::ceil(duration / macro_step - rounding);
   if (!(steps <= most))
-    throw InputError(fmt::format("a duration of {:g} s is {:.3g} macro steps of {:g} s; expected at most {:g}",
-                                 duration, steps, macro_step, most));
+    throw InputError(
+        fmt::format("a duration of {:g} s is {:.3g} macro steps of {:g} s; expected at most {:g}",
+                    duration, steps, macro_step, most));
   return std::max(1L, std::lround(steps));
 }
 
@@ -60,14 +61,16 @@ Json three(const Point& p) { return {p[0], p[1], p[2]}; }
 
 Json wrenches_json(const std::vector<Wrench>& wrenches) {
   Json all = Json::object();
-  for (const Wrench& w : wrenches) all[w.obstacle] = {{"force", three(w.force)}, {"torque", three(w.torque)}};
+  for (const Wrench& w : wrenches)
+    all[w.obstacle] = {{"force", three(w.force)}, {"torque", three(w.torque)}};
   return all;
 }
 
 Json tools_json(const std::vector<ToolState>& tools) {
   Json all = Json::object();
   for (const ToolState& t : tools) {
-    Json& tool = all[t.obstacle] = {{"displacement", three(t.displacement)}, {"velocity", three(t.velocity)}};
+    Json& tool = all[t.obstacle] = {{"displacement", three(t.displacement)},
+                                    {"velocity", three(t.velocity)}};
     if (!t.turns) continue;
     tool["rotation"] = three(t.rotation), tool["angular_velocity"] = three(t.angular_velocity);
   }
@@ -77,14 +80,17 @@ Json tools_json(const std::vector<ToolState>& tools) {
 // Of a body's surface in an obstacle, or in a body: null where it did not come inside
 Json penetration_json(const Penetration& p, double edge) {
   if (!(p.depth > 0)) return nullptr;
-  return {{"depth", p.depth}, {"over_edge", edge > 0 ? Json(p.depth / edge) : Json(nullptr)}, {"time", p.time}};
+  return {{"depth", p.depth},
+          {"over_edge", edge > 0 ? Json(p.depth / edge) : Json(nullptr)},
+          {"time", p.time}};
 }
 
 Json penetrations_json(const Penetrations& all) {
   Json obstacles = Json::object();
   for (std::size_t o = 0; o < all.obstacles.size(); ++o)
     obstacles[all.obstacles[o]] = penetration_json(all.deepest[o], all.edge);
-  return {{"obstacles", obstacles}, {"bodies", all.pairs ? penetration_json(all.deepest.back(), all.edge) : Json()}};
+  return {{"obstacles", obstacles},
+          {"bodies", all.pairs ? penetration_json(all.deepest.back(), all.edge) : Json()}};
 }
 
 Json held_json(const std::vector<HeldBy>& held) {
@@ -109,28 +115,31 @@ Json levels_json(const std::vector<LevelReport>& levels) {
   for (const LevelReport& level : levels) {
     Json stiffest = Json::array();
     for (const StiffElement& e : level.stiffest)
-      stiffest.push_back(
-          {{"element", e.element}, {"region", e.region}, {"height_ratio", e.height_ratio}, {"step", e.step}});
-    list.push_back({{"kind", level_kind_name(level.kind)},
-                    {"vertices", level.vertices},
-                    {"tets", level.tets},
-                    {"filled", level.filled},
-                    {"nonzeros_per_row", has_elements(level) ? Json(nullptr) : Json(level.nonzeros)},
-                    {"mean_edge", level.mean_edge},
-                    {"mass", level.mass},
-                    {"critical_step", level.critical_step},
-                    {"element_bound", level.element_bound},
-                    {"share", level.share},
-                    {"substeps", level.substeps},
-                    {"element", level.element},
-                    {"integrator", level.integrator},
-                    {"inertia", level.inertia},
-                    {"detail_step", level.detail_step},
-                    {"outside_down", level.outside_down},
-                    {"outside_up", level.outside_up},
-                    {"largest_miss", level.largest_miss},
-                    {"typical_element", level.typical_element},
-                    {"stiffest", stiffest}});
+      stiffest.push_back({{"element", e.element},
+                          {"region", e.region},
+                          {"height_ratio", e.height_ratio},
+                          {"step", e.step}});
+    list.push_back(
+        {{"kind", level_kind_name(level.kind)},
+         {"vertices", level.vertices},
+         {"tets", level.tets},
+         {"filled", level.filled},
+         {"nonzeros_per_row", has_elements(level) ? Json(nullptr) : Json(level.nonzeros)},
+         {"mean_edge", level.mean_edge},
+         {"mass", level.mass},
+         {"critical_step", level.critical_step},
+         {"element_bound", level.element_bound},
+         {"share", level.share},
+         {"substeps", level.substeps},
+         {"element", level.element},
+         {"integrator", level.integrator},
+         {"inertia", level.inertia},
+         {"detail_step", level.detail_step},
+         {"outside_down", level.outside_down},
+         {"outside_up", level.outside_up},
+         {"largest_miss", level.largest_miss},
+         {"typical_element", level.typical_element},
+         {"stiffest", stiffest}});
   }
   return list;
 }
@@ -142,11 +151,14 @@ Json bodies_json(const Body& body) {
     for (const int part : parts_of_vertices(body.levels.front(), body.parts))
       ++vertices[static_cast<std::size_t>(part)];
   for (std::size_t i = 0; i < body.parts.size(); ++i)
-    list.push_back({{"name", body.parts[i].name}, {"vertices", vertices[i]}, {"surface_points", body.parts[i].points}});
+    list.push_back({{"name", body.parts[i].name},
+                    {"vertices", vertices[i]},
+                    {"surface_points", body.parts[i].points}});
   return list;
 }
 
-std::string summary_json(const Scene& scene, const Summary& s, const std::vector<std::string>& words) {
+std::string summary_json(const Scene& scene, const Summary& s,
+                         const std::vector<std::string>& words) {
   const Point& gravity = scene.problem.gravity;
   const Json json = {{"name", scene.name},
                      {"scene", scene.file},
@@ -190,13 +202,16 @@ static std::string solves_text(std::map<std::string, long> count) {
   if (count["linear_solves"] == 0) return "";
   const std::string text = fmt::format(
       "{}, {:.3g} iterations each, {} not solved", counted(count["linear_solves"], "linear system"),
-      static_cast<double>(count["cg_iterations"]) / static_cast<double>(count["linear_solves"]), count["cg_misses"]);
+      static_cast<double>(count["cg_iterations"]) / static_cast<double>(count["linear_solves"]),
+      count["cg_misses"]);
   if (count["newton_iterations"] == 0) return text;
-  return text + fmt::format("; {} of Newton's method, {} not solved", counted(count["newton_iterations"], "iteration"),
+  return text + fmt::format("; {} of Newton's method, {} not solved",
+                            counted(count["newton_iterations"], "iteration"),
                             count["newton_misses"]);
 }
 
-// "cut 4 times as the body stiffened, given back 2 times, at the end 2 in a macro step"; empty: never cut
+// "cut 4 times as the body stiffened, given back 2 times, at the end 2 in a macro step"; empty:
+// never cut
 static std::string cuts_text(std::map<std::string, long> count) {
   const long cuts = cuts_of(count), back = count["substeps_regained"], now = count["him_substeps"],
              level_alone = count["him_explicit_steps"];
@@ -205,7 +220,8 @@ static std::string cuts_text(std::map<std::string, long> count) {
   if (back > 0) text += fmt::format(", given back {}", counted(back, "time"));
   if (now > 0) text += fmt::format(", at the end {} in a macro step", now);
   if (level_alone > 0)
-    text += fmt::format("; {} by explicit steps of level 0, as cycle single", counted(level_alone, "macro step"));
+    text += fmt::format("; {} by explicit steps of level 0, as cycle single",
+                        counted(level_alone, "macro step"));
   return text;
 }
 
@@ -213,15 +229,18 @@ static std::string cuts_text(std::map<std::string, long> count) {
 static std::string halvings_text(const std::map<std::string, long>& count) {
   const auto found = count.find("step_halvings");
   if (found == count.end() || found->second == 0) return "";
-  return fmt::format("halved {} where they failed (step_halvings of history.csv)", counted(found->second, "time"));
+  return fmt::format("halved {} where they failed (step_halvings of history.csv)",
+                     counted(found->second, "time"));
 }
 
 std::string unsolved_text(std::map<std::string, long> count) {
-  const bool newton = count["newton_iterations"] > 0;  // makes up for linear systems that are not solved
+  // makes up for linear systems that are not solved
+  const bool newton = count["newton_iterations"] > 0;
   const long missed = count[newton ? "newton_misses" : "cg_misses"];
   if (missed == 0) return "";
   return fmt::format(
-      "integration.implicit: {} not solved as far as asked, and the run went on: expected a smaller "
+      "integration.implicit: {} not solved as far as asked, and the run went on: expected a "
+      "smaller "
       "integration.macro_step, or more integration.implicit.{}",
       counted(missed, newton ? "step" : "linear system") + (missed == 1 ? " was" : " were"),
       newton ? "newton_iterations" : "max_iterations");
@@ -231,7 +250,8 @@ std::string mostly_explicit_text(std::map<std::string, long> count, long macro_s
   const long level_alone = count["him_explicit_steps"];
   if (2 * level_alone <= macro_steps) return "";
   return fmt::format(
-      "cycle him: {} of {} were taken by explicit steps of level 0, since steps longer than those were not stable as "
+      "cycle him: {} of {} were taken by explicit steps of level 0, since steps longer than those "
+      "were not stable as "
       "the body "
       "stiffened; expected cycle: single, which takes these without the set-up",
       level_alone, counted(macro_steps, "macro step"));
@@ -243,14 +263,16 @@ std::string many_steps_text(const Scene& scene, const Summary& s) {
   if (!(steps > many)) return "";
   std::vector<std::string> remedies;
   if (scene.problem.integration.macro_step) remedies.emplace_back("a longer one");
-  if (std::ranges::any_of(s.levels, [](const auto& level) { return level.share > 0 && level.explicit_integrator; })) {
+  if (std::ranges::any_of(s.levels, [](const auto& level) {
+        return level.share > 0 && level.explicit_integrator;
+      })) {
     remedies.emplace_back("an implicit integrator");
     if (s.cycle != "him") remedies.emplace_back("cycle: him");
     remedies.emplace_back("a mesh without slivers (plica explain names them)");
     remedies.emplace_back("a poisson_ratio further from 0.5");
   }
-  return fmt::format("integration.macro_step: the run takes {:.2g} macro steps of {}; expected {}", steps,
-                     in_units(s.macro_step, "s"), fmt::join(remedies, ", or "));
+  return fmt::format("integration.macro_step: the run takes {:.2g} macro steps of {}; expected {}",
+                     steps, in_units(s.macro_step, "s"), fmt::join(remedies, ", or "));
 }
 
 std::string summary_text(const Scene& scene, const Summary& s, const std::string& folder) {
@@ -262,18 +284,22 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
   const std::string beyond =
       s.status == "completed" && s.simulated_time > scene.duration * (1 + 1e-9)
           ? fmt::format(", the first whole number of steps that covers {:g} s", scene.duration)
-      : s.status == "completed" && static_cast<double>(s.macro_steps) * s.macro_step > scene.duration * (1 + 1e-9)
+      : s.status == "completed" &&
+              static_cast<double>(s.macro_steps) * s.macro_step > scene.duration * (1 + 1e-9)
           ? ", the last one shorter"
           : "";
   const std::string last_good =
-      s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time) : std::string{};
-  const std::string waited = s.wait_share.value_or(0) > notable_wait
-                                 ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
-                                               100 * *s.wait_share, s.threads > 1 ? ", fewer threads were tried" : "")
-                                 : "";
+      s.diagnosis ? fmt::format(", the last good one at {:.5g} s", s.last_good_time)
+                  : std::string{};
+  const std::string waited =
+      s.wait_share.value_or(0) > notable_wait
+          ? fmt::format(", {:.0f} % of the threads' time without a core: other work has them{}",
+                        100 * *s.wait_share, s.threads > 1 ? ", fewer threads were tried" : "")
+          : "";
   std::vector<std::vector<std::string>> rows = {
-      {"simulated", fmt::format("{:.5g} s in {} of {}{}", s.simulated_time, counted(s.macro_steps, "macro step"),
-                                in_units(s.macro_step, "s"), beyond)},
+      {"simulated",
+       fmt::format("{:.5g} s in {} of {}{}", s.simulated_time, counted(s.macro_steps, "macro step"),
+                   in_units(s.macro_step, "s"), beyond)},
       {"stepping", in_units(wall, "s") + speed + waited},
       {"set-up", in_units(s.setup_time, "s") + ", peak memory " + in_bytes(s.peak_memory)},
       {"files", fmt::format("{}: summary.json, history.csv, frames.pvd ({}{})", folder,
@@ -283,7 +309,8 @@ std::string summary_text(const Scene& scene, const Summary& s, const std::string
     rows.insert(rows.begin() + 2, {"solving", solves});
   if (const std::string halved = halvings_text(s.counters); !halved.empty())
     rows.insert(rows.begin() + 1, {"macro steps", halved});
-  if (const std::string cuts = cuts_text(s.counters); !cuts.empty()) rows.insert(rows.begin() + 2, {"sub-steps", cuts});
+  if (const std::string cuts = cuts_text(s.counters); !cuts.empty())
+    rows.insert(rows.begin() + 2, {"sub-steps", cuts});
   if (s.choice) rows.insert(rows.begin() + 1, {"cycle auto", choice_line(*s.choice)});
   return fmt::format("{}: {}\n", scene.name, s.status) + text_table(rows, "<<");
 }

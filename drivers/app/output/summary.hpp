@@ -12,14 +12,15 @@
 
 namespace plica::app {
 
-/// The least number of whole macro steps, at least one, that covers a duration [s] but for rounding. InputError where
-/// there are more than 1e12.
+/// The least number of whole macro steps, at least one, that covers a duration [s] but for
+/// rounding. InputError where there are more than 1e12.
 long steps_to_cover(double duration, double macro_step);
 
 /// A run as summary.json tells it. Times in s, memory in bytes.
 struct Summary {
   std::string status;
-  double simulated_time = 0, last_good_time = 0;  ///< reached; on disk: another one only after divergence
+  /// reached; on disk: another one only after divergence
+  double simulated_time = 0, last_good_time = 0;
   double macro_step = 0;
   long macro_steps = 0;
   double wall_time = 0, setup_time = 0;
@@ -39,19 +40,24 @@ struct Summary {
   std::vector<HeldBy> held;           ///< then, by obstacles that can hold points
   Penetrations penetrations;          ///< the greatest of the run, of its frames
   std::vector<std::string> warnings;  ///< of the scene, and of what the run has shown
-  std::vector<Point> diagnosed;       ///< where its element's corners, or its vertex, are in the last good state [m]
+  /// where its element's corners, or its vertex, are in the last good state [m]
+  std::vector<Point> diagnosed;
 };
 
 /// summary.json; `words` is the command line.
-std::string summary_json(const Scene& scene, const Summary& summary, const std::vector<std::string>& words);
+std::string summary_json(const Scene& scene, const Summary& summary,
+                         const std::vector<std::string>& words);
 
-/// A sentence of systems, or of Newton's steps, that were not solved, of a simulation's counters; empty where all were.
+/// A sentence of systems, or of Newton's steps, that were not solved, of a simulation's counters;
+/// empty where all were.
 std::string unsolved_text(std::map<std::string, long> counters);
 
-/// A sentence where the cycle him went by explicit steps of level 0 for most of so many macro steps; else empty.
+/// A sentence where the cycle him went by explicit steps of level 0 for most of so many macro
+/// steps; else empty.
 std::string mostly_explicit_text(std::map<std::string, long> counters, long macro_steps);
 
-/// A sentence where the run takes very many macro steps: what would make them longer that the scene does not have yet. Else empty.
+/// A sentence where the run takes very many macro steps: what would make them longer that the scene
+/// does not have yet. Else empty.
 std::string many_steps_text(const Scene& scene, const Summary& summary);
 
 /// The same as summary.json in a few lines for people.

@@ -36,7 +36,8 @@ std::string in_units(double value, const std::string& unit) {
     double factor;
     const char* symbol;
   };
-  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
+  constexpr Prefix prefixes[] = {{1e9, "G"},  {1e6, "M"},  {1e3, "k"}, {1, ""},
+                                 {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
   const double size = std::abs(value);
   const bool scaled = size > 0 && std::isfinite(size) && unit != "kg";
   if (!scaled) return fmt::format("{:.4g} {}", value, unit);
@@ -47,7 +48,8 @@ std::string in_units(double value, const std::string& unit) {
 }
 
 std::string shell_word(const std::string& text) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-=:,@%";
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-=:,@%";
   if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -55,8 +57,10 @@ std::string shell_word(const std::string& text) {
 }
 
 std::string counted(long count, const std::string& noun) {
-  if (count != 1 && noun.ends_with("hedron")) return fmt::format("{} {}a", count, noun.substr(0, noun.size() - 2));
-  if (count != 1 && noun.ends_with("vertex")) return fmt::format("{} {}ices", count, noun.substr(0, noun.size() - 2));
+  if (count != 1 && noun.ends_with("hedron"))
+    return fmt::format("{} {}a", count, noun.substr(0, noun.size() - 2));
+  if (count != 1 && noun.ends_with("vertex"))
+    return fmt::format("{} {}ices", count, noun.substr(0, noun.size() - 2));
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
@@ -72,13 +76,14 @@ namespace {
 
 // Of UTF-8: bytes that begin a letter
 std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 }  // namespace
 
-std::string text_table(const std::vector<std::vector<std::string>>& rows, const std::string& alignment,
-                       const std::string& indent) {
+std::string text_table(const std::vector<std::vector<std::string>>& rows,
+                       const std::string& alignment, const std::string& indent) {
   std::vector<std::size_t> widths(alignment.size(), 0);
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], letters(row[c]));
@@ -129,14 +134,17 @@ std::string in_clock(double seconds) {
 
 }  // namespace
 
-std::string progress_line(double time, double end_time, long steps, double wall_time, int width, double first_time) {
+std::string progress_line(double time, double end_time, long steps, double wall_time, int width,
+                          double first_time) {
   const double done = std::clamp(time / end_time, 0.0, 1.0);
   const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(end_time))), 0, 9);
-  const std::string before = fmt::format("{:.{}f} / {:.{}f} s ", time, decimals, end_time, decimals);
+  const std::string before =
+      fmt::format("{:.{}f} / {:.{}f} s ", time, decimals, end_time, decimals);
   const double covered = time - first_time;
-  const std::string after = fmt::format(" {:3.0f} % {:6.0f} steps/s {:6.2f} x real time {:>8} left", 100 * done,
-                                        static_cast<double>(steps) / wall_time, covered / wall_time,
-                                        covered > 0 ? in_clock(wall_time * (end_time - time) / covered) : "?");
+  const std::string after =
+      fmt::format(" {:3.0f} % {:6.0f} steps/s {:6.2f} x real time {:>8} left", 100 * done,
+                  static_cast<double>(steps) / wall_time, covered / wall_time,
+                  covered > 0 ? in_clock(wall_time * (end_time - time) / covered) : "?");
   const int room = width - static_cast<int>(before.size() + after.size()) - 3;
   if (room < 5) return (before + after).substr(0, static_cast<std::size_t>(std::max(0, width - 1)));
   const std::size_t size = static_cast<std::size_t>(std::min(room, 40));
@@ -155,7 +163,8 @@ void Progress::update(double time, long steps, const std::function<long()>& halv
   const long halved = halvings ? halvings() : 0;
   const std::string retries = halved > 0 ? " " + counted(halved, "halving") : "";
   const int width = terminal_width() - static_cast<int>(retries.size());
-  line_.update(progress_line(time, duration_, steps - first_step_, wall_time, width, first_time_) + retries);
+  line_.update(progress_line(time, duration_, steps - first_step_, wall_time, width, first_time_) +
+               retries);
 }
 
 }  // namespace plica::app

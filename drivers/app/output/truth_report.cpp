@@ -23,8 +23,10 @@ Json family_json(const TruthFamily& family) {
                {"own_error", family.own_error},
                {"meshes", Json::array()}};
   for (const TruthMesh& m : family.meshes)
-    json["meshes"].push_back(
-        {{"tets", m.tets}, {"macro_step", m.macro_step}, {"wall_time", m.wall_time}, {"error", m.error}});
+    json["meshes"].push_back({{"tets", m.tets},
+                              {"macro_step", m.macro_step},
+                              {"wall_time", m.wall_time},
+                              {"error", m.error}});
   return json;
 }
 
@@ -52,14 +54,17 @@ Json truth_json(const Truth& truth) {
 }
 
 Truth truth_of(const Json& json) {
-  return {family_of(json.at("family")), family_of(json.at("check")), json.at("difference"), json.at("time_error")};
+  return {family_of(json.at("family")), family_of(json.at("check")), json.at("difference"),
+          json.at("time_error")};
 }
 
 Json meshes_json(const std::vector<MeshReference>& meshes) {
   Json json = Json::array();
   for (const MeshReference& m : meshes)
-    json.push_back(
-        {{"element", m.element}, {"level", m.level}, {"own_error", m.own_error}, {"error_space", m.error_space}});
+    json.push_back({{"element", m.element},
+                    {"level", m.level},
+                    {"own_error", m.own_error},
+                    {"error_space", m.error_space}});
   return json;
 }
 
@@ -71,11 +76,13 @@ std::vector<MeshReference> meshes_of(const Json& json) {
 }
 
 std::optional<TimeForError> time_for(const TruthFamily& family, double error) {
-  const auto good = std::ranges::find_if(family.meshes, [&](const TruthMesh& m) { return m.error <= error; });
+  const auto good =
+      std::ranges::find_if(family.meshes, [&](const TruthMesh& m) { return m.error <= error; });
   if (good != family.meshes.end()) return TimeForError{good->wall_time, true};
   if (family.meshes.size() < 2) return {};
   const TruthMesh &coarse = family.meshes[family.meshes.size() - 2], &fine = family.meshes.back();
-  const double power = std::log(fine.wall_time / coarse.wall_time) / std::log(coarse.error / fine.error);
+  const double power =
+      std::log(fine.wall_time / coarse.wall_time) / std::log(coarse.error / fine.error);
   if (!std::isfinite(power) || power <= 0) return {};
   return TimeForError{fine.wall_time * std::pow(fine.error / error, power), false};
 }
@@ -87,7 +94,8 @@ constexpr double wanted = 0.02;  // what "good enough for tissue" is in issues a
 std::string quality_text(const StudyResult& result) {
   const Truth& t = *result.reference.truth;
   std::string text = fmt::format(
-      " It is uncertain by {}: its own error {} ({}), the limit of {} meshes is {} away and itself good to {}, steps "
+      " It is uncertain by {}: its own error {} ({}), the limit of {} meshes is {} away and itself "
+      "good to {}, steps "
       "{}.",
       percent(t.error()), percent(t.family.own_error),
       t.converges()    ? fmt::format("order {:.2f} observed", *t.family.order)
@@ -98,16 +106,19 @@ std::string quality_text(const StudyResult& result) {
       t.check.name, percent(t.difference), percent(t.check.own_error), percent(t.time_error));
   if (!good_enough(result))
     text += fmt::format(
-        " That is not good enough for the smallest error reported, {}: errors below {} are not to be told apart.",
+        " That is not good enough for the smallest error reported, {}: errors below {} are not to "
+        "be told apart.",
         percent(*smallest_error(result.rows)), percent(10 * t.error()));
   return text;
 }
 
 std::string need_text(const TruthFamily& family) {
   const auto time = time_for(family, wanted);
-  const std::string head = fmt::format("Explicit alone, {} meshes: {} of error ", family.name, percent(wanted));
+  const std::string head =
+      fmt::format("Explicit alone, {} meshes: {} of error ", family.name, percent(wanted));
   if (!time) return head + "is not in sight: the finer of them are no better.\n";
-  return head + fmt::format("{} {}{}.\n", time->measured ? "took" : "would take about", in_units(time->seconds, "s"),
+  return head + fmt::format("{} {}{}.\n", time->measured ? "took" : "would take about",
+                            in_units(time->seconds, "s"),
                             time->measured ? "" : ", extrapolated from the two finest");
 }
 
@@ -117,12 +128,14 @@ std::string truth_text(const StudyResult& result) {
   const StudyReference& r = result.reference;
   const Truth& t = *r.truth;
   std::string tets;
-  for (const TruthMesh& m : t.family.meshes) tets += fmt::format("{}{}", tets.empty() ? "" : ", ", m.tets);
-  std::string text =
-      wrapped(fmt::format("Reference: the truth, Richardson's limit of {} meshes of {} tetrahedra; {} to find.",
-                          t.family.name, tets, in_units(r.wall_time, "s")) +
-                  quality_text(result),
-              text_width, "");
+  for (const TruthMesh& m : t.family.meshes)
+    tets += fmt::format("{}{}", tets.empty() ? "" : ", ", m.tets);
+  std::string text = wrapped(
+      fmt::format(
+          "Reference: the truth, Richardson's limit of {} meshes of {} tetrahedra; {} to find.",
+          t.family.name, tets, in_units(r.wall_time, "s")) +
+          quality_text(result),
+      text_width, "");
   std::vector<std::vector<std::string>> table = {{"error in space of", "elements", "error"}};
   for (const MeshReference& m : r.meshes)
     table.push_back({fmt::format("level {}", m.level), m.element, percent(m.error_space)});

@@ -23,8 +23,9 @@ std::vector<MeshReference> meshes_of(const nlohmann::ordered_json& json);  ///< 
 /// For people: how the truth was found, how good it is, and what each mesh is off it.
 std::string truth_text(const StudyResult& result);
 
-/// The wall time that a family's meshes, each run by itself at its own limit, need for so small an error: as measured where one is as
-/// good, else extrapolated, as a power of the error, from the two finest; none where it does not fall from one to the other.
+/// The wall time that a family's meshes, each run by itself at its own limit, need for so small an
+/// error: as measured where one is as good, else extrapolated, as a power of the error, from the
+/// two finest; none where it does not fall from one to the other.
 struct TimeForError {
   double seconds = 0;
   bool measured = false;

@@ -15,19 +15,25 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 Json row_head(const VerifyRow& row) {
-  return {{"problem", row.problem},         {"quantity", row.quantity}, {"unit", row.unit},
-          {"element", row.element},         {"mesh", row.mesh},         {"accepted", row_value(row.accepted)},
+  return {{"problem", row.problem},
+          {"quantity", row.quantity},
+          {"unit", row.unit},
+          {"element", row.element},
+          {"mesh", row.mesh},
+          {"accepted", row_value(row.accepted)},
           {"source", row_value(row.source)}};
 }
 
 Json row_end(const VerifyRow& row) {
-  return {{"limit", row_value(row.limit)},
-          {"order", row_value(row.order)},
-          {"judged", judged_name(row.judged)},
-          {"tolerance", row.judged == Judged::nothing || row.judged == Judged::above ? Json() : Json(row.tolerance)},
-          {"outcome", row.outcome},
-          {"ok", row.outcome != "not ok"},
-          {"note", row_value(row.note)}};
+  return {
+      {"limit", row_value(row.limit)},
+      {"order", row_value(row.order)},
+      {"judged", judged_name(row.judged)},
+      {"tolerance",
+       row.judged == Judged::nothing || row.judged == Judged::above ? Json() : Json(row.tolerance)},
+      {"outcome", row.outcome},
+      {"ok", row.outcome != "not ok"},
+      {"note", row_value(row.note)}};
 }
 
 }  // namespace
@@ -115,12 +121,15 @@ std::string accepted(const VerifyRow& row) {
 std::optional<double> headline(const VerifyRow& row) {
   if (row.ours.empty()) return {};
   double worst = 0;
-  for (const VerifyValue& v : row.ours) worst = std::abs(v.value) <= worst ? worst : std::abs(v.value);
+  for (const VerifyValue& v : row.ours)
+    worst = std::abs(v.value) <= worst ? worst : std::abs(v.value);
   return row.judged == Judged::size ? worst : row.ours.back().value;
 }
 
 std::string limit(const VerifyRow& row) { return number(row.limit); }
-std::string order(const VerifyRow& row) { return row.order ? fmt::format("{:.2f}", *row.order) : ""; }
+std::string order(const VerifyRow& row) {
+  return row.order ? fmt::format("{:.2f}", *row.order) : "";
+}
 
 std::string values(const VerifyRow& row) {
   std::string text;
@@ -138,18 +147,25 @@ struct Column {
 };
 
 const Column columns[] = {
-    {"problem", [](const VerifyRow& row) { return row.problem; }, [](const VerifyRow& row) { return row.problem; }},
-    {"quantity", [](const VerifyRow& row) { return row.quantity + (row.unit == "1" ? "" : " [" + row.unit + "]"); },
+    {"problem", [](const VerifyRow& row) { return row.problem; },
+     [](const VerifyRow& row) { return row.problem; }},
+    {"quantity",
+     [](const VerifyRow& row) {
+       return row.quantity + (row.unit == "1" ? "" : " [" + row.unit + "]");
+     },
      [](const VerifyRow& row) { return row.quantity; }},
-    {"element", [](const VerifyRow& row) { return row.element; }, [](const VerifyRow& row) { return row.element; }},
-    {"mesh", [](const VerifyRow& row) { return row.mesh; }, [](const VerifyRow& row) { return row.mesh; }},
+    {"element", [](const VerifyRow& row) { return row.element; },
+     [](const VerifyRow& row) { return row.element; }},
+    {"mesh", [](const VerifyRow& row) { return row.mesh; },
+     [](const VerifyRow& row) { return row.mesh; }},
     {"accepted", accepted, accepted},
     {"source", [](const VerifyRow& row) { return row.source; }, nullptr},
     {"ours", values, [](const VerifyRow& row) { return with_unit(headline(row), row.unit); }},
     {"limit", limit, limit},
     {"order", order, order},
     {"asked", demand, nullptr},
-    {"outcome", [](const VerifyRow& row) { return row.outcome; }, [](const VerifyRow& row) { return row.outcome; }},
+    {"outcome", [](const VerifyRow& row) { return row.outcome; },
+     [](const VerifyRow& row) { return row.outcome; }},
     {"note", [](const VerifyRow& row) { return row.note; }, nullptr}};
 
 }  // namespace
@@ -157,17 +173,23 @@ const Column columns[] = {
 std::string verify_markdown(const VerifyHead& head, const VerifyResult& result) {
   std::string text = fmt::format(
       "# Problems with known answers\n\n"
-      "Written by `plica verify{}` in {:.0f} s: {}, {} cores, {} with {}; {}; plica {} ({}). Status: {}.\n\n"
-      "All in double precision. *Ours*: on each mesh, in cells, each cut into six tetrahedra, with these elements; "
-      "*jittered*: vertices moved by up to a fifth of a cell; *delaunay*: Delaunay's tetrahedra of as many vertices, "
+      "Written by `plica verify{}` in {:.0f} s: {}, {} cores, {} with {}; {}; plica {} ({}). "
+      "Status: {}.\n\n"
+      "All in double precision. *Ours*: on each mesh, in cells, each cut into six tetrahedra, with "
+      "these elements; "
+      "*jittered*: vertices moved by up to a fifth of a cell; *delaunay*: Delaunay's tetrahedra of "
+      "as many vertices, "
       "slivers and all. *Limit*: what the "
       "last three tend to\n"
-      "(Richardson). *Order*: of the error against the accepted value, or of the differences where the row is judged "
+      "(Richardson). *Order*: of the error against the accepted value, or of the differences where "
+      "the row is judged "
       "by its limit\n"
-      "or by nothing; of time steps, in time. An outcome `shown` is for information: such a row is not judged, and its "
+      "or by nothing; of time steps, in time. An outcome `shown` is for information: such a row is "
+      "not judged, and its "
       "note says what is known to be wrong.\n\n",
-      head.small ? " --small" : "", head.wall_time, head.machine.cpu, head.machine.cores, head.machine.backend,
-      counted(head.machine.threads, "thread"), compiler(), version(), git_revision(), head.status);
+      head.small ? " --small" : "", head.wall_time, head.machine.cpu, head.machine.cores,
+      head.machine.backend, counted(head.machine.threads, "thread"), compiler(), version(),
+      git_revision(), head.status);
   std::string names = "|", rule = "|";
   for (const Column& column : columns) names += fmt::format(" {} |", column.name), rule += "---|";
   text += names + "\n" + rule + "\n";
@@ -188,10 +210,11 @@ std::string verify_text(const VerifyResult& result, const std::string& folder) {
     for (const Column& column : columns)
       if (column.text) table.back().push_back(column.text(row));
   }
-  const auto wrong = std::ranges::count_if(result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
-  return text_table(table, "<<<<>>>><") + fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
-                                                      counted(static_cast<long>(result.rows.size()), "row"), wrong,
-                                                      folder);
+  const auto wrong = std::ranges::count_if(
+      result.rows, [](const VerifyRow& row) { return row.outcome == "not ok"; });
+  return text_table(table, "<<<<>>>><") +
+         fmt::format("{}, {} not ok. All of it: {}/verify.md\n",
+                     counted(static_cast<long>(result.rows.size()), "row"), wrong, folder);
 }
 
 }  // namespace plica::app

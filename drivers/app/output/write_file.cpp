@@ -13,7 +13,9 @@ namespace plica::app {
 
 namespace {
 
-std::filesystem::path draft_of(const std::filesystem::path& file) { return file.string() + ".part"; }
+std::filesystem::path draft_of(const std::filesystem::path& file) {
+  return file.string() + ".part";
+}
 
 void write_draft(const std::filesystem::path& file, const std::string& content) {
   errno = 0;
@@ -64,7 +66,8 @@ void write_files(const std::vector<MemoryFile>& files) {
 
 void sync_file(const std::filesystem::path& file) {
   const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (handle < 0) throw FileError("cannot read " + file.string() + ": " + std::generic_category().message(errno));
+  if (handle < 0)
+    throw FileError("cannot read " + file.string() + ": " + std::generic_category().message(errno));
   fsync(handle);  // what cannot be synchronised is as safe as it gets
   close(handle);
 }
@@ -75,9 +78,11 @@ void make_folder(const std::filesystem::path& folder) {
   if (!error && std::filesystem::is_directory(folder)) return;
   const std::filesystem::path there = nearest_existing(folder);
   if (!std::filesystem::is_directory(there))
-    throw FolderError("cannot make the folder " + folder.string() + ": " + there.string() + " is a file, not a folder");
-  throw FolderError("cannot make the folder " + folder.string() + ": the system lets none be made in " +
-                    there.string() + " (" + error.message() + "); expected a place to write to");
+    throw FolderError("cannot make the folder " + folder.string() + ": " + there.string() +
+                      " is a file, not a folder");
+  throw FolderError("cannot make the folder " + folder.string() +
+                    ": the system lets none be made in " + there.string() + " (" + error.message() +
+                    "); expected a place to write to");
 }
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
@@ -93,19 +98,22 @@ FolderLock::~FolderLock() {
   if (handle_ >= 0) close(handle_);
 }
 
-GrowingFile::GrowingFile(std::filesystem::path file, const std::string& head) : file_(std::move(file)) {
+GrowingFile::GrowingFile(std::filesystem::path file, const std::string& head)
+    : file_(std::move(file)) {
   write_file(file_, head);
   size_ = head.size();
   open();
 }
 
-GrowingFile::GrowingFile(std::filesystem::path file, std::uint64_t size) : file_(std::move(file)), size_(size) {
+GrowingFile::GrowingFile(std::filesystem::path file, std::uint64_t size)
+    : file_(std::move(file)), size_(size) {
   std::error_code error;
   const std::uint64_t found = std::filesystem::file_size(file_, error);
   if (error || found < size)
     throw InputError(
         "cannot resume: " + file_.string() + " was changed since the checkpoint: " +
-        (error ? error.message() : std::to_string(found) + " bytes, " + std::to_string(size) + " expected"));
+        (error ? error.message()
+               : std::to_string(found) + " bytes, " + std::to_string(size) + " expected"));
   cut_back(size);
   open();
 }
@@ -123,11 +131,14 @@ GrowingFile::~GrowingFile() {
 
 void GrowingFile::open() {
   handle_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (handle_ < 0) throw FileError("cannot write " + file_.string() + ": " + std::generic_category().message(errno));
+  if (handle_ < 0)
+    throw FileError("cannot write " + file_.string() + ": " +
+                    std::generic_category().message(errno));
 }
 
 void GrowingFile::add(const std::string& line) {
-  const ssize_t written = ::write(handle_, line.data(), line.size());  // one call: all of the line or nothing
+  // one call: all of the line or nothing
+  const ssize_t written = ::write(handle_, line.data(), line.size());
   if (written != static_cast<ssize_t>(line.size())) {
     const std::string reason = std::generic_category().message(written < 0 ? errno : ENOSPC);
     std::error_code ignored;

@@ -19,7 +19,8 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A folder for results that cannot be made or is none: what was asked for is wrong, not what became of it.
+/// A folder for results that cannot be made or is none: what was asked for is wrong, not what
+/// became of it.
 class FolderError : public FileError {
  public:
   using FileError::FileError;
@@ -27,9 +28,10 @@ class FolderError : public FileError {
 
 enum class Durable { no, yes };
 
-/// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old content or the new; where it
-/// is durable also after the power failed.
-void write_file(const std::filesystem::path& file, const std::string& content, Durable durable = Durable::no);
+/// Replaces the file as a whole: readers, and whoever finds it after a killed run, see the old
+/// content or the new; where it is durable also after the power failed.
+void write_file(const std::filesystem::path& file, const std::string& content,
+                Durable durable = Durable::no);
 
 /// Waits until a file's content, or a folder's list of names, is on the disk.
 void sync_file(const std::filesystem::path& file);
@@ -37,10 +39,12 @@ void sync_file(const std::filesystem::path& file);
 /// The same of several that belong together: all are written out before the first is replaced.
 void write_files(const std::vector<MemoryFile>& files);
 
-/// Makes the folder, and those above it, where they are missing. FolderError says what stands in the way, and why.
+/// Makes the folder, and those above it, where they are missing. FolderError says what stands in
+/// the way, and why.
 void make_folder(const std::filesystem::path& folder);
 
-/// Keeps other runs out of a folder as long as it lives: the system gives the folder back even where the program is killed.
+/// Keeps other runs out of a folder as long as it lives: the system gives the folder back even
+/// where the program is killed.
 class FolderLock {
  public:
   /// InputError where another run has it.
@@ -53,13 +57,14 @@ class FolderLock {
   int handle_;
 };
 
-/// A text file that grows by whole lines. Whoever looks at it, also after the run was killed, finds whole lines. FileError
-/// where it cannot be written.
+/// A text file that grows by whole lines. Whoever looks at it, also after the run was killed, finds
+/// whole lines. FileError where it cannot be written.
 class GrowingFile {
  public:
   /// Starts anew with this head.
   GrowingFile(std::filesystem::path file, const std::string& head);
-  /// Goes on after the first `size` bytes; what stood behind them is cut off. InputError where there are fewer.
+  /// Goes on after the first `size` bytes; what stood behind them is cut off. InputError where
+  /// there are fewer.
   GrowingFile(std::filesystem::path file, std::uint64_t size);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
@@ -77,7 +82,8 @@ class GrowingFile {
   std::uint64_t size_ = 0;
 };
 
-/// FNV-1a with eight bytes at a time: tells damage and change, not malice. http://www.isthe.com/chongo/tech/comp/fnv/
+/// FNV-1a with eight bytes at a time: tells damage and change, not malice.
+/// http://www.isthe.com/chongo/tech/comp/fnv/
 class Digest {
  public:
   void add(const void* data, std::size_t size) {

@@ -22,7 +22,8 @@ std::string base64(const void* data, std::size_t size) {
     const std::size_t count = std::min<std::size_t>(3, size - at);
     std::uint32_t group = 0;
     for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[at + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? alphabet[group >> (18 - 6 * k) & 63] : '=';
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= count ? alphabet[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }
@@ -39,7 +40,8 @@ struct Range {
 };
 
 // Every `stride`th value of all frames, from the one `first`
-Range range_of(const std::vector<std::vector<float>>& frames, std::size_t first, std::size_t stride) {
+Range range_of(const std::vector<std::vector<float>>& frames, std::size_t first,
+               std::size_t stride) {
   Range range{frames.front()[first], frames.front()[first]};
   for (const auto& frame : frames)
     for (std::size_t i = first; i < frame.size(); i += stride)
@@ -48,7 +50,8 @@ Range range_of(const std::vector<std::vector<float>>& frames, std::size_t first,
 }
 
 // As parts of the ranges of the components, which take turns
-std::string quantised(const std::vector<std::vector<float>>& frames, const std::vector<Range>& ranges) {
+std::string quantised(const std::vector<std::vector<float>>& frames,
+                      const std::vector<Range>& ranges) {
   std::vector<std::uint16_t> values;
   values.reserve(frames.size() * frames.front().size());
   for (const auto& frame : frames)
@@ -62,7 +65,8 @@ std::string quantised(const std::vector<std::vector<float>>& frames, const std::
 
 std::array<double, 12> rigid_fit(const std::vector<Point>& rest, const std::vector<Point>& now) {
   const auto count = static_cast<Eigen::Index>(rest.size());
-  const Eigen::Map<const Eigen::Matrix3Xd> from(rest.front().data(), 3, count), to(now.front().data(), 3, count);
+  const Eigen::Map<const Eigen::Matrix3Xd> from(rest.front().data(), 3, count),
+      to(now.front().data(), 3, count);
   const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
   std::array<double, 12> rows{};
   for (int i = 0; i < 12; ++i) rows[static_cast<std::size_t>(i)] = fit(i / 4, i % 4);
@@ -70,7 +74,9 @@ std::array<double, 12> rigid_fit(const std::vector<Point>& rest, const std::vect
 }
 
 // Not for colours: what is the same in all frames and means nothing to the eye
-bool left_out(const std::string& name) { return name == "displacement" || name == "mass" || name == "number"; }
+bool left_out(const std::string& name) {
+  return name == "displacement" || name == "mass" || name == "number";
+}
 
 std::string unit_of(const std::string& name) {
   if (name.ends_with("velocity")) return "m/s";
@@ -144,11 +150,14 @@ void Film::check(const FrameFile& frame) const {
   if (frame.points.size() != points_ || frame.triangles.size() + frame.tets.size() != cells_)
     throw InputError("it has another mesh than the first frame");
   for (const auto& [name, field] : fields_)
-    if (const FrameArray* array = frame.find(name); array == nullptr || array->of_cells != field.of_cells)
+    if (const FrameArray* array = frame.find(name);
+        array == nullptr || array->of_cells != field.of_cells)
       throw InputError("it has no array '" + name + "', as the first frame has");
 }
 
-bool Film::same_surface(const Film& other) const { return triangles_ == other.triangles_ && rest_ == other.rest_; }
+bool Film::same_surface(const Film& other) const {
+  return triangles_ == other.triangles_ && rest_ == other.rest_;
+}
 
 void Film::add(const FrameFile& frame) {
   std::vector<Point> now;
@@ -179,8 +188,10 @@ Json Film::json() const {
   std::vector<float> rest;
   for (const Point& p : rest_) rest.insert(rest.end(), {float(p.x()), float(p.y()), float(p.z())});
   std::vector<std::uint32_t> corners;
-  for (const auto& triangle : triangles_) corners.insert(corners.end(), triangle.begin(), triangle.end());
-  const std::vector<Range> ranges = {range_of(motion_, 0, 3), range_of(motion_, 1, 3), range_of(motion_, 2, 3)};
+  for (const auto& triangle : triangles_)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  const std::vector<Range> ranges = {range_of(motion_, 0, 3), range_of(motion_, 1, 3),
+                                     range_of(motion_, 2, 3)};
   Json json = {{"level", level_ < 0 ? Json() : Json(level_)},
                {"vertices", rest_.size()},
                {"held", held()},
@@ -193,7 +204,8 @@ Json Film::json() const {
                {"fields", Json::array()}};
   for (const auto& [name, field] : fields_) {
     const Range range = range_of(field.frames, 0, 1);
-    const bool still = std::ranges::all_of(field.frames, [&](const auto& f) { return f == field.frames.front(); });
+    const bool still =
+        std::ranges::all_of(field.frames, [&](const auto& f) { return f == field.frames.front(); });
     if (still && range.low == range.high) continue;  // nothing to see
     const auto end = still ? field.frames.begin() + 1 : field.frames.end();
     json["fields"].push_back({{"name", name},

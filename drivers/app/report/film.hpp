@@ -8,8 +8,9 @@
 
 namespace plica::app {
 
-/// The surface of a body in time, as the page shows it: of tetrahedra their boundary. Numbers are kept in 16 bits, as parts of the
-/// range that they have over all times: steps of a displacement are 1/65535 of the largest motion along an axis.
+/// The surface of a body in time, as the page shows it: of tetrahedra their boundary. Numbers are
+/// kept in 16 bits, as parts of the range that they have over all times: steps of a displacement
+/// are 1/65535 of the largest motion along an axis.
 class Film {
  public:
   /// `level`: of the tetrahedra; -1: the film is of the surface that a run always writes.

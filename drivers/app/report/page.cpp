@@ -6,7 +6,8 @@ namespace plica::app {
 
 std::string filled_page(const PageFiles& files, const std::string& title, const std::string& json) {
   std::string data, heading;
-  for (const char letter : json) letter == '<' ? data += "\\u003c" : data += letter;  // it might end the script
+  // it might end the script
+  for (const char letter : json) letter == '<' ? data += "\\u003c" : data += letter;
   for (const char letter : title)
     letter == '<' ? heading += "&lt;" : letter == '&' ? heading += "&amp;" : heading += letter;
   const std::map<std::string_view, std::string_view> parts = {

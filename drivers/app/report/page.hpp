@@ -5,8 +5,8 @@
 
 namespace plica::app {
 
-/// What a page is made of, as the build has put it into the program. In the HTML {{title}}, {{style}}, {{data}} and {{script}} stand
-/// for what belongs there.
+/// What a page is made of, as the build has put it into the program. In the HTML {{title}},
+/// {{style}}, {{data}} and {{script}} stand for what belongs there.
 struct PageFiles {
   std::string_view html, style, script;
 };

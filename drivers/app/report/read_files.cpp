@@ -11,7 +11,8 @@ namespace {
 
 class FrameReader {
  public:
-  explicit FrameReader(const std::filesystem::path& path) : file_(load_file(path)), arrays_(file_) {}
+  explicit FrameReader(const std::filesystem::path& path)
+      : file_(load_file(path)), arrays_(file_) {}
 
   FrameFile read() {
     const std::vector<XmlElement> elements = vtu_elements(file_);
@@ -43,7 +44,8 @@ class FrameReader {
     } else if (array.parent == "PointData" || array.parent == "CellData") {
       const bool of_cells = array.parent == "CellData";
       const std::int64_t components = attribute_count(array, "NumberOfComponents", file_);
-      frame_.arrays.push_back({attribute(array, "Name", file_), of_cells, static_cast<int>(components),
+      frame_.arrays.push_back({attribute(array, "Name", file_), of_cells,
+                               static_cast<int>(components),
                                numbers(array, (of_cells ? cells_ : points_) * components)});
     }
   }
@@ -51,17 +53,20 @@ class FrameReader {
   std::vector<double> numbers(const XmlElement& array, std::int64_t count) {
     std::vector<double> values;
     arrays_.read(array, [&](Numbers& source, NumberType type) {
-      values.reserve(static_cast<std::size_t>(source.checked_count(count, "the size of an array", type, 1)));
+      values.reserve(
+          static_cast<std::size_t>(source.checked_count(count, "the size of an array", type, 1)));
       for (std::int64_t i = 0; i < count; ++i)
-        values.push_back(is_integer(type) ? static_cast<double>(source.integer(type, "a number of an array"))
-                                          : source.number(type, "a number of an array"));
+        values.push_back(is_integer(type)
+                             ? static_cast<double>(source.integer(type, "a number of an array"))
+                             : source.number(type, "a number of an array"));
     });
     return values;
   }
 
   void take_cells() {
     if (cells_ == 0) return;
-    if (!offsets_ || !connectivity_) refuse(file_.name, {}, "there is no 'connectivity' or no 'offsets' in <Cells>");
+    if (!offsets_ || !connectivity_)
+      refuse(file_.name, {}, "there is no 'connectivity' or no 'offsets' in <Cells>");
     const auto corners = static_cast<std::int64_t>(numbers(*offsets_, cells_).back());
     if (corners != 3 * cells_ && corners != 4 * cells_)
       refuse(file_.name, offsets_->place, "the cells must be all triangles or all tetrahedra");
@@ -138,14 +143,16 @@ Json read_columns(const std::filesystem::path& csv, std::size_t rows) {
   std::string line;
   std::getline(stream, line);
   const std::vector<std::string> names = fields_of(line);
-  if (names.empty() || names.front() != "time") refuse(file.name, {1}, "expected columns that start with 'time'");
+  if (names.empty() || names.front() != "time")
+    refuse(file.name, {1}, "expected columns that start with 'time'");
   std::vector<std::vector<double>> table;
   while (std::getline(stream, line)) {
     const std::vector<std::string> fields = fields_of(line);
     const auto number = static_cast<std::int64_t>(table.size()) + 2;
     if (fields.size() != names.size())
       refuse(file.name, {number},
-             "expected " + std::to_string(names.size()) + " values, found " + std::to_string(fields.size()));
+             "expected " + std::to_string(names.size()) + " values, found " +
+                 std::to_string(fields.size()));
     std::vector<double>& row = table.emplace_back();
     for (const std::string& field : fields) row.push_back(number_of(field, file, number));
   }
@@ -163,7 +170,8 @@ Json read_json(const std::filesystem::path& file, const std::vector<std::string>
   Json json = Json::parse(load_file(file).bytes);
   for (const std::string& key : keys)
     if (!json.is_object() || !json.contains(key))
-      throw InputError("it is not what plica wrote there: there is no '" + key + "'", {file.string()});
+      throw InputError("it is not what plica wrote there: there is no '" + key + "'",
+                       {file.string()});
   return json;
 } catch (const Json::exception& error) {
   throw InputError(std::string("it is damaged: ") + error.what(), {file.string()});

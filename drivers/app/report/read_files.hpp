@@ -36,14 +36,16 @@ struct FrameFile {
   const FrameArray* find(const std::string& name) const;
 };
 
-/// Reads a frame. InputError with file and place where something is not sound: malformed, cut short, not finite.
+/// Reads a frame. InputError with file and place where something is not sound: malformed, cut
+/// short, not finite.
 FrameFile read_frame(const std::filesystem::path& vtu);
 
-/// A table of numbers (.csv with a head) as {column: [values]}, at most `rows` of them, evenly, the last among them. InputError with
-/// file and line where it is none.
+/// A table of numbers (.csv with a head) as {column: [values]}, at most `rows` of them, evenly, the
+/// last among them. InputError with file and line where it is none.
 nlohmann::ordered_json read_columns(const std::filesystem::path& csv, std::size_t rows);
 
 /// A JSON file with these members. InputError where it is none.
-nlohmann::ordered_json read_json(const std::filesystem::path& file, const std::vector<std::string>& keys);
+nlohmann::ordered_json read_json(const std::filesystem::path& file,
+                                 const std::vector<std::string>& keys);
 
 }  // namespace plica::app

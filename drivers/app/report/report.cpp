@@ -19,26 +19,32 @@ namespace {
 constexpr std::size_t most_rows = 2000;  // of a table on the page
 
 bool holds_run(const std::filesystem::path& folder) {
-  return std::ranges::any_of(std::array{"frames.pvd", "summary.json", "history.csv"},
-                             [&](const char* file) { return std::filesystem::exists(folder / file); });
+  return std::ranges::any_of(
+      std::array{"frames.pvd", "summary.json", "history.csv"},
+      [&](const char* file) { return std::filesystem::exists(folder / file); });
 }
-bool holds_study(const std::filesystem::path& folder) { return std::filesystem::exists(folder / "study.json"); }
+bool holds_study(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "study.json");
+}
 
 // Folders in a folder that hold something to report, by name
 std::vector<std::string> reportable_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (holds_run(entry.path()) || holds_study(entry.path())) names.push_back(entry.path().filename().string());
+    if (holds_run(entry.path()) || holds_study(entry.path()))
+      names.push_back(entry.path().filename().string());
   std::ranges::sort(names);
   return names;
 }
 
 void check_folder(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder)) {
-    const auto parent = folder.parent_path().empty() ? std::filesystem::path(".") : folder.parent_path();
+    const auto parent =
+        folder.parent_path().empty() ? std::filesystem::path(".") : folder.parent_path();
     const std::string near = nearest_name(folder.filename().string(), reportable_in(parent));
-    throw InputError("there is no folder " + folder.string() + (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    throw InputError("there is no folder " + folder.string() +
+                     (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   if (!std::filesystem::is_directory(folder))
     throw InputError(folder.string() + " is a file; expected the folder of a run or a study");
@@ -46,10 +52,12 @@ void check_folder(const std::filesystem::path& folder) {
   std::vector<std::string> inside = reportable_in(folder);
   constexpr std::size_t shown = 10;
   if (inside.size() > shown) inside.resize(shown), inside.emplace_back("...");
-  throw InputError(folder.string() +
-                   " holds no run and no study; expected frames.pvd, summary.json or history.csv of `plica run`, or "
-                   "study.json of `plica study`" +
-                   (inside.empty() ? "" : fmt::format(" (folders in it that do: {})", fmt::join(inside, ", "))));
+  throw InputError(
+      folder.string() +
+      " holds no run and no study; expected frames.pvd, summary.json or history.csv of `plica "
+      "run`, or "
+      "study.json of `plica study`" +
+      (inside.empty() ? "" : fmt::format(" (folders in it that do: {})", fmt::join(inside, ", "))));
 }
 
 // A film that the run wrote: its level, -1 for the surface, and what is listed
@@ -61,7 +69,8 @@ struct Listed {
 std::vector<Listed> listed_films(const std::filesystem::path& folder) {
   std::vector<Listed> films;
   const auto add = [&](const std::string& file, int level) {
-    if (std::filesystem::exists(folder / file)) films.push_back({level, read_collection(folder / file)});
+    if (std::filesystem::exists(folder / file))
+      films.push_back({level, read_collection(folder / file)});
   };
   add("frames.pvd", -1);
   add("volume.pvd", 0);
@@ -94,8 +103,8 @@ class Maker {
 
  private:
   void add_study() {
-    data_["study"] =
-        read_json(folder_ / "study.json", {"name", "status", "duration", "tets", "machine", "reference", "rows"});
+    data_["study"] = read_json(folder_ / "study.json", {"name", "status", "duration", "tets",
+                                                        "machine", "reference", "rows"});
     data_["title"] = data_["study"]["name"];
     data_["status"] = "study " + data_["study"]["status"].get<std::string>();
   }
@@ -103,21 +112,23 @@ class Maker {
   void add_run(std::size_t frames) {
     if (std::filesystem::exists(folder_ / "summary.json")) {
       const Json& summary = data_["summary"] = read_json(
-          folder_ / "summary.json",
-          {"name", "status", "levels", "cycle", "macro_step", "simulated_time", "wall_time", "stages", "diagnosis"});
+          folder_ / "summary.json", {"name", "status", "levels", "cycle", "macro_step",
+                                     "simulated_time", "wall_time", "stages", "diagnosis"});
       data_["title"] = summary["name"], data_["status"] = summary["status"];
       if (summary.contains("gravity")) take_up(summary["gravity"]);
     } else {
       data_["status"] = "unfinished";
       report_.warnings.emplace_back(
-          "There is no summary.json: the run goes on, or was killed. Shown is what it has written so far.");
+          "There is no summary.json: the run goes on, or was killed. Shown is what it has written "
+          "so far.");
     }
     if (std::filesystem::exists(folder_ / "history.csv"))
       data_["history"] = read_columns(folder_ / "history.csv", most_rows);
     if (std::filesystem::exists(folder_ / "probes.csv"))
       data_["probes"] = read_columns(folder_ / "probes.csv", most_rows);
     add_films(frames);
-    if (report_.frames == 0) report_.warnings.emplace_back("There are no frames: the body is not shown.");
+    if (report_.frames == 0)
+      report_.warnings.emplace_back("There are no frames: the body is not shown.");
   }
 
   void take_up(const std::vector<double>& gravity) {
@@ -135,16 +146,20 @@ class Maker {
     const std::size_t taken = std::min(there, std::max<std::size_t>(frames, 2));
     for (std::size_t i = 0; i < taken; ++i) {
       const std::size_t frame = taken == 1 ? 0 : i * (there - 1) / (taken - 1);
-      if (add_frame(listed, frame, films)) data_["times"].push_back(listed.front().entries[frame].time);
+      if (add_frame(listed, frame, films))
+        data_["times"].push_back(listed.front().entries[frame].time);
     }
     report_.frames = data_["times"].size();
     if (report_.frames == 0) return;
-    const bool skin_of_level_0 = films.size() > 1 && listed[1].level == 0 && films[0]->same_surface(*films[1]);
-    for (std::size_t i = skin_of_level_0 ? 1 : 0; i < films.size(); ++i) data_["films"].push_back(films[i]->json());
+    const bool skin_of_level_0 =
+        films.size() > 1 && listed[1].level == 0 && films[0]->same_surface(*films[1]);
+    for (std::size_t i = skin_of_level_0 ? 1 : 0; i < films.size(); ++i)
+      data_["films"].push_back(films[i]->json());
   }
 
   // The frame of all films, or of none
-  bool add_frame(const std::vector<Listed>& listed, std::size_t frame, std::vector<std::optional<Film>>& films) {
+  bool add_frame(const std::vector<Listed>& listed, std::size_t frame,
+                 std::vector<std::optional<Film>>& films) {
     std::vector<FrameFile> files;
     try {
       for (std::size_t i = 0; i < films.size(); ++i) {
@@ -154,7 +169,8 @@ class Maker {
       }
     } catch (const InputError& error) {
       const double time = listed.front().entries[frame].time;
-      report_.warnings.push_back(fmt::format("The frame at {:g} s is left out: {}", time, error.what()));
+      report_.warnings.push_back(
+          fmt::format("The frame at {:g} s is left out: {}", time, error.what()));
       return false;
     }
     for (std::size_t i = 0; i < films.size(); ++i) films[i]->add(files[i]);
@@ -177,7 +193,8 @@ Report make_report(const std::filesystem::path& folder, std::size_t frames) try 
   check_folder(folder);
   return Maker(folder.has_filename() ? folder : folder.parent_path()).make(frames);
 } catch (const Json::exception& error) {
-  throw InputError(folder.string() + ": summary.json or study.json is not what plica wrote there: " + error.what());
+  throw InputError(folder.string() +
+                   ": summary.json or study.json is not what plica wrote there: " + error.what());
 }
 
 }  // namespace plica::app

@@ -44,7 +44,9 @@ double extent_of(const TetMesh& mesh) {
   return (box.max - box.min).maxCoeff();
 }
 
-bool no_body(const TetMesh& mesh) { return extent_of(mesh) > largest_body || extent_of(mesh) < smallest_body; }
+bool no_body(const TetMesh& mesh) {
+  return extent_of(mesh) > largest_body || extent_of(mesh) < smallest_body;
+}
 
 // Where it is from a file, the likely cause is that this is in another unit
 std::string size_text(const TetMesh& mesh, bool of_file) {
@@ -56,9 +58,11 @@ std::string size_text(const TetMesh& mesh, bool of_file) {
   } units[] = {{"mm", 0.001}, {"cm", 0.01}, {"um", 1e-6}};
   for (const auto& [unit, scale] : units)
     if (extent > largest_body && extent * scale > 0.005 && extent * scale < largest_body)
-      return text + (of_file
-                         ? fmt::format("; is the file in {}? Then its scale is {:g}", unit, scale)
-                         : fmt::format("; are its numbers in {0}? A number may have its unit, such as 5 {0}", unit));
+      return text +
+             (of_file ? fmt::format("; is the file in {}? Then its scale is {:g}", unit, scale)
+                      : fmt::format(
+                            "; are its numbers in {0}? A number may have its unit, such as 5 {0}",
+                            unit));
   return text;
 }
 
@@ -66,12 +70,15 @@ std::string size_text(const TetMesh& mesh, bool of_file) {
 
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report) {
   Sentences sentences;
-  for (const auto& [kind, count] : report.linearised) sentences.add(count, kind, "taken by the corners alone");
+  for (const auto& [kind, count] : report.linearised)
+    sentences.add(count, kind, "taken by the corners alone");
   for (const auto& [kind, count] : report.cut) sentences.add(count, kind, "cut into tetrahedra");
   sentences.add(report.flipped, "element", "inside out in the file: turned");
   sentences.add(report.unreferenced, "unused point", "dropped");
-  sentences.add(count_duplicate_vertices(mesh, at_the_same_place * mean_edge_length(mesh)), "duplicate",
-                "among the vertices: at the place of another one, where the mesh may come apart (merge them?)");
+  sentences.add(count_duplicate_vertices(mesh, at_the_same_place * mean_edge_length(mesh)),
+                "duplicate",
+                "among the vertices: at the place of another one, where the mesh may come apart "
+                "(merge them?)");
   sentences.add(no_body(mesh), size_text(mesh, true));
   const int parts = count_parts(mesh);
   sentences.add(parts > 1, fmt::format("the mesh has {} parts that share no vertex", parts));
@@ -82,15 +89,19 @@ std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& re
 
 std::vector<std::string> surface_warnings(const SurfaceReport& report) {
   Sentences sentences;
-  for (const auto& [kind, count] : report.linearised) sentences.add(count, kind, "taken by the corners alone");
+  for (const auto& [kind, count] : report.linearised)
+    sentences.add(count, kind, "taken by the corners alone");
   sentences.add(report.left_out, "bad face", "left out");
   sentences.add(report.unreferenced, "unused point", "dropped");
   sentences.add(report.collapsed, "collapsed triangle", "dropped: it names a vertex twice");
   sentences.add(report.repeated, "repeated triangle", "dropped");
   sentences.add(report.open_edges, "open edge", "of one triangle only: the surface is not closed");
-  sentences.add(report.crowded_edges, "crowded edge", "of more than two triangles: the surface is no manifold");
-  sentences.add(report.inconsistent_edges, "inconsistent edge", "of triangles that face different sides");
-  sentences.add(report.parts > 1, fmt::format("the surface has {} parts that share no vertex", report.parts));
+  sentences.add(report.crowded_edges, "crowded edge",
+                "of more than two triangles: the surface is no manifold");
+  sentences.add(report.inconsistent_edges, "inconsistent edge",
+                "of triangles that face different sides");
+  sentences.add(report.parts > 1,
+                fmt::format("the surface has {} parts that share no vertex", report.parts));
   sentences.add(report.turned, "the surface was inside out: all triangles turned");
   return sentences.take();
 }
@@ -98,14 +109,16 @@ std::vector<std::string> surface_warnings(const SurfaceReport& report) {
 std::string why_open(const SurfaceReport& report) {
   const Point& at = report.open_at;
   return fmt::format(
-      "has no inside: {} open edges, {} edges of more than two triangles, {} edges between triangles that face "
+      "has no inside: {} open edges, {} edges of more than two triangles, {} edges between "
+      "triangles that face "
       "different sides; the first is at [{:.4g}, {:.4g}, {:.4g}] in the file's unit",
       report.open_edges, report.crowded_edges, report.inconsistent_edges, at[0], at[1], at[2]);
 }
 
 namespace {
 
-// A generator knows nothing of files, and a mesh file nothing of scenes: what is refused gets the place in the scene
+// A generator knows nothing of files, and a mesh file nothing of scenes: what is refused gets the
+// place in the scene
 template <class Make>
 auto placed(const Where& where, const Make& make) {
   try {
@@ -115,21 +128,28 @@ auto placed(const Where& where, const Make& make) {
   }
 }
 
-std::filesystem::path found(const std::string& kind, const std::string& name, const Scene& scene, const Where& where) {
+std::filesystem::path found(const std::string& kind, const std::string& name, const Scene& scene,
+                            const Where& where) {
   const std::filesystem::path file = std::filesystem::path(scene.file).parent_path() / name;
-  if (std::error_code error; std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
-    throw InputError("there is no " + kind + " file '" + file.string() + "' (its name is relative to the scene)",
-                     where);
+  if (std::error_code error;
+      std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
+    throw InputError(
+        "there is no " + kind + " file '" + file.string() + "' (its name is relative to the scene)",
+        where);
   return file;
 }
 
-void warn(Scene& scene, const std::filesystem::path& file, const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) scene.warnings.push_back(file.string() + ": " + warning);
+void warn(Scene& scene, const std::filesystem::path& file,
+          const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    scene.warnings.push_back(file.string() + ": " + warning);
 }
 
 // Numbers in the file, or, where one is too large, places in its order
 std::vector<int> ids_of(const std::vector<std::int64_t>& tags, const std::vector<int>& order) {
-  const auto fits = [](std::int64_t tag) { return tag >= 0 && tag <= std::numeric_limits<int>::max(); };
+  const auto fits = [](std::int64_t tag) {
+    return tag >= 0 && tag <= std::numeric_limits<int>::max();
+  };
   if (!std::ranges::all_of(tags, fits)) return order;
   std::vector<int> ids;
   for (const int old : order) ids.push_back(static_cast<int>(tags[static_cast<std::size_t>(old)]));
@@ -145,26 +165,31 @@ Reordering better_order(const TetMesh& mesh) {
 }
 
 // Scaled, glued and put in an order that is fast to simulate; `numbering` leads back to the file's
-TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where, Numbering& numbering) {
+TetMesh from_file(const LevelRecipe& recipe, Scene& scene, const Where& where,
+                  Numbering& numbering) {
   const std::filesystem::path file = found("mesh", recipe.file, scene, where);
   MeshReport report;
   const Flaws flaws = recipe.repair ? Flaws::kept : Flaws::refused;
   TetMesh mesh = placed(where, [&] { return read_mesh(file, &report, flaws); });
   for (Point& vertex : mesh.vertices) vertex *= recipe.scale;
   if (recipe.merge_duplicates) {
-    MergedMesh merged = placed(where, [&] { return merge_duplicates(mesh, *recipe.merge_duplicates); });
+    MergedMesh merged =
+        placed(where, [&] { return merge_duplicates(mesh, *recipe.merge_duplicates); });
     mesh = std::move(merged.mesh);
     report.vertex_tags = permuted(report.vertex_tags, merged.original_vertex);
-    if (merged.merged > 0) warn(scene, file, {fmt::format("merged {} duplicate vertices", merged.merged)});
+    if (merged.merged > 0)
+      warn(scene, file, {fmt::format("merged {} duplicate vertices", merged.merged)});
   }
   if (recipe.repair) {
     std::vector<std::string> changes;
-    mesh = placed(where, [&] { return repaired(mesh, report, scene.problem.body.material, changes); });
+    mesh =
+        placed(where, [&] { return repaired(mesh, report, scene.problem.body.material, changes); });
     warn(scene, file, changes);
   }
   warn(scene, file, mesh_warnings(mesh, report));
   const Reordering order = better_order(mesh);
-  numbering = {inverse(order), ids_of(report.vertex_tags, order.vertices), ids_of(report.tet_tags, order.tets)};
+  numbering = {inverse(order), ids_of(report.vertex_tags, order.vertices),
+               ids_of(report.tet_tags, order.tets)};
   return reordered(mesh, order);
 }
 
@@ -187,7 +212,8 @@ TriangleSurface closed_surface(const LatticesRecipe& recipe, Scene& scene, const
     surface = boundary_surface(mesh->mesh).surface;
   } else {
     const SurfaceReport& report = std::get<ReadSurface>(read).report;
-    if (!report.closed()) throw InputError(fmt::format("the surface '{}' {}", file.string(), why_open(report)), where);
+    if (!report.closed())
+      throw InputError(fmt::format("the surface '{}' {}", file.string(), why_open(report)), where);
     warn(scene, file, surface_warnings(report));
     surface = std::move(std::get<ReadSurface>(read).surface);
   }
@@ -206,27 +232,33 @@ void lay_lattices(Scene& scene, const Tree& tree) {
                                      [&] { return weighted_lattice(*body.surface, size); });
     if (lattice.shared_cells > 0)
       warn(scene, scene.lattices->surface,
-           {fmt::format("{} of {:g} m {} several unconnected parts of the body, which the lattice connects there; "
+           {fmt::format("{} of {:g} m {} several unconnected parts of the body, which the lattice "
+                        "connects there; "
                         "smaller cells keep them apart",
-                        counted(lattice.shared_cells, "cell"), size, lattice.shared_cells == 1 ? "holds" : "hold")});
+                        counted(lattice.shared_cells, "cell"), size,
+                        lattice.shared_cells == 1 ? "holds" : "hold")});
     body.levels.push_back(std::move(lattice.mesh));
   }
 }
 
 TetMesh generated(const LevelRecipe& recipe) {
-  if (const auto& box = recipe.box) return box_mesh({box->origin, box->origin + box->size}, box->cells);
+  if (const auto& box = recipe.box)
+    return box_mesh({box->origin, box->origin + box->size}, box->cells);
   if (const auto& ball = recipe.ball) return ball_mesh(ball->centre, ball->radius, ball->cells);
   if (const auto& blob = recipe.blob) return blob_mesh(blob->centre, blob->length, blob->cells);
   if (const auto& tube = recipe.tube) return tube_mesh(*tube);
   const CylinderRecipe& cylinder = *recipe.cylinder;
-  return cylinder_mesh(cylinder.base, cylinder.radius, cylinder.length, cylinder.across, cylinder.along);
+  return cylinder_mesh(cylinder.base, cylinder.radius, cylinder.length, cylinder.across,
+                       cylinder.along);
 }
 
-TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest, const Numbering& numbering) {
+TriangleSurface surface_of(const SurfaceRecipe& recipe, const TetMesh& finest,
+                           const Numbering& numbering) {
   if (recipe.boundary) return boundary_surface(in_input_order(finest, numbering)).surface;
   const Box box = bounding_box(finest.vertices);
   const Point middle = (box.min + box.max) / 2;
-  return sphere_surface(recipe.sphere->centre.value_or(middle), recipe.sphere->radius, recipe.sphere->subdivisions);
+  return sphere_surface(recipe.sphere->centre.value_or(middle), recipe.sphere->radius,
+                        recipe.sphere->subdivisions);
 }
 
 TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const Where& where) {
@@ -246,29 +278,33 @@ TriangleSurface tool_surface(const ToolRecipe& recipe, Scene& scene, const Where
     }
   }
   if (thickness == 0 && !report.closed())
-    throw InputError(fmt::format("the surface '{}' {}; expected a closed one, or a sheet: thickness: 2 mm",
-                                 file.string(), why_open(report)),
-                     where);
+    throw InputError(
+        fmt::format("the surface '{}' {}; expected a closed one, or a sheet: thickness: 2 mm",
+                    file.string(), why_open(report)),
+        where);
   if (thickness > 0) report.open_edges = 0;  // as a sheet's are
   warn(scene, file, surface_warnings(report));
   const double angle = recipe.rotation.norm();
   const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(angle, angle > 0 ? Point(recipe.rotation / angle) : Point::UnitZ()).toRotationMatrix();
+      Eigen::AngleAxisd(angle, angle > 0 ? Point(recipe.rotation / angle) : Point::UnitZ())
+          .toRotationMatrix();
   for (Point& vertex : surface.vertices) vertex = turn * (recipe.scale * vertex) + recipe.position;
   return surface;
 }
 
-void check_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known,
-                const std::string& path, const Tree& tree) {
+void check_name(const std::string& kind, const std::string& name,
+                const std::vector<std::string>& known, const std::string& path, const Tree& tree) {
   if (std::ranges::find(known, name) != known.end()) return;
-  throw InputError(path + ": " +
-                       (known.empty() ? fmt::format("there is no {} '{}': the meshes name none", kind, name)
-                                      : unknown_name(kind, name, known)),
-                   place_of(tree, path));
+  throw InputError(
+      path + ": " +
+          (known.empty() ? fmt::format("there is no {} '{}': the meshes name none", kind, name)
+                         : unknown_name(kind, name, known)),
+      place_of(tree, path));
 }
 
-void check_names(const Selection& selection, const std::string& path, const std::vector<std::string>& groups,
-                 const std::vector<std::string>& regions, const Tree& tree) {
+void check_names(const Selection& selection, const std::string& path,
+                 const std::vector<std::string>& groups, const std::vector<std::string>& regions,
+                 const Tree& tree) {
   if (const auto* group = std::get_if<GroupSelection>(&selection))
     check_name("group", group->name, groups, path + ".group", tree);
   if (const auto* region = std::get_if<RegionSelection>(&selection))
@@ -289,23 +325,28 @@ void check_names(const Body& body, const Tree& tree) {
   for (const auto& [name, region] : body.regions)
     if (!region.where) check_name("region", name, regions, "body.regions." + name, tree);
   for (const auto& [name, region] : body.regions)
-    if (region.where) check_names(*region.where, "body.regions." + name + ".where", groups, regions, tree);
+    if (region.where)
+      check_names(*region.where, "body.regions." + name + ".where", groups, regions, tree);
   for (const auto& [name, region] : body.regions)
     if (region.where) groups.push_back(name), regions.push_back(name);
-  const auto check_fibres = [&](const std::string& path, const std::optional<FibreOptions>& fibres) {
+  const auto check_fibres = [&](const std::string& path,
+                                const std::optional<FibreOptions>& fibres) {
     if (fibres && fibres->from) check_names(*fibres->from, path + ".from", groups, regions, tree);
     if (fibres && fibres->to) check_names(*fibres->to, path + ".to", groups, regions, tree);
   };
   check_fibres("body.fibres", body.material.fibres);
-  for (const auto& [name, region] : body.regions) check_fibres("body.regions." + name + ".fibres", region.fibres);
+  for (const auto& [name, region] : body.regions)
+    check_fibres("body.regions." + name + ".fibres", region.fibres);
   for (std::size_t i = 0; i < body.fixed.size(); ++i)
     check_names(body.fixed[i], fmt::format("body.fixed.{}", i), groups, regions, tree);
   for (std::size_t i = 0; i < body.prescribed.size(); ++i)
-    check_names(body.prescribed[i].where, fmt::format("body.prescribed.{}", i), groups, regions, tree);
+    check_names(body.prescribed[i].where, fmt::format("body.prescribed.{}", i), groups, regions,
+                tree);
   for (std::size_t i = 0; i < body.loads.size(); ++i)
     check_names(body.loads[i].where, fmt::format("body.loads.{}", i), groups, regions, tree);
   for (std::size_t i = 0; i < body.initial.parts.size(); ++i)
-    check_names(body.initial.parts[i].where, fmt::format("body.initial.parts.{}", i), groups, regions, tree);
+    check_names(body.initial.parts[i].where, fmt::format("body.initial.parts.{}", i), groups,
+                regions, tree);
 }
 
 }  // namespace
@@ -314,11 +355,11 @@ TetMesh finer_mesh(const Scene& scene) {
   LevelRecipe recipe = scene.levels.front();
   const Where where = place_of(scene.source, "body.levels.0");
   if (recipe.lattice || !recipe.file.empty())
-    throw InputError(
-        fmt::format("--space needs a finest level that can be made finer: a box, a ball, a cylinder, a blob or a tube, "
-                    "got a {}; --truth refines any",
-                    recipe.lattice ? "lattice" : "file"),
-        where);
+    throw InputError(fmt::format("--space needs a finest level that can be made finer: a box, a "
+                                 "ball, a cylinder, a blob or a tube, "
+                                 "got a {}; --truth refines any",
+                                 recipe.lattice ? "lattice" : "file"),
+                     where);
   if (recipe.box)
     for (int& cells : recipe.box->cells) cells *= 2;
   if (recipe.ball) recipe.ball->cells *= 2;
@@ -336,22 +377,28 @@ void build_meshes(Scene& scene, const Tree& tree) {
   for (std::size_t i = 0; i < scene.levels.size() && !scene.lattices; ++i) {
     const LevelRecipe& recipe = scene.levels[i];
     const Where where = place_of(tree, fmt::format("body.levels.{}", i));
-    body.levels.push_back(recipe.file.empty() ? placed(where, [&] { return generated(recipe); })
-                                              : from_file(recipe, scene, where, scene.numbering[i]));
-    if (scene.jitter > 0) body.levels.back() = jittered(std::move(body.levels.back()), scene.jitter);
+    body.levels.push_back(recipe.file.empty()
+                              ? placed(where, [&] { return generated(recipe); })
+                              : from_file(recipe, scene, where, scene.numbering[i]));
+    if (scene.jitter > 0)
+      body.levels.back() = jittered(std::move(body.levels.back()), scene.jitter);
     if (i == 0 && recipe.file.empty() && no_body(body.levels.back()))
-      scene.warnings.push_back(scene.file + ": body.levels.0: " + size_text(body.levels.back(), false));
+      scene.warnings.push_back(scene.file +
+                               ": body.levels.0: " + size_text(body.levels.back(), false));
   }
   if (scene.surface) {
     const Where where = place_of(tree, "body.surface");
-    body.surface = scene.surface->file.empty()
-                       ? placed(where, [&] { return surface_of(*scene.surface, body.levels[0], scene.numbering[0]); })
-                       : from_file(*scene.surface, scene, where);
+    body.surface =
+        scene.surface->file.empty()
+            ? placed(where,
+                     [&] { return surface_of(*scene.surface, body.levels[0], scene.numbering[0]); })
+            : from_file(*scene.surface, scene, where);
   }
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i)
     if (const auto& tool = scene.obstacles[i].tool)
       std::any_cast<SurfaceOptions&>(scene.problem.contact.obstacles[i].shape).surface =
-          tool_surface(*tool, scene, place_of(tree, fmt::format("contact.obstacles.{}.surface.file", i)));
+          tool_surface(*tool, scene,
+                       place_of(tree, fmt::format("contact.obstacles.{}.surface.file", i)));
   check_names(body, tree);
 }
 

@@ -5,7 +5,8 @@
 #include <plica/kernels/contact/shapes.hpp>
 #include <type_traits>
 
-/// The keys that only scenes have, as core/describe.hpp has those of the library. Together they are all that a scene can say.
+/// The keys that only scenes have, as core/describe.hpp has those of the library. Together they are
+/// all that a scene can say.
 namespace plica::app {
 
 using namespace keys;
@@ -24,7 +25,9 @@ struct Every {
 
 /// Which levels.
 struct LevelChoice {
-  std::string expects() const { return "true (level 0), false, all, or a list of levels counted from 0, the finest"; }
+  std::string expects() const {
+    return "true (level 0), false, all, or a list of levels counted from 0, the finest";
+  }
   std::string shown(const VolumeLevels& value) const;
 };
 
@@ -66,7 +69,8 @@ void describe(V& v, CylinderRecipe& o) {
 template <class V>
 void describe(V& v, BlobRecipe& o) {
   v.required("length", o.length, Quantity{length, positive}, "along x");
-  v.required("cells", o.cells, Count{4}, "cells across, a multiple of 4: faces follow the inclusion");
+  v.required("cells", o.cells, Count{4},
+             "cells across, a multiple of 4: faces follow the inclusion");
   v("centre", o.centre, Vector{length}, "centre of the ball that it is shaped from");
 }
 
@@ -74,7 +78,8 @@ template <class V>
 void describe(V& v, Tube& o) {
   v.required("radius", o.radius, Quantity{length, positive}, "radius of the inside");
   v.required("wall", o.wall, Quantity{length, positive}, "thickness of the wall");
-  v.required("length", o.length, Quantity{length, positive}, "length of the axis, which starts along z");
+  v.required("length", o.length, Quantity{length, positive},
+             "length of the axis, which starts along z");
   v("bend", o.bend, Quantity{angle, not_negative}, "angle that the axis turns by, towards x");
   v.required("around", o.around, Count{3}, "cells around");
   v.required("across", o.across, Count{1}, "cells through the wall");
@@ -90,15 +95,18 @@ void describe(V& v, LevelRecipe& o) {
   v.alternative("box", o.box, Case<BoxRecipe>{}, "a box of cells");
   v.alternative("ball", o.ball, Case<BallRecipe>{}, "a ball");
   v.alternative("cylinder", o.cylinder, Case<CylinderRecipe>{}, "a cylinder");
-  v.alternative("blob", o.blob, Case<BlobRecipe>{}, "a lump like a liver, with the region inclusion");
+  v.alternative("blob", o.blob, Case<BlobRecipe>{},
+                "a lump like a liver, with the region inclusion");
   v.alternative("tube", o.tube, Case<Tube>{}, "a bent pipe with a wall, like a vessel");
-  v.alternative("file", o.file, Text{}, "a mesh file (.msh, .mesh, .vtk, .vtu, .ele), relative to the scene");
-  v.alternative(
-      "coarsen", o.coarsen, AutoCount{fewest_points},
-      "no mesh, but a coarse space of the mesh before it, of so many points; auto: as many spaces as it takes");
+  v.alternative("file", o.file, Text{},
+                "a mesh file (.msh, .mesh, .vtk, .vtu, .ele), relative to the scene");
+  v.alternative("coarsen", o.coarsen, AutoCount{fewest_points},
+                "no mesh, but a coarse space of the mesh before it, of so many points; auto: as "
+                "many spaces as it takes");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
   v("merge_duplicates", o.merge_duplicates, Quantity{length, not_negative},
-    "vertices of that file at most this far apart, after scaling, become one; left out: they are reported");
+    "vertices of that file at most this far apart, after scaling, become one; left out: they are "
+    "reported");
   v("repair", o.repair, Flag{},
     "true: duplicates merged, loose parts dropped, slivers shaped better; what changed is said");
 }
@@ -106,9 +114,11 @@ void describe(V& v, LevelRecipe& o) {
 template <class V>
 void describe(V& v, LatticesRecipe& o) {
   v.required("surface", o.surface, Text{},
-             "a closed surface (.stl, .obj, .ply, .off, .vtp, .vtk, .msh) or a mesh, relative to the scene");
+             "a closed surface (.stl, .obj, .ply, .off, .vtp, .vtk, .msh) or a mesh, relative to "
+             "the scene");
   v.required("sizes", o.sizes, ListOf<Quantity>{{length, positive}},
-             "of the cells of a lattice each, finest first; elements count for the part of them that is body");
+             "of the cells of a lattice each, finest first; elements count for the part of them "
+             "that is body");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
 }
 
@@ -121,7 +131,8 @@ struct LevelsKeys {
 template <class V>
 void describe(V& v, BallSurfaceRecipe& o) {
   v.required("radius", o.radius, Quantity{length, positive}, "radius");
-  v("subdivisions", o.subdivisions, Count{0}, "of an icosahedron: 12, 42, 162, 642, 2562 ... points");
+  v("subdivisions", o.subdivisions, Count{0},
+    "of an icosahedron: 12, 42, 162, 642, 2562 ... points");
   v("centre", o.centre, Vector{length}, "centre; left out: that of level 0's bounding box");
 }
 
@@ -131,7 +142,8 @@ void describe(V& v, SurfaceRecipe& o) {
   v.alternative("sphere", o.sphere, Case<BallSurfaceRecipe>{}, "a triangulated sphere");
   v.alternative("boundary", o.boundary, Flag{}, "true: the boundary of level 0");
   v.alternative("file", o.file, Text{},
-                "a surface file (.obj, .stl, .ply, .off, .vtp, .vtk, .vtu, .msh, .mesh), relative to the scene");
+                "a surface file (.obj, .stl, .ply, .off, .vtp, .vtk, .vtu, .msh, .mesh), relative "
+                "to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
 }
 
@@ -152,9 +164,11 @@ void describe(V& v, BodyKeys& o) {
   v.required("levels", levels, ListOrMap{},
              "the body's meshes, finest first; or a surface that lattices are laid over");
   v("jitter", o.jitter, Quantity{plain, below_half},
-    "vertices of every level are moved at random by up to this part of their shortest edge; its faces stay");
+    "vertices of every level are moved at random by up to this part of their shortest edge; its "
+    "faces stay");
   describe(v, o.body);
-  v("surface", o.surface, Group{}, "embedded in every level: it touches the obstacles, and frames show it");
+  v("surface", o.surface, Group{},
+    "embedded in every level: it touches the obstacles, and frames show it");
 }
 
 inline constexpr const char* body_integration_help =
@@ -176,7 +190,8 @@ void describe(V& v, ToolRecipe& o) {
   v.required("file", o.file, Text{},
              "a closed surface (.stl, .obj, .ply, .off, .vtp, .vtk, .msh), relative to the scene");
   v("scale", o.scale, Quantity{plain, positive}, scale_help);
-  v("rotation", o.rotation, Vector{angle}, "about the file's origin: [0, 0, 30 deg] turns it by 30 degrees about z");
+  v("rotation", o.rotation, Vector{angle},
+    "about the file's origin: [0, 0, 30 deg] turns it by 30 degrees about z");
   v("position", o.position, Vector{length}, "where that origin is put");
   describe(v, o.options);
 }
@@ -208,7 +223,8 @@ void describe(V& v, ContactKeys& o) {
 template <class V>
 void describe(V& v, OutputOptions& o) {
   v("every", o.every, Every{}, "between frames and rows of history.csv; left out: duration / 60");
-  v("volume", o.volume, LevelChoice{}, "whose tetrahedra are written as well, with stress and volume ratio");
+  v("volume", o.volume, LevelChoice{},
+    "whose tetrahedra are written as well, with stress and volume ratio");
   v("probes", o.probes, NamedPoints{}, "points of level 0 at rest whose motion goes to probes.csv");
   v("probe_every", o.probe_every, Every{}, "between rows of probes.csv; left out: 1 step");
   v("format", o.format, Name{"format", frame_formats}, "of the frames");
@@ -223,7 +239,8 @@ void describe(V& v, StudyVariant& o) {
 template <class V>
 void describe(V& v, TruthOptions& o) {
   v("refinements", o.refinements, Count{1, 6},
-    "of level 0's mesh, each with eight times the tetrahedra; left out: 2, or 1 where that takes half the budget");
+    "of level 0's mesh, each with eight times the tetrahedra; left out: 2, or 1 where that takes "
+    "half the budget");
   v("jitter", o.jitter, Quantity{plain, below_half},
     "of a second mesh, whose limit checks the first one's; left out: that of linear elements does");
 }
@@ -231,20 +248,27 @@ void describe(V& v, TruthOptions& o) {
 template <class V>
 void describe(V& v, StudyOptions& o) {
   v("methods", o.methods, ListOf<Text>{},
-    "single, coarse, cycle, or one of them: single/rk4, coarse/1, cycle/rsv, cycle/rsv/equal, with a variant "
+    "single, coarse, cycle, or one of them: single/rk4, coarse/1, cycle/rsv, cycle/rsv/equal, with "
+    "a variant "
     "cycle/rsv/equal+hybrid; left out: the default set");
-  v("variants", o.variants, Map{}, "what cycles have instead of the scene's integration when they are named with it");
+  v("variants", o.variants, Map{},
+    "what cycles have instead of the scene's integration when they are named with it");
   v("macro_steps", o.macro_steps, ListOf<AutoQuantity>{{{duration, positive}}},
-    "of cycles and implicit methods, and of explicit ones those below their limit; left out: multiples of the finest "
+    "of cycles and implicit methods, and of explicit ones those below their limit; left out: "
+    "multiples of the finest "
     "limit");
   v("precision", o.precision, ListOf<Name>{{"precision", precisions}}, "in which each method runs");
-  v("threads", o.threads, ListOf<Count>{thread_count}, "with which each method runs; left out: all there are");
+  v("threads", o.threads, ListOf<Count>{thread_count},
+    "with which each method runs; left out: all there are");
   v("elements", o.elements, ListOf<Name>{{"element", elements}},
     "with which each method runs; left out: the body's own, with truth all of them");
   v("truth", o.truth, Switch{}, "errors against the limit of refined meshes, in space and in time");
-  v("samples", o.samples, Count{1}, "times, evenly over the duration, at which states are compared");
-  v("timed_runs", o.timed_runs, Count{0}, "of each row, short ones at least five; 0: the compared one is timed");
-  v("growth", o.growth, Flag{}, "find the growth of small motions by every cycle, linearised about rest");
+  v("samples", o.samples, Count{1},
+    "times, evenly over the duration, at which states are compared");
+  v("timed_runs", o.timed_runs, Count{0},
+    "of each row, short ones at least five; 0: the compared one is timed");
+  v("growth", o.growth, Flag{},
+    "find the growth of small motions by every cycle, linearised about rest");
 }
 
 template <class V>
@@ -255,7 +279,8 @@ void describe(V& v, Scene& o) {
   BodyKeys body{o.levels, o.lattices, o.jitter, o.problem.body, o.surface};
   v.one_of();
   v.alternative("body", body, Group{}, "the deformable body");
-  v.alternative("bodies", o.bodies, BodyMap{}, "several: a name for each, and below it the keys of body");
+  v.alternative("bodies", o.bodies, BodyMap{},
+                "several: a name for each, and below it the keys of body");
   v("integration", o.problem.integration, Group{}, "how it is stepped in time");
   ContactKeys contact{o};
   v("contact", contact, Group{}, "what it collides with");

@@ -8,7 +8,8 @@ namespace plica::app {
 
 /// With element and vertex as the mesh file numbers them.
 inline Diagnosis in_input_numbers(Diagnosis diagnosis, const Scene& scene) {
-  const Numbering& numbering = scene.numbering[static_cast<std::size_t>(std::max(diagnosis.level, 0))];
+  const Numbering& numbering =
+      scene.numbering[static_cast<std::size_t>(std::max(diagnosis.level, 0))];
   diagnosis.element = input_number(numbering.tet_ids, diagnosis.element);
   diagnosis.vertex = input_number(numbering.vertex_ids, diagnosis.vertex);
   return diagnosis;

@@ -16,7 +16,9 @@ constexpr const char* magnitude = "([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)
 
 Json any_of(std::initializer_list<Json> choices) { return {{"anyOf", Json(choices)}}; }
 Json list_of(const Json& item) { return {{"type", "array"}, {"items", item}, {"minItems", 1}}; }
-Json triple_of(const Json& item) { return {{"type", "array"}, {"items", item}, {"minItems", 3}, {"maxItems", 3}}; }
+Json triple_of(const Json& item) {
+  return {{"type", "array"}, {"items", item}, {"minItems", 3}, {"maxItems", 3}};
+}
 
 Json schema_of(const Quantity& kind) {
   Json plain = {{"type", "number"}};
@@ -29,18 +31,26 @@ Json schema_of(const Quantity& kind) {
   return any_of({plain, {{"type", "string"}, {"pattern", pattern}}});
 }
 
-Json schema_of(const AutoQuantity& kind) { return any_of({{{"const", "auto"}}, schema_of(kind.quantity)}); }
-Json schema_of(const Vector& kind) { return triple_of(schema_of(Quantity{kind.dimension, kind.range})); }
+Json schema_of(const AutoQuantity& kind) {
+  return any_of({{{"const", "auto"}}, schema_of(kind.quantity)});
+}
+Json schema_of(const Vector& kind) {
+  return triple_of(schema_of(Quantity{kind.dimension, kind.range}));
+}
 Json schema_of(const Direction&) { return schema_of(Vector{plain}); }
 Json schema_of(const Count& kind) {
   Json count = {{"type", "integer"}, {"minimum", kind.min}};
   if (kind.max < std::numeric_limits<int>::max()) count["maximum"] = kind.max;
   return count;
 }
-Json schema_of(const AutoCount& kind) { return any_of({{{"const", "auto"}}, schema_of(Count{kind.min, kind.max})}); }
+Json schema_of(const AutoCount& kind) {
+  return any_of({{{"const", "auto"}}, schema_of(Count{kind.min, kind.max})});
+}
 Json schema_of(const Counts& kind) { return triple_of(schema_of(Count{kind.min})); }
 Json schema_of(const Flag&) { return {{"type", "boolean"}}; }
-Json schema_of(const Text&) { return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}}; }
+Json schema_of(const Text&) {
+  return {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
+}
 Json schema_of(const Name& kind) { return {{"enum", names(kind.choices())}}; }
 Json schema_of(const TissueName& kind) { return schema_of(kind.name); }
 Json schema_of(const PresetName& kind) { return schema_of(kind.name); }
@@ -75,7 +85,9 @@ Json schema_of(const NamedPoints&) {
           {"additionalProperties", schema_of(Vector{length})}};
 }
 
-Json schema_of(const Shares& kind) { return any_of({schema_of(kind.name), list_of(schema_of(Shares::share))}); }
+Json schema_of(const Shares& kind) {
+  return any_of({schema_of(kind.name), list_of(schema_of(Shares::share))});
+}
 
 template <auto Member, class Kind>
 Json schema_of(const As<Member, Kind>& as) {
@@ -88,7 +100,8 @@ Json schema_of(const ListOf<Kind>& kind) {
   return any_of({one, list_of(one)});
 }
 
-// Walks the tables as the reader does, with defaults for values, and notes every key: in a list, and as JSON Schema
+// Walks the tables as the reader does, with defaults for values, and notes every key: in a list,
+// and as JSON Schema
 class Catalogue {
  public:
   Catalogue(std::vector<KeyInfo>& keys, std::string path) : keys_(keys), path_(std::move(path)) {}
@@ -111,7 +124,8 @@ class Catalogue {
   }
 
   Json schema() const {
-    Json object = {{"type", "object"}, {"properties", properties_}, {"additionalProperties", false}};
+    Json object = {
+        {"type", "object"}, {"properties", properties_}, {"additionalProperties", false}};
     if (!required_.empty()) object["required"] = required_;
     for (const Alternatives& choice : choices_) {
       Json cases = choice.keys;
@@ -133,7 +147,8 @@ class Catalogue {
   }
 
   template <class T, class Kind>
-  void add(const char* key, T& member, const Kind& kind, const std::string& help, const std::string& otherwise) {
+  void add(const char* key, T& member, const Kind& kind, const std::string& help,
+           const std::string& otherwise) {
     const std::size_t place = keys_.size();
     keys_.push_back({path_.empty() ? key : path_ + "." + key, {}, otherwise, help});
     std::string description = help;
@@ -141,7 +156,8 @@ class Catalogue {
       const std::string standard = default_of(kind, member);
       properties_[key] = schema_of(kind);
       keys_[place].expects = kind.expects();
-      description += "\n" + kind.expects() + (otherwise != standard || standard.empty() ? "" : "; default " + standard);
+      description += "\n" + kind.expects() +
+                     (otherwise != standard || standard.empty() ? "" : "; default " + standard);
     } else {
       keys_[place].expects = words_of(kind);
       properties_[key] = inside(member, kind, std::string(keys_[place].path));
@@ -154,7 +170,9 @@ class Catalogue {
   static const char* words_of(const List&) { return "a list of maps"; }
   static const char* words_of(const ListOrMap&) { return "a list of maps, or a map"; }
   static const char* words_of(const Map&) { return "a map of maps"; }
-  static const char* words_of(const BodyMap&) { return "a map of maps, each as body, and with integration"; }
+  static const char* words_of(const BodyMap&) {
+    return "a map of maps, each as body, and with integration";
+  }
   template <class T>
   static const char* words_of(const Case<T>&) {
     return "a map";
@@ -202,7 +220,8 @@ class Catalogue {
   }
   template <class T>
   Json inside(T& member, const ListOrMap&, const std::string& path) {
-    Json schema = inside(member.list, List{}, path);  // what it says of items holds for lists only, of keys for objects
+    // what it says of items holds for lists only, of keys for objects
+    Json schema = inside(member.list, List{}, path);
     schema.update(inside(member.map, Group{}, path));
     schema["type"] = {"array", "object"}, schema["minItems"] = 1;
     return schema;
@@ -213,9 +232,11 @@ class Catalogue {
   }
   template <class T>
   Json inside(T&, const BodyMap&, const std::string& path) {
-    keys_.push_back({path + ".<name>.integration", "a map, as integration", "", body_integration_help});
+    keys_.push_back(
+        {path + ".<name>.integration", "a map, as integration", "", body_integration_help});
     Json body = properties_.at("body");
-    body["properties"]["integration"] = {{"$ref", "#/properties/integration"}, {"description", body_integration_help}};
+    body["properties"]["integration"] = {{"$ref", "#/properties/integration"},
+                                         {"description", body_integration_help}};
     return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", body}};
   }
   template <class Target, class T>
@@ -239,7 +260,8 @@ class Catalogue {
 
 struct All {
   std::vector<KeyInfo> keys;
-  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "a scene of Plica"}};
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", "a scene of Plica"}};
 };
 
 const All& all() {

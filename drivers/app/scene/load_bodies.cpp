@@ -85,12 +85,14 @@ Tree shared_integration(const Tree& tree) {
   Tree shared = with_integration(tree, *bodies.front()->find("integration"));
   const KeyValues::All first = integration_values(shared);
   for (const Tree* body : bodies) {
-    const KeyValues::All here = integration_values(with_integration(tree, *body->find("integration")));
+    const KeyValues::All here =
+        integration_values(with_integration(tree, *body->find("integration")));
     const auto [one, other] = std::ranges::mismatch(here, first);
     if (one == here.end()) continue;
     const std::string path = fmt::format("bodies.{}.{}", body->key, one->first);
     throw InputError(
-        fmt::format("{} is {}, but bodies.{}.{} is {}; expected the same: bodies are stepped together, since "
+        fmt::format("{} is {}, but bodies.{}.{} is {}; expected the same: bodies are stepped "
+                    "together, since "
                     "they may touch",
                     path, one->second, bodies.front()->key, other->first, other->second),
         place_of(tree, path));
@@ -102,7 +104,8 @@ namespace {
 
 bool is_space(const Tree& level) { return level.find("coarsen") != nullptr; }
 
-/// The scene with one of its bodies as `body`, which has `levels` meshes: the coarsest is repeated. Coarse spaces come after them.
+/// The scene with one of its bodies as `body`, which has `levels` meshes: the coarsest is repeated.
+/// Coarse spaces come after them.
 Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
   Tree one = tree;
   std::erase_if(one.items, [](const Tree& item) {
@@ -114,7 +117,8 @@ Tree scene_of_one(const Tree& tree, const Tree& body, std::size_t levels) {
     if (item.key == "levels" && item.kind == Tree::Kind::list) {
       const auto first = std::ranges::find_if(item.items, is_space);
       const auto meshes = static_cast<std::size_t>(first - item.items.begin());
-      if (meshes > 0 && meshes < levels) item.items.insert(first, levels - meshes, Tree(item.items[meshes - 1]));
+      if (meshes > 0 && meshes < levels)
+        item.items.insert(first, levels - meshes, Tree(item.items[meshes - 1]));
     }
   return one;
 }
@@ -136,16 +140,19 @@ Scene load_one(const Tree& tree, const std::string& name) {
   }
 }
 
-std::vector<int> joined_numbers(std::vector<int> all, std::vector<int> more, std::size_t before, std::size_t count) {
+std::vector<int> joined_numbers(std::vector<int> all, std::vector<int> more, std::size_t before,
+                                std::size_t count) {
   if (more.empty()) more.resize(count), std::iota(more.begin(), more.end(), 0);
   for (const int number : more) all.push_back(number + static_cast<int>(before));
   return all;
 }
 
 /// Of one level: bodies one after the other, each in the order of its input.
-void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, std::size_t vertices, std::size_t tets) {
+void add_numbering(Numbering& all, const Numbering& one, const TetMesh& mesh, std::size_t vertices,
+                   std::size_t tets) {
   Reordering& input = all.input;
-  input.vertices = joined_numbers(std::move(input.vertices), one.input.vertices, vertices, mesh.vertices.size());
+  input.vertices =
+      joined_numbers(std::move(input.vertices), one.input.vertices, vertices, mesh.vertices.size());
   input.tets = joined_numbers(std::move(input.tets), one.input.tets, tets, mesh.tets.size());
 }
 
@@ -164,8 +171,9 @@ Scene load_bodies(const Tree& tree) {
   for (const auto& [name, body] : recipe.bodies)
     if (body.lattices && body.lattices->sizes.size() != levels) {
       const std::string path = "bodies." + name + ".levels.sizes";
-      throw InputError(path + " are " + std::to_string(body.lattices->sizes.size()) + "; expected " +
-                           std::to_string(levels) + ", as many as the other bodies have levels",
+      throw InputError(path + " are " + std::to_string(body.lattices->sizes.size()) +
+                           "; expected " + std::to_string(levels) +
+                           ", as many as the other bodies have levels",
                        place_of(tree, path));
     }
   Scene all = recipe;
@@ -182,7 +190,8 @@ Scene load_bodies(const Tree& tree) {
       add_numbering(all.numbering[i], one.numbering[i], mesh, vertices[i], tets[i]);
       vertices[i] += mesh.vertices.size(), tets[i] += mesh.tets.size();
     }
-    all.problem.contact.obstacles = std::move(one.problem.contact.obstacles);  // with their surfaces
+    // with their surfaces
+    all.problem.contact.obstacles = std::move(one.problem.contact.obstacles);
     bodies.emplace_back(item.key, std::move(one.problem.body));
   }
   try {

@@ -22,21 +22,24 @@ namespace {
 
 /// Levels without a mesh, which stand after the meshes, become the body's coarse spaces.
 void take_coarse_spaces(Scene& scene, const Tree& tree) {
-  const auto first =
-      std::ranges::find_if(scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
+  const auto first = std::ranges::find_if(
+      scene.levels, [](const LevelRecipe& level) { return level.coarsen.has_value(); });
   const auto meshes = first - scene.levels.begin();
   if (first == scene.levels.end()) return;
   const auto refuse = [&](std::ptrdiff_t level, const std::string& why) {
     const std::string path = fmt::format("body.levels.{}", level);
     throw InputError(path + ": " + why, place_of(tree, path));
   };
-  if (meshes == 0) refuse(0, "coarsen makes coarse spaces of the mesh before it; expected a mesh first");
+  if (meshes == 0)
+    refuse(0, "coarsen makes coarse spaces of the mesh before it; expected a mesh first");
   std::vector<int>& sizes = scene.problem.body.coarsen.emplace();
   for (auto i = meshes; i < std::ssize(scene.levels); ++i) {
     const std::optional<int>& points = scene.levels[static_cast<std::size_t>(i)].coarsen;
     if (!points) refuse(i, "a mesh stands after coarsen; expected meshes first");
     if (*points == 0 && std::ssize(scene.levels) > meshes + 1)
-      refuse(i, "coarsen is auto, which makes as many spaces as it takes; expected it alone, or numbers of points");
+      refuse(i,
+             "coarsen is auto, which makes as many spaces as it takes; expected it alone, or "
+             "numbers of points");
     if (*points > 0) sizes.push_back(*points);
   }
   scene.levels.erase(first, scene.levels.end());
@@ -49,13 +52,16 @@ void take_lattices(Scene& scene, const Tree& tree) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const std::string path = fmt::format("body.levels.sizes.{}", i);
     if (i > 0 && !(sizes[i] > sizes[i - 1]))
-      throw InputError(fmt::format("{} is {:g} m after {:g} m; expected larger cells from level to level, finest first",
-                                   path, sizes[i], sizes[i - 1]),
-                       place_of(tree, path));
+      throw InputError(
+          fmt::format(
+              "{} is {:g} m after {:g} m; expected larger cells from level to level, finest first",
+              path, sizes[i], sizes[i - 1]),
+          place_of(tree, path));
     scene.levels.emplace_back().lattice = sizes[i];
   }
   if (scene.jitter > 0)
-    throw InputError("body.jitter: the cells of a lattice stay cubes; expected none", place_of(tree, "body.jitter"));
+    throw InputError("body.jitter: the cells of a lattice stay cubes; expected none",
+                     place_of(tree, "body.jitter"));
 }
 
 }  // namespace
@@ -78,7 +84,8 @@ Scene read_scene(const Tree& tree) {
 }
 
 InputError located(const InputError& error, const Tree& source) {
-  const std::string message = error.what(), option = message.substr(0, message.find_first_of(" :,"));
+  const std::string message = error.what(),
+                    option = message.substr(0, message.find_first_of(" :,"));
   const bool named = source.find(option.substr(0, option.find('.'))) != nullptr;
   return InputError(message, named ? place_of(source, option) : Where{source.where.file, 0});
 }
@@ -106,9 +113,9 @@ void check_given(const Scene& scene, const Tree& tree) {
   const auto check = [&](const Tree* section, const std::string& path) {
     for (const MaterialParameter& p : {parameter::young_modulus, parameter::poisson_ratio})
       if (section && section->find(p.name) && std::ranges::find(known, p.name) == known.end())
-        throw InputError(
-            path + "." + p.name + ": " + unknown_name("parameter of " + std::string(info.name), p.name, known),
-            place_of(tree, path + "." + p.name));
+        throw InputError(path + "." + p.name + ": " +
+                             unknown_name("parameter of " + std::string(info.name), p.name, known),
+                         place_of(tree, path + "." + p.name));
   };
   const Tree* body = tree.find("body");
   check(body->find("material"), "body.material");
@@ -130,18 +137,20 @@ void check_body(const Scene& scene, const Tree& tree) {
   const SurfaceRecipe& surface = *scene.surface;
   only_of_files(surface.file, surface.scale != 1, "body.surface.scale", tree);
   if (!surface.sphere && !surface.boundary && surface.file.empty())
-    throw InputError("body.surface.boundary: expected true, got 'false'; leave body.surface out to have none",
-                     place_of(tree, "body.surface.boundary"));
+    throw InputError(
+        "body.surface.boundary: expected true, got 'false'; leave body.surface out to have none",
+        place_of(tree, "body.surface.boundary"));
 }
 
-// What a set-up takes of memory [bytes]. Measured with `plica check`: 350 for each of 384 000 and of 1 296 000
-// tetrahedra
+// What a set-up takes of memory [bytes]. Measured with `plica check`: 350 for each of 384 000 and
+// of 1 296 000 tetrahedra
 double generated_bytes(const LevelRecipe& level) {
   constexpr double bytes_per_tet = 350;
   const auto cells = [](int x, int y, int z) { return 6.0 * x * y * z * bytes_per_tet; };
   if (const auto& box = level.box) return cells(box->cells[0], box->cells[1], box->cells[2]);
   if (const auto& ball = level.ball) return cells(ball->cells, ball->cells, ball->cells);
-  if (const auto& cylinder = level.cylinder) return cells(cylinder->across, cylinder->across, cylinder->along);
+  if (const auto& cylinder = level.cylinder)
+    return cells(cylinder->across, cylinder->across, cylinder->along);
   if (const auto& blob = level.blob) return cells(blob->cells, blob->cells, blob->cells);
   if (const auto& tube = level.tube) return cells(tube->across, tube->around, tube->along);
   return 0;
@@ -154,15 +163,18 @@ double generated_bytes(const SurfaceRecipe& surface) {
 
 // Nothing is allocated that cannot be had
 void check_memory(const Scene& scene, const Tree& tree) {
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   double bytes = 0;
   const auto add = [&](double more, const std::string& path) {
     bytes += more;
     if (bytes > memory)
-      throw InputError(fmt::format("{}: a mesh this fine makes the scene take about {:.4g} GB of memory; this machine "
-                                   "has {:.4g} GB",
-                                   path, bytes / 1e9, memory / 1e9),
-                       place_of(tree, path));
+      throw InputError(
+          fmt::format(
+              "{}: a mesh this fine makes the scene take about {:.4g} GB of memory; this machine "
+              "has {:.4g} GB",
+              path, bytes / 1e9, memory / 1e9),
+          place_of(tree, path));
   };
   for (std::size_t i = 0; i < scene.levels.size(); ++i)
     add(generated_bytes(scene.levels[i]), fmt::format("body.levels.{}", i));
@@ -178,11 +190,11 @@ void check_output(const Scene& scene, const Tree& tree) {
   const std::size_t in_use = integrated_levels(cycle, scene.levels.size());
   for (const int level : output.volume.levels)
     if (static_cast<std::size_t>(level) >= in_use)
-      throw InputError(
-          fmt::format("output.volume: there is no level {}: the cycle '{}' integrates {} of {} in body.levels, "
-                      "counted from 0",
-                      level, cycle, in_use, scene.levels.size()),
-          place_of(tree, "output.volume"));
+      throw InputError(fmt::format("output.volume: there is no level {}: the cycle '{}' integrates "
+                                   "{} of {} in body.levels, "
+                                   "counted from 0",
+                                   level, cycle, in_use, scene.levels.size()),
+                       place_of(tree, "output.volume"));
 }
 
 void check_duration(const Scene& scene, const Tree& tree) {
@@ -190,7 +202,8 @@ void check_duration(const Scene& scene, const Tree& tree) {
   const std::optional<double>& step = scene.problem.integration.macro_step;
   if (step && *step > (1 + rounding) * scene.duration)
     throw InputError(
-        fmt::format("integration.macro_step is {:g} s; expected at most the duration, {:g} s", *step, scene.duration),
+        fmt::format("integration.macro_step is {:g} s; expected at most the duration, {:g} s",
+                    *step, scene.duration),
         place_of(tree, "integration.macro_step"));
 }
 
@@ -208,8 +221,9 @@ void check_scene(const Scene& scene, const Tree& tree) {
     check_memory(scene, tree);
     with_places(tree, [&] { validate_options(scene.problem, scene.levels.size()); });
     if (!scene.obstacles.empty() && !scene.surface && !scene.lattices)
-      throw InputError("contact.obstacles: the body has no surface to touch them; give body.surface",
-                       place_of(tree, "contact.obstacles"));
+      throw InputError(
+          "contact.obstacles: the body has no surface to touch them; give body.surface",
+          place_of(tree, "contact.obstacles"));
   }
   check_duration(scene, tree);
   check_output(scene, tree);
@@ -228,14 +242,17 @@ void check_probes(Scene& scene, const Tree& tree) {
       throw InputError(path + ": " + error.what(), place_of(tree, path));
     }
     if (nearest.misses == 0) continue;
-    const double distance = locator.locate(point).distance, edges = nearest.largest_distance_over_edge;
-    const std::string outside = fmt::format("{}: [{:g}, {:g}, {:g}] is {:.3g} m outside level 0 at rest", path,
-                                            point.x(), point.y(), point.z(), distance);
+    const double distance = locator.locate(point).distance,
+                 edges = nearest.largest_distance_over_edge;
+    const std::string outside =
+        fmt::format("{}: [{:g}, {:g}, {:g}] is {:.3g} m outside level 0 at rest", path, point.x(),
+                    point.y(), point.z(), distance);
     if (edges > 1) {
       const Box box = bounding_box(mesh.vertices);
-      throw InputError(fmt::format("{}, which lies in [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m", outside, box.min.x(),
-                                   box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()),
-                       place_of(tree, path));
+      throw InputError(
+          fmt::format("{}, which lies in [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m", outside,
+                      box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()),
+          place_of(tree, path));
     }
     scene.warnings.push_back(scene.file + ": " + outside + "; the nearest point of it is watched");
   }
@@ -258,7 +275,8 @@ Scene load_scene(const Tree& given) {
   const Tree tree = shared_integration(given);
   Scene scene = tree.find("bodies") != nullptr ? load_bodies(tree) : load_body(tree);
   with_places(tree, [&] { validate(scene.problem); });
-  for (const std::string& doubt : doubts(scene.problem)) scene.warnings.push_back(scene.file + ": " + doubt);
+  for (const std::string& doubt : doubts(scene.problem))
+    scene.warnings.push_back(scene.file + ": " + doubt);
   check_probes(scene, tree);
   return scene;
 }

@@ -17,14 +17,15 @@ struct Override {
   std::string label;
 };
 
-/// A scene, read, checked, with its meshes built: ready for Simulation. InputError with file and line otherwise.
+/// A scene, read, checked, with its meshes built: ready for Simulation. InputError with file and
+/// line otherwise.
 Scene load_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
 /// The same from a tree.
 Scene load_scene(const Tree& tree);
 
-/// An error of the library, which names options and knows no files, with the place where the scene gives the option that the
-/// message begins with.
+/// An error of the library, which names options and knows no files, with the place where the scene
+/// gives the option that the message begins with.
 InputError located(const InputError& error, const Tree& source);
 
 /// Its parts. What the keys say, each within its range:
@@ -40,10 +41,12 @@ void build_meshes(Scene& scene, const Tree& tree);
 
 /// These three, of a scene with `body`; the whole problem is validated after that.
 Scene load_body(const Tree& tree);
-/// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is taken to the surface.
+/// Whether the probes lie in level 0. One that is outside by less than an edge is a warning: it is
+/// taken to the surface.
 void check_probes(Scene& scene, const Tree& tree);
 
-/// What a user should know about a mesh that was read, a sentence each: what was repaired, left out, or looks wrong.
+/// What a user should know about a mesh that was read, a sentence each: what was repaired, left
+/// out, or looks wrong.
 std::vector<std::string> mesh_warnings(const TetMesh& mesh, const MeshReport& report);
 std::vector<std::string> surface_warnings(const SurfaceReport& report);
 

@@ -30,11 +30,14 @@ const std::vector<Tree>& Value::list(const std::string& expected, std::size_t si
   return tree.items;
 }
 
-Value Value::item(std::size_t index) const { return {tree.items[index], fmt::format("{}.{}", path, index)}; }
+Value Value::item(std::size_t index) const {
+  return {tree.items[index], fmt::format("{}.{}", path, index)};
+}
 
 namespace {
 
-void read_quantity(const Value& value, const Quantity& kind, double& target, const std::string& expected) {
+void read_quantity(const Value& value, const Quantity& kind, double& target,
+                   const std::string& expected) {
   Measured measured;
   try {
     measured = measure(value.scalar(expected));
@@ -48,7 +51,8 @@ void read_quantity(const Value& value, const Quantity& kind, double& target, con
 }
 
 template <class T, class ReadOne>
-void read_per_level(const Value& value, const std::string& expected, std::vector<T>& target, const ReadOne& read_one) {
+void read_per_level(const Value& value, const std::string& expected, std::vector<T>& target,
+                    const ReadOne& read_one) {
   if (value.tree.kind == Tree::Kind::scalar) {
     target.resize(1);
     return read_one(value, target[0]);
@@ -58,12 +62,14 @@ void read_per_level(const Value& value, const std::string& expected, std::vector
   for (std::size_t i = 0; i < target.size(); ++i) read_one(value.item(i), target[i]);
 }
 
-// Where a misplaced key would be right: "body.material or body.regions.<name>"; empty where that says too little
+// Where a misplaced key would be right: "body.material or body.regions.<name>"; empty where that
+// says too little
 std::string homes_of(const std::string& key) {
   std::vector<std::string> homes;
   for (const KeyInfo& info : scene_keys()) {
     if (info.path == key) homes.emplace_back("the top level");
-    if (info.path.ends_with("." + key)) homes.push_back(info.path.substr(0, info.path.size() - key.size() - 1));
+    if (info.path.ends_with("." + key))
+      homes.push_back(info.path.substr(0, info.path.size() - key.size() - 1));
   }
   return homes.size() > 2 ? std::string{} : fmt::format("{}", fmt::join(homes, " or "));
 }
@@ -85,7 +91,8 @@ void read(const Value& value, const AutoQuantity& kind, std::optional<double>& t
 void read(const Value& value, const Vector& kind, Point& target) {
   value.list(kind.expects(), 3);
   for (int axis = 0; axis < 3; ++axis)
-    read(value.item(static_cast<std::size_t>(axis)), Quantity{kind.dimension, kind.range}, target[axis]);
+    read(value.item(static_cast<std::size_t>(axis)), Quantity{kind.dimension, kind.range},
+         target[axis]);
 }
 
 void read(const Value& value, const Direction& kind, Point& target) {
@@ -96,7 +103,8 @@ void read(const Value& value, const Direction& kind, Point& target) {
 void read(const Value& value, const Count& kind, int& target) {
   const std::string& text = value.scalar(kind.expects());
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), target);
-  if (error != std::errc{} || rest != text.data() + text.size() || target < kind.min || target > kind.max)
+  if (error != std::errc{} || rest != text.data() + text.size() || target < kind.min ||
+      target > kind.max)
     value.mismatch(kind.expects());
 }
 
@@ -124,7 +132,8 @@ void read(const Value& value, const Text& kind, std::string& target) {
 void read(const Value& value, const Name& kind, std::string& target) {
   const std::string& text = value.scalar(kind.expects());
   const std::vector<std::string> known = names(kind.choices());
-  if (std::ranges::find(known, text) == known.end()) value.error(unknown_name(kind.family, text, known));
+  if (std::ranges::find(known, text) == known.end())
+    value.error(unknown_name(kind.family, text, known));
   target = text;
 }
 
@@ -146,17 +155,21 @@ void read(const Value& value, const NamePerLevel& kind, std::vector<std::string>
 }
 
 void read(const Value& value, const AutoCountPerLevel& kind, std::vector<int>& target) {
-  read_per_level(value, kind.expects(), target, [](const Value& one, int& count) { read(one, AutoCount{}, count); });
+  read_per_level(value, kind.expects(), target,
+                 [](const Value& one, int& count) { read(one, AutoCount{}, count); });
 }
 
 void read(const Value& value, const Shares& kind, const Shares::Target& target) {
   if (value.tree.kind != Tree::Kind::list) return read(value, kind.name, target.rule);
   target.rule = "custom";
   target.shares.resize(value.list(kind.expects()).size());
-  for (std::size_t i = 0; i < target.shares.size(); ++i) read(value.item(i), Shares::share, target.shares[i]);
+  for (std::size_t i = 0; i < target.shares.size(); ++i)
+    read(value.item(i), Shares::share, target.shares[i]);
 }
 
-void read(const Value& value, const Entry& kind, Entry::Map& target) { read(value, kind.quantity, target[kind.name]); }
+void read(const Value& value, const Entry& kind, Entry::Map& target) {
+  read(value, kind.quantity, target[kind.name]);
+}
 
 void read(const Value& value, const Every& kind, Interval& target) {
   try {
@@ -172,7 +185,8 @@ void read(const Value& value, const LevelChoice& kind, VolumeLevels& target) {
     for (std::size_t i = 0; i < value.tree.items.size(); ++i) {
       const Value item = value.item(i);
       read(item, Count{0}, target.levels.emplace_back());
-      if (std::ranges::count(target.levels, target.levels.back()) > 1) item.error("this level is in the list already");
+      if (std::ranges::count(target.levels, target.levels.back()) > 1)
+        item.error("this level is in the list already");
     }
     if (target.levels.empty()) value.mismatch(kind.expects());
   } else if (value.scalar(kind.expects()) == "all") {
@@ -185,17 +199,21 @@ void read(const Value& value, const LevelChoice& kind, VolumeLevels& target) {
 }
 
 std::string LevelChoice::shown(const VolumeLevels& value) const {
-  return value.all ? "all" : value.levels.empty() ? "false" : fmt::format("[{}]", fmt::join(value.levels, ", "));
+  return value.all              ? "all"
+         : value.levels.empty() ? "false"
+                                : fmt::format("[{}]", fmt::join(value.levels, ", "));
 }
 
 void read(const Value& value, const NamedPoints& kind, std::map<std::string, Point>& target) {
-  if (value.tree.kind != Tree::Kind::map || value.tree.items.empty()) value.mismatch(kind.expects());
+  if (value.tree.kind != Tree::Kind::map || value.tree.items.empty())
+    value.mismatch(kind.expects());
   for (const Tree& item : value.tree.items) {
     const auto plain = [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-' || c >= 0x80;
     };  // or UTF-8
     if (item.key.empty() || !std::ranges::all_of(item.key, plain))
-      throw InputError(fmt::format("{}: expected a name of letters, digits, _ and -, got '{}'", value.path, item.key),
+      throw InputError(fmt::format("{}: expected a name of letters, digits, _ and -, got '{}'",
+                                   value.path, item.key),
                        item.key_where);
     read({item, value.path + "." + item.key}, Vector{length}, target[item.key]);
   }
@@ -228,17 +246,21 @@ struct Renamed {
 constexpr std::array<Renamed, 3> renamed_keys{{
     {"integration.retry", "integration.on_failure"},
     {"integration.implicit.unfinished", "integration.on_failure: {halvings, unsolved}"},
-    {"integration.implicit.contact_solves", "nothing in its place: contact is solved with the elements"},
+    {"integration.implicit.contact_solves",
+     "nothing in its place: contact is solved with the elements"},
 }};
 
 void Reader::unknown(const Tree& entry) const {
   const std::string section = map_.path.empty() ? "" : map_.path + ": ";
   const std::string homes = homes_of(entry.key);
   if (!homes.empty())
-    throw InputError(fmt::format("{}unknown key '{}'; it belongs in {}", section, entry.key, homes), entry.key_where);
+    throw InputError(fmt::format("{}unknown key '{}'; it belongs in {}", section, entry.key, homes),
+                     entry.key_where);
   const auto renamed = std::ranges::find(renamed_keys, map_.path + "." + entry.key, &Renamed::key);
   if (renamed != renamed_keys.end())
-    throw InputError(fmt::format("{}unknown key '{}'; expected {}", section, entry.key, renamed->now), entry.key_where);
+    throw InputError(
+        fmt::format("{}unknown key '{}'; expected {}", section, entry.key, renamed->now),
+        entry.key_where);
   throw InputError(section + unknown_name("key", entry.key, known_), entry.key_where);
 }
 
@@ -247,10 +269,12 @@ void Reader::finish() const {
     if (std::ranges::find(known_, entry.key) == known_.end()) unknown(entry);
   const std::string section = map_.path.empty() ? "" : map_.path + ": ";
   if (!missing_.empty())
-    throw InputError(fmt::format("{}the key '{}' is missing", section, missing_.front()), map_.tree.key_where);
+    throw InputError(fmt::format("{}the key '{}' is missing", section, missing_.front()),
+                     map_.tree.key_where);
   for (const Alternatives& choice : choices_) {
     if (choice.chosen.size() == 1 || (choice.chosen.empty() && !choice.required)) continue;
-    throw InputError(fmt::format("{}expected {} of {}, got {}", section, choice.chosen.empty() ? "one" : "only one",
+    throw InputError(fmt::format("{}expected {} of {}, got {}", section,
+                                 choice.chosen.empty() ? "one" : "only one",
                                  fmt::join(choice.keys, ", "), map_.tree.shown()),
                      map_.tree.key_where);
   }

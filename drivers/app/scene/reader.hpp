@@ -16,13 +16,15 @@ struct Value {
 
   [[noreturn]] void mismatch(const std::string& expected, const std::string& remark = {}) const;
   [[noreturn]] void error(const std::string& message) const;
-  const std::string& scalar(const std::string& expected) const;  ///< its text; an error when it is no scalar
-  const std::vector<Tree>& list(const std::string& expected, std::size_t size = 0) const;  ///< size 0: any
+  /// its text; an error when it is no scalar
+  const std::string& scalar(const std::string& expected) const;
+  /// size 0: any
+  const std::vector<Tree>& list(const std::string& expected, std::size_t size = 0) const;
   Value item(std::size_t index) const;
 };
 
-/// Reads a value of a kind into `target`. InputError with place, value and what is expected. A new kind needs one more, and
-/// one in key_list.cpp.
+/// Reads a value of a kind into `target`. InputError with place, value and what is expected. A new
+/// kind needs one more, and one in key_list.cpp.
 void read(const Value& value, const Quantity& kind, double& target);
 void read(const Value& value, const AutoQuantity& kind, std::optional<double>& target);
 void read(const Value& value, const Vector& kind, Point& target);
@@ -48,7 +50,8 @@ void read(const Value& value, const ListOf<Kind>& kind, std::vector<T>& target) 
   const bool one = value.tree.kind == Tree::Kind::scalar;
   target.resize(one ? 1 : value.list(kind.expects()).size());
   if (target.empty()) value.mismatch(kind.expects());
-  for (std::size_t i = 0; i < target.size(); ++i) read(one ? value : value.item(i), kind.kind, target[i]);
+  for (std::size_t i = 0; i < target.size(); ++i)
+    read(one ? value : value.item(i), kind.kind, target[i]);
 }
 
 template <auto Member, class Kind, class Target>
@@ -65,8 +68,8 @@ requires(!std::is_same_v<Kind, AutoQuantity>) void read(const Value& value, cons
   read(value, kind, target.emplace());
 }
 
-/// Walks the table of one struct and fills it from one map of the scene. Strict: whatever the table does not name, or
-/// the map lacks, is an error with its place.
+/// Walks the table of one struct and fills it from one map of the scene. Strict: whatever the table
+/// does not name, or the map lacks, is an error with its place.
 class Reader {
  public:
   explicit Reader(const Value& map);
@@ -93,7 +96,9 @@ class Reader {
   static void check_map(const Value& value);
   const Tree* take(const char* key, bool is_required = false);
   const Tree* take_alternative(const char* key);
-  Value at(const Tree& tree) const { return {tree, map_.path.empty() ? tree.key : map_.path + "." + tree.key}; }
+  Value at(const Tree& tree) const {
+    return {tree, map_.path.empty() ? tree.key : map_.path + "." + tree.key};
+  }
   [[noreturn]] void unknown(const Tree& entry) const;
 
   template <class Kind, class T>
@@ -135,7 +140,8 @@ class Reader {
   template <class T>
   static void fill(const Value& value, const Map&, std::map<std::string, T>& member) {
     check_map(value);
-    for (const Tree& item : value.tree.items) fill({item, value.path + "." + item.key}, Group{}, member[item.key]);
+    for (const Tree& item : value.tree.items)
+      fill({item, value.path + "." + item.key}, Group{}, member[item.key]);
   }
   template <class T>
   static void fill(const Value& value, const BodyMap&, std::map<std::string, T>& member) {
@@ -166,7 +172,8 @@ class Reader {
 
 /// The value of an option of the command line, read and checked as a scene's would be.
 template <class Kind, class Target>
-void read_option(const std::string& option, const std::string& text, const Kind& kind, Target& target) {
+void read_option(const std::string& option, const std::string& text, const Kind& kind,
+                 Target& target) {
   const Tree tree{Tree::Kind::scalar, text, {}, {}, {}, {}};
   read({tree, option}, kind, target);
 }

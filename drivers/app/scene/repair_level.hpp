@@ -7,8 +7,8 @@
 
 namespace plica::app {
 
-/// A mesh that was read with Flaws::kept, repaired (see repair_mesh()); its report follows, and gets a sentence for each thing that
-/// changed.
+/// A mesh that was read with Flaws::kept, repaired (see repair_mesh()); its report follows, and
+/// gets a sentence for each thing that changed.
 /// @param material  by which the step of the worst element is estimated, before and after
 TetMesh repaired(const TetMesh& mesh, MeshReport& report, const MaterialOptions& material,
                  std::vector<std::string>& changes);

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-/// What a scene file says. The physics is the library's Problem; here is what only files have: how its meshes come
-/// about, how long it runs and what it writes.
+/// What a scene file says. The physics is the library's Problem; here is what only files have: how
+/// its meshes come about, how long it runs and what it writes.
 namespace plica::app {
 
 struct BoxRecipe {
@@ -59,12 +59,13 @@ struct LevelRecipe {
   std::optional<CylinderRecipe> cylinder;
   std::optional<BlobRecipe> blob;
   std::optional<Tube> tube;
-  std::optional<double> lattice;           ///< its cells' size, over Scene::lattices' surface [m]
-  std::optional<int> coarsen;              ///< its points; 0: auto, as many spaces as it takes
-  std::string file;                        ///< relative to the scene
-  double scale = 1;                        ///< metres per unit of the file
-  std::optional<double> merge_duplicates;  ///< of the file's vertices those this close become one [m]
-  bool repair = false;                     ///< the file's mesh is repaired: see repair_mesh()
+  std::optional<double> lattice;  ///< its cells' size, over Scene::lattices' surface [m]
+  std::optional<int> coarsen;     ///< its points; 0: auto, as many spaces as it takes
+  std::string file;               ///< relative to the scene
+  double scale = 1;               ///< metres per unit of the file
+  /// of the file's vertices those this close become one [m]
+  std::optional<double> merge_duplicates;
+  bool repair = false;  ///< the file's mesh is repaired: see repair_mesh()
 };
 
 struct BallSurfaceRecipe {
@@ -95,8 +96,8 @@ struct ObstacleRecipe {
   std::optional<ToolRecipe> tool;  ///< where the shape comes from a file
 };
 
-/// How a level's mesh is numbered where it comes from. What is read from a file is put in an order that is faster to
-/// simulate; whatever people see has the file's order and numbers.
+/// How a level's mesh is numbered where it comes from. What is read from a file is put in an order
+/// that is faster to simulate; whatever people see has the file's order and numbers.
 struct Numbering {
   Reordering input;             ///< per place in the input its number here; empty: the same
   std::vector<int> vertex_ids;  ///< per vertex here its number in the file; empty: the same, from 0
@@ -144,16 +145,18 @@ struct OutputOptions {
 
 struct Scene {
   std::string file;
-  std::string name;                        ///< none given: the file's
-  double duration = 0;                     ///< [s]
-  Problem problem;                         ///< complete once its meshes are built
-  std::vector<Numbering> numbering;        ///< of each of these meshes
-  std::vector<std::string> warnings;       ///< about what was found in it and its files, a sentence each
+  std::string name;                  ///< none given: the file's
+  double duration = 0;               ///< [s]
+  Problem problem;                   ///< complete once its meshes are built
+  std::vector<Numbering> numbering;  ///< of each of these meshes
+  /// about what was found in it and its files, a sentence each
+  std::vector<std::string> warnings;
   std::optional<LatticesRecipe> lattices;  ///< what the levels are, if they are lattices
   std::vector<LevelRecipe> levels;
   double jitter = 0;  ///< of every level: see jittered()
   std::optional<SurfaceRecipe> surface;
-  std::map<std::string, BodyRecipe> bodies;  ///< instead of the five above; what they make is one body of several parts
+  /// instead of the five above; what they make is one body of several parts
+  std::map<std::string, BodyRecipe> bodies;
   std::vector<ObstacleRecipe> obstacles;
   OutputOptions output;
   StudyOptions study;  ///< but for its duration, which is the scene's

@@ -14,7 +14,9 @@
 namespace plica::app {
 namespace {
 
-Where place(const std::string& file, const YAML::Mark& mark) { return {file, mark.is_null() ? 0 : mark.line + 1}; }
+Where place(const std::string& file, const YAML::Mark& mark) {
+  return {file, mark.is_null() ? 0 : mark.line + 1};
+}
 
 // From YAML's nodes, where an alias stands for a value, even for one around it, to a tree of values
 class Conversion {
@@ -34,7 +36,8 @@ void Conversion::add_entry(Tree& map, const YAML::Node& key, const YAML::Node& v
   if (!key.IsScalar()) throw InputError("a key must be a word", where);
   const std::string name = valid_utf8(key.Scalar());
   if (const Tree* earlier = map.find(name)) {
-    throw InputError("the key '" + name + "' stands here for the second time; the first is in line " +
+    throw InputError("the key '" + name +
+                         "' stands here for the second time; the first is in line " +
                          std::to_string(earlier->key_where.line),
                      where);
   }
@@ -49,8 +52,10 @@ Tree Conversion::operator()(const YAML::Node& node) {
   constexpr int deepest = 50, most = 100'000;
   Tree tree;
   tree.where = tree.key_where = place(file_, node.Mark());
-  if (++depth_ > deepest) throw InputError(fmt::format("nested more than {} deep", deepest), tree.where);
-  if (++values_ > most) throw InputError(fmt::format("more than {} values, aliases included", most), tree.where);
+  if (++depth_ > deepest)
+    throw InputError(fmt::format("nested more than {} deep", deepest), tree.where);
+  if (++values_ > most)
+    throw InputError(fmt::format("more than {} values, aliases included", most), tree.where);
   if (node.IsScalar()) {
     tree.kind = Tree::Kind::scalar;
     tree.text = valid_utf8(node.Scalar());
@@ -65,14 +70,16 @@ Tree Conversion::operator()(const YAML::Node& node) {
   return tree;
 }
 
-// Only looks where documents begin. (YAML::LoadAll() of yaml-cpp 0.7 never comes back from a stray '}'.)
+// Only looks where documents begin. (YAML::LoadAll() of yaml-cpp 0.7 never comes back from a stray
+// '}'.)
 class Documents final : public YAML::EventHandler {
  public:
   static std::optional<YAML::Mark> second_of(const std::string& text) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     Documents documents;
-    const bool is_another = parser.HandleNextDocument(documents) && parser.HandleNextDocument(documents);
+    const bool is_another =
+        parser.HandleNextDocument(documents) && parser.HandleNextDocument(documents);
     return is_another ? std::optional(documents.start_) : std::nullopt;
   }
 
@@ -98,13 +105,14 @@ Tree& stepped(Tree& tree, const std::string& part, const Where& where) {
     std::size_t index = 0;
     const auto [rest, error] = std::from_chars(part.data(), part.data() + part.size(), index);
     if (error != std::errc{} || rest != part.data() + part.size() || index >= tree.items.size())
-      throw InputError("'" + part + "' is no entry of this list, which has " + std::to_string(tree.items.size()) +
-                           ", counted from 0",
+      throw InputError("'" + part + "' is no entry of this list, which has " +
+                           std::to_string(tree.items.size()) + ", counted from 0",
                        where);
     return tree.items[index];
   }
   if (tree.kind == Tree::Kind::scalar)
-    throw InputError("cannot set '" + part + "' inside " + tree.shown() + ", which is a single value", where);
+    throw InputError(
+        "cannot set '" + part + "' inside " + tree.shown() + ", which is a single value", where);
   tree.kind = Tree::Kind::map;
   for (Tree& item : tree.items)
     if (item.key == part) return item;
@@ -141,7 +149,8 @@ std::string Tree::shown() const {
   constexpr std::size_t most = 80;  // bytes of a text
   if (kind == Kind::scalar && text.size() > most) {
     std::size_t end = most;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // whole characters
+    // whole characters
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
     return "'" + text.substr(0, end) + "...'";
   }
   if (kind == Kind::scalar) return "'" + text + "'";
@@ -166,7 +175,8 @@ Tree parse_tree(const std::string& text, const std::string& file) {
 
 Tree read_tree(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file))
-    throw InputError(std::filesystem::exists(file) ? "this is not a file" : "there is no such file", {file.string()});
+    throw InputError(std::filesystem::exists(file) ? "this is not a file" : "there is no such file",
+                     {file.string()});
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
@@ -177,7 +187,8 @@ Tree read_tree(const std::filesystem::path& file) {
 void override_value(Tree& root, const std::string& assignment, const std::string& label) {
   const Where where{label, 0};
   const std::size_t equals = assignment.find('=');
-  if (equals == 0 || equals == std::string::npos) throw InputError("expected key.path=value", where);
+  if (equals == 0 || equals == std::string::npos)
+    throw InputError("expected key.path=value", where);
   Tree value;
   try {
     value = Conversion(where.file)(YAML::Load(assignment.substr(equals + 1)));
@@ -203,7 +214,8 @@ Where place_of(const Tree& root, std::string_view path) {
     const Tree* next = tree->find(part);
     std::size_t index = 0;
     if (tree->kind == Tree::Kind::list &&
-        std::from_chars(part.data(), part.data() + part.size(), index).ec == std::errc{} && index < tree->items.size())
+        std::from_chars(part.data(), part.data() + part.size(), index).ec == std::errc{} &&
+        index < tree->items.size())
       next = &tree->items[index];
     if (next == nullptr) break;
     tree = next;
@@ -244,29 +256,38 @@ Tree tree_of(const Json& json, const std::string& file) {
 
 namespace {
 
-std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+std::string below(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
 
-std::string difference(const Tree& before, const Tree& now, const std::string& path, const std::string& but_for);
+std::string difference(const Tree& before, const Tree& now, const std::string& path,
+                       const std::string& but_for);
 
-std::string map_difference(const Tree& before, const Tree& now, const std::string& path, const std::string& but_for) {
+std::string map_difference(const Tree& before, const Tree& now, const std::string& path,
+                           const std::string& but_for) {
   for (const Tree& item : before.items) {
     if (item.key == but_for) continue;
     const Tree* other = now.find(item.key);
-    if (other == nullptr) return below(path, item.key) + ": " + item.shown() + " is not there any more";
-    if (std::string found = difference(item, *other, below(path, item.key), {}); !found.empty()) return found;
+    if (other == nullptr)
+      return below(path, item.key) + ": " + item.shown() + " is not there any more";
+    if (std::string found = difference(item, *other, below(path, item.key), {}); !found.empty())
+      return found;
   }
   for (const Tree& item : now.items)
-    if (item.key != but_for && before.find(item.key) == nullptr) return below(path, item.key) + ": is new";
+    if (item.key != but_for && before.find(item.key) == nullptr)
+      return below(path, item.key) + ": is new";
   return {};
 }
 
-std::string difference(const Tree& before, const Tree& now, const std::string& path, const std::string& but_for) {
+std::string difference(const Tree& before, const Tree& now, const std::string& path,
+                       const std::string& but_for) {
   if (before.kind != now.kind || before.text != now.text ||
       (before.kind == Tree::Kind::list && before.items.size() != now.items.size()))
     return path + ": " + before.shown() + " became " + now.shown();
   if (before.kind == Tree::Kind::map) return map_difference(before, now, path, but_for);
   for (std::size_t i = 0; i < before.items.size(); ++i)
-    if (std::string found = difference(before.items[i], now.items[i], below(path, std::to_string(i)), {});
+    if (std::string found =
+            difference(before.items[i], now.items[i], below(path, std::to_string(i)), {});
         !found.empty())
       return found;
   return {};

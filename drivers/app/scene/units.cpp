@@ -55,8 +55,9 @@ std::string_view trimmed(std::string_view text) {
 }
 
 [[noreturn]] void unknown_unit(std::string_view symbol) {
-  static const std::vector<std::string> common = {"m",   "cm",  "mm",  "um", "s",  "ms",  "g",   "kg",  "N", "Pa",
-                                                  "kPa", "MPa", "GPa", "J",  "Hz", "rad", "deg", "min", "%"};
+  static const std::vector<std::string> common = {"m",  "cm",  "mm",  "um",  "s",   "ms",  "g",
+                                                  "kg", "N",   "Pa",  "kPa", "MPa", "GPa", "J",
+                                                  "Hz", "rad", "deg", "min", "%"};
   const std::string near = nearest_name(symbol, common);
   throw std::invalid_argument("unknown unit '" + std::string(symbol) + "'" +
                               (near.empty() ? "" : "; did you mean '" + near + "'?"));
@@ -116,13 +117,15 @@ std::size_t number_prefix(std::string_view text, double& value) {
 
 std::vector<UnitInfo> unit_infos() {
   std::string symbols;
-  for (const Prefix& prefix : prefixes) symbols += (symbols.empty() ? "" : " ") + std::string(prefix.symbol);
+  for (const Prefix& prefix : prefixes)
+    symbols += (symbols.empty() ? "" : " ") + std::string(prefix.symbol);
   std::vector<UnitInfo> infos;
   for (const Unit& unit : units) {
     std::ostringstream factor;
     factor << std::setprecision(9) << unit.factor;
     const std::string si = unit_of(unit.dimension);
-    infos.push_back({unit.symbol, name_of(unit.dimension) + ", " + factor.str() + (si.empty() ? "" : " " + si) +
+    infos.push_back({unit.symbol, name_of(unit.dimension) + ", " + factor.str() +
+                                      (si.empty() ? "" : " " + si) +
                                       (unit.prefixed ? ", with prefixes" : "")});
   }
   infos.push_back({"prefixes", symbols});
@@ -133,18 +136,22 @@ std::vector<UnitInfo> unit_infos() {
 std::string unit_pattern(const Dimension& dimension) {
   std::string prefix, pattern;
   for (const Prefix& p : prefixes) prefix += (prefix.empty() ? "(" : "|") + std::string(p.symbol);
-  const auto add = [&pattern](const std::string& text) { pattern += (pattern.empty() ? "" : "|") + text; };
+  const auto add = [&pattern](const std::string& text) {
+    pattern += (pattern.empty() ? "" : "|") + text;
+  };
   const auto power = [&prefix](const Unit& unit, int n) {
     const std::string exponent = n > 1 ? "\\^?" + std::to_string(n) : "";
     return (unit.prefixed ? prefix + ")?" : "") + unit.symbol + exponent;
   };
   for (const Unit& a : units) {
     for (int n = 1; n <= 3; ++n)
-      if (a.symbol != std::string_view("1") && times(plain, a.dimension, n) == dimension) add(power(a, n));
+      if (a.symbol != std::string_view("1") && times(plain, a.dimension, n) == dimension)
+        add(power(a, n));
     if (a.symbol == std::string_view("%")) continue;
     for (const Unit& b : units)
       for (int n = 1; n <= 4 && dimension != plain && b.dimension != plain; ++n) {
-        if (times(a.dimension, b.dimension, -n) == dimension) add(power(a, 1) + " */ *" + power(b, n));
+        if (times(a.dimension, b.dimension, -n) == dimension)
+          add(power(a, 1) + " */ *" + power(b, n));
         if (a.dimension != plain && times(a.dimension, b.dimension, n) == dimension)
           add(power(a, 1) + " *\\* *" + power(b, n));
       }
@@ -165,38 +172,46 @@ Measured measure(std::string_view text) {
   if (length_read == 0) throw std::invalid_argument("not a number");
   const std::string_view unit = trimmed(text.substr(length_read));
   if (unit.empty()) return {value, std::nullopt};
-  if (unit.starts_with(',')) throw std::invalid_argument("a comma; expected a point before decimals");
+  if (unit.starts_with(','))
+    throw std::invalid_argument("a comma; expected a point before decimals");
   const Measured product = unit_product(unit);
   return {value * product.value, product.dimension};
 }
 
 Interval parse_interval(std::string_view text) {
   Interval interval;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), interval.steps);
+  const auto [rest, error] =
+      std::from_chars(text.data(), text.data() + text.size(), interval.steps);
   const std::size_t digits = static_cast<std::size_t>(rest - text.data());
-  const std::string_view word = text.substr(std::min(text.find_first_not_of(' ', digits), text.size()));
+  const std::string_view word =
+      text.substr(std::min(text.find_first_not_of(' ', digits), text.size()));
   if (error == std::errc{} && (word == "steps" || word == "step")) {
     if (interval.steps < 1) throw std::invalid_argument("less than a step");
     return interval;
   }
   const Measured measured = measure(text);
-  if (measured.dimension.value_or(duration) != duration) throw std::invalid_argument(name_of(*measured.dimension));
+  if (measured.dimension.value_or(duration) != duration)
+    throw std::invalid_argument(name_of(*measured.dimension));
   if (!(measured.value > 0)) throw std::invalid_argument("no time at all");
   return {measured.value, 0};
 }
 
 std::string text_of(const Interval& interval) {
-  if (interval.steps > 0) return fmt::format("{} {}", interval.steps, interval.steps == 1 ? "step" : "steps");
+  if (interval.steps > 0)
+    return fmt::format("{} {}", interval.steps, interval.steps == 1 ? "step" : "steps");
   return fmt::format("{:g} s", interval.time);
 }
 
-// How many multiples were passed by then, the zeroth among them. 3 s are 100 steps of 30 ms, whatever the last bit says
+// How many multiples were passed by then, the zeroth among them. 3 s are 100 steps of 30 ms,
+// whatever the last bit says
 long Schedule::count(long macro_step) const {
   constexpr double rounding = 1e-9;  // of a step
   if (macro_step < 0) return 0;
   if (every_.steps > 0) return macro_step / every_.steps + 1;
   if (every_.time < step_) return macro_step + 1;
-  return static_cast<long>(std::floor((static_cast<double>(macro_step) + rounding) * step_ / every_.time)) + 1;
+  return static_cast<long>(
+             std::floor((static_cast<double>(macro_step) + rounding) * step_ / every_.time)) +
+         1;
 }
 
 bool Schedule::due(long macro_step) const { return count(macro_step) > count(macro_step - 1); }

@@ -17,7 +17,8 @@ struct UnitInfo {
 };
 std::vector<UnitInfo> unit_infos();
 
-/// A regular expression for the units that a quantity of this dimension may have: one, or one times a power of another.
+/// A regular expression for the units that a quantity of this dimension may have: one, or one times
+/// a power of another.
 std::string unit_pattern(const Dimension& dimension);
 
 /// A number in SI. No dimension: it was written without a unit.
@@ -45,7 +46,8 @@ Interval parse_interval(std::string_view text);
 /// "0.02 s", "10 steps".
 std::string text_of(const Interval& interval);
 
-/// Which macro steps an interval picks: the zeroth, and the first at or after each of its multiples.
+/// Which macro steps an interval picks: the zeroth, and the first at or after each of its
+/// multiples.
 class Schedule {
  public:
   Schedule(const Interval& every, double macro_step) : every_(every), step_(macro_step) {}

@@ -15,8 +15,9 @@ double number_of(const ControlJson& from, const char* name, double above, double
   const auto found = from.is_object() ? from.find(name) : from.end();
   const double value = found != from.end() && found->is_number() ? found->get<double>() : NAN;
   if (!(value >= above && value <= most))
-    throw InputError(std::string(name) + ": expected a number from " + std::to_string(above) + " to " +
-                     std::to_string(most) + ", got " + (found == from.end() ? "nothing" : found->dump()));
+    throw InputError(std::string(name) + ": expected a number from " + std::to_string(above) +
+                     " to " + std::to_string(most) + ", got " +
+                     (found == from.end() ? "nothing" : found->dump()));
   return value;
 }
 
@@ -46,13 +47,17 @@ Controls controls_of(const std::string& text) {
   c.speed = number_of(said, "speed", 1e-6, 1e3);
   c.gravity = number_of(said, "gravity", -1e4, 1e4);
   c.stiffness = number_of(said, "stiffness", 0, 1e12);
-  if (const auto colour = said.find("colour"); colour != said.end() && colour->is_string()) c.colour = *colour;
-  if (const ControlJson* pull = object_in(said, "pull")) c.pull = {point_in(*pull, "at"), point_in(*pull, "target")};
+  if (const auto colour = said.find("colour"); colour != said.end() && colour->is_string())
+    c.colour = *colour;
+  if (const ControlJson* pull = object_in(said, "pull"))
+    c.pull = {point_in(*pull, "at"), point_in(*pull, "target")};
   if (const ControlJson* tool = object_in(said, "tool"))
-    c.tool = {point_in(*tool, "centre"), number_of(*tool, "radius", std::numeric_limits<double>::min(), 1e6)};
+    c.tool = {point_in(*tool, "centre"),
+              number_of(*tool, "radius", std::numeric_limits<double>::min(), 1e6)};
   if (const auto moved = said.find("moved"); moved != said.end() && moved->is_array())
     for (const ControlJson& one : *moved)
-      c.moved.push_back({static_cast<int>(number_of(one, "obstacle", 0, 1e6)), point_in(one, "displacement")});
+      c.moved.push_back(
+          {static_cast<int>(number_of(one, "obstacle", 0, 1e6)), point_in(one, "displacement")});
   return c;
 }
 

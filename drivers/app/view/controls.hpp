@@ -38,7 +38,8 @@ struct Controls {
   std::vector<ObstacleAim> moved;  ///< the others move as the scene says
 };
 
-/// From the page's message, in JSON. InputError that says which member is not as it should be, and what was expected.
+/// From the page's message, in JSON. InputError that says which member is not as it should be, and
+/// what was expected.
 Controls controls_of(const std::string& text);
 
 }  // namespace plica::app

@@ -8,11 +8,13 @@
 namespace plica::app {
 namespace {
 
-constexpr double patch = 0.06;        // radius of what is held, over the body's size
-constexpr double longest_pull = 0.1;  // a spring pulls no more than at this length, over the body's size
-constexpr double hand_speed = 2;      // the body's sizes per second; simulated
-constexpr double ball_speed = 1;      // likewise
-constexpr double pull_limit = 0.1;    // h^2 k / m of a vertex; with its own stiffness it has to stay below 4
+constexpr double patch = 0.06;  // radius of what is held, over the body's size
+// a spring pulls no more than at this length, over the body's size
+constexpr double longest_pull = 0.1;
+constexpr double hand_speed = 2;  // the body's sizes per second; simulated
+constexpr double ball_speed = 1;  // likewise
+// h^2 k / m of a vertex; with its own stiffness it has to stay below 4
+constexpr double pull_limit = 0.1;
 constexpr double push_limit = 0.25;   // likewise
 constexpr double ball_stiffness = 2;  // of a touched vertex, over Young's modulus times an edge
 constexpr double damping_ratio = 0.3;
@@ -24,7 +26,8 @@ constexpr double look_every = 4;   // critical steps of the finest level
 
 template <class Rows>
 Point row(const Rows& rows, std::size_t i) {
-  return {static_cast<double>(rows(i, 0)), static_cast<double>(rows(i, 1)), static_cast<double>(rows(i, 2))};
+  return {static_cast<double>(rows(i, 0)), static_cast<double>(rows(i, 1)),
+          static_cast<double>(rows(i, 2))};
 }
 template <class B>
 void add(const Vectors<B>& forces, std::size_t i, const Point& force) {
@@ -48,7 +51,8 @@ Hands<B>::Hands(const Scene& scene, const Simulation<B>& simulation, double size
     LevelParts parts;
     parts.mass = vertex_masses(scene.problem.body, static_cast<int>(i));
     parts.edge = levels[i].mean_edge;
-    parts.step = levels[i].substeps > 0 ? levels[i].share * macro_step_ / levels[i].substeps : macro_step_;
+    parts.step =
+        levels[i].substeps > 0 ? levels[i].share * macro_step_ / levels[i].substeps : macro_step_;
     parts.critical = simulation.him() ? levels[i].critical_step : 0;
     levels_.push_back(std::move(parts));
   }
@@ -68,8 +72,10 @@ void Hands<B>::hold(const Controls& controls, double time) {
   controls_ = controls, start_ = time;
   more_gravity_ = down_ * controls.gravity - scene_gravity_;
   pull_ = push_ = Point::Zero();
-  if (controls.pull && placed_) hand_.aim(controls.pull->target, hand_speed * size_ * macro_step_, macro_step_);
-  if (controls.tool) ball_.aim(controls.tool->centre, ball_speed * size_ * macro_step_, macro_step_);
+  if (controls.pull && placed_)
+    hand_.aim(controls.pull->target, hand_speed * size_ * macro_step_, macro_step_);
+  if (controls.tool)
+    ball_.aim(controls.tool->centre, ball_speed * size_ * macro_step_, macro_step_);
   tool_ = controls.tool;
   if (tool_) tool_->centre = ball_.place;
 }
@@ -83,7 +89,8 @@ bool Hands<B>::give_way() {
 template <class B>
 void Hands<B>::advance() {
   grip_ = std::min(1.0, grip_ * regained);
-  for (Follower* one : {&hand_, &ball_}) one->place += macro_step_ * one->velocity, one->velocity.setZero();
+  for (Follower* one : {&hand_, &ball_})
+    one->place += macro_step_ * one->velocity, one->velocity.setZero();
   if (tool_) tool_->centre = ball_.place;
 }
 
@@ -94,11 +101,13 @@ double Hands<B>::bearing(const ForceRequest<B>& request) const {
   double least = 1;
   for (const auto& tet : mesh_.tets) {
     std::array<Eigen::Matrix3d, 2> edges;
-    const auto corner = [&](int c) { return static_cast<std::size_t>(tet[static_cast<std::size_t>(c)]); };
+    const auto corner = [&](int c) {
+      return static_cast<std::size_t>(tet[static_cast<std::size_t>(c)]);
+    };
     for (int k = 0; k < 3; ++k) {
       edges[0].col(k) = row(request.rest, corner(k + 1)) - row(request.rest, corner(0));
-      edges[1].col(k) =
-          edges[0].col(k) + row(request.displacement, corner(k + 1)) - row(request.displacement, corner(0));
+      edges[1].col(k) = edges[0].col(k) + row(request.displacement, corner(k + 1)) -
+                        row(request.displacement, corner(0));
     }
     const double before = edges[0].determinant(), after = edges[1].determinant();
     if (!nodal_) least = std::min(least, after / before);
@@ -121,7 +130,8 @@ void Hands<B>::operator()(const ForceRequest<B>& request) {
     request.exec.fence("plica::hands");
     LevelParts& level = levels_[static_cast<std::size_t>(request.level)];
     if (more_gravity_ != Point::Zero())
-      for (std::size_t i = 0; i < level.mass.size(); ++i) add<B>(request.force, i, level.mass[i] * more_gravity_);
+      for (std::size_t i = 0; i < level.mass.size(); ++i)
+        add<B>(request.force, i, level.mass[i] * more_gravity_);
     if (controls_.pull && request.level == 0 && !(std::abs(request.time - looked_) < between_))
       bears_ = bearing(request), looked_ = request.time;
     if (controls_.pull) add_pull(level, request);
@@ -143,21 +153,26 @@ void Hands<B>::take_hold(LevelParts& level, const ForceRequest<B>& request) {
     level.offset.push_back(row(request.rest, i) + row(request.displacement, i));
     sum += w, middle += w * level.offset.back();
   }
-  if (!placed_ && !level.held.empty()) hand_.place = middle / sum, placed_ = true;  // wherever the mouse is by now
-  for (std::size_t j = 0; j < level.held.size(); ++j) level.weight[j] /= sum, level.offset[j] -= middle / sum;
+  // wherever the mouse is by now
+  if (!placed_ && !level.held.empty()) hand_.place = middle / sum, placed_ = true;
+  for (std::size_t j = 0; j < level.held.size(); ++j)
+    level.weight[j] /= sum, level.offset[j] -= middle / sum;
 }
 
-// Cycle him makes what is finer than its step resolves as heavy as that bears: of a patch, as if the step were so much shorter.
+// Cycle him makes what is finer than its step resolves as heavy as that bears: of a patch, as if
+// the step were so much shorter.
 template <class B>
-double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& request, std::size_t vertex,
-                                double radius) const {
+double Hands<B>::most_stiffness(const LevelParts& level, const ForceRequest<B>& request,
+                                std::size_t vertex, double radius) const {
   if (request.stiffness.extent(0) > 0) return HUGE_VAL;  // implicit
   double step = level.step;
-  if (level.critical > 0) step = std::min(step, level.critical * std::max(1.0, 2 * radius / level.edge));
+  if (level.critical > 0)
+    step = std::min(step, level.critical * std::max(1.0, 2 * radius / level.edge));
   return level.mass[vertex] / (step * step);
 }
 
-// Every vertex of the patch is pulled to its place in the patch as it was taken hold of: as by forceps, not by a thread.
+// Every vertex of the patch is pulled to its place in the patch as it was taken hold of: as by
+// forceps, not by a thread.
 template <class B>
 void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
   using Real = typename B::Real;
@@ -170,14 +185,16 @@ void Hands<B>::add_pull(LevelParts& level, const ForceRequest<B>& request) {
                 x = row(request.rest, i) + row(request.displacement, i) + request.ahead * v;
     const double k = grip_ * bears_ *
                      std::min(level.weight[j] * controls_.stiffness,
-                              pull_limit * most_stiffness(level, request, i, std::max(patch * size_, level.edge)));
+                              pull_limit * most_stiffness(level, request, i,
+                                                          std::max(patch * size_, level.edge)));
     const double c = 2 * damping_ratio * std::sqrt(k * level.mass[i]);
     const Point way = target + level.offset[j] - x;
     const Point held = way * std::min(1.0, longest_pull * size_ / std::max(way.norm(), 1e-300));
     const Point force = k * held - c * (v - hand_.velocity);
     add<B>(request.force, i, force);
     if (request.stiffness.extent(0) > 0)
-      for (int b = 0; b < 3; ++b) request.stiffness(i, b) += static_cast<Real>(k + c / request.step);
+      for (int b = 0; b < 3; ++b)
+        request.stiffness(i, b) += static_cast<Real>(k + c / request.step);
     sum += force;
   }
   if (request.level == 0) pull_ = sum;
@@ -191,18 +208,19 @@ void Hands<B>::add_push(const LevelParts& level, const ForceRequest<B>& request)
   Point sum = Point::Zero();
   for (std::size_t i = 0; i < level.mass.size(); ++i) {
     const Point v = row(request.velocity, i);
-    const Point away = row(request.rest, i) + row(request.displacement, i) + request.ahead * v - centre;
+    const Point away =
+        row(request.rest, i) + row(request.displacement, i) + request.ahead * v - centre;
     const double distance = away.norm(), depth = radius - distance;
     if (!(depth > 0) || !(distance > 0)) continue;
     const Point n = away / distance;
-    const double k =
-        std::min(ball_stiffness * young_ * level.edge, push_limit * most_stiffness(level, request, i, radius));
+    const double k = std::min(ball_stiffness * young_ * level.edge,
+                              push_limit * most_stiffness(level, request, i, radius));
     const double c = damping_ratio * std::sqrt(k * level.mass[i]);
     const Point force = std::max(k * depth - c * n.dot(v - ball_.velocity), 0.0) * n;
     add<B>(request.force, i, force);
     if (request.stiffness.extent(0) > 0) {
-      const double stiff = k + c / request.step,
-                   pairs[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2], n[0] * n[1], n[0] * n[2], n[1] * n[2]};
+      const double stiff = k + c / request.step, pairs[6] = {n[0] * n[0], n[1] * n[1], n[2] * n[2],
+                                                             n[0] * n[1], n[0] * n[2], n[1] * n[2]};
       for (int b = 0; b < 6; ++b) request.stiffness(i, b) += static_cast<Real>(stiff * pairs[b]);
     }
     sum += force;

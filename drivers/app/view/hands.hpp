@@ -8,26 +8,28 @@
 
 namespace plica::app {
 
-/// What somebody at the page of a live view does to the body, as forces on the vertices of every level: the spring that pulls, the
-/// ball that pushes, and gravity's change.
+/// What somebody at the page of a live view does to the body, as forces on the vertices of every
+/// level: the spring that pulls, the ball that pushes, and gravity's change.
 template <class B>
 class Hands {
  public:
   /// `size` of the body [m].
   Hands(const Scene& scene, const Simulation<B>& simulation, double size);
 
-  /// The state of the controls during the next macro step, from this time [s] on. Hands follow the controls at a bounded speed.
+  /// The state of the controls during the next macro step, from this time [s] on. Hands follow the
+  /// controls at a bounded speed.
   void hold(const Controls& controls, double time);
   /// After that step.
   void advance();
-  /// After a step that the body did not bear and that was taken back: pulls half as strongly, and comes back to all of it in time.
-  /// Whether that may help: false where nothing pulls, or hardly.
+  /// After a step that the body did not bear and that was taken back: pulls half as strongly, and
+  /// comes back to all of it in time. Whether that may help: false where nothing pulls, or hardly.
   bool give_way();
   /// Adds the forces, on the host.
   void operator()(const ForceRequest<B>& request);
 
-  const Point& pull() const { return pull_; }  ///< its force on the body, in the last state of level 0 [N]
-  const Point& push() const { return push_; }  ///< likewise the ball's
+  /// its force on the body, in the last state of level 0 [N]
+  const Point& pull() const { return pull_; }
+  const Point& push() const { return push_; }                    ///< likewise the ball's
   const std::optional<BallTool>& tool() const { return tool_; }  ///< where it is
 
  private:
@@ -66,9 +68,10 @@ class Hands {
   Controls controls_;
   double start_ = 0;  // of the macro step [s]
   long grips_ = 0;
-  bool placed_ = false;                          // whether the hand is where it took hold
-  double grip_ = 1;                              // how much of it there is, see give_way()
-  double bears_ = 1, looked_ = 0, between_ = 0;  // what it bore when it was last looked at [s], and how long that holds
+  bool placed_ = false;  // whether the hand is where it took hold
+  double grip_ = 1;      // how much of it there is, see give_way()
+  // what it bore when it was last looked at [s], and how long that holds
+  double bears_ = 1, looked_ = 0, between_ = 0;
   Follower hand_, ball_;
   std::optional<BallTool> tool_;
   Point pull_ = Point::Zero(), push_ = Point::Zero();

@@ -35,7 +35,9 @@ double seconds(LiveClock::duration time) { return std::chrono::duration<double>(
 
 LiveJson three_of(const Point& p) { return {p.x(), p.y(), p.z()}; }
 
-std::string in_base64(const std::vector<float>& values) { return base64(values.data(), values.size() * sizeof(float)); }
+std::string in_base64(const std::vector<float>& values) {
+  return base64(values.data(), values.size() * sizeof(float));
+}
 
 /// The body as the page sees it: the boundary of level 0.
 struct Skin {
@@ -50,7 +52,8 @@ struct Skin {
   std::vector<float> of(const std::vector<Point>& points) const {
     std::vector<float> values;
     for (const int v : boundary.mesh_vertex)
-      for (int k = 0; k < 3; ++k) values.push_back(static_cast<float>(points[static_cast<std::size_t>(v)][k]));
+      for (int k = 0; k < 3; ++k)
+        values.push_back(static_cast<float>(points[static_cast<std::size_t>(v)][k]));
     return values;
   }
 };
@@ -73,7 +76,8 @@ class Speed {
 template <class B>
 class LiveView {
  public:
-  LiveView(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options, const ExternalForces<B>& forces)
+  LiveView(const Scene& scene, Simulation<B>& simulation, const LiveOptions& options,
+           const ExternalForces<B>& forces)
       : scene_(scene),
         simulation_(simulation),
         options_(options),
@@ -94,17 +98,20 @@ class LiveView {
 
   void run() {
     WebServer server(options_.port, page(), [this](const std::string& text) { return take(text); });
-    if (options_.listening) options_.listening(fmt::format("http://127.0.0.1:{}", options_.port.number()));
+    if (options_.listening)
+      options_.listening(fmt::format("http://127.0.0.1:{}", options_.port.number()));
     auto due = LiveClock::now(), before = due;
     while (!options_.ended || !options_.ended()) {
       const Controls controls = said();
       start_again(controls);
-      const bool stepped = server.watchers() > 0 && controls.running && words_.empty() && keep_pace(controls, before);
+      const bool stepped = server.watchers() > 0 && controls.running && words_.empty() &&
+                           keep_pace(controls, before);
       const auto now = LiveClock::now();
       speed_.add(0, 0, now - before);
       before = now;
       if (server.watchers() > 0 && now >= due)
-        server.publish(frame(controls)), due = LiveClock::now() + (controls.running ? frame_time : 5 * frame_time);
+        server.publish(frame(controls)),
+            due = LiveClock::now() + (controls.running ? frame_time : 5 * frame_time);
       if (!stepped) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }
@@ -164,8 +171,10 @@ class LiveView {
     const double reach = obstacle_speed * skin_.size() * simulation_.macro_step();
     for (const ObstacleAim& aim : aims) {
       if (aim.obstacle >= static_cast<int>(obstacles().size())) continue;
-      const Point now = simulation_.obstacle_displacement(aim.obstacle), way = aim.displacement - now;
-      simulation_.move_obstacle(aim.obstacle, now + way * std::min(1.0, reach / std::max(way.norm(), 1e-300)));
+      const Point now = simulation_.obstacle_displacement(aim.obstacle),
+                  way = aim.displacement - now;
+      simulation_.move_obstacle(aim.obstacle,
+                                now + way * std::min(1.0, reach / std::max(way.norm(), 1e-300)));
       moved_.insert(aim.obstacle);
     }
   }
@@ -193,17 +202,19 @@ class LiveView {
       for (int k = 0; k < 3; ++k) rest.push_back(static_cast<float>(p[k]));
     int tets = 0;
     for (const LevelReport& level : simulation_.levels()) tets += level.tets;
-    const LiveJson data = {{"title", scene_.name},
-                           {"up", problem.gravity.norm() > 0 ? three_of(-problem.gravity) : LiveJson({0, 0, 1})},
-                           {"gravity", problem.gravity.norm()},
-                           {"stiffness", 0.03 * young * size},
-                           {"size", size},
-                           {"method", options_.method},
-                           {"tets", tets},
-                           {"rest", in_base64(rest)},
-                           {"triangles", base64(corners.data(), corners.size() * sizeof(std::uint32_t))},
-                           {"obstacles", obstacles_json(problem.contact)}};
-    return filled_page(live_files(), scene_.name, data.dump(-1, ' ', false, LiveJson::error_handler_t::replace));
+    const LiveJson data = {
+        {"title", scene_.name},
+        {"up", problem.gravity.norm() > 0 ? three_of(-problem.gravity) : LiveJson({0, 0, 1})},
+        {"gravity", problem.gravity.norm()},
+        {"stiffness", 0.03 * young * size},
+        {"size", size},
+        {"method", options_.method},
+        {"tets", tets},
+        {"rest", in_base64(rest)},
+        {"triangles", base64(corners.data(), corners.size() * sizeof(std::uint32_t))},
+        {"obstacles", obstacles_json(problem.contact)}};
+    return filled_page(live_files(), scene_.name,
+                       data.dump(-1, ' ', false, LiveJson::error_handler_t::replace));
   }
 
   std::string frame(const Controls& controls) const {
@@ -240,7 +251,8 @@ class LiveView {
   }
 
   // Of a linear element's vertex the mean of its tetrahedra
-  std::vector<double> at_vertices(const ElementFields& fields, const std::vector<double>& values) const {
+  std::vector<double> at_vertices(const ElementFields& fields,
+                                  const std::vector<double>& values) const {
     if (fields.per_vertex) return values;
     const TetMesh& mesh = scene_.problem.body.levels.front();
     std::vector<double> sum(mesh.vertices.size()), count(mesh.vertices.size());
@@ -270,18 +282,21 @@ class LiveView {
 }  // namespace
 
 template <class B>
-std::string live_method(const Scene& scene, const Simulation<B>& simulation, const std::optional<CycleChoice>& choice) {
+std::string live_method(const Scene& scene, const Simulation<B>& simulation,
+                        const std::optional<CycleChoice>& choice) {
   int tets = 0;
   for (const LevelReport& level : simulation.levels()) tets += level.tets;
-  std::string text = fmt::format("{} tetrahedra, {}, macro step {}", tets,
-                                 choice ? "cycle " + choice->cycle : "cycle " + scene.problem.integration.cycle,
-                                 in_units(simulation.macro_step(), "s"));
+  std::string text =
+      fmt::format("{} tetrahedra, {}, macro step {}", tets,
+                  choice ? "cycle " + choice->cycle : "cycle " + scene.problem.integration.cycle,
+                  in_units(simulation.macro_step(), "s"));
   const double critical = simulation.levels().front().critical_step;
   if (critical > 0)
-    text += fmt::format(" ({:.3g} critical steps of the finest level)", simulation.macro_step() / critical);
+    text += fmt::format(" ({:.3g} critical steps of the finest level)",
+                        simulation.macro_step() / critical);
   if (choice)
-    text += fmt::format("; chosen for the error class {} ({:.3g} % of displacement)", choice->error_class,
-                        100 * choice->allowed);
+    text += fmt::format("; chosen for the error class {} ({:.3g} % of displacement)",
+                        choice->error_class, 100 * choice->allowed);
   return text;
 }
 

@@ -49,8 +49,9 @@ bool receive(int socket, std::string& buffer) {
 }
 
 std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
   return text;
 }
 
@@ -59,34 +60,38 @@ std::string field(const std::string& head, const std::string& name) {
   const std::string small = in_small_letters(head), start = "\r\n" + name + ":";
   const std::size_t found = small.find(start);
   if (found == std::string::npos) return "";
-  const std::size_t from = head.find_first_not_of(' ', found + start.size()), to = head.find("\r\n", from);
+  const std::size_t from = head.find_first_not_of(' ', found + start.size()),
+                    to = head.find("\r\n", from);
   return head.substr(from, to - from);
 }
 
-// Pages of others, which a browser shows too, may not speak to this server: only names of this machine are answered, and only to
-// pages that came from here.
+// Pages of others, which a browser shows too, may not speak to this server: only names of this
+// machine are answered, and only to pages that came from here.
 bool is_ours(const std::string& host, const std::string& origin) {
   const std::string name = host.substr(0, host.find(':'));
-  return (name == "127.0.0.1" || name == "localhost") && (origin.empty() || origin == "http://" + host);
+  return (name == "127.0.0.1" || name == "localhost") &&
+         (origin.empty() || origin == "http://" + host);
 }
 
 int listen_on(int port) {
-  if (port < 0 || port > 65535) throw InputError(fmt::format("port: expected 0 to 65535, got {}", port));
+  if (port < 0 || port > 65535)
+    throw InputError(fmt::format("port: expected 0 to 65535, got {}", port));
   const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int on = 1;
   setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   sockaddr_in address{};
   address.sin_family = AF_INET, address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 && listen(socket, 16) == 0)
+  if (bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+      listen(socket, 16) == 0)
     return socket;
   const int why = errno;
   close(socket);
-  throw InputError(
-      why == EADDRINUSE
-          ? fmt::format(
-                "port {} is in use, perhaps by another view: end that, or choose another port (0: any free one)", port)
-          : fmt::format("cannot listen on port {}: {}", port, std::strerror(why)));
+  throw InputError(why == EADDRINUSE
+                       ? fmt::format("port {} is in use, perhaps by another view: end that, or "
+                                     "choose another port (0: any free one)",
+                                     port)
+                       : fmt::format("cannot listen on port {}: {}", port, std::strerror(why)));
 }
 
 }  // namespace
@@ -160,7 +165,8 @@ void WebServer::accept_all() {
 
 void WebServer::talk(Connection& connection) {
   std::string buffer;
-  for (Request request; read_request(connection.socket, buffer, request) && answer(connection.socket, request);)
+  for (Request request;
+       read_request(connection.socket, buffer, request) && answer(connection.socket, request);)
     request = {};
   const std::lock_guard lock(mutex_);
   close(connection.socket);
@@ -191,7 +197,8 @@ bool WebServer::read_request(int socket, std::string& buffer, Request& request) 
 // Whether the connection goes on
 bool WebServer::answer(int socket, const Request& request) {
   constexpr const char* words = "text/plain; charset=utf-8";
-  if (!is_ours(request.host, request.origin)) return send_answer(socket, "403 Forbidden", words, "not from here\n");
+  if (!is_ours(request.host, request.origin))
+    return send_answer(socket, "403 Forbidden", words, "not from here\n");
   if (request.method == "GET" && request.path == "/")
     return send_answer(socket, "200 OK", "text/html; charset=utf-8", page_);
   if (request.method == "GET" && request.path == "/frames") return send_frames(socket), false;
@@ -203,7 +210,9 @@ bool WebServer::answer(int socket, const Request& request) {
 }
 
 void WebServer::send_frames(int socket) {
-  bool on = send_all(socket, "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\n\r\n");
+  bool on = send_all(
+      socket,
+      "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\n\r\n");
   std::unique_lock lock(mutex_);
   ++watchers_;
   for (long sent = 0; on && !ending_;) {

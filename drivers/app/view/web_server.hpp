@@ -10,7 +10,8 @@
 
 namespace plica::app {
 
-/// A port of this machine (127.0.0.1), taken from here to the end of the scope. Who connects to it waits until a WebServer answers.
+/// A port of this machine (127.0.0.1), taken from here to the end of the scope. Who connects to it
+/// waits until a WebServer answers.
 class Port {
  public:
   /// 0: any that is free. InputError where it is in use, or not ours to take.
@@ -26,12 +27,13 @@ class Port {
   int socket_;
 };
 
-/// Serves one page to browsers on this machine: GET / is the page, GET /frames the frames as server-sent events
-/// (https://html.spec.whatwg.org/multipage/server-sent-events.html), POST /controls takes what the page says. Threads of its own do
-/// that, until it is destroyed.
+/// Serves one page to browsers on this machine: GET / is the page, GET /frames the frames as
+/// server-sent events (https://html.spec.whatwg.org/multipage/server-sent-events.html), POST
+/// /controls takes what the page says. Threads of its own do that, until it is destroyed.
 class WebServer {
  public:
-  /// take(text) is called with each message of the page, on another thread; an empty answer: understood, else what is wrong with it.
+  /// take(text) is called with each message of the page, on another thread; an empty answer:
+  /// understood, else what is wrong with it.
   using Take = std::function<std::string(const std::string&)>;
   /// The port outlasts it, and is of no use to another server.
   WebServer(const Port& port, std::string page, Take take);

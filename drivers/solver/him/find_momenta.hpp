@@ -7,17 +7,19 @@
 
 namespace plica {
 
-/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-6 of v: at most sqrt(inertia added) iterations or so. Waits.
+/// p with A p = v, by conjugate gradients preconditioned by the mass, to 1e-6 of v: at most
+/// sqrt(inertia added) iterations or so. Waits.
 template <class B>
 void momentum_of(const typename B::Exec& exec, const Model<B>& model,
-                 const std::function<void(const Vectors<B>& p, const Vectors<B>& v)>& A, const Vectors<B>& v,
-                 const Vectors<B>& p) {
+                 const std::function<void(const Vectors<B>& p, const Vectors<B>& v)>& A,
+                 const Vectors<B>& v, const Vectors<B>& p) {
   using Real = typename B::Real;
   constexpr int most_iterations = 300;
   constexpr double tolerance = 1e-6;
   const int n = model.vertices;
   const auto size = static_cast<std::size_t>(n);
-  const auto r = zeros<Vectors<B>>("plica::momentum.r", size), s = zeros<Vectors<B>>("plica::momentum.s", size),
+  const auto r = zeros<Vectors<B>>("plica::momentum.r", size),
+             s = zeros<Vectors<B>>("plica::momentum.s", size),
              As = zeros<Vectors<B>>("plica::momentum.As", size);
   const BlockSums<B> blocks(n);
   const auto sum = zeros<Doubles<B>>("plica::momentum.sum", 1);

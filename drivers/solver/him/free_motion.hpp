@@ -6,8 +6,8 @@
 
 namespace plica {
 
-/// Translation of a body that nothing holds, answered exactly: A' = (1 - T) A (1 - T)^T + 1 1^T / mass, T the mean by
-/// mass; and its momenta without rigid motion.
+/// Translation of a body that nothing holds, answered exactly: A' = (1 - T) A (1 - T)^T + 1 1^T /
+/// mass, T the mean by mass; and its momenta without rigid motion.
 template <class B>
 class FreeMotion {
  public:
@@ -19,40 +19,48 @@ class FreeMotion {
         total_(zeros<Doubles<B>>("plica::free.total", 4)),
         frame_("plica::free.frame") {}
 
-  /// Notes the sum of the momenta p; `rest`: what is not translation. With a count only where that is above 0.
-  void take_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& p, const Vectors<B>& rest,
-                        const Doubles<B>& count) const {
-    sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(), SumOfMomenta<B>{model.mass, p}, blocks_,
-                             total_);
-    where_touching<B>(exec, count, "plica::free_take", vertices(), TakeTranslation<B>{model.mass, p, rest, total_});
+  /// Notes the sum of the momenta p; `rest`: what is not translation. With a count only where that
+  /// is above 0.
+  void take_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& p,
+                        const Vectors<B>& rest, const Doubles<B>& count) const {
+    sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(),
+                             SumOfMomenta<B>{model.mass, p}, blocks_, total_);
+    where_touching<B>(exec, count, "plica::free_take", vertices(),
+                      TakeTranslation<B>{model.mass, p, rest, total_});
   }
 
   /// Makes it the sum of m v; likewise.
   void put_translation(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v,
                        const Doubles<B>& count) const {
-    sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(), SumOfMotion<B>{model.mass, v}, blocks_,
-                             sums_);
-    where_touching<B>(exec, count, "plica::free_put", vertices(), PutTranslation<B>{v, total_, sums_});
+    sum_where_touching<B, 4>(exec, count, "plica::free_total", vertices(),
+                             SumOfMotion<B>{model.mass, v}, blocks_, sums_);
+    where_touching<B>(exec, count, "plica::free_put", vertices(),
+                      PutTranslation<B>{v, total_, sums_});
   }
 
   /// The rigid part of p - m v at a state.
   RigidMotion<B> rigid_part(const Exec& exec, const VertexModel<B>& model, const State<B>& state,
                             const Vectors<B>& p) const {
-    reduce<B, 16>(exec, "plica::free_moments", vertices(), BodyMoments<B>{model.mass, rest_, state.u, p, state.v},
-                  blocks_, sums_, SetRigidFrame<B>{sums_, frame_});
+    reduce<B, 16>(exec, "plica::free_moments", vertices(),
+                  BodyMoments<B>{model.mass, rest_, state.u, p, state.v}, blocks_, sums_,
+                  SetRigidFrame<B>{sums_, frame_});
     return {rest_, state.u, frame_};
   }
   /// The kick, and what it leaves but for translation, whose sum is noted.
-  void kick(const Exec& exec, const VertexModel<B>& model, const KickMomentum<B>& kick, const Vectors<B>& rest) const {
+  void kick(const Exec& exec, const VertexModel<B>& model, const KickMomentum<B>& kick,
+            const Vectors<B>& rest) const {
     reduce<B, 4>(exec, "plica::him_momenta", vertices(), KickAndSum<B>{kick}, blocks_, total_);
-    update_vertices<B>(exec, "plica::free_take", vertices(), TakeTranslation<B>{model.mass, kick.p, rest, total_});
+    update_vertices<B>(exec, "plica::free_take", vertices(),
+                       TakeTranslation<B>{model.mass, kick.p, rest, total_});
   }
   /// a = (a - v) / t, of a = A p with the translation.
-  void accelerate(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v, const Vectors<B>& a,
-                  double t) const {
-    reduce<B, 4>(exec, "plica::free_total", vertices(), SumOfMotion<B>{model.mass, a}, blocks_, sums_);
+  void accelerate(const Exec& exec, const VertexModel<B>& model, const Vectors<B>& v,
+                  const Vectors<B>& a, double t) const {
+    reduce<B, 4>(exec, "plica::free_total", vertices(), SumOfMotion<B>{model.mass, a}, blocks_,
+                 sums_);
     update_vertices<B>(exec, "plica::him_acceleration", vertices(),
-                       AccelerationOfTranslated<B>{{a, total_, sums_}, {v, a, static_cast<typename B::Real>(1 / t)}});
+                       AccelerationOfTranslated<B>{{a, total_, sums_},
+                                                   {v, a, static_cast<typename B::Real>(1 / t)}});
   }
 
   std::size_t bytes() const { return rest_.span() * sizeof(typename B::Real); }

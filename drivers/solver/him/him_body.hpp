@@ -14,7 +14,8 @@ struct HimParts {
   std::unique_ptr<InertiaFitter<B>> fitter;
   std::optional<FreeMotion<B>> free;  ///< of a body that nothing holds
   InertiaFit fit;
-  /// The level by whose critical step an automatic one goes: without coarser meshes the one below a space for slivers.
+  /// The level by whose critical step an automatic one goes: without coarser meshes the one below a
+  /// space for slivers.
   std::size_t detail = 0;
   std::vector<std::size_t> places;  ///< of its levels among those that are reported, finest first
 };
@@ -38,8 +39,10 @@ struct HimFields {
         answer_before("plica::him.a_before", vertices),
         contact{{}, touching} {
     if (!touches) return;
-    contact.force = zeros<Vectors<B>>("plica::him.contact_force", static_cast<std::size_t>(vertices));
-    contact_answer = zeros<Vectors<B>>("plica::him.contact_answer", static_cast<std::size_t>(vertices));
+    contact.force =
+        zeros<Vectors<B>>("plica::him.contact_force", static_cast<std::size_t>(vertices));
+    contact_answer =
+        zeros<Vectors<B>>("plica::him.contact_answer", static_cast<std::size_t>(vertices));
   }
 
   /// One body's rows.
@@ -47,7 +50,8 @@ struct HimFields {
     HimFields some;
     some.p = rows.of(p), some.g = rows.of(g), some.a = rows.of(a);
     some.force_before = rows.of(force_before), some.answer_before = rows.of(answer_before);
-    some.contact = {rows.of(contact.force), contact.touching}, some.contact_answer = rows.of(contact_answer);
+    some.contact = {rows.of(contact.force), contact.touching},
+    some.contact_answer = rows.of(contact_answer);
     return some;
   }
   std::size_t bytes() const {
@@ -55,8 +59,9 @@ struct HimFields {
   }
 };
 
-/// One body's own part of a step of the hierarchical inverse mass. The inverse mass of several bodies is block diagonal: each has its
-/// coarser levels, its axes, its fit and, where nothing holds it, its translation. Its fields are rows of the level's.
+/// One body's own part of a step of the hierarchical inverse mass. The inverse mass of several
+/// bodies is block diagonal: each has its coarser levels, its axes, its fit and, where nothing
+/// holds it, its translation. Its fields are rows of the level's.
 template <class B>
 class HimBody {
   using Real = typename B::Real;
@@ -74,7 +79,8 @@ class HimBody {
         turned_("plica::him.turned", 1),
         sums_("plica::him.sums", 2),
         watch_("plica::him.watch", 3) {
-    model_.mass = parts_.rows.of(model_.mass), model_.inverse_mass = parts_.rows.of(model_.inverse_mass);
+    model_.mass = parts_.rows.of(model_.mass),
+    model_.inverse_mass = parts_.rows.of(model_.inverse_mass);
     model_.damping.of_vertex = parts_.rows.of(model_.damping.of_vertex);
     scale_at(0) = parts_.fit.scale;
   }
@@ -83,7 +89,8 @@ class HimBody {
   const HimParts<B>& parts() const { return parts_; }
   InertiaFitter<B>& fitter() { return *parts_.fitter; }
 
-  /// Fits the inertia to the state u of all bodies, for a step of `t` that was halved so often; false where nothing fits.
+  /// Fits the inertia to the state u of all bodies, for a step of `t` that was halved so often;
+  /// false where nothing fits.
   bool fit(double t, double sigma, int halvings, const Vectors<B>& u) {
     const auto fit = parts_.fitter->fit(t, sigma, u);
     if (fit) parts_.fit = *fit, scale_at(halvings) = fit->scale;
@@ -91,13 +98,18 @@ class HimBody {
   }
   /// The last fit with so many halvings, if there was one.
   bool has_fit(int halvings) const { return scales_[static_cast<std::size_t>(halvings)] > 0; }
-  void use_fit(double t, double sigma, int halvings) { parts_.fit = parts_.fitter->use(t, sigma, scale_at(halvings)); }
+  void use_fit(double t, double sigma, int halvings) {
+    parts_.fit = parts_.fitter->use(t, sigma, scale_at(halvings));
+  }
 
   /// Turns the axes with the state u of all bodies.
-  void turn(const Exec& exec, const Vectors<B>& u) const { parts_.inverse_mass->turn(exec, parts_.rows.of(u)); }
+  void turn(const Exec& exec, const Vectors<B>& u) const {
+    parts_.inverse_mass->turn(exec, parts_.rows.of(u));
+  }
 
   /// v = A p in this body's rows; with a count only where that is above 0.
-  void answer(const Exec& exec, const Vectors<B>& p, const Vectors<B>& v, const Doubles<B>& count = {}) const {
+  void answer(const Exec& exec, const Vectors<B>& p, const Vectors<B>& v,
+              const Doubles<B>& count = {}) const {
     const Vectors<B> momenta = parts_.rows.of(p), answer = parts_.rows.of(v);
     if (!parts_.free) return parts_.inverse_mass->apply(exec, momenta, answer, count);
     parts_.free->take_translation(exec, model_, momenta, fields_.g, count);
@@ -105,7 +117,8 @@ class HimBody {
     parts_.free->put_translation(exec, model_, answer, count);
   }
 
-  /// The kick by the level's forces over a time t, and the force by which the axes act on what it leaves.
+  /// The kick by the level's forces over a time t, and the force by which the axes act on what it
+  /// leaves.
   void kick(const Exec& exec, double dissipation, double t) const {
     parts_.inverse_mass->turn(exec, state_.u);
     KickMomentum<B> kick{.model = model_,
@@ -127,7 +140,8 @@ class HimBody {
 
   /// The push that kick() found, and the mean acceleration a = (A p - v) / t.
   void push_and_accelerate(const Exec& exec, double t) const {
-    if (!parts_.free) return parts_.inverse_mass->push_and_accelerate(exec, t, fields_.p, state_.v, fields_.a);
+    if (!parts_.free)
+      return parts_.inverse_mass->push_and_accelerate(exec, t, fields_.p, state_.v, fields_.a);
     parts_.inverse_mass->push_and_answer(exec, t, fields_.g, fields_.p, fields_.a);
     parts_.free->accelerate(exec, model_, state_.v, fields_.a, t);
   }
@@ -145,8 +159,10 @@ class HimBody {
                                  .contact_answer = fields_.contact_answer,
                                  .t = static_cast<Real>(t)};
     const TurningAxes<B>& axes = parts_.inverse_mass->axes();
-    reduce<B, 2>(exec, "plica::him_kick", n_, finish, blocks_, sums_,
-                 EndOfStep<B>{{sums_, watch_, axes.last_round(), first_}, axes.angles(), turned_, axes.vertices()});
+    reduce<B, 2>(
+        exec, "plica::him_kick", n_, finish, blocks_, sums_,
+        EndOfStep<B>{
+            {sums_, watch_, axes.last_round(), first_}, axes.angles(), turned_, axes.vertices()});
     first_ = false;
   }
 
@@ -164,7 +180,8 @@ class HimBody {
   }
 
   std::size_t bytes() const {
-    return parts_.inverse_mass->bytes() + parts_.fitter->bytes() + (parts_.free ? parts_.free->bytes() : 0);
+    return parts_.inverse_mass->bytes() + parts_.fitter->bytes() +
+           (parts_.free ? parts_.free->bytes() : 0);
   }
 
   void persist(StateArchive<B>& archive) {
@@ -184,8 +201,9 @@ class HimBody {
   HimFields<B> fields_;
   BlockSums<B> blocks_;
   Doubles<B> turned_, sums_, watch_;
-  bool first_ = true;                                  // no step since the state was set
-  std::array<double, most_halvings + 1> scales_ = {};  // of the last fit with so many halvings; 0: none
+  bool first_ = true;  // no step since the state was set
+  // of the last fit with so many halvings; 0: none
+  std::array<double, most_halvings + 1> scales_ = {};
 
   double& scale_at(int halvings) { return scales_[static_cast<std::size_t>(halvings)]; }
 };

@@ -15,7 +15,8 @@ namespace {
 
 // Times the critical step of the finest level; over spaces made of it, slivers left out
 constexpr double automatic_step = 8, step_with_contact = 4;
-/// Vertices of the coarsest mesh above which a space below it costs less than its dense matrix: cmake/docs/him.md.
+/// Vertices of the coarsest mesh above which a space below it costs less than its dense matrix:
+/// cmake/docs/him.md.
 constexpr int most_in_coarsest_mesh = 600;
 
 /// One body's meshes at rest, finest first, apart from the others.
@@ -25,7 +26,8 @@ struct BodyAtRest {
   std::vector<std::vector<char>> constrained;
   std::vector<double> mass;  ///< of the finest level's vertices [kg]
   std::optional<std::vector<int>> coarsen;
-  std::vector<const Embedding*> up;  ///< where it is the only body: each finer level's vertices in a mesh
+  /// where it is the only body: each finer level's vertices in a mesh
+  std::vector<const Embedding*> up;
 
   bool free() const { return std::ranges::count(constrained.front(), 1) == 0; }
 };
@@ -73,18 +75,23 @@ std::vector<BodyAtRest> bodies_at_rest(const StepperSetup<B>& setup) {
       if (i > 0) continue;
       one.rows = rows;
       one.mass = some(setup.constants[i].mass, rows);
-      one.coarsen = body.parts.empty() ? body.coarsen : body.parts[static_cast<std::size_t>(b)].coarsen;
+      one.coarsen =
+          body.parts.empty() ? body.coarsen : body.parts[static_cast<std::size_t>(b)].coarsen;
     }
   }
   return bodies;
 }
 
-/// Of how many points the spaces are that are made of the coarsest mesh; none: it is the coarsest level.
+/// Of how many points the spaces are that are made of the coarsest mesh; none: it is the coarsest
+/// level.
 std::vector<int> sizes_below(const BodyAtRest& body, bool contact) {
   const bool alone = body.meshes.size() == 1;
-  if (!alone && !body.coarsen && static_cast<int>(body.meshes.back().vertices.size()) <= most_in_coarsest_mesh)
+  if (!alone && !body.coarsen &&
+      static_cast<int>(body.meshes.back().vertices.size()) <= most_in_coarsest_mesh)
     return {};
-  const SizeRule rule = !alone ? him_sizes_below_meshes : contact ? him_sizes_with_contact : him_sizes;
+  const SizeRule rule = !alone    ? him_sizes_below_meshes
+                        : contact ? him_sizes_with_contact
+                                  : him_sizes;
   return space_sizes(body.coarsen, body.constrained.back(), rule);
 }
 
@@ -93,14 +100,16 @@ void expect_small(const BodyAtRest& body, Eigen::Index vertices) {
   if (vertices <= most) return;
   const bool given = body.coarsen && !body.coarsen->empty();
   throw InputError(
-      text("body.levels: cycle him solves its coarsest level by a dense matrix; it has ", vertices, " ",
-           given ? "points" : "vertices", ", expected at most ", most,
-           given ? ": {coarsen: auto}, or a last one of 200 to 350" : ": a coarser level, of 200 to 350 vertices"));
+      text("body.levels: cycle him solves its coarsest level by a dense matrix; it has ", vertices,
+           " ", given ? "points" : "vertices", ", expected at most ", most,
+           given ? ": {coarsen: auto}, or a last one of 200 to 350"
+                 : ": a coarser level, of 200 to 350 vertices"));
 }
 
 template <class B>
 HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const LevelsBelow& below,
-                     const std::vector<std::array<double, 2>>& lame, std::optional<double> eigenvalue) {
+                     const std::vector<std::array<double, 2>>& lame,
+                     std::optional<double> eigenvalue) {
   const TetMesh& finest = body.meshes.front();
   const auto spaces = mass_spaces(below.transfers, body.mass);
   HimParts<B> parts;
@@ -112,13 +121,17 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
     expect_small(body, spaces.back().up.cols());
     const RowMatrix whole = to_finest(spaces);
     modes.emplace(coarse_stiffness(finest, lame, whole), spaces.back().mass);
-    const bool of_mesh = below.made.empty() || (body.meshes.size() > 1 && below.made.back().slivers);
-    axes = of_mesh ? axes_of_mesh(finest, body.meshes.back(), body.mass) : axes_of_space(finest, whole, body.mass);
+    const bool of_mesh =
+        below.made.empty() || (body.meshes.size() > 1 && below.made.back().slivers);
+    axes = of_mesh ? axes_of_mesh(finest, body.meshes.back(), body.mass)
+                   : axes_of_space(finest, whole, body.mass);
   }
   const Level<B>& level = setup.hierarchy[0];
-  parts.inverse_mass = std::make_unique<InverseMass<B>>(body.rows.of(level.model.inverse_mass), spaces, axes);
-  parts.fitter = std::make_unique<InertiaFitter<B>>(setup.hierarchy.exec(), level, body.rows, setup.elasticity,
-                                                    eigenvalue, *parts.inverse_mass, std::move(modes));
+  parts.inverse_mass =
+      std::make_unique<InverseMass<B>>(body.rows.of(level.model.inverse_mass), spaces, axes);
+  parts.fitter =
+      std::make_unique<InertiaFitter<B>>(setup.hierarchy.exec(), level, body.rows, setup.elasticity,
+                                         eigenvalue, *parts.inverse_mass, std::move(modes));
   if (body.free() && !spaces.empty()) {
     const Box box = bounding_box(finest.vertices);
     std::vector<Point> rest = finest.vertices;
@@ -128,8 +141,8 @@ HimParts<B> parts_of(const StepperSetup<B>& setup, const BodyAtRest& body, const
   return parts;
 }
 
-/// Where a body's levels stand among those of the reports: all finest ones in one place, all spaces for slivers, the meshes, then spaces, of
-/// which the last ones are in one place.
+/// Where a body's levels stand among those of the reports: all finest ones in one place, all spaces
+/// for slivers, the meshes, then spaces, of which the last ones are in one place.
 struct Places {
   bool slivers = false;                ///< a body has such a space
   std::size_t meshes = 1, spaces = 0;  ///< of the body that has most
@@ -154,10 +167,13 @@ struct Places {
 
 /// Adds a space to the report of its place, which may have another body's already.
 void report_space(const CoarseSpace& space, LevelReport& report) {
-  const auto old = static_cast<double>(report.vertices), own = static_cast<double>(space.points.size());
-  const double per_row = static_cast<double>(space.up.nonZeros()) / static_cast<double>(space.up.rows());
+  const auto old = static_cast<double>(report.vertices),
+             own = static_cast<double>(space.points.size());
+  const double per_row =
+      static_cast<double>(space.up.nonZeros()) / static_cast<double>(space.up.rows());
   report.kind = space.slivers ? LevelKind::slivers : LevelKind::space;
-  report.mean_edge = old > 0 ? (old * report.mean_edge + own * space.spacing) / (old + own) : space.spacing;
+  report.mean_edge =
+      old > 0 ? (old * report.mean_edge + own * space.spacing) / (old + own) : space.spacing;
   report.nonzeros = old > 0 ? (old * report.nonzeros + own * per_row) / (old + own) : per_row;
   report.vertices += static_cast<int>(space.points.size());
   report.element = "none";
@@ -166,8 +182,8 @@ void report_space(const CoarseSpace& space, LevelReport& report) {
 [[noreturn]] void refuse_step(double t, double fits, double critical) {
   throw InputError(text("integration.macro_step ", number(t, 4), " s is ", number(t / critical, 3),
                         " times the finest level's critical step ", number(critical, 4),
-                        " s, and no inertia makes it stable in cycle him; expected at most about ", number(fits, 3),
-                        " s, or a finer coarsest level"));
+                        " s, and no inertia makes it stable in cycle him; expected at most about ",
+                        number(fits, 3), " s, or a finer coarsest level"));
 }
 
 }  // namespace
@@ -183,9 +199,10 @@ std::vector<HimParts<B>> him_parts(StepperSetup<B>& setup) {
     std::vector<RestLevel> levels;
     for (std::size_t i = 0; i < body.meshes.size(); ++i)
       levels.push_back({body.meshes[i], body.constrained[i], body.up[i]});
-    const SpaceOptions options{.sizes = sizes_below(body, setup.contact != nullptr), .slivers = true};
-    below.push_back(levels_below(levels, body.mass, rest_stiffness(body.meshes.front(), lame), options,
-                                 setup.problem.integration.him.smoothing));
+    const SpaceOptions options{.sizes = sizes_below(body, setup.contact != nullptr),
+                               .slivers = true};
+    below.push_back(levels_below(levels, body.mass, rest_stiffness(body.meshes.front(), lame),
+                                 options, setup.problem.integration.him.smoothing));
     places.add(body, below.back());
   }
   if (places.slivers) setup.reports.emplace(setup.reports.begin() + 1);
@@ -197,7 +214,8 @@ std::vector<HimParts<B>> him_parts(StepperSetup<B>& setup) {
     parts.back().places = places.of(bodies[b].meshes.size(), below[b]);
     for (std::size_t i = 0; i < below[b].made.size(); ++i) {
       const CoarseSpace& space = below[b].made[i];
-      report_space(space, setup.reports[space.slivers ? 1 : places.count() - (below[b].made.size() - i)]);
+      report_space(space,
+                   setup.reports[space.slivers ? 1 : places.count() - (below[b].made.size() - i)]);
     }
   }
   return parts;
@@ -207,7 +225,8 @@ template <class B>
 double fit_step(const StepperSetup<B>& setup, std::vector<HimParts<B>>& bodies, double& usual) {
   const std::optional<double>& given = setup.problem.integration.macro_step;
   const Vectors<B>& u = setup.hierarchy[0].state.u;
-  const double sigma = setup.problem.integration.him.sigma, times = setup.contact ? step_with_contact : automatic_step;
+  const double sigma = setup.problem.integration.him.sigma,
+               times = setup.contact ? step_with_contact : automatic_step;
   double critical = std::numeric_limits<double>::infinity(), asked = critical;
   for (const HimParts<B>& one : bodies) {
     const double own = one.fitter->critical_steps()[one.detail];
@@ -244,21 +263,25 @@ void report_fits(StepperSetup<B>& setup, const std::vector<HimParts<B>>& bodies)
     for (std::size_t i = 0; i < one.places.size(); ++i) {
       LevelReport& report = setup.reports[one.places[i]];
       report.inertia = std::max(report.inertia, one.fit.inertia[i]);
-      if (i < own.size() && !(report.detail_step > 0 && report.detail_step < own[i])) report.detail_step = own[i];
+      if (i < own.size() && !(report.detail_step > 0 && report.detail_step < own[i]))
+        report.detail_step = own[i];
     }
     const int coarsest = one.inverse_mass->levels() > 1 ? one.inverse_mass->filter().vertices : 0;
-    all.product = std::max(all.product, one.fit.product), all.bound = std::max(all.bound, one.fit.bound);
+    all.product = std::max(all.product, one.fit.product),
+    all.bound = std::max(all.bound, one.fit.bound);
     all.coarsest = &one == &bodies.front() ? coarsest : std::min(all.coarsest, coarsest);
     all.all_modes = all.all_modes && 3 * coarsest <= CoarseModes::most_modes;
   }
   setup.him = all;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                             \
-  template std::vector<HimParts<Backend<Real, Exec>>> him_parts(StepperSetup<Backend<Real, Exec>>&);              \
-  template double fit_step(const StepperSetup<Backend<Real, Exec>>&, std::vector<HimParts<Backend<Real, Exec>>>&, \
-                           double&);                                                                              \
-  template void report_fits(StepperSetup<Backend<Real, Exec>>&, const std::vector<HimParts<Backend<Real, Exec>>>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                             \
+  template std::vector<HimParts<Backend<Real, Exec>>> him_parts(                  \
+      StepperSetup<Backend<Real, Exec>>&);                                        \
+  template double fit_step(const StepperSetup<Backend<Real, Exec>>&,              \
+                           std::vector<HimParts<Backend<Real, Exec>>>&, double&); \
+  template void report_fits(StepperSetup<Backend<Real, Exec>>&,                   \
+                            const std::vector<HimParts<Backend<Real, Exec>>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -10,7 +10,8 @@ namespace plica {
 
 namespace {
 
-/// The largest t^2 lambda_max(A K) of steps that are given back: half way from that at rest to where WatchSpectrum reports it.
+/// The largest t^2 lambda_max(A K) of steps that are given back: half way from that at rest to
+/// where WatchSpectrum reports it.
 double steady_product(double sigma) { return (4 * sigma * sigma + 3.4) / 2; }
 
 constexpr double explicit_safety = 0.9;  // of the stable explicit step
@@ -20,7 +21,8 @@ constexpr int most_explicit = 1 << 14;  // times the sub-steps that level 0 take
 
 }  // namespace
 
-// --- Set-up -----------------------------------------------------------------------------------------------------------------
+// --- Set-up
+// -----------------------------------------------------------------------------------------------------------------
 
 template <class B>
 void HimStepper<B>::plan(StepperSetup<B>& setup) {
@@ -50,7 +52,8 @@ void HimStepper<B>::start(Hierarchy<B>& h) {
   for (const HimBody<B>& body : bodies_) body.turn(exec, level.state.u);
   weigh<B>(exec, "plica::him_momenta", level.model, 1, level.state.v, 0, level.state.v, fields_.p);
   answer(exec, fields_.p, fields_.a);
-  combine_free<B>(exec, "plica::him_start", level.model.inverse_mass, 1, fields_.a, 0, fields_.a, level.state.v);
+  combine_free<B>(exec, "plica::him_start", level.model.inverse_mass, 1, fields_.a, 0, fields_.a,
+                  level.state.v);
   forget(exec);
 }
 
@@ -60,7 +63,8 @@ void HimStepper<B>::begin(Hierarchy<B>& h) {
   const auto& exec = h.exec();
   copy(exec, fields_.a, level.state.u);
   const auto half = static_cast<Real>(0.5 * macro_step_ / (1 << halvings_));
-  combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1, fields_.a, fields_.a);
+  combine_free<B>(exec, "plica::him_back", level.model.inverse_mass, -half, level.state.v, 1,
+                  fields_.a, fields_.a);
   for (const HimBody<B>& body : bodies_) body.turn(exec, fields_.a);
   has_momenta_ = false;
   forget(exec);
@@ -75,7 +79,8 @@ void HimStepper<B>::forget(const Exec& exec) {
   fill(exec, fields_.contact.force, Real(0));
 }
 
-// --- Step -------------------------------------------------------------------------------------------------------------------
+// --- Step
+// -------------------------------------------------------------------------------------------------------------------
 
 template <class B>
 void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
@@ -87,7 +92,8 @@ void HimStepper<B>::step(Hierarchy<B>& h, double time, double t) {
 template <class B>
 void HimStepper<B>::step_explicitly(Hierarchy<B>& h, double time, double t) {
   SolverLevel<B>& level = h[0];
-  if (time + t > explicit_until_) ++explicit_steps_, explicit_until_ = time + t;  // not those that are taken again
+  // not those that are taken again
+  if (time + t > explicit_until_) ++explicit_steps_, explicit_until_ = time + t;
   level.book("integrate", [&] {
     prescribe(h.exec(), level, level.state, time);
     level.integrator->advance(level, time, t / explicit_, explicit_);
@@ -106,7 +112,8 @@ void HimStepper<B>::substep(Hierarchy<B>& h, double time, double t) {
   SolverLevel<B>& level = h[0];
   const auto& exec = level.exec();
   const State<B>& x = level.state;
-  combine_free<B>(exec, "plica::him_drift", level.model.inverse_mass, static_cast<Real>(t / 2), x.v, 1, x.u, x.u);
+  combine_free<B>(exec, "plica::him_drift", level.model.inverse_mass, static_cast<Real>(t / 2), x.v,
+                  1, x.u, x.u);
   prescribe(exec, level, level.state, time + t / 2);
   level.remember(time + t / 2);
   level.evaluate_without_contact(level.state, time + t / 2, level.f);
@@ -141,21 +148,25 @@ void HimStepper<B>::touch(SolverLevel<B>& level, double time, double t) const {
   };
   answer(exec, force, acceleration, touching);
   where_touching<B>(exec, touching, "plica::contact_expected", n_,
-                    TakeExpectedContact<B>{level.model.inverse_mass, force, acceleration, fields_.p, fields_.a,
-                                           static_cast<Real>(t)});
-  level.response().resolve(exec, level, level.state, time, {.span = t}, fields_.a, acceleration, respond);
+                    TakeExpectedContact<B>{level.model.inverse_mass, force, acceleration, fields_.p,
+                                           fields_.a, static_cast<Real>(t)});
+  level.response().resolve(exec, level, level.state, time, {.span = t}, fields_.a, acceleration,
+                           respond);
   level.response().add_impulse(exec, level, level.state, time, t);
 }
 
-// --- Shorter steps, and longer ones again -----------------------------------------------------------------------------------
+// --- Shorter steps, and longer ones again
+// -----------------------------------------------------------------------------------
 
 template <class B>
 bool HimStepper<B>::lost_stability(const Hierarchy<B>& h, double) {
   if (explicit_ == 0)
-    return std::ranges::any_of(bodies_, [&](const HimBody<B>& body) { return body.lost_stability(h.exec()); });
+    return std::ranges::any_of(
+        bodies_, [&](const HimBody<B>& body) { return body.lost_stability(h.exec()); });
   const SolverLevel<B>& level = h[0];
   const double most = 2 * explicit_ / macro_step_;  // angular frequency [1/s]
-  return excited_eigenvalue<B>(h.exec(), {level, level.elasticity(), level.state.u}, level.state.v) > most * most;
+  return excited_eigenvalue<B>(h.exec(), {level, level.elasticity(), level.state.u},
+                               level.state.v) > most * most;
 }
 
 template <class B>
@@ -182,7 +193,8 @@ bool HimStepper<B>::fit(const Hierarchy<B>& h, int halvings) {
 
 template <class B>
 void HimStepper<B>::use_fits() {
-  for (HimBody<B>& body : bodies_) body.use_fit(macro_step_ / (1 << halvings_), options_.sigma, halvings_);
+  for (HimBody<B>& body : bodies_)
+    body.use_fit(macro_step_ / (1 << halvings_), options_.sigma, halvings_);
 }
 
 template <class B>
@@ -190,7 +202,8 @@ bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
   ++repairs_;
   regaining_.cut();
   if (explicit_ > 0) {
-    if (explicit_ > most_explicit / 2 * macro_step_ / (explicit_safety * explicit_limit_)) return false;
+    if (explicit_ > most_explicit / 2 * macro_step_ / (explicit_safety * explicit_limit_))
+      return false;
     explicit_ *= 2;
     return true;
   }
@@ -203,7 +216,8 @@ bool HimStepper<B>::repair(Hierarchy<B>& h, double t) {
     }
   use_fits();
   explicit_ = static_cast<int>(
-      std::clamp(std::ceil(t / step), 1.0, std::ceil(most_explicit * t / (explicit_safety * explicit_limit_))));
+      std::clamp(std::ceil(t / step), 1.0,
+                 std::ceil(most_explicit * t / (explicit_safety * explicit_limit_))));
   return true;
 }
 
@@ -211,7 +225,8 @@ template <class B>
 void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
   if ((halvings_ == 0 && explicit_ == 0) || !regaining_.due(steps)) return;
   const double sigma = options_.sigma, step = explicit_ > 0 ? explicit_step(h) : 0;
-  const int longest = explicit_ > 0 ? most_halvings(step) + 1 : halvings_;  // from there on steps are given back
+  // from there on steps are given back
+  const int longest = explicit_ > 0 ? most_halvings(step) + 1 : halvings_;
   int fitting = longest;
   for (int next = longest - 1; next >= 0; --next) {
     const auto had = [&](const HimBody<B>& body) { return body.has_fit(next); };
@@ -230,7 +245,9 @@ void HimStepper<B>::lengthen(Hierarchy<B>& h, double t, long steps) {
   if (longer) halvings_ = fitting, explicit_ = 0;
   use_fits();
   if (returns) {
-    start(h);  // fast detail that explicit steps have left goes: with its added inertia it would have more energy
+    // fast detail that explicit steps have left goes: with its added inertia it would have more
+    // energy
+    start(h);
     has_momenta_ = true;
   } else if (longer) {
     begin(h);
@@ -246,7 +263,8 @@ std::size_t HimStepper<B>::bytes() const {
 
 template <class B>
 void HimStepper<B>::persist(StateArchive<B>& archive) {
-  archive.number(halvings_), archive.number(explicit_), archive.number(repairs_), archive.number(explicit_steps_);
+  archive.number(halvings_), archive.number(explicit_), archive.number(repairs_),
+      archive.number(explicit_steps_);
   archive.number(explicit_until_), archive.number(has_momenta_);
   regaining_.persist(archive);
   for (HimBody<B>& body : bodies_) body.persist(archive);

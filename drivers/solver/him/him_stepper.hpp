@@ -8,18 +8,22 @@
 
 namespace plica {
 
-/// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per macro step. Forces go down to
-/// the coarser levels. Each level computes accelerations with the inertia of the motion that it can represent, and these are
-/// interpolated back up. Motion that coarse levels represent keeps its own inertia. Finer detail gets more inertia: it is slowed,
-/// and so allows the step. Static equilibrium is that of the finest mesh. Second order. See cmake/docs/him.md.
+/// The hierarchical inverse mass: one V-cycle and one force evaluation, of the finest level, per
+/// macro step. Forces go down to the coarser levels. Each level computes accelerations with the
+/// inertia of the motion that it can represent, and these are interpolated back up. Motion that
+/// coarse levels represent keeps its own inertia. Finer detail gets more inertia: it is slowed, and
+/// so allows the step. Static equilibrium is that of the finest mesh. Second order. See
+/// cmake/docs/him.md.
 ///
-/// The momenta p are integrated, and v = A p. The scheme is symplectic Euler of the energy p.A(x) p/2 + V(x). The state is taken
-/// half a step after the forces, so that at t_n and t_n+1 it is that of position Verlet. The energy stays bounded. Of a free body
-/// sum p = sum m v and sum x x p are conserved; sum x x m v oscillates. A start from given velocities takes p = m v and v = A m v.
-/// A state that is set later keeps its v, with p = A^-1 v and the axes of that moment. lost_stability() is true where a body has
-/// stiffened beyond the stable step; repair() cuts the step and fits the inertia to the present state. Where a step that fits is so short
-/// that level 0 alone is cheaper, macro steps are taken in explicit sub-steps of that. lengthen() takes the longest of the earlier fits that
-/// hold in the present state.
+/// The momenta p are integrated, and v = A p. The scheme is symplectic Euler of the energy p.A(x)
+/// p/2 + V(x). The state is taken half a step after the forces, so that at t_n and t_n+1 it is that
+/// of position Verlet. The energy stays bounded. Of a free body sum p = sum m v and sum x x p are
+/// conserved; sum x x m v oscillates. A start from given velocities takes p = m v and v = A m v. A
+/// state that is set later keeps its v, with p = A^-1 v and the axes of that moment.
+/// lost_stability() is true where a body has stiffened beyond the stable step; repair() cuts the
+/// step and fits the inertia to the present state. Where a step that fits is so short that level 0
+/// alone is cheaper, macro steps are taken in explicit sub-steps of that. lengthen() takes the
+/// longest of the earlier fits that hold in the present state.
 template <class B>
 class HimStepper final : public Stepper<B> {
   using Real = typename B::Real;
@@ -29,7 +33,8 @@ class HimStepper final : public Stepper<B> {
  public:
   HimStepper() = default;
   /// Of one body's parts that were put together by hand, for the finest level of this hierarchy.
-  HimStepper(const Hierarchy<B>& h, const HimOptions& options, HimParts<B>&& parts) : options_(options) {
+  HimStepper(const Hierarchy<B>& h, const HimOptions& options, HimParts<B>&& parts)
+      : options_(options) {
     std::vector<HimParts<B>> one;
     one.push_back(std::move(parts));
     take(h, std::move(one), false);
@@ -43,7 +48,8 @@ class HimStepper final : public Stepper<B> {
   bool can_repair() const override { return may_repair_; }
   bool lost_stability(const Hierarchy<B>& h, double kinetic) override;
   bool sees_late() const override { return explicit_ > 0; }  // as other explicit steps
-  /// An impact strains elements by more than a long step can follow. Where stability is lost fast, energy that nobody put in shows it first.
+  /// An impact strains elements by more than a long step can follow. Where stability is lost fast,
+  /// energy that nobody put in shows it first.
   bool repairs(const Diagnosis&) const override { return may_repair_; }
   bool repair(Hierarchy<B>& h, double t) override;
   void lengthen(Hierarchy<B>& h, double t, long steps) override;
@@ -67,11 +73,13 @@ class HimStepper final : public Stepper<B> {
   int n_ = 0;
   HimFields<B> fields_;
   double macro_step_ = 0;
-  double explicit_limit_ = 0, eigenvalue_ = 0;  // of level 0 at rest: stable step [s], of M^-1 K [1/s^2]
+  // of level 0 at rest: stable step [s], of M^-1 K [1/s^2]
+  double explicit_limit_ = 0, eigenvalue_ = 0;
   bool may_repair_ = true;
   bool has_momenta_ = true;  // else the next step finds them
   int halvings_ = 0;
-  int explicit_ = 0;  // sub-steps of level 0 in a macro step; 0: none, it is taken by the inverse mass
+  // sub-steps of level 0 in a macro step; 0: none, it is taken by the inverse mass
+  int explicit_ = 0;
   long repairs_ = 0, explicit_steps_ = 0;
   double explicit_until_ = 0;  // the end of the latest macro step that was taken so [s]
   Regaining regaining_;
@@ -88,7 +96,8 @@ class HimStepper final : public Stepper<B> {
   int most_halvings(double explicit_step) const;
 
   /// v = A p; with a count only where that is above 0.
-  void answer(const Exec& exec, const Vectors<B>& p, const Vectors<B>& v, const Count& count = {}) const {
+  void answer(const Exec& exec, const Vectors<B>& p, const Vectors<B>& v,
+              const Count& count = {}) const {
     for (const HimBody<B>& body : bodies_) body.answer(exec, p, v, count);
   }
   /// What the next step takes from the last, but for momenta.

@@ -13,7 +13,8 @@ constexpr double rounding = 1e-12, least_scale = 1e-4, parts_tolerance = 1e-2;
 constexpr int halvings = 8;  // of the interval of the logarithm of the scale: to 4 %
 constexpr int scales = 1 << halvings, most_guesses = 5;
 
-/// Scale k of those from least_scale, k = 0, to 1, which would be the next after the last: what halving the interval finds.
+/// Scale k of those from least_scale, k = 0, to 1, which would be the next after the last: what
+/// halving the interval finds.
 double scale_at(int k) {
   double low = least_scale, high = 1;
   for (int half = scales / 2, at = 0; at != k; half /= 2) {
@@ -33,7 +34,8 @@ struct Tried {
 
 /// Where the product is `limit` if it is linear between these two, as it nearly is.
 double between(const Tried& below, const Tried& above, double limit) {
-  return below.scale + (above.scale - below.scale) * (limit - below.product) / (above.product - below.product);
+  return below.scale +
+         (above.scale - below.scale) * (limit - below.product) / (above.product - below.product);
 }
 
 double kappa_of(double sigma) { return 0.4 * 4 * sigma * sigma; }
@@ -47,9 +49,11 @@ std::vector<double> weights_of(const std::vector<double>& alpha) {
 }  // namespace
 
 template <class B>
-InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level, const RowsOfBody& rows,
-                                std::shared_ptr<const Elasticity<B>> elasticity, std::optional<double> eigenvalue,
-                                InverseMass<B>& inverse_mass, std::optional<CoarseModes> modes)
+InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& level,
+                                const RowsOfBody& rows,
+                                std::shared_ptr<const Elasticity<B>> elasticity,
+                                std::optional<double> eigenvalue, InverseMass<B>& inverse_mass,
+                                std::optional<CoarseModes> modes)
     : exec_(exec),
       level_(level),
       rows_(rows),
@@ -58,7 +62,8 @@ InertiaFitter<B>::InertiaFitter(const typename B::Exec& exec, const Level<B>& le
       modes_(std::move(modes)) {
   const Kokkos::Profiling::ScopedRegion region("plica: critical steps of the parts of the inertia");
   const auto levels = static_cast<std::size_t>(inverse_mass_.levels());
-  const Vectors<B> rest = zeros<Vectors<B>>("plica::him.rest", static_cast<std::size_t>(level.model.vertices));
+  const Vectors<B> rest =
+      zeros<Vectors<B>>("plica::him.rest", static_cast<std::size_t>(level.model.vertices));
   if (modes_) {
     const auto n = static_cast<Eigen::Index>(3 * inverse_mass_.filter().vertices);
     inverse_mass_.set_answer(InverseMass<B>::to_device(Eigen::MatrixXd::Zero(n, n)));
@@ -87,8 +92,9 @@ std::vector<double> InertiaFitter<B>::alphas(double t, double scale) const {
   double before = 0;
   for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(inverse_mass_.levels()); ++i) {
     const double own = scale * std::pow(critical_[i] / t, 2);
-    before =
-        std::max(before, own < 1 - rounding ? own : 1.0);  // at 1 the coarser levels have no weight and are left out
+    before = std::max(
+        before,
+        own < 1 - rounding ? own : 1.0);  // at 1 the coarser levels have no weight and are left out
     alpha.push_back(before);
   }
   alpha.push_back(1);
@@ -145,7 +151,8 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
     fit.product = tried;
     return fit;
   };
-  const double plain = std::pow(t / critical_.front(), 2);  // there alpha_0 is 1: no inertia is added
+  // there alpha_0 is 1: no inertia is added
+  const double plain = std::pow(t / critical_.front(), 2);
   if (plain <= 1 && fits(plain)) return found(plain);
   if (fits(1)) return found(1);
   if (!modes_) return {};
@@ -155,7 +162,8 @@ std::optional<InertiaFit> InertiaFitter<B>::fit(double t, double sigma, const Ve
   int fitting = -1, failing = scales;
   for (int guesses = 0; failing - fitting > 1; ++guesses) {
     const double guess = between(below, above, limit);
-    int next = fitting + 1;  // the last below the guess; where that is known to fit the one after it
+    // the last below the guess; where that is known to fit the one after it
+    int next = fitting + 1;
     while (next + 1 < failing && scale_at(next + 1) <= guess) ++next;
     if (guesses >= most_guesses) next = (fitting + failing) / 2;
     if (guesses == 1 && fitting < 0) next = 0;  // of a body that has stiffened none may fit

@@ -8,12 +8,14 @@ namespace plica {
 
 namespace {
 
-/// s of the vertices of a space: forces times s, accelerations over s. Q = E D^-1 (2 - M D^-1) E is 2 - M then, M = N M N, N = D^-1/2, and
-/// s = E N. Vertices that nothing hangs on have 0. The coarsest level stays as it is.
+/// s of the vertices of a space: forces times s, accelerations over s. Q = E D^-1 (2 - M D^-1) E is
+/// 2 - M then, M = N M N, N = D^-1/2, and s = E N. Vertices that nothing hangs on have 0. The
+/// coarsest level stays as it is.
 Eigen::VectorXd units_of(const MassSpace& space) {
   if (space.scale.empty()) return Eigen::VectorXd::Ones(space.up.cols());
   const auto n = static_cast<Eigen::Index>(space.scale.size());
-  const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), n), E(space.scale.data(), n);
+  const Eigen::Map<const Eigen::ArrayXd> inverse(space.inverse_diagonal.data(), n),
+      E(space.scale.data(), n);
   return (E * inverse.sqrt()).matrix();
 }
 
@@ -22,7 +24,8 @@ Eigen::VectorXd inverse_of(const Eigen::VectorXd& x) {
 }
 
 template <class B>
-MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer, const Eigen::VectorXd& units) {
+MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer,
+                        const Eigen::VectorXd& units) {
   MassLevel<B> level;
   level.vertices = static_cast<int>(space.up.cols());
   const RowMatrix up = inverse_of(finer).asDiagonal() * space.up * units.asDiagonal();
@@ -41,8 +44,11 @@ MassLevel<B> mass_level(const MassSpace& space, const Eigen::VectorXd& finer, co
 }  // namespace
 
 template <class B>
-InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces, const AxesShape& axes)
-    : vertices_(static_cast<int>(inverse_mass.extent(0))), inverse_mass_(inverse_mass), weights_{1} {
+InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<MassSpace>& spaces,
+                            const AxesShape& axes)
+    : vertices_(static_cast<int>(inverse_mass.extent(0))),
+      inverse_mass_(inverse_mass),
+      weights_{1} {
   if (spaces.empty()) return;
   const Kokkos::Profiling::ScopedRegion region("plica: inverse mass");
   weights_.resize(spaces.size() + 1, 0);
@@ -58,7 +64,8 @@ InverseMass<B>::InverseMass(const Scalars<B>& inverse_mass, const std::vector<Ma
   }
   axes_ = TurningAxes<B>(axes, share);
   filter_.vertices = coarser_.back().vertices;
-  filter_.turned = zeros<Vectors<B>>("plica::him.turned", static_cast<std::size_t>(filter_.vertices));
+  filter_.turned =
+      zeros<Vectors<B>>("plica::him.turned", static_cast<std::size_t>(filter_.vertices));
   filter_.rotation = axes_.rotation();
 }
 
@@ -88,21 +95,24 @@ void InverseMass<B>::find_push(const Exec& exec, const Vectors<B>& q, double t) 
 }
 
 template <class B>
-void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& v,
-                                         const Vectors<B>& a) const {
+void InverseMass<B>::push_and_accelerate(const Exec& exec, double t, const Vectors<B>& p,
+                                         const Vectors<B>& v, const Vectors<B>& a) const {
   const MeanAcceleration<B> mean{v, a, static_cast<Real>(1 / t)};
   if (coarser_.empty()) {
     apply(exec, p, a);
     return update_vertices<B>(exec, "plica::him_acceleration", vertices_, mean);
   }
-  go_up_pushed(exec, t, AccelerationOfPushed<B>{{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a)}, mean});
+  go_up_pushed(
+      exec, t,
+      AccelerationOfPushed<B>{{axes_.push(t, inverse_mass_, p), answer_of_finest(p, a)}, mean});
 }
 
 template <class B>
-void InverseMass<B>::push_and_answer(const Exec& exec, double t, const Vectors<B>& p, const Vectors<B>& q,
-                                     const Vectors<B>& a) const {
+void InverseMass<B>::push_and_answer(const Exec& exec, double t, const Vectors<B>& p,
+                                     const Vectors<B>& q, const Vectors<B>& a) const {
   if (coarser_.empty()) return apply(exec, p, a);
-  go_up_pushed(exec, t, AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p, q), answer_of_finest(p, a)});
+  go_up_pushed(exec, t,
+               AnswerOfPushed<B>{axes_.push(t, inverse_mass_, p, q), answer_of_finest(p, a)});
 }
 
 template <class B>
@@ -112,7 +122,8 @@ void InverseMass<B>::go_up_pushed(const Exec& exec, double t, const Last& last) 
                      ForceAndAnswer<B>{axes_.force_of_torques(), answer_of_coarsest()});
   for (std::size_t i = 0; i + 1 < coarser_.size(); ++i)
     update_vertices<B>(exec, "plica::axes_share", coarser_[i].vertices,
-                       AddShareOfAxes<B>{coarser_[i].share, axes_.force(), coarser_[i].force, static_cast<Real>(t)});
+                       AddShareOfAxes<B>{coarser_[i].share, axes_.force(), coarser_[i].force,
+                                         static_cast<Real>(t)});
   go_up(exec, {});
   update_vertices<B>(exec, "plica::him_up", vertices_, last);
 }
@@ -153,8 +164,8 @@ void InverseMass<B>::go_up(const Exec& exec, const Doubles<B>& count) const {
   for (std::size_t i = std::min(last + 1, coarser_.size()); i-- > 1;) {
     const MassLevel<B>&level = coarser_[i - 1], below = i < last ? coarser_[i] : MassLevel<B>{};
     where_touching<B>(exec, count, "plica::him_up", level.vertices,
-                      AnswerOfLevel<B>{level.mass, below.up, level.force, below.acceleration, level.acceleration,
-                                       static_cast<Real>(weights_[i])});
+                      AnswerOfLevel<B>{level.mass, below.up, level.force, below.acceleration,
+                                       level.acceleration, static_cast<Real>(weights_[i])});
   }
 }
 
@@ -170,12 +181,14 @@ AnswerOfFinest<B> InverseMass<B>::answer_of_finest(const Vectors<B>& f, const Ve
 }
 
 template <class B>
-void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a, const Doubles<B>& count) const {
+void InverseMass<B>::apply(const Exec& exec, const Vectors<B>& f, const Vectors<B>& a,
+                           const Doubles<B>& count) const {
   if (coarser_.empty() || weighed() < coarser_.size()) {
     go_down(exec, f, weighed(), count);
   } else {
     go_down_to_axes(exec, f, count, TurnForces<B>{filter_, coarser_.back().force});
-    where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices), answer_of_coarsest());
+    where_touching<B>(exec, count, "plica::him_coarsest", groups_of<B>(filter_.vertices),
+                      answer_of_coarsest());
   }
   go_up(exec, count);
   where_touching<B>(exec, count, "plica::him_up", vertices_, answer_of_finest(f, a));

@@ -27,7 +27,8 @@ CoarseModes::CoarseModes(Eigen::MatrixXd K, const RowMatrix& M) : unknowns_(K.ro
   const Eigen::MatrixXd full = M;
   if (unknowns_ <= most_modes) {
     squares_.resize(unknowns_), modes_.resize(unknowns_, unknowns_);
-    const int rank = dense::modes(static_cast<int>(full.rows()), K.data(), full.data(), squares_.data(), modes_.data());
+    const int rank = dense::modes(static_cast<int>(full.rows()), K.data(), full.data(),
+                                  squares_.data(), modes_.data());
     squares_.conservativeResize(rank), modes_.conservativeResize(Eigen::NoChange, rank);
     return;
   }
@@ -48,16 +49,19 @@ Eigen::MatrixXd CoarseModes::answer(double t, double kappa) const {
     dense::invert(static_cast<int>(inverse.rows()), inverse.data());
     return inverse;
   }
-  const Eigen::VectorXd s = squares_.unaryExpr([&](double square) { return answer_of_mode(square, t, kappa); });
+  const Eigen::VectorXd s =
+      squares_.unaryExpr([&](double square) { return answer_of_mode(square, t, kappa); });
   Eigen::MatrixXd S(modes_.rows(), modes_.rows());
-  dense::recompose(static_cast<int>(S.rows()), static_cast<int>(s.size()), s.data(), modes_.data(), S.data());
+  dense::recompose(static_cast<int>(S.rows()), static_cast<int>(s.size()), s.data(), modes_.data(),
+                   S.data());
   return S;
 }
 
 double CoarseModes::largest(double t, double kappa) const {
   if (squares_.size() == 0) return kappa;
   double most = 0;
-  for (const double square : squares_) most = std::max(most, t * t * square * answer_of_mode(square, t, kappa));
+  for (const double square : squares_)
+    most = std::max(most, t * t * square * answer_of_mode(square, t, kappa));
   return most;
 }
 
@@ -83,8 +87,9 @@ std::vector<double> inverse_row_sums(const RowMatrix& M) {
   return inverse;
 }
 
-/// M without its small entries, below a thousandth of sqrt(D_aa D_bb), which the diagonal takes: row sums stay. Of spaces that are made of a
-/// mesh more than half of the entries are that small, and 1 to 2 % of their sum.
+/// M without its small entries, below a thousandth of sqrt(D_aa D_bb), which the diagonal takes:
+/// row sums stay. Of spaces that are made of a mesh more than half of the entries are that small,
+/// and 1 to 2 % of their sum.
 RowMatrix main_entries(RowMatrix M, const std::vector<double>& inverse_diagonal) {
   constexpr double least = 1e-3;
   const Eigen::Map<const Eigen::ArrayXd> inverse(inverse_diagonal.data(), M.rows());
@@ -120,7 +125,8 @@ std::vector<double> scale_of(const MassSpace& space) {
   const Eigen::VectorXd momentum = space.mass * Eigen::VectorXd::Ones(n);
   Eigen::ArrayXd E = Eigen::ArrayXd::Ones(n);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    const Eigen::ArrayXd answer = E * answer_unscaled(space, (E * momentum.array()).matrix()).array();
+    const Eigen::ArrayXd answer =
+        E * answer_unscaled(space, (E * momentum.array()).matrix()).array();
     for (Eigen::Index a = 0; a < n; ++a)
       if (answer[a] > 0) E[a] = std::clamp(E[a] / std::sqrt(answer[a]), least, most);
   }
@@ -129,7 +135,8 @@ std::vector<double> scale_of(const MassSpace& space) {
 
 }  // namespace
 
-std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers, const std::vector<double>& mass) {
+std::vector<MassSpace> mass_spaces(std::vector<RowMatrix> transfers,
+                                   const std::vector<double>& mass) {
   const Kokkos::Profiling::ScopedRegion region("plica: coarse masses");
   RowMatrix M(static_cast<Eigen::Index>(mass.size()), static_cast<Eigen::Index>(mass.size()));
   M.setIdentity();

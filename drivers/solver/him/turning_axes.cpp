@@ -17,7 +17,8 @@ constexpr double least_mass = 1e-6, least_volume = 1e-4;  // of the largest, of 
 constexpr double least_mean = 1e-3;                       // left out of means
 
 /// Where nothing of the finest mesh reaches a vertex: the mesh's motion there.
-RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
+RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest,
+                              const std::vector<double>& mass) {
   const Embedding in = embed(finest.vertices, coarsest, Outside::clamp);
   std::vector<double> carried(coarsest.vertices.size(), 0.0);
   const auto each = [&](const auto& use) {
@@ -29,7 +30,8 @@ RowMatrix restriction_by_mass(const TetMesh& finest, const TetMesh& coarsest, co
   const double least = least_mass * *std::max_element(carried.begin(), carried.end());
   std::vector<Eigen::Triplet<double>> entries;
   each([&](std::size_t i, std::size_t a, double m) {
-    if (carried[a] > least && m > 0) entries.emplace_back(static_cast<int>(a), static_cast<int>(i), m / carried[a]);
+    if (carried[a] > least && m > 0)
+      entries.emplace_back(static_cast<int>(a), static_cast<int>(i), m / carried[a]);
   });
   const Embedding at = embed(coarsest.vertices, finest, Outside::extrapolate);
   for (std::size_t a = 0; a < carried.size(); ++a)
@@ -61,8 +63,10 @@ std::vector<Point> restricted(const RowMatrix& E, const std::vector<Point>& fine
   return x;
 }
 
-/// Each vertex's mean over its elements, by volume, of the means of their vertices; of flat ones by the volumes in the mesh.
-RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& volume, const std::vector<double>& sum) {
+/// Each vertex's mean over its elements, by volume, of the means of their vertices; of flat ones by
+/// the volumes in the mesh.
+RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& volume,
+                             const std::vector<double>& sum) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> own(sum.size(), 0.0);
   for (const auto& t : mesh.tets)
@@ -81,7 +85,8 @@ RowMatrix neighbourhood_mean(const TetMesh& mesh, const std::vector<double>& vol
 
 }  // namespace
 
-AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass) {
+AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest,
+                       const std::vector<double>& mass) {
   const Kokkos::Profiling::ScopedRegion region("plica: coarse axes");
   AxesShape result;
   result.restriction = restriction_by_mass(finest, coarsest, mass);
@@ -100,10 +105,12 @@ AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std
     const Eigen::Matrix3d inverse = edges_of(x, t).inverse();
     for (const int a : t) {
       const auto add = [&](int b, const Point& derivative) {
-        gradient[static_cast<std::size_t>(a)].try_emplace(b, Point::Zero()).first->second += volume.back() * derivative;
+        gradient[static_cast<std::size_t>(a)].try_emplace(b, Point::Zero()).first->second +=
+            volume.back() * derivative;
       };
       add(t[0], -inverse.colwise().sum().transpose());
-      for (int s = 0; s < 3; ++s) add(t[static_cast<std::size_t>(s) + 1], inverse.row(s).transpose());
+      for (int s = 0; s < 3; ++s)
+        add(t[static_cast<std::size_t>(s) + 1], inverse.row(s).transpose());
       result.at_rest[static_cast<std::size_t>(a)] += volume.back();
     }
   }
@@ -112,9 +119,11 @@ AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std
   RowMatrix W = once;
   for (int i = 1; i < smoothings; ++i) W = RowMatrix(W * once);
   W.prune([](Eigen::Index, Eigen::Index, double value) { return value > least_mean; });
-  const Eigen::VectorXd sums = W * Eigen::Map<const Eigen::VectorXd>(result.at_rest.data(), once.rows());
+  const Eigen::VectorXd sums =
+      W * Eigen::Map<const Eigen::VectorXd>(result.at_rest.data(), once.rows());
   for (Eigen::Index a = 0; a < once.rows(); ++a)
-    for (RowMatrix::InnerIterator entry(W, a); entry; ++entry) entry.valueRef() *= sums[a] > 0 ? 1 / sums[a] : 0.0;
+    for (RowMatrix::InnerIterator entry(W, a); entry; ++entry)
+      entry.valueRef() *= sums[a] > 0 ? 1 / sums[a] : 0.0;
   result.smoothing = std::move(W);
   return result;
 }
@@ -131,11 +140,13 @@ RowMatrix main_weights(const RowMatrix& P) {
     for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
       row.emplace_back(std::abs(entry.value()), static_cast<int>(entry.col()));
     const std::size_t kept = std::min(row.size(), most);
-    std::partial_sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kept), row.end(), std::greater<>());
+    std::partial_sort(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(kept), row.end(),
+                      std::greater<>());
     row.resize(kept);
     double sum = 0;
     for (const auto& [weight, column] : row) sum += weight;
-    for (const auto& [weight, column] : row) entries.emplace_back(static_cast<int>(a), column, weight / sum);
+    for (const auto& [weight, column] : row)
+      entries.emplace_back(static_cast<int>(a), column, weight / sum);
   }
   RowMatrix result(P.rows(), P.cols());
   result.setFromTriplets(entries.begin(), entries.end());
@@ -146,7 +157,8 @@ void divide_by_row_sums(RowMatrix& A) {
   for (Eigen::Index a = 0; a < A.rows(); ++a) {
     double sum = 0;
     for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) sum += entry.value();
-    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry) entry.valueRef() *= sum > 0 ? 1 / sum : 0.0;
+    for (RowMatrix::InnerIterator entry(A, a); entry; ++entry)
+      entry.valueRef() *= sum > 0 ? 1 / sum : 0.0;
   }
 }
 
@@ -155,46 +167,54 @@ using DirectedRows = std::array<RowMatrix, 3>;
 
 }  // namespace
 
-AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const std::vector<double>& mass) {
+AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
+                        const std::vector<double>& mass) {
   const Kokkos::Profiling::ScopedRegion region("plica: coarse axes");
   AxesShape result;
   const Eigen::Index n = to_finest.cols();
   const Eigen::Map<const Eigen::VectorXd> m(mass.data(), to_finest.rows());
-  const RowMatrix weights = main_weights(to_finest), carried = RowMatrix(weights.transpose()) * m.asDiagonal();
+  const RowMatrix weights = main_weights(to_finest),
+                  carried = RowMatrix(weights.transpose()) * m.asDiagonal();
   result.restriction = carried;
   divide_by_row_sums(result.restriction);
   const std::vector<Point> x = restricted(result.restriction, finest.vertices);
   // W: from a point to what hangs on it and on to all the points that this hangs on
   RowMatrix W = product(carried, weights);
   divide_by_row_sums(W);
-  // h_ab = sum over the finest vertices i of weight_ia m_i (X_i - x_a) Pi_ib, so that sum_b u_b h_ab^T is the moment of the
-  // motion about x_a; smoothed once by W. The moment of rest positions makes a gradient of it
+  // h_ab = sum over the finest vertices i of weight_ia m_i (X_i - x_a) Pi_ib, so that sum_b u_b
+  // h_ab^T is the moment of the motion about x_a; smoothed once by W. The moment of rest positions
+  // makes a gradient of it
   DirectedRows h;
   for (int k = 0; k < 3; ++k) {
     RowMatrix lever = carried;
     for (Eigen::Index a = 0; a < n; ++a)
       for (RowMatrix::InnerIterator entry(lever, a); entry; ++entry)
-        entry.valueRef() *=
-            finest.vertices[static_cast<std::size_t>(entry.col())][k] - x[static_cast<std::size_t>(a)][k];
+        entry.valueRef() *= finest.vertices[static_cast<std::size_t>(entry.col())][k] -
+                            x[static_cast<std::size_t>(a)][k];
     h[static_cast<std::size_t>(k)] = product(W, product(lever, to_finest));
   }
-  result.gradient.resize(static_cast<std::size_t>(n)), result.at_rest.assign(static_cast<std::size_t>(n), 1.0);
+  result.gradient.resize(static_cast<std::size_t>(n)),
+      result.at_rest.assign(static_cast<std::size_t>(n), 1.0);
   for (Eigen::Index a = 0; a < n; ++a) {
     std::map<int, Point> row;
     for (int k = 0; k < 3; ++k)
       for (RowMatrix::InnerIterator entry(h[static_cast<std::size_t>(k)], a); entry; ++entry)
-        row.try_emplace(static_cast<int>(entry.col()), Point::Zero()).first->second[k] = entry.value();
+        row.try_emplace(static_cast<int>(entry.col()), Point::Zero()).first->second[k] =
+            entry.value();
     Eigen::Matrix3d rest = Eigen::Matrix3d::Zero();
     Point sum = Point::Zero();
     for (const auto& [b, derivative] : row)
-      rest += (x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)]) * derivative.transpose(),
+      rest += (x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)]) *
+              derivative.transpose(),
           sum += derivative;
     row.try_emplace(static_cast<int>(a), Point::Zero()).first->second -=
         sum;  // of differences: a translation has no gradient
     const Eigen::Matrix3d inverse = rest.inverse();
-    if (!(std::abs(rest.determinant()) > 0) || !inverse.allFinite()) continue;  // its axes do not turn
+    // its axes do not turn
+    if (!(std::abs(rest.determinant()) > 0) || !inverse.allFinite()) continue;
     for (const auto& [b, derivative] : row)
-      result.gradient[static_cast<std::size_t>(a)].emplace_back(b, inverse.transpose() * derivative);
+      result.gradient[static_cast<std::size_t>(a)].emplace_back(b,
+                                                                inverse.transpose() * derivative);
   }
   result.smoothing = std::move(W);
   return result;
@@ -207,7 +227,8 @@ template <class B, class Number>
 class DenseMatrix {
  public:
   DenseMatrix(Eigen::Index rows, Eigen::Index columns)
-      : columns_(columns), values_(static_cast<std::size_t>((rows + group - 1) / group * group * columns)) {}
+      : columns_(columns),
+        values_(static_cast<std::size_t>((rows + group - 1) / group * group * columns)) {}
   void set(Eigen::Index row, Eigen::Index column, double value) {
     values_[static_cast<std::size_t>((row / group * columns_ + column) * group + row % group)] =
         static_cast<Number>(value);
@@ -244,12 +265,15 @@ void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>&
     for_entries(G, [&](Eigen::Index a, Eigen::Index b, double value) {
       gradient_of.set(a, b, value), force_of.set(b, 3 * a + j, value);
     });
-    for_entries(product(moved, RowMatrix(G.transpose())),
-                [&](Eigen::Index a, Eigen::Index b, double value) { response.set(a, 3 * b + j, value); });
+    for_entries(
+        product(moved, RowMatrix(G.transpose())),
+        [&](Eigen::Index a, Eigen::Index b, double value) { response.set(a, 3 * b + j, value); });
     axes.gradient_of[j] = gradient_of.on_device("axes.gradient_of");
   }
-  axes.force_of = force_of.on_device("axes.force_of"), axes.response = response.on_device("axes.response");
-  const Eigen::VectorXd rest = shape.smoothing * Eigen::Map<const Eigen::VectorXd>(shape.at_rest.data(), n);
+  axes.force_of = force_of.on_device("axes.force_of"),
+  axes.response = response.on_device("axes.response");
+  const Eigen::VectorXd rest =
+      shape.smoothing * Eigen::Map<const Eigen::VectorXd>(shape.at_rest.data(), n);
   axes.at_rest = to_device<Scalars<B>>("axes.at_rest", std::vector<Real>(rest.begin(), rest.end()));
 }
 
@@ -258,15 +282,18 @@ void set_gradient(const AxesShape& shape, const RowMatrix& moved, CoarseAxes<B>&
 template <class B>
 TurningAxes<B>::TurningAxes(const AxesShape& shape, const RowMatrix& moved)
     : vertices_(static_cast<int>(shape.at_rest.size())),
-      sums_(zeros<Sums>("plica::axes.sums", static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
+      sums_(zeros<Sums>("plica::axes.sums",
+                        static_cast<std::size_t>(most_rounds * groups_of<B>(vertices_)))) {
   axes_.restriction = sparse_rows<B>("axes.restriction", shape.restriction);
   axes_.spread = sparse_rows<B>("axes.spread", RowMatrix(shape.restriction.transpose()));
   set_gradient<B>(shape, moved, axes_);
   const auto n = static_cast<std::size_t>(vertices_);
   for (Vectors<B>* one : {&share_, &axes_.displacement, &axes_.force})
     *one = zeros<Vectors<B>>("plica::axes.vectors", n);
-  axes_.angles = zeros<Doubles<B>>("plica::axes.angles", static_cast<std::size_t>(groups_of<B>(vertices_)));
-  for (Vectors<B>* one : {&axes_.stiffness, &axes_.torque}) *one = zeros<Vectors<B>>("plica::axes.matrices", 3 * n);
+  axes_.angles =
+      zeros<Doubles<B>>("plica::axes.angles", static_cast<std::size_t>(groups_of<B>(vertices_)));
+  for (Vectors<B>* one : {&axes_.stiffness, &axes_.torque})
+    *one = zeros<Vectors<B>>("plica::axes.matrices", 3 * n);
   std::vector<std::array<Real, 3>> unit(3 * n);
   for (std::size_t k = 0; k < unit.size(); ++k) unit[k][k % 3] = 1;
   rotation_ = to_device<Vectors<B>>("axes.rotation", unit);
@@ -276,12 +303,13 @@ template <class B>
 void TurningAxes<B>::turn(const Exec& exec, const Vectors<B>& u) const {
   update_vertices<B>(exec, "plica::axes_restrict", vertices_,
                      MultiplyRows<B>{axes_.restriction, u, axes_.displacement});
-  update_vertices<B>(exec, "plica::axes_turn", groups_of<B>(vertices_), TurnAxes<B>{axes_, rotation_});
+  update_vertices<B>(exec, "plica::axes_turn", groups_of<B>(vertices_),
+                     TurnAxes<B>{axes_, rotation_});
 }
 
 template <class B>
-void TurningAxes<B>::find_torques(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter,
-                                  double weight, double t) const {
+void TurningAxes<B>::find_torques(const Exec& exec, const Vectors<B>& given,
+                                  const CoarseFilter<B>& filter, double weight, double t) const {
   const CoarseMomentum<B> momentum{given, share_};
   const int groups = groups_of<B>(vertices_);
   RoundOfAxes<B> last;
@@ -297,9 +325,10 @@ void TurningAxes<B>::find_torques(const Exec& exec, const Vectors<B>& given, con
 
 template <class B>
 std::size_t TurningAxes<B>::bytes() const {
-  return bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient_of[0], axes_.gradient_of[1],
-                        axes_.gradient_of[2], axes_.force_of, axes_.response, axes_.angles, axes_.stiffness,
-                        axes_.torque, axes_.force, rotation_, share_, sums_) +
+  return bytes_of_views(axes_.at_rest, axes_.displacement, axes_.gradient_of[0],
+                        axes_.gradient_of[1], axes_.gradient_of[2], axes_.force_of, axes_.response,
+                        axes_.angles, axes_.stiffness, axes_.torque, axes_.force, rotation_, share_,
+                        sums_) +
          bytes_of_rows(axes_.restriction) + bytes_of_rows(axes_.spread);
 }
 

@@ -13,21 +13,27 @@ struct AxesShape {
   /// Per vertex the entries (column, derivative) of its gradient D.
   using Gradients = std::vector<std::vector<std::pair<int, Point>>>;
 
-  RowMatrix restriction;        ///< E: means by mass over what hangs on a coarse vertex; rows sum to 1
+  /// E: means by mass over what hangs on a coarse vertex; rows sum to 1
+  RowMatrix restriction;
   Gradients gradient;           ///< D of u_C
   std::vector<double> at_rest;  ///< D there is this times 1
   RowMatrix smoothing;          ///< W: means over neighbourhoods; W D = 1 at rest
 };
 
-/// By the elements of a coarser mesh, placed like the finest: D is the sum of volume times deformation gradient.
+/// By the elements of a coarser mesh, placed like the finest: D is the sum of volume times
+/// deformation gradient.
 /// @param mass  of the finest level's vertices [kg]
-AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest, const std::vector<double>& mass);
+AxesShape axes_of_mesh(const TetMesh& finest, const TetMesh& coarsest,
+                       const std::vector<double>& mass);
 
-/// Of a coarse space without elements, by the motion that it gives the finest mesh: D is the linear map of rest positions that is nearest to it, by mass, around a point.
+/// Of a coarse space without elements, by the motion that it gives the finest mesh: D is the linear
+/// map of rest positions that is nearest to it, by mass, around a point.
 /// @param to_finest  Pi
-AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest, const std::vector<double>& mass);
+AxesShape axes_of_space(const TetMesh& finest, const RowMatrix& to_finest,
+                        const std::vector<double>& mass);
 
-/// The axes of the coarsest level, which turn with the body, and the force by which they act back on it.
+/// The axes of the coarsest level, which turn with the body, and the force by which they act back
+/// on it.
 template <class B>
 class TurningAxes {
  public:
@@ -44,17 +50,19 @@ class TurningAxes {
   StartMomentum<B> start(const Vectors<B>& given, const CoarseFilter<B>& filter) const {
     return {filter, {given, share_}};
   }
-  /// Finds the torques by which the axes act on momenta for a time t, at the momenta that this gives: repeated until it changes by less
-  /// than a thousandth of itself or a millionth of the momenta, six times at most, warm from the last step. After start().
+  /// Finds the torques by which the axes act on momenta for a time t, at the momenta that this
+  /// gives: repeated until it changes by less than a thousandth of itself or a millionth of the
+  /// momenta, six times at most, warm from the last step. After start().
   /// @param given   coarse momenta without it
   /// @param filter  of the coarsest level; takes the momenta with it, turned
   /// @param weight  of the coarsest level in the inverse mass
-  void find_torques(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter, double weight,
-                    double t) const;
+  void find_torques(const Exec& exec, const Vectors<B>& given, const CoarseFilter<B>& filter,
+                    double weight, double t) const;
   /// g of those torques, group by group.
   ForceOfTorques<B> force_of_torques() const { return {axes_}; }
   /// p += t times that force, and q, where it is not empty
-  PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p, const Vectors<B>& q = {}) const {
+  PushByAxes<B> push(double t, const Scalars<B>& inverse_mass, const Vectors<B>& p,
+                     const Vectors<B>& q = {}) const {
     return {axes_.spread, inverse_mass, axes_.force, p, q, static_cast<Real>(t)};
   }
   /// g

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The explicit integrators. Each asks the level for the forces of a state, updates that state, and lets vertices whose motion
-// is given follow it.
+// The explicit integrators. Each asks the level for the forces of a state, updates that state, and
+// lets vertices whose motion is given follow it.
 #include <plica/drivers/solver/integrators/integrator.hpp>
 #include <plica/kernels/boundary_conditions.hpp>
 #include <plica/kernels/explicit/updates.hpp>
@@ -9,17 +9,20 @@ namespace plica {
 
 namespace {
 
-// How these methods take contact. In the displacements alone symplectic Euler and the central difference are the same leapfrog, in
-// which the way of the next step follows from its force: contact is taken at its end. Forward Euler moves by the velocity of the start:
-// contact is taken where that leads, and a step on from there. A Runge-Kutta stage takes it a step ahead of itself, which damps it.
+// How these methods take contact. In the displacements alone symplectic Euler and the central
+// difference are the same leapfrog, in which the way of the next step follows from its force:
+// contact is taken at its end. Forward Euler moves by the velocity of the start: contact is taken
+// where that leads, and a step on from there. A Runge-Kutta stage takes it a step ahead of itself,
+// which damps it.
 
-/// One force per step, of which Update makes the next state: semi-implicit Euler, which is symplectic, or forward Euler. Both are
-/// of first order.
+/// One force per step, of which Update makes the next state: semi-implicit Euler, which is
+/// symplectic, or forward Euler. Both are of first order.
 template <class B, class Update>
 class EulerStep final : public Integrator<B> {
  public:
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
-    const Update update{level.model, level.f, level.state.u, level.state.v, static_cast<typename B::Real>(h)};
+    const Update update{level.model, level.f, level.state.u, level.state.v,
+                        static_cast<typename B::Real>(h)};
     for (int s = 0; s < steps; ++s) {
       level.remember(time + s * h);
       level.evaluate(level.state, time + s * h, level.f, Update::contact(h), h);
@@ -29,16 +32,18 @@ class EulerStep final : public Integrator<B> {
   }
 };
 
-/// The central difference method, u_{n+1} - 2 u_n + u_{n-1} = h^2 a_n with v_n = (u_{n+1} - u_{n-1})/2h, as total Lagrangian
-/// explicit dynamics has it (Miller et al. 2007), in displacement and velocity: half a kick, a drift, a force, half a kick. Order
-/// 2, symplectic: the energy of undamped motion wavers and does not drift. One force per step, which the next begins with unless
+/// The central difference method, u_{n+1} - 2 u_n + u_{n-1} = h^2 a_n with v_n = (u_{n+1} -
+/// u_{n-1})/2h, as total Lagrangian explicit dynamics has it (Miller et al. 2007), in displacement
+/// and velocity: half a kick, a drift, a force, half a kick. Order 2, symplectic: the energy of
+/// undamped motion wavers and does not drift. One force per step, which the next begins with unless
 /// the state, or what acts on it, has been changed since. Any mass damping is taken at v_n.
 template <class B>
 class CentralDifferenceStep final : public Integrator<B> {
   using Real = typename B::Real;
 
  public:
-  explicit CentralDifferenceStep(const Level<B>& level) : f_("plica::central_difference.f", level.model.vertices) {}
+  explicit CentralDifferenceStep(const Level<B>& level)
+      : f_("plica::central_difference.f", level.model.vertices) {}
 
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     const int n = level.model.vertices;
@@ -56,7 +61,8 @@ class CentralDifferenceStep final : public Integrator<B> {
       prescribe(level.exec(), level, level.state, time + (s + 1) * h);
       level.remember(time + (s + 1) * h);
       level.evaluate(level.state, time + (s + 1) * h, f_, contact, s + 1 < steps ? h : h / 2);
-      update_vertices<B>(level.exec(), "plica::kick", n, HalfKick<B>{level.model, f_, level.state.v, half});
+      update_vertices<B>(level.exec(), "plica::kick", n,
+                         HalfKick<B>{level.model, f_, level.state.v, half});
     }
   }
 
@@ -96,10 +102,12 @@ class RungeKuttaStep final : public Integrator<B> {
       for (int k = 0; k < Tableau::stages; ++k) {
         const bool last = k + 1 == Tableau::stages;
         const double ahead = last ? 0 : Tableau::ahead[k];
-        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ends = last}, Tableau::weight[k] * h);
-        update_vertices<B>(exec, "plica::runge_kutta", level.model.vertices,
-                           RungeKuttaStage<B>{level.model, level.f, start_, stage_, sum_, static_cast<Real>(h),
-                                              static_cast<Real>(Tableau::weight[k]), static_cast<Real>(ahead)});
+        level.evaluate(stage_, time + (s + at) * h, level.f, {.span = h, .ends = last},
+                       Tableau::weight[k] * h);
+        update_vertices<B>(
+            exec, "plica::runge_kutta", level.model.vertices,
+            RungeKuttaStage<B>{level.model, level.f, start_, stage_, sum_, static_cast<Real>(h),
+                               static_cast<Real>(Tableau::weight[k]), static_cast<Real>(ahead)});
         at = ahead;
         if (!last) prescribe(exec, level, stage_, time + (s + at) * h);
       }
@@ -123,7 +131,8 @@ struct MidpointTableau {
 /// The classical method of order 4.
 struct ClassicalTableau {
   static constexpr int stages = 4;
-  static constexpr double weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}, ahead[3] = {0.5, 0.5, 1};
+  static constexpr double weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6},
+                          ahead[3] = {0.5, 0.5, 1};
 };
 
 }  // namespace
@@ -133,7 +142,8 @@ std::unique_ptr<Integrator<B>> SymplecticEuler::make(const Level<B>&, const Inte
   return std::make_unique<EulerStep<B, SymplecticEulerUpdate<B>>>();
 }
 template <class B>
-std::unique_ptr<Integrator<B>> CentralDifference::make(const Level<B>& level, const IntegratorParts<B>&) {
+std::unique_ptr<Integrator<B>> CentralDifference::make(const Level<B>& level,
+                                                       const IntegratorParts<B>&) {
   return std::make_unique<CentralDifferenceStep<B>>(level);
 }
 template <class B>

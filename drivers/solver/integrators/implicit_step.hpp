@@ -7,15 +7,16 @@
 
 namespace plica {
 
-/// What implicit integrators have in common: they take a step by stages, and accept it whether it is solved or not. unsolved() says how far
-/// it is not.
+/// What implicit integrators have in common: they take a step by stages, and accept it whether it
+/// is solved or not. unsolved() says how far it is not.
 template <class B>
 class ImplicitStep : public Integrator<B> {
  public:
   using Exec = typename B::Exec;
   using Real = typename B::Real;
 
-  ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts) : stages_(level, parts), stops_(parts.stops) {}
+  ImplicitStep(const Level<B>& level, const IntegratorParts<B>& parts)
+      : stages_(level, parts), stops_(parts.stops) {}
 
   void advance(SolverLevel<B>& level, double time, double h, int steps) override {
     stages_.begin();
@@ -31,17 +32,20 @@ class ImplicitStep : public Integrator<B> {
   bool judges() const override { return stages_.judges(); }
   double unsolved() const override { return unsolved_; }
   std::string failure() const override {
-    return stops_ && unsolved_ > 0 ? "a step was not solved, or ended in contact that it did not know of"
-                                   : std::string();
+    return stops_ && unsolved_ > 0
+               ? "a step was not solved, or ended in contact that it did not know of"
+               : std::string();
   }
   double residual() const override { return stages_.residual(); }
   std::map<std::string, long> counters() const override { return stages_.counters(); }
   std::size_t bytes() const override { return stages_.bytes(); }
-  void persist(StateArchive<B>& archive) override { archive.number(surprised_), stages_.persist(archive); }
+  void persist(StateArchive<B>& archive) override {
+    archive.number(surprised_), stages_.persist(archive);
+  }
 
  protected:
-  /// From `time` over h [s], the level's state at the start being consistent with given motions. False where a stage is not
-  /// solved.
+  /// From `time` over h [s], the level's state at the start being consistent with given motions.
+  /// False where a stage is not solved.
   virtual bool step(SolverLevel<B>& level, double time, double h) = 0;
   StageSolver<B>& stages() { return stages_; }
   /// How contact's force over the last step is part of its impulse.
@@ -58,7 +62,8 @@ class ImplicitStep : public Integrator<B> {
   double unsolved_ = 0;     ///< of the last advance()
 
   void accept(SolverLevel<B>& level, double time, double h) {
-    if (level.contact()) level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
+    if (level.contact())
+      level.book("contact", [&] { level.response().end_stage(level.exec(), level, level.state); });
     finish(level, h);
     prescribe(level.exec(), level, level.state, time + h);
     if (!level.contact()) return;
@@ -68,9 +73,10 @@ class ImplicitStep : public Integrator<B> {
     if (surprised_) unsolved_ = std::max(unsolved_, part);
     surprised_ = part > 0;
   }
-  /// Contact that is found where a step ends, and that the step did not know of: its energy over that of the contact that was solved and a
-  /// tenth of the motion's; 0 where it is no more than those. It throws the body. One such step is what comes into touch; a second in a row
-  /// is not solved.
+  /// Contact that is found where a step ends, and that the step did not know of: its energy over
+  /// that of the contact that was solved and a tenth of the motion's; 0 where it is no more than
+  /// those. It throws the body. One such step is what comes into touch; a second in a row is not
+  /// solved.
   double unforeseen(SolverLevel<B>& level, double time) {
     double solved = 0, found = 0;
     level.book("contact", [&] {

@@ -14,10 +14,14 @@ template <class B>
 struct IntegratorParts {
   ImplicitOptions implicit;
   bool contact = false;
-  bool may_invert = false;                                               ///< elements of the material
-  bool stops = false;                                                    ///< the run, where a step is not solved
-  bool conserves = false;                                                ///< energy, on the linear problem
-  double edge = 0;                                                       ///< mean, of the level's mesh [m]
+  /// elements of the material
+  bool may_invert = false;
+  /// the run, where a step is not solved
+  bool stops = false;
+  /// energy, on the linear problem
+  bool conserves = false;
+  /// mean, of the level's mesh [m]
+  double edge = 0;
   std::function<std::unique_ptr<LinearSolver<B>>()> make_linear_solver;  ///< for implicit ones
 };
 
@@ -26,19 +30,22 @@ template <class B>
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Takes the level's state through `steps` steps of h from `time` [s]. Contact is found anew in every step.
+  /// Takes the level's state through `steps` steps of h from `time` [s]. Contact is found anew in
+  /// every step.
   virtual void advance(SolverLevel<B>& level, double time, double h, int steps) = 0;
   virtual std::map<std::string, long> counters() const { return {}; }
   /// Device memory of its own.
   virtual std::size_t bytes() const { return 0; }
-  /// The largest part of its forces that a stage of the last advance() left unbalanced, or the relative residual of its one linear solve; 0
-  /// where there are none.
+  /// The largest part of its forces that a stage of the last advance() left unbalanced, or the
+  /// relative residual of its one linear solve; 0 where there are none.
   virtual double residual() const { return 0; }
   /// Whether it tells what it has not solved.
   virtual bool judges() const { return false; }
-  /// The largest part of the forces that a step of the last advance() left unbalanced where it was not solved; 0: all were.
+  /// The largest part of the forces that a step of the last advance() left unbalanced where it was
+  /// not solved; 0: all were.
   virtual double unsolved() const { return 0; }
-  /// Why the result of the last advance() is not valid, as a sentence for the user; empty where it is.
+  /// Why the result of the last advance() is not valid, as a sentence for the user; empty where it
+  /// is.
   virtual std::string failure() const { return {}; }
   /// The state was replaced: what it carries from the steps before does not belong to it.
   virtual void forget() {}
@@ -47,8 +54,8 @@ class Integrator {
 };
 
 /// In the source that defines Kind::make(): compiles it for a backend, which is the last argument.
-#define PLICA_MAKE_INTEGRATOR(Kind, ...)                                                  \
-  template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make(const Level<__VA_ARGS__>&, \
-                                                               const IntegratorParts<__VA_ARGS__>&);
+#define PLICA_MAKE_INTEGRATOR(Kind, ...)                        \
+  template std::unique_ptr<Integrator<__VA_ARGS__>> Kind::make( \
+      const Level<__VA_ARGS__>&, const IntegratorParts<__VA_ARGS__>&);
 
 }  // namespace plica

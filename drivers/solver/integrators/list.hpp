@@ -4,8 +4,9 @@
 #include <plica/core/problem.hpp>
 #include <plica/core/type_list.hpp>
 
-// The integrators by name: what a scene's integration.integrator chooses from, each with its order in time and its limit. Light,
-// without any kernel: each makes itself in a source of its own, where its formulas are.
+// The integrators by name: what a scene's integration.integrator chooses from, each with its order
+// in time and its limit. Light, without any kernel: each makes itself in a source of its own, where
+// its formulas are.
 namespace plica {
 
 template <class B>
@@ -16,14 +17,16 @@ template <class B>
 struct IntegratorParts;
 
 /// The stability limit of an integrator on u'' = -K u - D u' (K and D per mass): the largest h with
-/// lambda_max(h^2 K + h radius D) <= radius^2. For symplectic Euler, whose limit is h^2 w^2 + 2 h c <= 4, that is exact; for a
-/// Runge-Kutta method it keeps all h s within `radius`. One that grows at every step undamped, |R|^2 = 1 + growth (h w)^power -
-/// h c, is stable where damping outweighs that. Implicit: none of this.
+/// lambda_max(h^2 K + h radius D) <= radius^2. For symplectic Euler, whose limit is h^2 w^2 + 2 h c
+/// <= 4, that is exact; for a Runge-Kutta method it keeps all h s within `radius`. One that grows
+/// at every step undamped, |R|^2 = 1 + growth (h w)^power - h c, is stable where damping outweighs
+/// that. Implicit: none of this.
 struct StabilityLimit {
-  double radius = 0;   ///< 0: none of this kind
-  double growth = 0;   ///< 0: it does not grow at every step
-  int power = 0;       ///< of h w, above 1
-  double damping = 0;  ///< the largest h c, where mass damping c is explicit; 0: it is implicit and never a limit
+  double radius = 0;  ///< 0: none of this kind
+  double growth = 0;  ///< 0: it does not grow at every step
+  int power = 0;      ///< of h w, above 1
+  /// the largest h c, where mass damping c is explicit; 0: it is implicit and never a limit
+  double damping = 0;
 };
 
 struct SymplecticEuler {
@@ -62,7 +65,8 @@ struct ForwardEuler {
 /// h c < 2.
 struct Rk2 {
   static constexpr const char* name = "rk2";
-  static constexpr const char* summary = "explicit, order 2, two forces a step; undamped it grows at every step";
+  static constexpr const char* summary =
+      "explicit, order 2, two forces a step; undamped it grows at every step";
   static constexpr int order = 2;
   static constexpr bool is_explicit = true;
   static constexpr StabilityLimit limit{.growth = 0.25, .power = 4, .damping = 2};
@@ -70,8 +74,9 @@ struct Rk2 {
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
-/// Stable for h < 2.83/w undamped; motion near that limit decays. The radius 2.78 is that of the largest half disc in its stability
-/// region, so that it holds with any damping (Hairer & Wanner II, IV.2).
+/// Stable for h < 2.83/w undamped; motion near that limit decays. The radius 2.78 is that of the
+/// largest half disc in its stability region, so that it holds with any damping (Hairer & Wanner
+/// II, IV.2).
 struct Rk4 {
   static constexpr const char* name = "rk4";
   static constexpr const char* summary = "explicit, order 4, four forces a step; h < 2.78/w";
@@ -94,18 +99,21 @@ struct ImplicitEuler {
 
 struct Newmark {
   static constexpr const char* name = "newmark";
-  static constexpr const char* summary = "implicit, order 2 (trapezoidal), keeps the energy of linear motion; no limit";
+  static constexpr const char* summary =
+      "implicit, order 2 (trapezoidal), keeps the energy of linear motion; no limit";
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
-  static constexpr bool conserves(const ImplicitOptions&) { return true; }  ///< energy, on the linear problem
+  /// energy, on the linear problem
+  static constexpr bool conserves(const ImplicitOptions&) { return true; }
   template <class B>
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
 struct Bdf2 {
   static constexpr const char* name = "bdf2";
-  static constexpr const char* summary = "implicit, order 2, little dissipation but of fast motion; no limit";
+  static constexpr const char* summary =
+      "implicit, order 2, little dissipation but of fast motion; no limit";
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
@@ -115,7 +123,8 @@ struct Bdf2 {
 
 struct Sdirk2 {
   static constexpr const char* name = "sdirk2";
-  static constexpr const char* summary = "implicit, order 2, two solves a step, fast motion decays; no limit";
+  static constexpr const char* summary =
+      "implicit, order 2, two solves a step, fast motion decays; no limit";
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
@@ -130,7 +139,9 @@ struct GeneralizedAlpha {
   static constexpr int order = 2;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{};
-  static constexpr bool conserves(const ImplicitOptions& options) { return options.rho_infinity == 1.0; }
+  static constexpr bool conserves(const ImplicitOptions& options) {
+    return options.rho_infinity == 1.0;
+  }
   template <class B>
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
@@ -142,13 +153,14 @@ struct VCycleEuler {
   static constexpr int order = 1;
   static constexpr bool is_explicit = false;
   static constexpr StabilityLimit limit{0.0};
-  static constexpr const char* linear_solver = "v_cycle";  ///< whatever integration.implicit.solver says
+  /// whatever integration.implicit.solver says
+  static constexpr const char* linear_solver = "v_cycle";
   template <class B>
   static std::unique_ptr<Integrator<B>> make(const Level<B>&, const IntegratorParts<B>&);
 };
 
 /// Every integrator there is. One more: its entry above, its name here, and its source.
-using Integrators = TypeList<SymplecticEuler, CentralDifference, ForwardEuler, Rk2, Rk4, ImplicitEuler, Newmark, Bdf2,
-                             Sdirk2, GeneralizedAlpha, VCycleEuler>;
+using Integrators = TypeList<SymplecticEuler, CentralDifference, ForwardEuler, Rk2, Rk4,
+                             ImplicitEuler, Newmark, Bdf2, Sdirk2, GeneralizedAlpha, VCycleEuler>;
 
 }  // namespace plica

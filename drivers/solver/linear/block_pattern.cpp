@@ -12,8 +12,9 @@ namespace plica {
 
 namespace {
 
-/// One block of one element, as one number to sort by: the pair of vertices it is for, by their numbers in the patch, the lower one of
-/// the mesh first; whether it is for them turned round; and where it stands among the patch's element blocks.
+/// One block of one element, as one number to sort by: the pair of vertices it is for, by their
+/// numbers in the patch, the lower one of the mesh first; whether it is for them turned round; and
+/// where it stands among the patch's element blocks.
 struct ElementPair {
   std::uint64_t key;
 
@@ -27,7 +28,8 @@ struct ElementPair {
   std::uint16_t slot() const { return static_cast<std::uint16_t>(key); }
 };
 
-/// A pair of a patch's vertices, by their numbers in the mesh: its element blocks [begin, straight) as they are, [straight, end) turned.
+/// A pair of a patch's vertices, by their numbers in the mesh: its element blocks [begin, straight)
+/// as they are, [straight, end) turned.
 struct PairOfPatch {
   int first, second;
   std::size_t begin, straight, end;
@@ -89,7 +91,8 @@ class PatternBuilder {
   std::vector<PairsOfPatch> patch_;
   HostPattern pattern_;
   std::vector<int> patches_of_;  // [blocks that are stored] how many have the pair
-  std::vector<int> share_of_;    // [blocks that are stored] the next one, of what several patches have
+  // [blocks that are stored] the next one, of what several patches have
+  std::vector<int> share_of_;
   std::vector<int> first_pair_{0}, first_shared_, first_slot_{0}, first_turned_, place_;
   std::vector<std::uint16_t> slot_;
   std::vector<int> first_share_{0}, shared_place_;
@@ -153,7 +156,8 @@ class PatternBuilder {
 
   /// Of a pair's block in the matrix.
   int place_of(const PairOfPatch& pair) const {
-    const auto [a, b] = is_free(pair.first) ? std::pair(pair.first, pair.second) : std::pair(pair.second, pair.first);
+    const auto [a, b] = is_free(pair.first) ? std::pair(pair.first, pair.second)
+                                            : std::pair(pair.second, pair.first);
     const auto row = pattern_.column.begin() + pattern_.first[index_of(a)];
     const auto block = std::lower_bound(row, row + pattern_.blocks_of_row(a), b);
     return pattern_.place[static_cast<std::size_t>(block - pattern_.column.begin())];
@@ -168,7 +172,8 @@ class PatternBuilder {
 
   bool is_shared(const PairOfPatch& pair) const { return patches_of_[index_of(pair.place)] > 1; }
 
-  /// Those that other patches have too last; then by how many blocks they have, so that a processor foresees the ends of their sums.
+  /// Those that other patches have too last; then by how many blocks they have, so that a processor
+  /// foresees the ends of their sums.
   void sort_pairs(int p) {
     std::ranges::sort(patch_[index_of(p)].pair, {}, [&](const PairOfPatch& a) {
       return std::tuple(is_shared(a), a.straight - a.begin, a.end - a.begin, a.first, a.second);
@@ -207,8 +212,9 @@ BlockPattern<B> block_pattern(const Model<B>& model) {
   return PatternBuilder<B>(model).finish();
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) \
-  template BlockPattern<Backend<Real, Exec>> block_pattern<Backend<Real, Exec>>(const Model<Backend<Real, Exec>>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                            \
+  template BlockPattern<Backend<Real, Exec>> block_pattern<Backend<Real, Exec>>( \
+      const Model<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -9,12 +9,14 @@
 
 namespace plica {
 
-/// Conjugate gradients, with or without a matrix, and any preconditioner. A preconditioner that is costly to fit is kept from step to step.
-/// It is fitted again when the stage's weights change, or when solves took `patience` iterations more than its first solve needed for the
-/// same number of digits, which is about what fitting costs. A solve that multigrid does not finish in `most_cycles` iterations, or in which
-/// it turns out not to be positive definite, is finished by the vertex blocks alone; after two such solves in a row it is not used any more
-/// (nodal elements of a material that stiffens exponentially, whose coarser levels are those of linear ones). Solves to a residual start from a
-/// guess by the last solutions.
+/// Conjugate gradients, with or without a matrix, and any preconditioner. A preconditioner that is
+/// costly to fit is kept from step to step. It is fitted again when the stage's weights change, or
+/// when solves took `patience` iterations more than its first solve needed for the same number of
+/// digits, which is about what fitting costs. A solve that multigrid does not finish in
+/// `most_cycles` iterations, or in which it turns out not to be positive definite, is finished by
+/// the vertex blocks alone; after two such solves in a row it is not used any more (nodal elements
+/// of a material that stiffens exponentially, whose coarser levels are those of linear ones).
+/// Solves to a residual start from a guess by the last solutions.
 struct ConjugateGradients {
   static constexpr const char* name = "conjugate_gradients";
   static constexpr const char* summary = "preconditioned, with or without a matrix";
@@ -42,7 +44,8 @@ struct ConjugateGradients {
       system_.prepare(level, state, weights, positive);
       if (restored_ && fitted_) preconditioner_->refit(exec);
       restored_ = false;
-      if (!preconditions() || (fitted_ && weights.a == a_ && weights.b == b_ && spent_ < patience)) return;
+      if (!preconditions() || (fitted_ && weights.a == a_ && weights.b == b_ && spent_ < patience))
+        return;
       system_.fit(exec, *preconditioner_);
       fitted_ = 1, a_ = weights.a, b_ = weights.b, per_decade_ = spent_ = 0, ++fits_;
     }
@@ -53,18 +56,22 @@ struct ConjugateGradients {
       return true;
     }
 
-    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x, double tolerance) override {
+    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x,
+                       double tolerance) override {
       const LastSolutions<B>* const last = last_ ? &*last_ : nullptr;
       ImplicitOptions options = options_;
       options.relative_residual = tolerance;
-      if (!preconditions()) return remember(exec, krylov_.solve(exec, system_, nullptr, last, options, r, x), x);
+      if (!preconditions())
+        return remember(exec, krylov_.solve(exec, system_, nullptr, last, options, r, x), x);
       if (options.preconditioner == MultigridCycle::name)
         options.max_iterations = std::min(options.max_iterations, most_cycles);
-      const KrylovOutcome out = krylov_.solve(exec, system_, preconditioner_.get(), last, options, r, x);
+      const KrylovOutcome out =
+          krylov_.solve(exec, system_, preconditioner_.get(), last, options, r, x);
       if (per_decade_ == 0 && out.decades > 1) per_decade_ = out.iterations / out.decades;
-      if (per_decade_ > 0 && out.decades > 1) spent_ += std::max(0.0, out.iterations - per_decade_ * out.decades);
-      const bool gives_up =
-          !out.converged && !out.indefinite && options.iterations == 0 && std::isfinite(out.relative_residual);
+      if (per_decade_ > 0 && out.decades > 1)
+        spent_ += std::max(0.0, out.iterations - per_decade_ * out.decades);
+      const bool gives_up = !out.converged && !out.indefinite && options.iterations == 0 &&
+                            std::isfinite(out.relative_residual);
       given_up_ = gives_up ? given_up_ + 1 : 0;
       if (!gives_up) return remember(exec, out, x);
       spent_ = patience;
@@ -96,7 +103,8 @@ struct ConjugateGradients {
     Krylov<B> krylov_;
     std::unique_ptr<Preconditioner<B>> preconditioner_;  ///< none: the vertex blocks
     std::optional<LastSolutions<B>> last_;
-    Vectors<B> rest_;                            ///< of a solution, where the preconditioner has given up
+    /// of a solution, where the preconditioner has given up
+    Vectors<B> rest_;
     long fitted_ = 0, fits_ = 0, given_up_ = 0;  ///< given_up_: solves in a row
     double a_ = 0, b_ = 0, per_decade_ = 0, spent_ = 0;
     bool restored_ = false;
@@ -109,8 +117,8 @@ struct ConjugateGradients {
     }
 
     /// From x with the residual r by the vertex blocks alone.
-    KrylovOutcome finish(const Exec& exec, const KrylovOutcome& before, const Vectors<B>& r, const Vectors<B>& x,
-                         double tolerance) {
+    KrylovOutcome finish(const Exec& exec, const KrylovOutcome& before, const Vectors<B>& r,
+                         const Vectors<B>& x, double tolerance) {
       const double left = before.relative_residual;
       ImplicitOptions options = options_;
       options.relative_residual = std::min(1.0, tolerance / left);

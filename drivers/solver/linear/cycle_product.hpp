@@ -7,8 +7,9 @@
 
 namespace plica {
 
-/// Products with the system A of an implicit stage of nodal elements, in float, for the finest polynomial of a V-cycle. Without what has no part
-/// in the vertex blocks either: smoothed pressures, and pressures that follow the body.
+/// Products with the system A of an implicit stage of nodal elements, in float, for the finest
+/// polynomial of a V-cycle. Without what has no part in the vertex blocks either: smoothed
+/// pressures, and pressures that follow the body.
 template <class B>
 class CycleProduct {
  public:
@@ -20,7 +21,8 @@ class CycleProduct {
   CycleProduct(const Level<B>& level, std::string_view material, const Blocks<B>& inverse_diagonal);
 
   /// Takes over A, as StageSystem::prepare(). It reads contact where that is at each product.
-  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
+  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
+               bool positive);
   /// q = A p, to Vectors or SlotVectors, whose slots are the vertices.
   template <class To>
   void apply(const Exec& exec, const Vectors<F>& p, const To& q) const;

@@ -21,7 +21,8 @@ struct CountedRows {
   std::vector<int> column, terms;  ///< of each block
 };
 
-/// @param for_terms  (row, use): calls use(column, block, weight) for all terms of a row, in the same order every time
+/// @param for_terms  (row, use): calls use(column, block, weight) for all terms of a row, in the
+/// same order every time
 /// @param own        whether a row has a block of its own number in any case
 template <class B, class ForTerms>
 RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_t columns, bool own,
@@ -37,7 +38,8 @@ RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_
         if (terms[index_of(b)]++ == 0 && !(own && index_of(b) == a)) column.push_back(b);
       });
       std::ranges::sort(column);
-      for (const int b : column) part.column.push_back(b), part.terms.push_back(std::exchange(terms[index_of(b)], 0));
+      for (const int b : column)
+        part.column.push_back(b), part.terms.push_back(std::exchange(terms[index_of(b)], 0));
       part.blocks.push_back(static_cast<int>(column.size()));
     }
   });
@@ -62,7 +64,8 @@ RowsOfSums<B> rows_of_sums(const std::string& name, std::size_t rows, std::size_
       });
     }
   });
-  made.terms = {to_device<Indices<B>>(name + ".first", first_term), block.upload(), weight.upload()};
+  made.terms = {to_device<Indices<B>>(name + ".first", first_term), block.upload(),
+                weight.upload()};
   return made;
 }
 
@@ -85,7 +88,8 @@ HostPattern both_halves(const RowsOfSums<B>& right) {
   return {std::move(first), std::move(column)};
 }
 
-/// A P; of row a the columns from the first one on that a hangs on: the right half of P^T A P asks for no others.
+/// A P; of row a the columns from the first one on that a hangs on: the right half of P^T A P asks
+/// for no others.
 template <class B>
 RowsOfSums<B> right_product(const HostPattern& A, const RowMatrix& P) {
   const auto for_terms = [&](std::size_t a, const auto& use) {
@@ -97,8 +101,8 @@ RowsOfSums<B> right_product(const HostPattern& A, const RowMatrix& P) {
         if (j.col() >= least.col()) use(static_cast<int>(j.col()), block, j.value());
     }
   };
-  return rows_of_sums<B>("galerkin.right", static_cast<std::size_t>(P.rows()), static_cast<std::size_t>(P.cols()),
-                         false, for_terms);
+  return rows_of_sums<B>("galerkin.right", static_cast<std::size_t>(P.rows()),
+                         static_cast<std::size_t>(P.cols()), false, for_terms);
 }
 
 /// The right half of P^T (A P).
@@ -128,8 +132,9 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P) {
   return made;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec) \
-  template CoarseMatrix<Backend<Real, Exec>> coarse_matrix<Backend<Real, Exec>>(const HostPattern&, const RowMatrix&);
+#define PLICA_INSTANTIATE(Real, Exec)                                            \
+  template CoarseMatrix<Backend<Real, Exec>> coarse_matrix<Backend<Real, Exec>>( \
+      const HostPattern&, const RowMatrix&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

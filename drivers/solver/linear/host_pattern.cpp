@@ -19,7 +19,8 @@ std::vector<int> numbers(const View& view) {
 
 HostPattern::HostPattern(std::vector<int> first_of_row, std::vector<int> columns)
     : first(std::move(first_of_row)), column(std::move(columns)), place(column.size()) {
-  std::vector<int> next;  // [rows above] of the blocks right of the own one, which rows below ask for in turn
+  // [rows above] of the blocks right of the own one, which rows below ask for in turn
+  std::vector<int> next;
   for (int a = 0; a < rows(); ++a) {
     const auto begin = column.begin() + first[index_of(a)], end = begin + blocks_of_row(a);
     diagonal.push_back(static_cast<int>(std::lower_bound(begin, end, a) - column.begin()));
@@ -57,7 +58,8 @@ BlockMatrix<B> block_matrix(const std::string& name, const HostPattern& pattern)
 
 #define PLICA_INSTANTIATE(Real, Exec)                                                              \
   template HostPattern host_pattern<Backend<Real, Exec>>(const BlockMatrix<Backend<Real, Exec>>&); \
-  template BlockMatrix<Backend<Real, Exec>> block_matrix<Backend<Real, Exec>>(const std::string&, const HostPattern&);
+  template BlockMatrix<Backend<Real, Exec>> block_matrix<Backend<Real, Exec>>(const std::string&,  \
+                                                                              const HostPattern&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -22,7 +22,9 @@ struct HostPattern {
   }
 
   int rows() const { return static_cast<int>(first.size()) - 1; }
-  int blocks_of_row(int a) const { return first[static_cast<std::size_t>(a) + 1] - first[static_cast<std::size_t>(a)]; }
+  int blocks_of_row(int a) const {
+    return first[static_cast<std::size_t>(a) + 1] - first[static_cast<std::size_t>(a)];
+  }
 };
 
 template <class B>

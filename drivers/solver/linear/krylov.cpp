@@ -15,14 +15,15 @@ LastSolutions<B>::LastSolutions(int vertices) {
 }
 
 template <class B>
-void LastSolutions<B>::start(const Exec& exec, const StageSystem<B>& system, const BlockSums<B>& sums,
-                             const Vectors<B>& r, const Vectors<B>& x) const {
+void LastSolutions<B>::start(const Exec& exec, const StageSystem<B>& system,
+                             const BlockSums<B>& sums, const Vectors<B>& r,
+                             const Vectors<B>& x) const {
   if (!any()) return;
   const int n = system.rows();
   constexpr double least = 1e4 * Kokkos::Experimental::epsilon_v<typename B::Real>;
   system.products(exec, space_);
-  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", n, SpaceSums<B>{space_, r}, sums, space_.products,
-                                    SpaceWeights<B>{space_.products, least});
+  reduce<B, SolutionSpace<B>::sums>(exec, "plica::space_sums", n, SpaceSums<B>{space_, r}, sums,
+                                    space_.products, SpaceWeights<B>{space_.products, least});
   update_vertices<B>(exec, "plica::space_guess", n, SpaceGuess<B>{space_, r, x});
 }
 
@@ -52,8 +53,9 @@ Krylov<B>::Krylov(int vertices)
       sums_(vertices) {}
 
 template <class B>
-void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
-                        const Vectors<B>& r, const Vectors<B>& x) const {
+void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system,
+                        const Preconditioner<B>* preconditioner, const Vectors<B>& r,
+                        const Vectors<B>& x) const {
   const int n = system.rows();
   const Blocks<B>& D = system.inverse_diagonal();
   const int product = preconditioner ? cg::product : cg::square;
@@ -63,26 +65,28 @@ void Krylov<B>::advance(const Exec& exec, const StageSystem<B>& system, const Pr
   }
   update_vertices<B>(exec, "plica::cg_direction", n, CgDirection<B>{scalars_, product, z_, p_});
   system.product(exec, p_, q_, sums_, slot(cg::curvature), CgStep<B>{scalars_, product});
-  reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_, slot(cg::square),
-               CgJudge<B>{scalars_});
+  reduce<B, 1>(exec, "plica::cg_advance", n, CgAdvance<B>{scalars_, {D, r, z_}, x, p_, q_}, sums_,
+               slot(cg::square), CgJudge<B>{scalars_});
 }
 
 template <class B>
-void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last, double tolerance,
-                      const Vectors<B>& r, const Vectors<B>& x) const {
+void Krylov<B>::begin(const Exec& exec, const StageSystem<B>& system, const LastSolutions<B>* last,
+                      double tolerance, const Vectors<B>& r, const Vectors<B>& x) const {
   const CgSquare<B> square{system.inverse_diagonal(), r, z_};
   update_vertices<B>(exec, "plica::cg_tolerance", 1, CgTolerance<B>{scalars_, tolerance});
   reduce<B, 1>(exec, "plica::cg_zero", system.rows(), CgZero<B>{square, x}, sums_, slot(cg::square),
                CgBegin<B>{scalars_});
   if (!last || !last->any()) return;
   last->start(exec, system, sums_, r, x);
-  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square), CgGuess<B>{scalars_});
+  reduce<B, 1>(exec, "plica::cg_square", system.rows(), square, sums_, slot(cg::square),
+               CgGuess<B>{scalars_});
 }
 
 template <class B>
-KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system, const Preconditioner<B>* preconditioner,
-                               const LastSolutions<B>* last, const ImplicitOptions& options, const Vectors<B>& r,
-                               const Vectors<B>& x) const {
+KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system,
+                               const Preconditioner<B>* preconditioner,
+                               const LastSolutions<B>* last, const ImplicitOptions& options,
+                               const Vectors<B>& r, const Vectors<B>& x) const {
   std::vector<double> scalar;
   const auto look = [&] { scalar = host_values(exec, scalars_); };
   const bool fixed = options.iterations > 0;
@@ -100,10 +104,14 @@ KrylovOutcome Krylov<B>::solve(const Exec& exec, const StageSystem<B>& system, c
   KrylovOutcome out;
   out.iterations = static_cast<int>(scalar[cg::iterations]);
   out.indefinite = scalar[cg::stopped] == cg::indefinite;
-  out.converged = scalar[cg::stopped] == cg::converged || (fixed && scalar[cg::stopped] == cg::running);
-  out.relative_residual = scalar[cg::right_side] > 0 ? std::sqrt(scalar[cg::square] / scalar[cg::right_side]) : 0;
-  if (scalar[cg::square] > 0) out.decades = 0.5 * std::log10(scalar[cg::start] / scalar[cg::square]);
-  if (scalar[cg::stopped] == cg::not_finite) {  // which must show in the state, for whoever checks it
+  out.converged =
+      scalar[cg::stopped] == cg::converged || (fixed && scalar[cg::stopped] == cg::running);
+  out.relative_residual =
+      scalar[cg::right_side] > 0 ? std::sqrt(scalar[cg::square] / scalar[cg::right_side]) : 0;
+  if (scalar[cg::square] > 0)
+    out.decades = 0.5 * std::log10(scalar[cg::start] / scalar[cg::square]);
+  // which must show in the state, for whoever checks it
+  if (scalar[cg::stopped] == cg::not_finite) {
     if (out.iterations == 0) copy(exec, x, r);
     out.relative_residual = std::numeric_limits<double>::infinity();
   }

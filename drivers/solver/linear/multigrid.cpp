@@ -11,7 +11,8 @@ namespace plica {
 namespace {
 
 constexpr int lanczos_steps = 15;
-// By how much the largest eigenvalue may grow until the next fit, where products are with the matrix of each moment
+// By how much the largest eigenvalue may grow until the next fit, where products are with the
+// matrix of each moment
 constexpr double drift = 1.1;
 
 /// The part of a direction that Chebyshev's next one keeps.
@@ -19,7 +20,9 @@ float keep_of(int k) { return static_cast<float>(2 * k - 1) / static_cast<float>
 
 /// A^-1 in place, 0 in empty rows. False where A is not positive definite.
 bool invert_on_host(int n, double* A) {
-  const auto diagonal = [&](int i) -> double& { return A[static_cast<std::ptrdiff_t>(i) * (n + 1)]; };
+  const auto diagonal = [&](int i) -> double& {
+    return A[static_cast<std::ptrdiff_t>(i) * (n + 1)];
+  };
   std::vector<int> empty;
   for (int i = 0; i < n; ++i)
     if (diagonal(i) == 0) empty.push_back(i);
@@ -32,8 +35,8 @@ bool invert_on_host(int n, double* A) {
 }  // namespace
 
 template <class B>
-Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers, int degree,
-                        const CycleProduct<B>* finest)
+Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& transfers,
+                        int degree, const CycleProduct<B>* finest)
     : grids_(transfers.size() + 1),
       degree_(degree),
       finest_(finest),
@@ -45,8 +48,9 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
   for (std::size_t i = 0; i < grids_.size(); ++i) {
     Grid& grid = grids_[i];
     if (i == 0) {
-      grid.A = {A.rows,     A.first, A.column,
-                A.diagonal, A.place, zeros<Blocks9<F>>("plica::multigrid.value", A.value.extent(0))};
+      grid.A = {A.rows,   A.first,
+                A.column, A.diagonal,
+                A.place,  zeros<Blocks9<F>>("plica::multigrid.value", A.value.extent(0))};
     } else {
       CoarseMatrix<F> coarse = coarse_matrix<F>(pattern, transfers[i - 1]);
       grid.A = coarse.matrix, grid.map = coarse.map, pattern = std::move(coarse.pattern);
@@ -69,7 +73,9 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
     }
     grid.inverse_diagonal = zeros<Blocks<F>>("plica::multigrid.diagonal", n);
     const PackedRows<F> packed = packed_rows<F>(stored, order);
-    const auto vectors = [&](const char* label) { return zeros<SlotVectors<F>>(label, packed.slices); };
+    const auto vectors = [&](const char* label) {
+      return zeros<SlotVectors<F>>(label, packed.slices);
+    };
     grid.smoother = {packed,
                      zeros<SlotBlocks<F>>("plica::multigrid.slot_diagonal", packed.slices),
                      zeros<Doubles<F>>("plica::multigrid.largest", 1),
@@ -84,7 +90,8 @@ Multigrid<B>::Multigrid(const BlockMatrix<B>& A, const std::vector<RowMatrix>& t
 }
 
 template <class B>
-void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) {
+void Multigrid<B>::fit(const Exec& exec, const BlockMatrix<B>& A,
+                       const Blocks<B>& inverse_diagonal) {
   const Grid& finest = grids_.front();
   convert(exec, "plica::multigrid_values", A.value, finest.A.value);
   convert(exec, "plica::multigrid_values", inverse_diagonal, finest.inverse_diagonal);
@@ -100,7 +107,8 @@ void Multigrid<B>::refit(const Exec& exec) {
     const Grid& grid = grids_[i];
     galerkin_product<F>(exec, grid.map, grids_[i - 1].A, grid.A);
     if (!coarser_than(i)) return invert_coarsest(exec);
-    update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows, InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
+    update_vertices<F>(exec, "plica::invert_diagonal", grid.A.rows,
+                       InvertDiagonal<F>{grid.A, grid.inverse_diagonal});
     fit_smoother(exec, grid);
   }
 }
@@ -115,9 +123,9 @@ void Multigrid<B>::fit_smoother(const Exec& exec, const Grid& grid) const {
   }
   update_vertices<F>(exec, "plica::pack_scales", packed.slots(), ScaleOfVertex<F>{grid.A, packed});
   update_vertices<F>(exec, "plica::pack_rows", packed.slots(), PackRow<F>{grid.A, packed});
-  update_vertices<F>(
-      exec, "plica::pack_diagonal", packed.slots(),
-      TakeSlotBlocks<F, Blocks<F>>{packed.vertex, grid.inverse_diagonal, grid.smoother.inverse_diagonal});
+  update_vertices<F>(exec, "plica::pack_diagonal", packed.slots(),
+                     TakeSlotBlocks<F, Blocks<F>>{packed.vertex, grid.inverse_diagonal,
+                                                  grid.smoother.inverse_diagonal});
   fill(exec, grid.smoother.largest, largest_eigenvalue(exec, grid));
 }
 
@@ -137,9 +145,11 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
       finest_->apply(exec, z, w);
       reduce<F, 1>(exec, "plica::lanczos_product", n, product, sums_, alpha(k));
     } else {
-      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, product}, sums_, alpha(k));
+      reduce<F, 1>(exec, "plica::lanczos_product", n, BlockLanczosProduct<F>{grid.A, product},
+                   sums_, alpha(k));
     }
-    reduce<F, 1>(exec, "plica::lanczos_next", n, BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
+    reduce<F, 1>(exec, "plica::lanczos_next", n,
+                 BlockLanczosNext<F>{size, square(k), alpha(k), w, last, k == 0}, sums_,
                  square(k + 1));
   }
   const std::vector<double> scalars = host_values(exec, scalars_);
@@ -156,8 +166,8 @@ double Multigrid<B>::largest_eigenvalue(const Exec& exec, const Grid& grid) cons
   return top.value + top.residual;
 }
 
-/// On the device by the sweep operator; where the host shares its memory by Cholesky's method, which is many times faster there,
-/// if the matrix is positive definite but for empty rows.
+/// On the device by the sweep operator; where the host shares its memory by Cholesky's method,
+/// which is many times faster there, if the matrix is positive definite but for empty rows.
 template <class B>
 void Multigrid<B>::invert_coarsest(const Exec& exec) const {
   const int n = coarsest_.size;
@@ -177,7 +187,8 @@ void Multigrid<B>::invert_coarsest(const Exec& exec) const {
 
 /// What is near A^-1 r, from r alone; r is lost.
 template <class B>
-Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec, std::size_t level) const {
+Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec,
+                                                            std::size_t level) const {
   const Grid& grid = grids_[level];
   if (level > 0 && !coarser_than(level)) {
     update_vertices<F>(exec, "plica::coarsest", ApplyDense<F>::items(coarsest_.size),
@@ -185,12 +196,14 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec, st
     return coarsest_x_;
   }
   const PackedRows<F>& packed = grid.smoother.A;
-  update_vertices<F>(exec, "plica::chebyshev_start", packed.items(), ChebyshevStart<F>{grid.smoother, grid.d});
+  update_vertices<F>(exec, "plica::chebyshev_start", packed.items(),
+                     ChebyshevStart<F>{grid.smoother, grid.d});
   if (!coarser_than(level)) return relax(exec, grid, 1, degree_ - 1, Leaves::answer);
   const Fours<F> left = relax(exec, grid, 1, degree_, Leaves::residual);
   if (coarser_than(level + 1))
-    update_vertices<F>(exec, "plica::restrict_residual", grid.down.rows,
-                       RestrictFours<F, SlotVectors<F>>{grid.down, left, grids_[level + 1].smoother.r});
+    update_vertices<F>(
+        exec, "plica::restrict_residual", grid.down.rows,
+        RestrictFours<F, SlotVectors<F>>{grid.down, left, grids_[level + 1].smoother.r});
   else
     update_vertices<F>(exec, "plica::restrict_residual", grid.down.rows,
                        RestrictFours<F, Vectors<F>>{grid.down, left, coarsest_r_});
@@ -199,9 +212,11 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::cycle(const Exec& exec, st
   return relax(exec, grid, 0, degree_ - 1, Leaves::answer);
 }
 
-/// Steps `first` to `last` of the polynomial from the direction in grid.d; what the last one leaves.
+/// Steps `first` to `last` of the polynomial from the direction in grid.d; what the last one
+/// leaves.
 template <class B>
-Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, const Grid& grid, int first, int last,
+Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, const Grid& grid,
+                                                            int first, int last,
                                                             Leaves leaves) const {
   Fours<F> d = grid.d, next = grid.e;
   for (int k = first; k <= last; ++k, std::swap(d, next)) {
@@ -218,7 +233,8 @@ Fours<Backend<float, typename B::Exec>> Multigrid<B>::relax(const Exec& exec, co
 template <class B>
 void Multigrid<B>::multiply(const Exec& exec, const Fours<F>& d) const {
   const Chebyshev<F>& finest = grids_.front().smoother;
-  update_vertices<F>(exec, "plica::multigrid_out", finest.A.slots(), PutSlots<F, Vectors<F>>{finest.A.vertex, d, p_});
+  update_vertices<F>(exec, "plica::multigrid_out", finest.A.slots(),
+                     PutSlots<F, Vectors<F>>{finest.A.vertex, d, p_});
   finest_->apply(exec, p_, finest.product);
 }
 
@@ -226,9 +242,9 @@ template <class B>
 void Multigrid<B>::apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const {
   const Chebyshev<F>& finest = grids_.front().smoother;
   if (finest_)
-    update_vertices<F>(
-        exec, "plica::pack_diagonal", finest.A.slots(),
-        TakeSlotBlocks<F, Blocks<B>>{finest.A.vertex, finest_->inverse_diagonal(), finest.inverse_diagonal});
+    update_vertices<F>(exec, "plica::pack_diagonal", finest.A.slots(),
+                       TakeSlotBlocks<F, Blocks<B>>{finest.A.vertex, finest_->inverse_diagonal(),
+                                                    finest.inverse_diagonal});
   update_vertices<F>(exec, "plica::multigrid_in", finest.A.slots(),
                      TakeSlots<F, Vectors<B>>{finest.A.vertex, r, finest.r});
   update_vertices<F>(exec, "plica::multigrid_out", finest.A.slots(),
@@ -244,17 +260,21 @@ void Multigrid<B>::persist(StateArchive<B>& archive) {
 
 template <class B>
 std::size_t Multigrid<B>::bytes() const {
-  std::size_t total = bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_) +
-                      4 * bytes_of_views(lanczos_[0]) + bytes_of_views(p_);
+  std::size_t total =
+      bytes_of_views(coarsest_.matrix, coarsest_.row, coarsest_.inverse, coarsest_r_, coarsest_x_) +
+      4 * bytes_of_views(lanczos_[0]) + bytes_of_views(p_);
   for (const Grid& grid : grids_) {
     const Chebyshev<F>& on = grid.smoother;
-    total +=
-        bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex, on.A.column, on.A.word, on.A.scale,
-                       on.inverse_diagonal, on.largest, on.r, on.x, on.product, grid.d, grid.e) +
-        bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
-        bytes_of_views(grid.map.right.first, grid.map.right.block, grid.map.right.weight, grid.map.left.first,
-                       grid.map.left.block, grid.map.left.weight, grid.map.between) +
-        (&grid == &grids_.front() ? 0 : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal, grid.A.place));
+    total += bytes_of_views(grid.A.value, grid.inverse_diagonal, on.A.first, on.A.vertex,
+                            on.A.column, on.A.word, on.A.scale, on.inverse_diagonal, on.largest,
+                            on.r, on.x, on.product, grid.d, grid.e) +
+             bytes_of_rows(grid.up) + bytes_of_rows(grid.down) +
+             bytes_of_views(grid.map.right.first, grid.map.right.block, grid.map.right.weight,
+                            grid.map.left.first, grid.map.left.block, grid.map.left.weight,
+                            grid.map.between) +
+             (&grid == &grids_.front()
+                  ? 0
+                  : bytes_of_views(grid.A.first, grid.A.column, grid.A.diagonal, grid.A.place));
   }
   return total;
 }

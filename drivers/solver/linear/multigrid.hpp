@@ -13,14 +13,17 @@
 
 namespace plica {
 
-/// z = C r with a symmetric positive definite C near the inverse of a matrix. Vertices whose motion is given get 0.
+/// z = C r with a symmetric positive definite C near the inverse of a matrix. Vertices whose motion
+/// is given get 0.
 template <class B>
 class Preconditioner {
  public:
   using Exec = typename B::Exec;
   virtual ~Preconditioner() = default;
-  /// Fits it to a matrix. `inverse_diagonal`: its vertex blocks' inverses, 0 where the motion is given.
-  virtual void fit(const Exec& exec, const BlockMatrix<B>& A, const Blocks<B>& inverse_diagonal) = 0;
+  /// Fits it to a matrix. `inverse_diagonal`: its vertex blocks' inverses, 0 where the motion is
+  /// given.
+  virtual void fit(const Exec& exec, const BlockMatrix<B>& A,
+                   const Blocks<B>& inverse_diagonal) = 0;
   virtual void apply(const Exec& exec, const Vectors<B>& r, const Vectors<B>& z) const = 0;
   virtual std::size_t bytes() const = 0;
   /// Names what it has been fitted to; where that has been restored, refit() makes the rest of it.
@@ -35,8 +38,8 @@ struct CoarseMatrix {
   GalerkinMap<B> map;
 };
 
-/// Which vertex stands in which slot of packed rows, and the other way round: in windows of slices the longest rows first, so that little
-/// is filled up.
+/// Which vertex stands in which slot of packed rows, and the other way round: in windows of slices
+/// the longest rows first, so that little is filled up.
 struct SlotOrder {
   std::vector<int> vertex;  ///< [slots] -1: none
   std::vector<int> slot;    ///< [vertices]
@@ -55,8 +58,9 @@ RowMatrix by_slots(const RowMatrix& P, const SlotOrder& rows, const SlotOrder& c
 template <class B>
 CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 
-/// One symmetric V-cycle over the body's meshes, in float: Galerkin matrices P^T A P, Chebyshev polynomials before and after
-/// (kernels/linear/chebyshev.hpp), the dense inverse of the coarsest level. With no coarser level it is the polynomial alone.
+/// One symmetric V-cycle over the body's meshes, in float: Galerkin matrices P^T A P, Chebyshev
+/// polynomials before and after (kernels/linear/chebyshev.hpp), the dense inverse of the coarsest
+/// level. With no coarser level it is the polynomial alone.
 ///
 ///   level 0   relax  residual                                        prolongate  relax
 ///                        \\                                           /
@@ -64,12 +68,13 @@ CoarseMatrix<B> coarse_matrix(const HostPattern& A, const RowMatrix& P);
 ///                                             \\           /
 ///   level 2                                    restrict  solve
 ///
-/// Where the finest level's matrix is not stored, its polynomial takes that of each moment by products; coarser levels follow from one that is
-/// near it, as it was when the cycle was fitted.
+/// Where the finest level's matrix is not stored, its polynomial takes that of each moment by
+/// products; coarser levels follow from one that is near it, as it was when the cycle was fitted.
 ///
-/// The polynomial carries the residual along, so that it costs no product of its own. It reads copies of the matrices in 16 bits a number, and
-/// all vectors of a cycle are by the slots of these (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the
-/// device; a fit waits once a level.
+/// The polynomial carries the residual along, so that it costs no product of its own. It reads
+/// copies of the matrices in 16 bits a number, and all vectors of a cycle are by the slots of these
+/// (kernels/linear/packed_rows.hpp). Nothing in a cycle waits for the device; a fit waits once a
+/// level.
 template <class B>
 class Multigrid final : public Preconditioner<B> {
  public:

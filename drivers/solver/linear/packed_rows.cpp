@@ -19,7 +19,8 @@ SlotOrder slot_order(const HostPattern& A, int height) {
   SlotOrder order = plain_order(A.rows());
   const int window = 32 * height;
   for (int begin = 0; begin < A.rows(); begin += window)
-    std::stable_sort(order.vertex.begin() + begin, order.vertex.begin() + std::min(begin + window, A.rows()),
+    std::stable_sort(order.vertex.begin() + begin,
+                     order.vertex.begin() + std::min(begin + window, A.rows()),
                      [&](int a, int b) { return A.blocks_of_row(a) > A.blocks_of_row(b); });
   for (int s = 0; s < A.rows(); ++s) order.slot[index_of(order.vertex[index_of(s)])] = s;
   order.vertex.resize(index_of((A.rows() + height - 1) / height * height), -1);
@@ -45,7 +46,8 @@ PackedRows<B> packed_rows(const HostPattern& A, const SlotOrder& order) {
         const int a = of_slice[l];
         const bool is_block = a >= 0 && j < A.blocks_of_row(a);
         column[index_of(first.back() + j / 2)][index_of(j % 2)][index_of(l)] =
-            is_block ? order.slot[index_of(A.column[index_of(A.first[index_of(a)] + j)])] : q * height + l;
+            is_block ? order.slot[index_of(A.column[index_of(A.first[index_of(a)] + j)])]
+                     : q * height + l;
       }
     first.push_back(static_cast<int>(column.size()));
   }
@@ -63,13 +65,15 @@ RowMatrix by_slots(const RowMatrix& P, const SlotOrder& rows, const SlotOrder& c
     for (RowMatrix::InnerIterator entry(P, a); entry; ++entry)
       entries.emplace_back(rows.slot[index_of(static_cast<int>(a))],
                            columns.slot[index_of(static_cast<int>(entry.col()))], entry.value());
-  RowMatrix made(static_cast<Eigen::Index>(rows.vertex.size()), static_cast<Eigen::Index>(columns.vertex.size()));
+  RowMatrix made(static_cast<Eigen::Index>(rows.vertex.size()),
+                 static_cast<Eigen::Index>(columns.vertex.size()));
   made.setFromTriplets(entries.begin(), entries.end());
   return made;
 }
 
-#define PLICA_PACKED_ROWS(Exec) \
-  template PackedRows<Backend<float, Exec>> packed_rows<Backend<float, Exec>>(const HostPattern&, const SlotOrder&);
+#define PLICA_PACKED_ROWS(Exec)                                                                   \
+  template PackedRows<Backend<float, Exec>> packed_rows<Backend<float, Exec>>(const HostPattern&, \
+                                                                              const SlotOrder&);
 PLICA_FOR_EACH_SPACE(PLICA_PACKED_ROWS)
 
 }  // namespace plica

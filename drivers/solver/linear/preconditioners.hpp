@@ -18,9 +18,11 @@ struct BlockJacobi {
 };
 
 template <class B>
-std::unique_ptr<Preconditioner<B>> make_cycle(const LinearSolverParts& parts, const std::vector<RowMatrix>& transfers,
+std::unique_ptr<Preconditioner<B>> make_cycle(const LinearSolverParts& parts,
+                                              const std::vector<RowMatrix>& transfers,
                                               StageSystem<B>& system) {
-  return std::make_unique<Multigrid<B>>(system.pattern(), transfers, parts.options.polynomial_degree,
+  return std::make_unique<Multigrid<B>>(system.pattern(), transfers,
+                                        parts.options.polynomial_degree,
                                         system.cycle_product(parts.material));
 }
 
@@ -28,16 +30,19 @@ struct ChebyshevPolynomial {
   static constexpr const char* name = "chebyshev";
   static constexpr const char* summary = "a polynomial in the matrix, scaled by the vertex blocks";
   template <class B>
-  static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts, StageSystem<B>& system) {
+  static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts,
+                                                 StageSystem<B>& system) {
     return make_cycle<B>(parts, {}, system);
   }
 };
 
 struct MultigridCycle {
   static constexpr const char* name = "multigrid";
-  static constexpr const char* summary = "one V-cycle over the body's meshes; iterations hardly grow with the mesh";
+  static constexpr const char* summary =
+      "one V-cycle over the body's meshes; iterations hardly grow with the mesh";
   template <class B>
-  static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts, StageSystem<B>& system) {
+  static std::unique_ptr<Preconditioner<B>> make(const LinearSolverParts& parts,
+                                                 StageSystem<B>& system) {
     return make_cycle<B>(parts, parts.transfers, system);
   }
 };
@@ -46,10 +51,12 @@ struct MultigridCycle {
 using Preconditioners = TypeList<BlockJacobi, ChebyshevPolynomial, MultigridCycle>;
 
 template <class B>
-std::unique_ptr<Preconditioner<B>> make_preconditioner(const LinearSolverParts& parts, StageSystem<B>& system) {
+std::unique_ptr<Preconditioner<B>> make_preconditioner(const LinearSolverParts& parts,
+                                                       StageSystem<B>& system) {
   std::unique_ptr<Preconditioner<B>> made;
-  Preconditioners::visit(parts.options.preconditioner,
-                         [&](auto kind) { made = decltype(kind)::template make<B>(parts, system); });
+  Preconditioners::visit(parts.options.preconditioner, [&](auto kind) {
+    made = decltype(kind)::template make<B>(parts, system);
+  });
   return made;
 }
 

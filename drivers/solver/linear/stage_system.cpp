@@ -21,16 +21,18 @@ const BlockMatrix<B>& StageSystem<B>::pattern() {
     pattern_ = block_pattern<B>(level_->model);
     shares_ = zeros<Blocks9<B>>("plica::linear.shares", pattern_.pairs.shares);
     if (nodal_ && !has_products())
-      blocks_of_matrix_ = zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
+      blocks_of_matrix_ =
+          zeros<Blocks<B>>("plica::linear.blocks_of_matrix", inverse_diagonal_.extent(0));
   }
   return pattern_.matrix;
 }
 
 template <class B>
-void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
-                             bool positive) {
+void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
+                             const ImplicitWeights& weights, bool positive) {
   const Exec& exec = level.exec();
-  level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive, ready_ = false;
+  level_ = &level, forces_ = &level, state_ = state, weights_ = weights, positive_ = positive,
+  ready_ = false;
   if (by_matrix()) return invert_blocks_of_matrix(exec, inverse_diagonal_);
   if (cycle_product_) cycle_product_->prepare(level, state_, weights, positive);
   level.diagonal(state, weights, positive, inverse_diagonal_);
@@ -39,7 +41,8 @@ void StageSystem<B>::prepare(const SolverLevel<B>& level, const State<B>& state,
 }
 
 template <class B>
-void StageSystem<B>::add_contact_blocks(const Exec& exec, bool beside, const Blocks<B>& blocks) const {
+void StageSystem<B>::add_contact_blocks(const Exec& exec, bool beside,
+                                        const Blocks<B>& blocks) const {
   if (forces_->contact()) forces_->response().add_diagonal(exec, *level_, beside, blocks);
 }
 
@@ -71,7 +74,8 @@ void StageSystem<B>::fit(const Exec& exec, Preconditioner<B>& preconditioner) {
 template <class B>
 const BlockMatrix<B>& StageSystem<B>::matrix(const Exec&) {
   pattern();
-  if (!ready_) forces_->assemble(state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
+  if (!ready_)
+    forces_->assemble(state_, weights_, positive_, pattern_.pairs, shares_, pattern_.matrix);
   ready_ = true;
   return pattern_.matrix;
 }
@@ -91,11 +95,12 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
 }
 
 template <class B>
-void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q, const BlockSums<B>& sums,
-                             const Doubles<B>& curvature, const CgStep<B>& then) const {
+void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vectors<B>& q,
+                             const BlockSums<B>& sums, const Doubles<B>& curvature,
+                             const CgStep<B>& then) const {
   if (by_matrix_alone())
-    return reduce<B, 1>(exec, "plica::block_product", rows(), BlockProductDot<B>{pattern_.matrix, p, q}, sums,
-                        curvature, then);
+    return reduce<B, 1>(exec, "plica::block_product", rows(),
+                        BlockProductDot<B>{pattern_.matrix, p, q}, sums, curvature, then);
   product(exec, p, q);
   reduce<B, 1>(exec, "plica::curvature", rows(), Dot<B>{p, q}, sums, curvature, then);
 }
@@ -103,7 +108,8 @@ void StageSystem<B>::product(const Exec& exec, const Vectors<B>& p, const Vector
 template <class B>
 void StageSystem<B>::products(const Exec& exec, const SolutionSpace<B>& space) const {
   if (by_matrix_alone())
-    update_vertices<B>(exec, "plica::space_products", rows(), SpaceProducts<B>{pattern_.matrix, space});
+    update_vertices<B>(exec, "plica::space_products", rows(),
+                       SpaceProducts<B>{pattern_.matrix, space});
   else
     for (int i = 0; i < SolutionSpace<B>::size; ++i) product(exec, space.w[i], space.q[i]);
 }
@@ -113,9 +119,9 @@ std::size_t StageSystem<B>::bytes() const {
   const BlockMatrix<B>& A = pattern_.matrix;
   const PatchPairs<B>& P = pattern_.pairs;
   return (cycle_product_ ? cycle_product_->bytes() : 0) +
-         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column, A.diagonal, A.place, A.value,
-                        P.first_pair, P.first_shared, P.first_slot, P.first_turned, P.slot, P.place, P.first_share,
-                        P.shared_place);
+         bytes_of_views(inverse_diagonal_, blocks_of_matrix_, shares_, A.first, A.column,
+                        A.diagonal, A.place, A.value, P.first_pair, P.first_shared, P.first_slot,
+                        P.first_turned, P.slot, P.place, P.first_share, P.shared_place);
 }
 
 #define PLICA_INSTANTIATE(Real, Exec) template class StageSystem<Backend<Real, Exec>>;

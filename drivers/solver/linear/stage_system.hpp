@@ -9,8 +9,9 @@
 
 namespace plica {
 
-/// The system A of an implicit stage on one level: its product without a matrix or by an assembled one, and its vertex blocks. With
-/// nodal elements the product is without a matrix; the matrix, from which coarser levels of a preconditioner follow, is that of linear ones.
+/// The system A of an implicit stage on one level: its product without a matrix or by an assembled
+/// one, and its vertex blocks. With nodal elements the product is without a matrix; the matrix,
+/// from which coarser levels of a preconditioner follow, is that of linear ones.
 template <class B>
 class StageSystem {
  public:
@@ -18,9 +19,10 @@ class StageSystem {
 
   StageSystem(const Level<B>& level, bool assembled);
 
-  /// A of a level at `state`, where its forces have just been linearised; they stay as they are until the next. Projected elements are assembled,
-  /// also where the rest is not.
-  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights, bool positive);
+  /// A of a level at `state`, where its forces have just been linearised; they stay as they are
+  /// until the next. Projected elements are assembled, also where the rest is not.
+  void prepare(const SolverLevel<B>& level, const State<B>& state, const ImplicitWeights& weights,
+               bool positive);
   /// The same system again, with the elements' tangents projected.
   void project() { prepare(*forces_, State<B>(state_), ImplicitWeights(weights_), true); }
   /// q = A p
@@ -49,7 +51,8 @@ class StageSystem {
   bool nodal_, assembled_, ready_ = false;  ///< the matrix is that of this stage
   BlockPattern<B> pattern_;
   Blocks9<B> shares_;
-  Blocks<B> inverse_diagonal_, blocks_of_matrix_;  ///< inverses; the latter of nodal elements without cycle_product_
+  /// inverses; the latter of nodal elements without cycle_product_
+  Blocks<B> inverse_diagonal_, blocks_of_matrix_;
   std::unique_ptr<CycleProduct<B>> cycle_product_;
   const Level<B>* level_ = nullptr;
   const SolverLevel<B>* forces_ = nullptr;

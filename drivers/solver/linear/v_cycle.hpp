@@ -7,10 +7,12 @@
 
 namespace plica {
 
-/// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is fitted: when the stage's weights change, in
-/// every step in which contact may begin, and when the residual after the cycle is `worn` times that of its first solve; then the system
-/// is solved again. In exact arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this A. That needs a positive definite
-/// A: where the tangent is left to choose, the cycle is fitted to that of the projected elements.
+/// Solves each system by one V-cycle, x = C r. A matrix is assembled only where the cycle is
+/// fitted: when the stage's weights change, in every step in which contact may begin, and when the
+/// residual after the cycle is `worn` times that of its first solve; then the system is solved
+/// again. In exact arithmetic C A has its eigenvalues in (0, 1], as long as C is the cycle of this
+/// A. That needs a positive definite A: where the tangent is left to choose, the cycle is fitted to
+/// that of the projected elements.
 struct VCycleSolver {
   static constexpr const char* name = "v_cycle";
   static constexpr const char* summary = "one V-cycle of multigrid per system, at any residual";
@@ -37,13 +39,15 @@ struct VCycleSolver {
       system_.prepare(level, state, weights, positive);
       if (restored_ && fitted_) cycle_->refit(exec);
       restored_ = false;
-      const bool same = weights.a == a_ && weights.b == b_ && !level.contact() && !level.asks_caller();
+      const bool same =
+          weights.a == a_ && weights.b == b_ && !level.contact() && !level.asks_caller();
       if (fitted_ && same) return;
       a_ = weights.a, b_ = weights.b;
       fit(exec);
     }
 
-    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x, double) override {
+    SolveOutcome solve(const Exec& exec, const Vectors<B>& r, const Vectors<B>& x,
+                       double) override {
       double left = cycle(exec, r, x);
       if (first_ > 0 && !(left <= worn * first_)) {
         fit(exec);
@@ -53,9 +57,12 @@ struct VCycleSolver {
       return {.iterations = 1, .relative_residual = left, .converged = std::isfinite(left)};
     }
 
-    std::map<std::string, long> counters() const override { return {{"preconditioner_fits", fits_}}; }
+    std::map<std::string, long> counters() const override {
+      return {{"preconditioner_fits", fits_}};
+    }
     std::size_t bytes() const override {
-      return system_.bytes() + cycle_->bytes() + (residual_.span() + scaled_.span()) * sizeof(typename B::Real);
+      return system_.bytes() + cycle_->bytes() +
+             (residual_.span() + scaled_.span()) * sizeof(typename B::Real);
     }
     void persist(StateArchive<B>& archive) override {
       for (long* count : {&fitted_, &fits_}) archive.number(*count);

@@ -12,25 +12,30 @@ namespace plica {
 namespace {
 
 Point area_vector(const TetMesh& mesh, const std::array<int, 3>& t) {
-  const auto x = [&](std::size_t k) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+  const auto x = [&](std::size_t k) -> const Point& {
+    return mesh.vertices[static_cast<std::size_t>(t[k])];
+  };
   return (x(1) - x(0)).cross(x(2) - x(0)) / 2;
 }
 
 /// At rest, per vertex [N].
-std::map<int, Point> forces_of(double pressure, const TetMesh& mesh, const Selection& where, const Selecting& who) {
+std::map<int, Point> forces_of(double pressure, const TetMesh& mesh, const Selection& where,
+                               const Selecting& who) {
   std::map<int, Point> force;
   for (const auto& t : select_triangles(mesh, where, who))
-    for (const int v : t) force.try_emplace(v, Point::Zero()).first->second -= pressure / 3 * area_vector(mesh, t);
+    for (const int v : t)
+      force.try_emplace(v, Point::Zero()).first->second -= pressure / 3 * area_vector(mesh, t);
   return force;
 }
 
 bool follows(const LoadOptions& load) {
-  return std::holds_alternative<FollowerPressure>(load.load) || std::holds_alternative<EnclosedVolume>(load.load);
+  return std::holds_alternative<FollowerPressure>(load.load) ||
+         std::holds_alternative<EnclosedVolume>(load.load);
 }
 
 /// Per vertex its share: of a traction the area [m^2], of a force the mass over the mass of all.
-std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh, const std::vector<double>& mass,
-                             const Selecting& who) {
+std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh,
+                             const std::vector<double>& mass, const Selecting& who) {
   std::map<int, double> share;
   if (std::holds_alternative<Traction>(load.load)) {
     for (const auto& t : select_triangles(mesh, load.where, who))
@@ -38,13 +43,14 @@ std::map<int, double> shares(const LoadOptions& load, const TetMesh& mesh, const
     return share;
   }
   double total = 0;
-  for (int v : select_vertices(mesh, load.where, who)) total += share[v] = mass[static_cast<std::size_t>(v)];
+  for (int v : select_vertices(mesh, load.where, who))
+    total += share[v] = mass[static_cast<std::size_t>(v)];
   for (auto& [v, s] : share) s /= total;
   return share;
 }
 
-std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh, const std::vector<double>& mass,
-                               const Selecting& who) {
+std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh,
+                               const std::vector<double>& mass, const Selecting& who) {
   if (const auto* follower = std::get_if<FollowerPressure>(&load.load))
     return forces_of(follower->value, mesh, load.where, who);
   if (std::holds_alternative<EnclosedVolume>(load.load)) return forces_of(0, mesh, load.where, who);
@@ -59,8 +65,9 @@ std::map<int, Point> forces_of(const LoadOptions& load, const TetMesh& mesh, con
 
 bool has_follower_loads(const Body& body) { return std::ranges::any_of(body.loads, follows); }
 
-std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
-                                          int level, const std::vector<AssembledLoad>& finest) {
+std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
+                                          const LevelConstants& constants, int level,
+                                          const std::vector<AssembledLoad>& finest) {
   std::vector<AssembledLoad> all;
   for (std::size_t i = 0; i < body.loads.size(); ++i) {
     const LoadOptions& load = body.loads[i];
@@ -73,8 +80,9 @@ std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
       made.resultant += force;
     }
     if (!free)
-      throw InputError(who.option + ": all " + std::to_string(made.vertex.size()) + " vertices it acts on, on level " +
-                       std::to_string(level) + ", are fixed or prescribed");
+      throw InputError(who.option + ": all " + std::to_string(made.vertex.size()) +
+                       " vertices it acts on, on level " + std::to_string(level) +
+                       ", are fixed or prescribed");
     if (!finest.empty() && made.resultant.norm() > 0) {
       const double scale = finest[i].resultant.norm() / made.resultant.norm();
       for (Point& f : made.force) f *= scale;
@@ -91,8 +99,10 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
   std::vector<Load<B>> all;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (follows(body.loads[i])) continue;
-    all.push_back({static_cast<int>(loads[i].force.size()), to_device<Indices<B>>("load.vertex", loads[i].vertex),
-                   to_device<Vectors<B>>("load.force", rows<Real>(loads[i].force)), body.loads[i].course});
+    all.push_back({static_cast<int>(loads[i].force.size()),
+                   to_device<Indices<B>>("load.vertex", loads[i].vertex),
+                   to_device<Vectors<B>>("load.force", rows<Real>(loads[i].force)),
+                   body.loads[i].course});
   }
   return all;
 }
@@ -102,7 +112,8 @@ namespace {
 template <class B>
 FollowerLoad<B> follower_load(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
                               const Point& origin) {
-  std::map<int, std::vector<std::array<int, 2>>> at;  // of each vertex the two others of its triangles
+  // of each vertex the two others of its triangles
+  std::map<int, std::vector<std::array<int, 2>>> at;
   for (const auto& t : triangles)
     for (std::size_t c = 0; c < 3; ++c) at[t[c]].push_back({t[(c + 1) % 3], t[(c + 2) % 3]});
   std::map<int, int> place;
@@ -134,8 +145,8 @@ std::vector<char> still_vertices(const LevelConstants& constants) {
 }  // namespace
 
 template <class B>
-std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
-                                            int level) {
+std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh,
+                                            const LevelConstants& constants, int level) {
   std::vector<FollowerLoad<B>> all;
   const std::vector<char> still = still_vertices(constants);
   for (std::size_t i = 0; i < body.loads.size(); ++i) {
@@ -149,8 +160,10 @@ std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mes
     all.push_back(follower_load<B>(mesh, triangles, centre_of(mesh, triangles)));
     FollowerLoad<B>& made = all.back();
     made.course = load.course, made.cavity = cavity;
-    if (has_still_rims(triangles, still)) made.volume = zeros<Doubles<B>>("plica::follower.volume", 1);
-    if (const auto* follower = std::get_if<FollowerPressure>(&load.load)) made.pressure = follower->value;
+    if (has_still_rims(triangles, still))
+      made.volume = zeros<Doubles<B>>("plica::follower.volume", 1);
+    if (const auto* follower = std::get_if<FollowerPressure>(&load.load))
+      made.pressure = follower->value;
   }
   return all;
 }

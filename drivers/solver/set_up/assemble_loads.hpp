@@ -17,11 +17,13 @@ struct AssembledLoad {
 /// Whether pressures follow the body, given or of fluids in it.
 bool has_follower_loads(const Body& body);
 
-/// All loads on a level's mesh at rest. A traction is integrated over the level's own boundary and scaled to the resultant it has on
-/// level 0, `finest`, which is empty there: loads do not depend on the resolution. InputError where a load finds nothing to
-/// act on, or nothing that is free to move.
-std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
-                                          int level, const std::vector<AssembledLoad>& finest);
+/// All loads on a level's mesh at rest. A traction is integrated over the level's own boundary and
+/// scaled to the resultant it has on level 0, `finest`, which is empty there: loads do not depend
+/// on the resolution. InputError where a load finds nothing to act on, or nothing that is free to
+/// move.
+std::vector<AssembledLoad> assemble_loads(const Body& body, const TetMesh& mesh,
+                                          const LevelConstants& constants, int level,
+                                          const std::vector<AssembledLoad>& finest);
 
 /// The dead ones among them.
 template <class B>
@@ -29,7 +31,7 @@ std::vector<Load<B>> device_loads(const Body& body, const std::vector<AssembledL
 
 /// The pressures that follow the body, given or of fluids in it, on a level's mesh at rest.
 template <class B>
-std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh, const LevelConstants& constants,
-                                            int level);
+std::vector<FollowerLoad<B>> follower_loads(const Body& body, const TetMesh& mesh,
+                                            const LevelConstants& constants, int level);
 
 }  // namespace plica

@@ -12,9 +12,10 @@ struct AttachedPoint {
   std::array<double, 3> weight;  ///< of the triangle's corners
 };
 
-/// The points of all attachments, where the placed surface starts. InputError where one holds no point, with the distance of the
-/// nearest, and where two hold one point.
+/// The points of all attachments, where the placed surface starts. InputError where one holds no
+/// point, with the distance of the nearest, and where two hold one point.
 std::vector<AttachedPoint> attached_points(const std::vector<AttachmentOptions>& attachments,
-                                           const TriangleSurface& surface, const std::vector<BodyPart>& parts);
+                                           const TriangleSurface& surface,
+                                           const std::vector<BodyPart>& parts);
 
 }  // namespace plica

@@ -25,7 +25,8 @@ std::vector<std::size_t> parts_of_regions(const TetMesh& mesh, const std::vector
   return list;
 }
 
-std::size_t part_of_tet(const TetMesh& mesh, const std::vector<std::size_t>& of_region, std::size_t e) {
+std::size_t part_of_tet(const TetMesh& mesh, const std::vector<std::size_t>& of_region,
+                        std::size_t e) {
   return of_region[static_cast<std::size_t>(mesh.region[e])];
 }
 
@@ -34,7 +35,8 @@ TriangleSurface surface_of_part(const TriangleSurface& surface, int first, int p
   TriangleSurface one;
   one.vertices.assign(surface.vertices.begin() + first, surface.vertices.begin() + first + points);
   for (const auto& t : surface.triangles)
-    if (t[0] >= first && t[0] < first + points) one.triangles.push_back({t[0] - first, t[1] - first, t[2] - first});
+    if (t[0] >= first && t[0] < first + points)
+      one.triangles.push_back({t[0] - first, t[1] - first, t[2] - first});
   return one;
 }
 
@@ -64,7 +66,8 @@ BodyLocator::BodyLocator(const TetMesh& mesh, const std::vector<BodyPart>& parts
   }
   const std::vector<std::size_t> of_region = parts_of_regions(mesh, parts);
   std::vector<int> number(mesh.vertices.size(), -1);
-  for (std::size_t i = 0; i < parts.size(); ++i) parts_.push_back({std::make_unique<TetMesh>(), {}, nullptr});
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts_.push_back({std::make_unique<TetMesh>(), {}, nullptr});
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     One& one = parts_[part_of_tet(mesh, of_region, e)];
     auto tet = mesh.tets[e];
@@ -81,10 +84,12 @@ BodyLocator::BodyLocator(const TetMesh& mesh, const std::vector<BodyPart>& parts
   for (One& one : parts_) one.locator = std::make_unique<TetLocator>(*one.mesh);
 }
 
-Embedding BodyLocator::embed(const std::vector<Point>& points, const std::vector<int>& part, Outside outside) const {
+Embedding BodyLocator::embed(const std::vector<Point>& points, const std::vector<int>& part,
+                             Outside outside) const {
   if (part.empty()) return plica::embed(points, *parts_.front().locator, outside);
   Embedding all;
-  all.vertices.resize(points.size()), all.weights.resize(points.size()), all.outside.resize(points.size());
+  all.vertices.resize(points.size()), all.weights.resize(points.size()),
+      all.outside.resize(points.size());
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     std::vector<Point> own;
     std::vector<std::size_t> place;
@@ -97,7 +102,8 @@ Embedding BodyLocator::embed(const std::vector<Point>& points, const std::vector
       all.weights[place[p]] = one.weights[p], all.outside[place[p]] = one.outside[p];
     }
     all.misses += one.misses, all.held += one.held;
-    all.largest_distance_over_edge = std::max(all.largest_distance_over_edge, one.largest_distance_over_edge);
+    all.largest_distance_over_edge =
+        std::max(all.largest_distance_over_edge, one.largest_distance_over_edge);
   }
   return all;
 }
@@ -108,14 +114,19 @@ double BodyLocator::distance(const Point& point) const {
   return least;
 }
 
-double BodyLocator::mean_edge(std::size_t part) const { return mean_edge_length(parts_[part].locator->mesh()); }
+double BodyLocator::mean_edge(std::size_t part) const {
+  return mean_edge_length(parts_[part].locator->mesh());
+}
 
 void expect_apart(const TriangleSurface& surface, const std::vector<BodyPart>& parts, double edge) {
   const std::vector<int> part = parts_of_points(parts);
   std::vector<Point> below(surface.vertices.size(), Point::Zero());
   for (const auto& [a, b, c] : surface.triangles) {
-    const auto x = [&](int p) -> const Point& { return surface.vertices[static_cast<std::size_t>(p)]; };
-    for (const int p : {a, b, c}) below[static_cast<std::size_t>(p)] += (x(b) - x(a)).cross(x(c) - x(a));
+    const auto x = [&](int p) -> const Point& {
+      return surface.vertices[static_cast<std::size_t>(p)];
+    };
+    for (const int p : {a, b, c})
+      below[static_cast<std::size_t>(p)] += (x(b) - x(a)).cross(x(c) - x(a));
   }
   for (Point& n : below) n *= 2 * bearable_overlap * edge / std::max(n.norm(), 1e-300);
   int first = 0;
@@ -131,15 +142,17 @@ void expect_apart(const TriangleSurface& surface, const std::vector<BodyPart>& p
     std::size_t where = part.size();
     for (std::size_t p = 0; p < part.size(); ++p) {
       const Point& x = surface.vertices[p];
-      if (part[p] == static_cast<int>(i) || (x.array() < box.min.array()).any() || (x.array() > box.max.array()).any())
+      if (part[p] == static_cast<int>(i) || (x.array() < box.min.array()).any() ||
+          (x.array() > box.max.array()).any())
         continue;
       if (const double depth = depth_at(p); depth > deepest) deepest = depth, where = p;
     }
     if (where == part.size()) continue;
     const Point& x = surface.vertices[where];
-    throw InputError(text("bodies.", parts[static_cast<std::size_t>(part[where])].name, " overlaps bodies.",
-                          parts[i].name, " at the start: [", number(x[0], 4), ", ", number(x[1], 4), ", ",
-                          number(x[2], 4), "] m of its surface is ", number(deepest, 3),
+    throw InputError(text("bodies.", parts[static_cast<std::size_t>(part[where])].name,
+                          " overlaps bodies.", parts[i].name, " at the start: [", number(x[0], 4),
+                          ", ", number(x[1], 4), ", ", number(x[2], 4), "] m of its surface is ",
+                          number(deepest, 3),
                           " m inside; expected bodies apart, or contact.bodies: false"));
   }
 }

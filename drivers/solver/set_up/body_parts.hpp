@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-// Several bodies in one: who is whose. Parts without number stand for one body, and lists of them are empty then.
+// Several bodies in one: who is whose. Parts without number stand for one body, and lists of them
+// are empty then.
 namespace plica {
 
 /// Per vertex of a level its part.
@@ -21,7 +22,8 @@ class BodyLocator {
   BodyLocator(const TetMesh& mesh, const std::vector<BodyPart>& parts);
 
   /// As embed(); `part`: of each point, as above.
-  Embedding embed(const std::vector<Point>& points, const std::vector<int>& part, Outside outside) const;
+  Embedding embed(const std::vector<Point>& points, const std::vector<int>& part,
+                  Outside outside) const;
   double distance(const Point& point) const;  ///< to the nearest of its elements [m]
   double mean_edge(std::size_t part) const;   ///< [m]
 
@@ -34,8 +36,8 @@ class BodyLocator {
   std::vector<One> parts_;
 };
 
-/// InputError where a point of one body's surface is inside another's by more than contact lets it, with the deepest such point.
-/// `edge`: mean, of the finest level [m].
+/// InputError where a point of one body's surface is inside another's by more than contact lets it,
+/// with the deepest such point. `edge`: mean, of the finest level [m].
 void expect_apart(const TriangleSurface& surface, const std::vector<BodyPart>& parts, double edge);
 
 }  // namespace plica

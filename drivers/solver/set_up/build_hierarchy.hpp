@@ -19,7 +19,8 @@ struct BuiltHierarchy {
   std::optional<HimReport> him;  ///< of that stepper
 };
 
-/// Builds a valid problem's levels, transfers, contact, integrators and stepper, and lets that plan its steps. Throws InputError.
+/// Builds a valid problem's levels, transfers, contact, integrators and stepper, and lets that plan
+/// its steps. Throws InputError.
 template <class B>
 BuiltHierarchy<B> build_hierarchy(const Problem& problem, const typename B::Exec& exec);
 

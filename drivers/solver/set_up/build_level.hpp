@@ -11,27 +11,35 @@ namespace plica {
 
 /// What a level's set-up works out on the host and other parts of the set-up need too.
 struct LevelConstants {
-  std::vector<std::vector<double>> material;  ///< per region, its constants; one entry where the mesh names none
-  std::vector<std::vector<double>> capped;    ///< likewise with lambda at most 2 mu, where the material has it
-  std::vector<Lame<double>> lame;             ///< per region, of small strains [Pa]
-  ShapeConstants shape;                       ///< of viscous materials: of the elements' constants
-  std::vector<FibreAxes> fibres;              ///< per tetrahedron, where they are not the same everywhere in a region
-  Element element = Element::linear;          ///< of this level
-  std::vector<double> density;                ///< per region [kg/m^3]
-  std::vector<double> mass_damping;           ///< per vertex [1/s]; one entry where it is the same everywhere
-  std::vector<double> stiffness_damping;      ///< per region [s]; empty where there is none
-  std::vector<double> mass;                   ///< per vertex [kg], a quarter of each of its tetrahedra
-  std::vector<char> constrained;              ///< per vertex: its motion is given
-  std::vector<int> prescribed_vertex;         ///< those of them that may move
-  std::vector<int> prescribed_motion;         ///< which of the body's motions each of them follows
-  std::vector<Point> velocity;                ///< per vertex, where it is free: at the start, level 0 [m/s]
+  /// per region, its constants; one entry where the mesh names none
+  std::vector<std::vector<double>> material;
+  /// likewise with lambda at most 2 mu, where the material has it
+  std::vector<std::vector<double>> capped;
+  std::vector<Lame<double>> lame;  ///< per region, of small strains [Pa]
+  ShapeConstants shape;            ///< of viscous materials: of the elements' constants
+  /// per tetrahedron, where they are not the same everywhere in a region
+  std::vector<FibreAxes> fibres;
+  Element element = Element::linear;  ///< of this level
+  std::vector<double> density;        ///< per region [kg/m^3]
+  /// per vertex [1/s]; one entry where it is the same everywhere
+  std::vector<double> mass_damping;
+  std::vector<double> stiffness_damping;  ///< per region [s]; empty where there is none
+  /// per vertex [kg], a quarter of each of its tetrahedra
+  std::vector<double> mass;
+  std::vector<char> constrained;       ///< per vertex: its motion is given
+  std::vector<int> prescribed_vertex;  ///< those of them that may move
+  std::vector<int> prescribed_motion;  ///< which of the body's motions each of them follows
+  /// per vertex, where it is free: at the start, level 0 [m/s]
+  std::vector<Point> velocity;
 };
 
-/// `mesh` at rest, before it is placed; `middle` is the point its angular velocity is about. Throws InputError where a
-/// selection chooses nothing on this level.
-LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle, int level);
+/// `mesh` at rest, before it is placed; `middle` is the point its angular velocity is about. Throws
+/// InputError where a selection chooses nothing on this level.
+LevelConstants level_constants(const Body& body, const TetMesh& mesh, const Point& middle,
+                               int level);
 
-/// What nodal elements have beside them to precondition implicit steps: linear ones, of which a matrix is assembled, and rows in float.
+/// What nodal elements have beside them to precondition implicit steps: linear ones, of which a
+/// matrix is assembled, and rows in float.
 enum class BesideNodal { nothing, matrix, matrix_and_rows };
 
 /// Model, state and work arrays of a level. No transfers, no surface.

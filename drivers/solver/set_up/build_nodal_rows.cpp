@@ -47,7 +47,8 @@ class Domains {
   void find_corners() {
     const Grouping regions = tets_by_region(mesh_);
     std::vector<int> domain_of(mesh_.vertices.size(), -1);
-    for (std::size_t r = 0; r < regions.groups(); ++r) add_region(static_cast<int>(r), regions.of(r), domain_of);
+    for (std::size_t r = 0; r < regions.groups(); ++r)
+      add_region(static_cast<int>(r), regions.of(r), domain_of);
   }
 
   /// @param domain_of  per vertex; -1 before and after
@@ -102,19 +103,24 @@ class Domains {
   }
 };
 
-/// Which domain stands in which row: by region, then in windows of rows, those with the most surface pairs first, of these the longest.
+/// Which domain stands in which row: by region, then in windows of rows, those with the most
+/// surface pairs first, of these the longest.
 std::vector<int> row_order(const std::vector<Domain>& domains, int height) {
   std::vector<int> order;  // -1: fills up a slice
   const auto window = static_cast<std::size_t>(32 * height);
   for (std::size_t begin = 0; begin < domains.size();) {
     std::size_t end = begin;
-    while (end < domains.size() && end < begin + window && domains[end].region == domains[begin].region) ++end;
+    while (end < domains.size() && end < begin + window &&
+           domains[end].region == domains[begin].region)
+      ++end;
     const std::size_t first = order.size();
     for (std::size_t d = begin; d < end; ++d) order.push_back(static_cast<int>(d));
-    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(), [&](int a, int b) {
-      const Domain &x = domains[index_of(a)], &y = domains[index_of(b)];
-      return std::pair(x.surface_pairs(), x.pairs.size()) > std::pair(y.surface_pairs(), y.pairs.size());
-    });
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
+                     [&](int a, int b) {
+                       const Domain &x = domains[index_of(a)], &y = domains[index_of(b)];
+                       return std::pair(x.surface_pairs(), x.pairs.size()) >
+                              std::pair(y.surface_pairs(), y.pairs.size());
+                     });
     if (end == domains.size() || domains[end].region != domains[begin].region)
       while (order.size() % index_of(height) != 0) order.push_back(-1);
     begin = end;
@@ -147,7 +153,8 @@ class SlicedRows {
 
   Rows on_device(std::size_t vertices, bool smoothed) const {
     Rows rows;
-    rows.slices = static_cast<int>(order_.size() / H), rows.domains = static_cast<int>(domains_.size());
+    rows.slices = static_cast<int>(order_.size() / H),
+    rows.domains = static_cast<int>(domains_.size());
     rows.first = to_device<Indices<B>>("rows.first", first_);
     rows.first_surface = to_device<Indices<B>>("rows.first_surface", first_surface_);
     add_slots(rows, vertices);
@@ -158,14 +165,17 @@ class SlicedRows {
         surface_gradient("rows.surface_gradient", surface_pairs);
     const HostWritten<B, decltype(rows.coupling)> coupling("rows.coupling", pairs),
         smoothing("rows.smoothing", smoothed ? pairs : 0);
-    const Columns all{neighbour.data(), gradient.data(), coupling.data(), smoothed ? smoothing.data() : nullptr};
+    const Columns all{neighbour.data(), gradient.data(), coupling.data(),
+                      smoothed ? smoothing.data() : nullptr};
     const Columns surface{surface_neighbour.data(), surface_gradient.data(), nullptr, nullptr};
     for_row_ranges(order_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) add_pairs(s, all, surface);
     });
-    rows.neighbour = neighbour.upload(), rows.gradient = gradient.upload(), rows.coupling = coupling.upload();
+    rows.neighbour = neighbour.upload(), rows.gradient = gradient.upload(),
+    rows.coupling = coupling.upload();
     if (smoothed) rows.smoothing = smoothing.upload();
-    rows.surface_neighbour = surface_neighbour.upload(), rows.surface_gradient = surface_gradient.upload();
+    rows.surface_neighbour = surface_neighbour.upload(),
+    rows.surface_gradient = surface_gradient.upload();
     return rows;
   }
 
@@ -179,7 +189,8 @@ class SlicedRows {
     int* neighbour;
     Real *gradient, *coupling, *smoothing;  ///< the last two may be left out
 
-    void put(std::size_t column, std::size_t row, int slot, const Point& g, const Pair& pair) const {
+    void put(std::size_t column, std::size_t row, int slot, const Point& g,
+             const Pair& pair) const {
       neighbour[column * H + row] = slot;
       for (std::size_t k = 0; k < 3; ++k)
         gradient[(3 * column + k) * H + row] = static_cast<Real>(g[static_cast<int>(k)]);
@@ -193,17 +204,20 @@ class SlicedRows {
     return order_[slot] >= 0 ? domains_[index_of(order_[slot])] : none;
   }
 
-  /// In the order of their slots; where there are fewer than in other rows of the slice, zeros and the row itself.
+  /// In the order of their slots; where there are fewer than in other rows of the slice, zeros and
+  /// the row itself.
   void add_pairs(std::size_t slot, const Columns& all, const Columns& surface) const {
     std::vector<const Pair*> pairs;
     for (const Pair& pair : domain(slot).pairs) pairs.push_back(&pair);
-    std::ranges::sort(pairs, {}, [&](const Pair* pair) { return slot_of_[index_of(pair->neighbour)]; });
+    std::ranges::sort(pairs, {},
+                      [&](const Pair* pair) { return slot_of_[index_of(pair->neighbour)]; });
     const std::size_t slice = slot / H, row = slot % H;
     auto column = index_of(first_[slice]), surface_column = index_of(first_surface_[slice]);
     for (const Pair* pair : pairs) {
       const int other = slot_of_[index_of(pair->neighbour)];
       all.put(column++, row, other, pair->gradient, *pair);
-      if (pair->surface != Point::Zero()) surface.put(surface_column++, row, other, pair->surface, *pair);
+      if (pair->surface != Point::Zero())
+        surface.put(surface_column++, row, other, pair->surface, *pair);
     }
     const auto self = static_cast<int>(slot);
     while (column < index_of(first_[slice + 1])) all.put(column++, row, self, Point::Zero(), {});
@@ -263,10 +277,11 @@ NodalWork<B> make_nodal_work(const NodalRows<B>& rows) {
   return work;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                   \
-  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>(const TetMesh&,         \
-                                                                                const NodalConstants&); \
-  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(const NodalRows<Backend<Real, Exec>>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                            \
+  template NodalRows<Backend<Real, Exec>> build_nodal_rows<Backend<Real, Exec>>( \
+      const TetMesh&, const NodalConstants&);                                    \
+  template NodalWork<Backend<Real, Exec>> make_nodal_work<Backend<Real, Exec>>(  \
+      const NodalRows<Backend<Real, Exec>>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

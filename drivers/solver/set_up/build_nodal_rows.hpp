@@ -6,7 +6,8 @@
 
 namespace plica {
 
-/// What nodal elements need to know of a mesh's regions; an entry each, one where the mesh names none.
+/// What nodal elements need to know of a mesh's regions; an entry each, one where the mesh names
+/// none.
 struct NodalConstants {
   std::vector<std::vector<double>> material;  ///< constants of the material
   std::vector<double> stabiliser;             ///< beta mu [Pa]
@@ -14,7 +15,8 @@ struct NodalConstants {
   std::vector<double> damping;                ///< by stiffness [s]; empty: none
 };
 
-/// The rows of a mesh at rest, in its vertices' order but for short windows, in which rows of a like length stand together.
+/// The rows of a mesh at rest, in its vertices' order but for short windows, in which rows of a
+/// like length stand together.
 template <class B>
 NodalRows<B> build_nodal_rows(const TetMesh& mesh, const NodalConstants& constants);
 

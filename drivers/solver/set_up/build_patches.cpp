@@ -41,7 +41,9 @@ class Bisection {
     const auto groups = std::max<std::ptrdiff_t>(2, (size + elements_ - 1) / elements_);
     const auto middle = static_cast<std::size_t>(size * (groups / 2) / groups);
     std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(middle), tets.end(),
-                     [&](int a, int b) { return std::pair(centroid(a)[axis], a) < std::pair(centroid(b)[axis], b); });
+                     [&](int a, int b) {
+                       return std::pair(centroid(a)[axis], a) < std::pair(centroid(b)[axis], b);
+                     });
     split(tets.first(middle));
     split(tets.subspan(middle));
   }
@@ -62,7 +64,8 @@ class Bisection {
     int count = 0;
     ++stamp_;
     for (const int e : tets)
-      for (const int v : mesh_.tets[index_of(e)]) count += std::exchange(seen_[index_of(v)], stamp_) != stamp_ ? 1 : 0;
+      for (const int v : mesh_.tets[index_of(e)])
+        count += std::exchange(seen_[index_of(v)], stamp_) != stamp_ ? 1 : 0;
     return count;
   }
 };
@@ -83,10 +86,12 @@ template <class B>
 class PatchBuilder {
   using Real = typename B::Real;
   using P = Patches<B>;
-  static constexpr auto W = static_cast<std::size_t>(B::lanes), at_once = static_cast<std::size_t>(P::at_once);
+  static constexpr auto W = static_cast<std::size_t>(B::lanes),
+                        at_once = static_cast<std::size_t>(P::at_once);
 
  public:
-  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<int>>& clusters) : mesh_(mesh), clusters_(clusters) {
+  PatchBuilder(const TetMesh& mesh, const std::vector<std::vector<int>>& clusters)
+      : mesh_(mesh), clusters_(clusters) {
     std::vector<Vertices> of(clusters.size());
     for_row_ranges(clusters.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t p = begin; p < end; ++p) of[p] = vertices_of(clusters[p]);
@@ -94,7 +99,8 @@ class PatchBuilder {
     for (std::size_t p = 0; p < clusters.size(); ++p) {
       vertex_.insert(vertex_.end(), of[p].vertex.begin(), of[p].vertex.end());
       first_vertex_.push_back(static_cast<int>(vertex_.size()));
-      first_pack_.push_back(first_pack_.back() + static_cast<int>((clusters[p].size() + W - 1) / W));
+      first_pack_.push_back(first_pack_.back() +
+                            static_cast<int>((clusters[p].size() + W - 1) / W));
       first_sum_.push_back(first_sum_.back() + static_cast<int>(of[p].sums()));
       first_slot_.push_back(first_slot_.back() + of[p].slots());
     }
@@ -114,7 +120,8 @@ class PatchBuilder {
     const HostWritten<B, decltype(P::shape)> shape("patches.shape", packs);
     const HostWritten<B, Indices<B>> element("patches.element", packs * W);
     const HostWritten<B, decltype(P::summed)> summed("patches.summed", vertex_.size());
-    const HostWritten<B, Indices<B>> first_slot("patches.first_slot", index_of(first_sum_.back()) + 1);
+    const HostWritten<B, Indices<B>> first_slot("patches.first_slot",
+                                                index_of(first_sum_.back()) + 1);
     const HostWritten<B, decltype(P::slot)> slot("patches.slot", first_slot_.back());
     const Elements elements{corner.data(), shape.data(), element.data()};
     const Sums sums{summed.data(), first_slot.data(), slot.data()};
@@ -123,8 +130,10 @@ class PatchBuilder {
       std::vector<int> local(mesh_.vertices.size());  // a mesh vertex's place in the patch
       for (std::size_t p = begin; p < end; ++p) add_patch(p, local, elements, sums);
     });
-    patches.corner = corner.upload(), patches.shape = shape.upload(), patches.element = element.upload();
-    patches.summed = summed.upload(), patches.first_slot = first_slot.upload(), patches.slot = slot.upload();
+    patches.corner = corner.upload(), patches.shape = shape.upload(),
+    patches.element = element.upload();
+    patches.summed = summed.upload(), patches.first_slot = first_slot.upload(),
+    patches.slot = slot.upload();
     patches.shares = vertex_shares<B>(vertex_, mesh_.vertices.size());
     return patches;
   }
@@ -134,8 +143,8 @@ class PatchBuilder {
   Scalars<B> of_regions(const std::string& name, const Values& values) const {
     std::vector<Real> all;
     for (const std::vector<int>& cluster : clusters_)
-      for (const double value : std::span<const double>(
-               values(index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(cluster.front())]))))
+      for (const double value : std::span<const double>(values(
+               index_of(mesh_.region.empty() ? 0 : mesh_.region[index_of(cluster.front())]))))
         all.push_back(static_cast<Real>(value));
     return to_device<Scalars<B>>(name, all);
   }
@@ -164,7 +173,8 @@ class PatchBuilder {
     std::size_t sums() const { return (vertex.size() + at_once - 1) / at_once; }
     std::size_t slots() const {  // as many as the last vertex of each sum takes
       std::size_t count = 0;
-      for (std::size_t i = 1; i <= sums(); ++i) count += at_once * elements[std::min(i * at_once, vertex.size()) - 1];
+      for (std::size_t i = 1; i <= sums(); ++i)
+        count += at_once * elements[std::min(i * at_once, vertex.size()) - 1];
       return count;
     }
   };
@@ -176,14 +186,16 @@ class PatchBuilder {
     std::ranges::sort(corners);
     Vertices of;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (i == 0 || corners[i] != corners[i - 1]) of.vertex.push_back(corners[i]), of.elements.push_back(0);
+      if (i == 0 || corners[i] != corners[i - 1])
+        of.vertex.push_back(corners[i]), of.elements.push_back(0);
       ++of.elements.back();
     }
     std::ranges::sort(of.elements);
     return of;
   }
 
-  void add_patch(std::size_t p, std::vector<int>& local, const Elements& to, const Sums& sums) const {
+  void add_patch(std::size_t p, std::vector<int>& local, const Elements& to,
+                 const Sums& sums) const {
     const auto v0 = index_of(first_vertex_[p]), v1 = index_of(first_vertex_[p + 1]);
     for (std::size_t i = v0; i < v1; ++i) local[index_of(vertex_[i])] = static_cast<int>(i - v0);
     std::vector<std::vector<std::uint16_t>> slots(v1 - v0);
@@ -197,10 +209,13 @@ class PatchBuilder {
         to.corner[(i / W * 4 + c) * W + i % W] = static_cast<std::uint16_t>(v);
         if (!padding) slots[index_of(v)].push_back(slot_of((i - begin) / W, c, i % W));
       }
-      const std::array<double, 10> shape = padding ? std::array<double, 10>{} : shape_of(index_of(e));
-      for (std::size_t k = 0; k < 10; ++k) to.shape[(i / W * 10 + k) * W + i % W] = static_cast<Real>(shape[k]);
+      const std::array<double, 10> shape =
+          padding ? std::array<double, 10>{} : shape_of(index_of(e));
+      for (std::size_t k = 0; k < 10; ++k)
+        to.shape[(i / W * 10 + k) * W + i % W] = static_cast<Real>(shape[k]);
     }
-    add_sums(slots, sums.summed + v0, sums.first_slot + first_sum_[p] + 1, sums.slot, first_slot_[p]);
+    add_sums(slots, sums.summed + v0, sums.first_slot + first_sum_[p] + 1, sums.slot,
+             first_slot_[p]);
   }
 
   static std::uint16_t slot_of(std::size_t pack, std::size_t corner, std::size_t lane) {
@@ -220,8 +235,8 @@ class PatchBuilder {
     return shape;
   }
 
-  static void add_sums(const std::vector<std::vector<std::uint16_t>>& slots, std::uint16_t* summed, int* end_of_sum,
-                       std::uint16_t* slot, std::size_t to) {
+  static void add_sums(const std::vector<std::vector<std::uint16_t>>& slots, std::uint16_t* summed,
+                       int* end_of_sum, std::uint16_t* slot, std::size_t to) {
     const std::span order(summed, slots.size());
     std::iota(order.begin(), order.end(), std::uint16_t{0});
     std::ranges::stable_sort(order, {}, [&](std::uint16_t i) { return slots[i].size(); });
@@ -245,9 +260,11 @@ Patches<B> build_patches(const TetMesh& mesh, const std::vector<std::vector<doub
   const auto clusters = element_clusters(mesh, Patches<B>::capacity, Patches<B>::vertex_capacity);
   const PatchBuilder<B> builder(mesh, clusters);
   Patches<B> patches = builder.on_device();
-  patches.constants = builder.of_regions("patches.constants", [&](std::size_t r) { return std::span(constants[r]); });
+  patches.constants = builder.of_regions("patches.constants",
+                                         [&](std::size_t r) { return std::span(constants[r]); });
   if (!damping.empty())
-    patches.damping = builder.of_regions("patches.damping", [&](std::size_t r) { return std::span(&damping[r], 1); });
+    patches.damping = builder.of_regions("patches.damping",
+                                         [&](std::size_t r) { return std::span(&damping[r], 1); });
   return patches;
 }
 

@@ -7,7 +7,8 @@
 namespace plica {
 
 template <class B>
-Transfer<B> build_transfer(const std::string& name, const Embedding& embedding, const std::vector<char>& keep) {
+Transfer<B> build_transfer(const std::string& name, const Embedding& embedding,
+                           const std::vector<char>& keep) {
   using Real = typename B::Real;
   std::vector<int> target;
   std::vector<std::array<int, 4>> source;
@@ -17,10 +18,11 @@ Transfer<B> build_transfer(const std::string& name, const Embedding& embedding, 
     if ((!keep.empty() && keep[i]) || w[0] + w[1] + w[2] + w[3] < 0.5) continue;
     target.push_back(static_cast<int>(i));
     source.push_back(embedding.vertices[i]);
-    weight.push_back(
-        {static_cast<Real>(w[0]), static_cast<Real>(w[1]), static_cast<Real>(w[2]), static_cast<Real>(w[3])});
+    weight.push_back({static_cast<Real>(w[0]), static_cast<Real>(w[1]), static_cast<Real>(w[2]),
+                      static_cast<Real>(w[3])});
     std::array<int, 4>& four = source.back();
-    const auto greatest = static_cast<std::size_t>(std::max_element(four.begin(), four.end()) - four.begin());
+    const auto greatest =
+        static_cast<std::size_t>(std::max_element(four.begin(), four.end()) - four.begin());
     std::swap(four[greatest], four[3]);
     std::swap(weight.back()[greatest], weight.back()[3]);
   }
@@ -43,7 +45,8 @@ EmbeddedSurface<B> build_surface(const TriangleSurface& surface, const Embedding
     const auto i = static_cast<std::size_t>(p);
     for (std::size_t c = 0; c < 4; ++c)
       if (embedding.weights[i][c] != 0)
-        of_vertex[embedding.vertices[i][c]].emplace_back(p, static_cast<Real>(embedding.weights[i][c]));
+        of_vertex[embedding.vertices[i][c]].emplace_back(
+            p, static_cast<Real>(embedding.weights[i][c]));
   }
   std::vector<int> vertex, first{0}, point;
   std::vector<Real> weight;
@@ -61,11 +64,11 @@ EmbeddedSurface<B> build_surface(const TriangleSurface& surface, const Embedding
   return s;
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                              \
-  template Transfer<Backend<Real, Exec>> build_transfer<Backend<Real, Exec>>(const std::string&, const Embedding&, \
-                                                                             const std::vector<char>&);            \
-  template EmbeddedSurface<Backend<Real, Exec>> build_surface<Backend<Real, Exec>>(const TriangleSurface&,         \
-                                                                                   const Embedding&);
+#define PLICA_INSTANTIATE(Real, Exec)                                               \
+  template Transfer<Backend<Real, Exec>> build_transfer<Backend<Real, Exec>>(       \
+      const std::string&, const Embedding&, const std::vector<char>&);              \
+  template EmbeddedSurface<Backend<Real, Exec>> build_surface<Backend<Real, Exec>>( \
+      const TriangleSurface&, const Embedding&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

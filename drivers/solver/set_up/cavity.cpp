@@ -54,8 +54,9 @@ Point centre_of(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
   return sum / (3.0 * static_cast<double>(triangles.size()));
 }
 
-Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh, const std::vector<Triangle>& triangles,
-                   const std::vector<char>& still, const Selecting& who) {
+Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh,
+                   const std::vector<Triangle>& triangles, const std::vector<char>& still,
+                   const Selecting& who) {
   const std::string option = who.option + ".enclosed_volume";
   const auto x = [&](int v) -> const Point& { return mesh.vertices[static_cast<std::size_t>(v)]; };
   Cavity cavity{load, 0, 0, given.ratio, given.bulk_modulus, centre_of(mesh, triangles)};
@@ -66,8 +67,9 @@ Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh, c
     std::vector<int> loop;
     for (int v = next.begin()->first; next.contains(v);) {
       if (!still[static_cast<std::size_t>(v)])
-        throw InputError(text(option, ": its triangles on level ", who.level, " have a rim, and vertex ", v,
-                              " on it may move; expected a closed surface, or rims that are fixed"));
+        throw InputError(
+            text(option, ": its triangles on level ", who.level, " have a rim, and vertex ", v,
+                 " on it may move; expected a closed surface, or rims that are fixed"));
       loop.push_back(v);
       const auto step = next.find(v);
       v = step->second, next.erase(step);
@@ -79,8 +81,9 @@ Cavity make_cavity(const EnclosedVolume& given, int load, const TetMesh& mesh, c
   }
   cavity.rest += cavity.caps;
   if (!(cavity.rest > 0))
-    throw InputError(text(option, ": the volume on the outer side of its triangles on level ", who.level, " is ",
-                          number(cavity.rest), " m^3; expected the inside of a cavity"));
+    throw InputError(text(option, ": the volume on the outer side of its triangles on level ",
+                          who.level, " is ", number(cavity.rest),
+                          " m^3; expected the inside of a cavity"));
   return cavity;
 }
 
@@ -90,14 +93,16 @@ double cavity_eigenvalue(const Level<B>& level) {
   double sum = 0;
   for (const FollowerLoad<B>& load : level.followers) {
     if (!load.cavity) continue;
-    const double stiffness = load.cavity->stiffness() * std::pow(std::max(1.0, load.cavity->ratio), 4.0 / 3);
-    const auto vertex = on_host(load.vertex), first = on_host(load.first), second = on_host(load.second),
-               third = on_host(load.third);
+    const double stiffness =
+        load.cavity->stiffness() * std::pow(std::max(1.0, load.cavity->ratio), 4.0 / 3);
+    const auto vertex = on_host(load.vertex), first = on_host(load.first),
+               second = on_host(load.second), third = on_host(load.third);
     const auto rest = on_host(load.rest);
     const auto at = [&](int i) { return Point(rest(i, 0), rest(i, 1), rest(i, 2)); };
     for (int i = 0; i < load.count; ++i) {
       Point a = Point::Zero();
-      for (int t = first(i); t < first(i + 1); ++t) a += (at(second(t)) - at(i)).cross(at(third(t)) - at(i)) / 6;
+      for (int t = first(i); t < first(i + 1); ++t)
+        a += (at(second(t)) - at(i)).cross(at(third(t)) - at(i)) / 6;
       sum += stiffness * a.squaredNorm() * static_cast<double>(inverse_mass(vertex(i)));
     }
   }

@@ -22,16 +22,17 @@ const Point& corner_of(const TetMesh& mesh, std::size_t tet, std::size_t corner)
 }
 
 double volume_of(const TetMesh& mesh, std::size_t t) {
-  return mesh.part(t) *
-         tet_volume(corner_of(mesh, t, 0), corner_of(mesh, t, 1), corner_of(mesh, t, 2), corner_of(mesh, t, 3));
+  return mesh.part(t) * tet_volume(corner_of(mesh, t, 0), corner_of(mesh, t, 1),
+                                   corner_of(mesh, t, 2), corner_of(mesh, t, 3));
 }
 
 /// What is given of each vertex: 0 or 1, or NaN where it is free.
-std::vector<double> given_temperatures(const TetMesh& mesh, const Selection& from, const Selection& to,
-                                       const std::string& path) {
+std::vector<double> given_temperatures(const TetMesh& mesh, const Selection& from,
+                                       const Selection& to, const std::string& path) {
   const double free = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> given(mesh.vertices.size(), free);
-  for (const int v : select_vertices(mesh, from, {path + ".from", 0})) given[static_cast<std::size_t>(v)] = 0;
+  for (const int v : select_vertices(mesh, from, {path + ".from", 0}))
+    given[static_cast<std::size_t>(v)] = 0;
   for (const int v : select_vertices(mesh, to, {path + ".to", 0})) {
     double& value = given[static_cast<std::size_t>(v)];
     if (value == 0)
@@ -75,7 +76,8 @@ std::vector<double> temperatures(const TetMesh& mesh, std::vector<double> T) {
   return T;
 }
 
-/// Gives elements without a direction the mean of those that share a vertex with them, from these on; false where none of them has one.
+/// Gives elements without a direction the mean of those that share a vertex with them, from these
+/// on; false where none of them has one.
 bool take_from_neighbours(const TetMesh& mesh, std::vector<Point>& direction) {
   std::vector<Point> at_vertex(mesh.vertices.size(), Point::Zero());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
@@ -99,7 +101,8 @@ std::vector<Point> flow_directions(const TetMesh& mesh, const Selection& from, c
   std::vector<Point> direction;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     Eigen::Vector4d at;
-    for (int k = 0; k < 4; ++k) at[k] = T[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(k)])];
+    for (int k = 0; k < 4; ++k)
+      at[k] = T[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(k)])];
     const Point g = TetGradients(mesh, t).gradient.transpose() * at;
     direction.push_back(g.norm() > nothing ? g.normalized() : Point::Zero());
   }
@@ -107,8 +110,9 @@ std::vector<Point> flow_directions(const TetMesh& mesh, const Selection& from, c
   for (auto at = std::ranges::find_if(direction, none); at != direction.end();
        at = std::ranges::find_if(direction, none))
     if (!take_from_neighbours(mesh, direction))
-      throw InputError(path + ": the part of the body with element " + std::to_string(at - direction.begin()) +
-                       " of level 0 touches only one of `from` and `to`, or none; expected fibres between both");
+      throw InputError(
+          path + ": the part of the body with element " + std::to_string(at - direction.begin()) +
+          " of level 0 touches only one of `from` and `to`, or none; expected fibres between both");
   return direction;
 }
 
@@ -153,10 +157,11 @@ class FibreFields {
     if (first == finest_.tet_vectors.end()) {
       std::vector<std::string> known;
       for (const auto& [field, vectors] : finest_.tet_vectors) known.push_back(field);
-      throw InputError(path + ": " +
-                       (known.empty() ? "the mesh of level 0 has no field of vectors; expected '" + name +
-                                            "' among those of its cells or points"
-                                      : unknown_name("field of vectors of the mesh of level 0", name, known)));
+      throw InputError(
+          path + ": " +
+          (known.empty() ? "the mesh of level 0 has no field of vectors; expected '" + name +
+                               "' among those of its cells or points"
+                         : unknown_name("field of vectors of the mesh of level 0", name, known)));
     }
     const std::size_t near = nearest(tet);
     return checked(path, name, 0, near, first->second[near]);
@@ -165,7 +170,9 @@ class FibreFields {
   /// Of a flow through level 0.
   const Point& flow(const std::string& path, const FibreOptions& o, std::size_t tet) {
     const auto [found, is_new] = flows_.try_emplace(path);
-    if (is_new) found->second = flow_directions(level_ == 0 ? mesh_ : finest_with_regions(body_), *o.from, *o.to, path);
+    if (is_new)
+      found->second =
+          flow_directions(level_ == 0 ? mesh_ : finest_with_regions(body_), *o.from, *o.to, path);
     return found->second[level_ == 0 ? tet : nearest(tet)];
   }
 
@@ -180,11 +187,12 @@ class FibreFields {
     if (!locator_) locator_ = std::make_unique<TetLocator>(finest_);
     return static_cast<std::size_t>(locator_->locate(centroid(mesh_, tet)).tet);
   }
-  static const Point& checked(const std::string& path, const std::string& name, int level, std::size_t tet,
-                              const Point& vector) {
+  static const Point& checked(const std::string& path, const std::string& name, int level,
+                              std::size_t tet, const Point& vector) {
     if (vector.allFinite() && vector.norm() > 0) return vector;
-    throw InputError(path + ": field '" + name + "' has " + (vector.allFinite() ? "length 0" : "no finite number") +
-                     " at element " + std::to_string(tet) + " of level " + std::to_string(level) +
+    throw InputError(path + ": field '" + name + "' has " +
+                     (vector.allFinite() ? "length 0" : "no finite number") + " at element " +
+                     std::to_string(tet) + " of level " + std::to_string(level) +
                      "; expected a direction at every element");
   }
 };
@@ -203,20 +211,23 @@ FibreAxes fibre_axes(const FibreOptions& o, const Point& at) {
 }
 
 bool has_fibres(const Body& body) {
-  return body.material.fibres ||
-         std::ranges::any_of(body.regions, [](const auto& region) { return region.second.fibres.has_value(); });
+  return body.material.fibres || std::ranges::any_of(body.regions, [](const auto& region) {
+           return region.second.fibres.has_value();
+         });
 }
 
 bool fibres_vary(const Body& body) {
-  return varies(body.material.fibres) ||
-         std::ranges::any_of(body.regions, [](const auto& region) { return varies(region.second.fibres); });
+  return varies(body.material.fibres) || std::ranges::any_of(body.regions, [](const auto& region) {
+           return varies(region.second.fibres);
+         });
 }
 
 std::vector<FibreAxes> element_fibres(const Body& body, const TetMesh& mesh, int level) {
   std::vector<FibreAxes> all;
   FibreFields fields(body, mesh, level);
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const std::string region = mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[e])];
+    const std::string region =
+        mesh.region.empty() ? "" : mesh.region_names[static_cast<std::size_t>(mesh.region[e])];
     const auto own = body.regions.find(region);
     const bool of_region = own != body.regions.end() && own->second.fibres;
     if (!of_region && !body.material.fibres) return {};
@@ -243,9 +254,11 @@ void flows_to_fields(Body& body, const std::string& field) {
     TetMesh mesh = body.levels[i];
     add_regions(mesh, body.regions, static_cast<int>(i));
     std::vector<Point>& directions = of_levels.emplace_back();
-    for (const FibreAxes& axes : element_fibres(body, mesh, static_cast<int>(i))) directions.push_back(axes[0]);
+    for (const FibreAxes& axes : element_fibres(body, mesh, static_cast<int>(i)))
+      directions.push_back(axes[0]);
   }
-  for (std::size_t i = 0; i < of_levels.size(); ++i) body.levels[i].tet_vectors[field] = std::move(of_levels[i]);
+  for (std::size_t i = 0; i < of_levels.size(); ++i)
+    body.levels[i].tet_vectors[field] = std::move(of_levels[i]);
   for (FibreOptions* o : flows) o->from.reset(), o->to.reset(), o->field = field;
 }
 
@@ -263,7 +276,8 @@ Scalars<B> device_fibres(const Patches<B>& patches, const std::vector<FibreAxes>
 }
 
 template <class B>
-Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh, const std::vector<FibreAxes>& of_tets) {
+Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh,
+                         const std::vector<FibreAxes>& of_tets) {
   // sums of V a a^T: opposite directions are the same fibre
   struct Sum {
     Eigen::Matrix3d axis = Eigen::Matrix3d::Zero(), sheet = Eigen::Matrix3d::Zero();
@@ -271,7 +285,9 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh, const st
   std::map<std::pair<int, int>, Sum> sums;  // region, vertex
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     const auto& t = mesh.tets[e];
-    const auto x = [&](std::size_t c) -> const Point& { return mesh.vertices[static_cast<std::size_t>(t[c])]; };
+    const auto x = [&](std::size_t c) -> const Point& {
+      return mesh.vertices[static_cast<std::size_t>(t[c])];
+    };
     const double volume = mesh.part(e) * tet_volume(x(0), x(1), x(2), x(3));
     const auto& [axis, sheet] = of_tets[e];
     for (const int v : t) {
@@ -298,11 +314,11 @@ Scalars<B> device_fibres(const NodalRows<B>& rows, const TetMesh& mesh, const st
   return to_device<Scalars<B>>("rows.fibres", all);
 }
 
-#define PLICA_INSTANTIATE(Real, Exec)                                                                        \
-  template Scalars<Backend<Real, Exec>> device_fibres(const Patches<Backend<Real, Exec>>&,                   \
-                                                      const std::vector<FibreAxes>&);                        \
-  template Scalars<Backend<Real, Exec>> device_fibres(const NodalRows<Backend<Real, Exec>>&, const TetMesh&, \
-                                                      const std::vector<FibreAxes>&);
+#define PLICA_INSTANTIATE(Real, Exec)                                                      \
+  template Scalars<Backend<Real, Exec>> device_fibres(const Patches<Backend<Real, Exec>>&, \
+                                                      const std::vector<FibreAxes>&);      \
+  template Scalars<Backend<Real, Exec>> device_fibres(                                     \
+      const NodalRows<Backend<Real, Exec>>&, const TetMesh&, const std::vector<FibreAxes>&);
 PLICA_FOR_EACH_BACKEND(PLICA_INSTANTIATE)
 
 }  // namespace plica

@@ -6,9 +6,12 @@
 
 namespace plica {
 
-bool starts_deformed(const InitialOptions& o) { return o.random.has_value() || o.stretch != Point::Ones(); }
+bool starts_deformed(const InitialOptions& o) {
+  return o.random.has_value() || o.stretch != Point::Ones();
+}
 
-std::vector<Point> initial_displacement(const InitialOptions& o, const TetMesh& mesh, const Box& box) {
+std::vector<Point> initial_displacement(const InitialOptions& o, const TetMesh& mesh,
+                                        const Box& box) {
   std::mt19937_64 random(static_cast<std::uint64_t>(o.random.value_or(0)));
   // the library's own distributions differ from one to the next
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -40,11 +43,13 @@ std::string inverted_at_start(const TetMesh& mesh, const std::vector<Point>& u) 
     if (worst < 0 || J < least) worst = static_cast<int>(e), least = J;
   }
   if (count == 0) return {};
-  return text(count, " of ", mesh.tets.size(), " elements of level 0 start flat or inside out (element ", worst,
+  return text(count, " of ", mesh.tets.size(),
+              " elements of level 0 start flat or inside out (element ", worst,
               " with J = ", number(least, 3), ")");
 }
 
-std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh, const Point& middle) {
+std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh,
+                                    const Point& middle) {
   std::vector<Point> velocity;
   for (const Point& x : mesh.vertices) {
     Point& v = velocity.emplace_back(o.velocity + o.angular_velocity.cross(x - middle));
@@ -61,7 +66,8 @@ std::vector<Point> initial_velocity(const InitialOptions& o, const TetMesh& mesh
     const Box box = bounding_box(points);
     for (const int a : part) {
       const Point arm = mesh.vertices[static_cast<std::size_t>(a)] - 0.5 * (box.min + box.max);
-      velocity[static_cast<std::size_t>(a)] += o.parts[i].velocity + o.parts[i].angular_velocity.cross(arm);
+      velocity[static_cast<std::size_t>(a)] +=
+          o.parts[i].velocity + o.parts[i].angular_velocity.cross(arm);
     }
   }
   return velocity;

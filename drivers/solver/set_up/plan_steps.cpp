@@ -13,12 +13,13 @@ namespace plica {
 
 namespace {
 
-/// The critical step is 0 under undamped euler and infinite where nothing moves: no proportion then.
+/// The critical step is 0 under undamped euler and infinite where nothing moves: no proportion
+/// then.
 void expect_proportions(const std::vector<double>& weights, const std::string& distribution) {
   for (std::size_t i = 0; i < weights.size(); ++i)
     if (!(weights[i] > 0 && std::isfinite(weights[i])))
-      throw InputError(text("distribution: '", distribution, "' finds no share for level ", i, ", where it is ",
-                            number(weights[i]), "; use equal or custom"));
+      throw InputError(text("distribution: '", distribution, "' finds no share for level ", i,
+                            ", where it is ", number(weights[i]), "; use equal or custom"));
 }
 
 }  // namespace
@@ -30,8 +31,10 @@ std::vector<double> make_shares(const IntegrationOptions& options, const LevelFa
     validate_shares(options, levels);
     w = options.shares;
   } else {
-    const bool known = Distributions::visit(options.distribution, [&](auto d) { w = decltype(d)::weights(facts); });
-    if (!known) throw InputError(unknown_name("distribution", options.distribution, names(distributions())));
+    const bool known = Distributions::visit(options.distribution,
+                                            [&](auto d) { w = decltype(d)::weights(facts); });
+    if (!known)
+      throw InputError(unknown_name("distribution", options.distribution, names(distributions())));
     if (levels > 1) expect_proportions(w, options.distribution);
     const double sum = std::accumulate(w.begin(), w.end(), 0.0);
     for (double& share : w) share /= sum;
@@ -55,13 +58,15 @@ const T& of_level(const std::vector<T>& values, std::size_t i) {
   return values.size() == 1 ? values.front() : values[i];
 }
 
-/// The largest macro step at which every explicit level keeps its limit; `auto` counts as one sub-step.
+/// The largest macro step at which every explicit level keeps its limit; `auto` counts as one
+/// sub-step.
 double largest_macro_step(const IntegrationOptions& o, const std::vector<LevelLimits>& levels,
                           const std::vector<double>& share) {
   double largest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < levels.size(); ++i)
     if (levels[i].is_explicit && share[i] > 0)
-      largest = std::min(largest, levels[i].critical_step * std::max(1, of_level(o.substeps, i)) / share[i]);
+      largest = std::min(largest,
+                         levels[i].critical_step * std::max(1, of_level(o.substeps, i)) / share[i]);
   return largest;
 }
 
@@ -70,12 +75,14 @@ double automatic_macro_step(const IntegrationOptions& o, const std::vector<Level
   const double largest = largest_macro_step(o, levels, share);
   if (!std::isfinite(largest))
     throw InputError(
-        "integration.macro_step is auto, but no level has a stability limit to derive it from (implicit, or nothing "
+        "integration.macro_step is auto, but no level has a stability limit to derive it from "
+        "(implicit, or nothing "
         "moves);"
         " give it in seconds");
   if (!(largest > 0))
     throw InputError(
-        "integration.macro_step is auto, but an integrator of its levels is stable at no step here (undamped, euler "
+        "integration.macro_step is auto, but an integrator of its levels is stable at no step here "
+        "(undamped, euler "
         "and rk2"
         " grow at every step); use symplectic_euler, or damp the body (body.damping.mass)");
   return auto_safety * largest;
@@ -92,18 +99,18 @@ int automatic_substeps(const IntegrationOptions& o, const LevelLimits& level, do
 
 void refuse_unstable(const LevelLimits& level, std::size_t i, double span, int substeps) {
   if (!(level.critical_step > 0))
-    throw InputError(
-        text("level ", i, ": integrator '", level.integrator,
-             "' is stable at no step here: undamped it grows at every step; use symplectic_euler, damp the body"
-             " (body.damping.mass), or set integration.allow_unstable: true"));
+    throw InputError(text("level ", i, ": integrator '", level.integrator,
+                          "' is stable at no step here: undamped it grows at every step; use "
+                          "symplectic_euler, damp the body"
+                          " (body.damping.mass), or set integration.allow_unstable: true"));
   const double step = span / substeps;
   if (step <= level.critical_step * (1 + 1e-9)) return;
   const std::string times = number(step / level.critical_step, 3);
-  const std::string words =
-      text("level ", i, ": the ", level.integrator, " sub-step ", number(step, 4), " s is ", times,
-           " times its critical step ", number(level.critical_step, 4), " s; use a macro_step ", times,
-           " times smaller, substeps: ", static_cast<int>(std::ceil(span / level.critical_step)),
-           " or auto, an implicit integrator, or set integration.allow_unstable: true");
+  const std::string words = text(
+      "level ", i, ": the ", level.integrator, " sub-step ", number(step, 4), " s is ", times,
+      " times its critical step ", number(level.critical_step, 4), " s; use a macro_step ", times,
+      " times smaller, substeps: ", static_cast<int>(std::ceil(span / level.critical_step)),
+      " or auto, an implicit integrator, or set integration.allow_unstable: true");
   std::optional<StiffElement> named;
   if (level.stiffest.step < named_below * level.typical_element) named = level.stiffest;
   throw SubstepRefused(words, static_cast<int>(i), named);
@@ -113,12 +120,14 @@ std::string with_element(const std::string& words, const std::optional<StiffElem
   if (!e) return words;
   const std::string region = e->region.empty() ? "" : " (region " + e->region + ")";
   return text(words, "; its element ", e->element, region, ", longest edge over smallest height ",
-              number(e->height_ratio, 3), ", allows no more than about ", number(e->step, 3), " s by itself");
+              number(e->height_ratio, 3), ", allows no more than about ", number(e->step, 3),
+              " s by itself");
 }
 
 }  // namespace
 
-SubstepRefused::SubstepRefused(const std::string& without, int of, const std::optional<StiffElement>& one)
+SubstepRefused::SubstepRefused(const std::string& without, int of,
+                               const std::optional<StiffElement>& one)
     : InputError(with_element(without, one)), words(without), level(of), element(one) {}
 
 StepPlan plan_steps(const IntegrationOptions& o, const std::vector<LevelLimits>& levels) {
@@ -134,7 +143,8 @@ StepPlan plan_steps(const IntegrationOptions& o, const std::vector<LevelLimits>&
     const double span = plan.share[i] * plan.macro_step;
     const int asked = of_level(o.substeps, i);
     plan.substeps.push_back(asked > 0 ? asked : automatic_substeps(o, levels[i], span));
-    if (levels[i].is_explicit && !o.allow_unstable) refuse_unstable(levels[i], i, span, plan.substeps.back());
+    if (levels[i].is_explicit && !o.allow_unstable)
+      refuse_unstable(levels[i], i, span, plan.substeps.back());
   }
   return plan;
 }

@@ -19,12 +19,15 @@ struct LevelFacts {
 struct EqualShares {
   static constexpr const char* name = "equal";
   static constexpr const char* summary = "1/M each, the original algorithm";
-  static std::vector<double> weights(const LevelFacts& facts) { return std::vector<double>(facts.tets.size(), 1.0); }
+  static std::vector<double> weights(const LevelFacts& facts) {
+    return std::vector<double>(facts.tets.size(), 1.0);
+  }
 };
 
 struct InverseElementShares {
   static constexpr const char* name = "inverse_elements";
-  static constexpr const char* summary = "in proportion to 1/(number of tetrahedra), the paper's equation 1";
+  static constexpr const char* summary =
+      "in proportion to 1/(number of tetrahedra), the paper's equation 1";
   static std::vector<double> weights(const LevelFacts& facts) {
     std::vector<double> w;
     for (double n : facts.tets) w.push_back(1 / n);
@@ -38,11 +41,12 @@ struct CriticalShares {
   static std::vector<double> weights(const LevelFacts& facts) { return facts.critical_step; }
 };
 
-/// Every computed distribution there is; `custom` is a list in the options. One more: its struct above, its name here.
+/// Every computed distribution there is; `custom` is a list in the options. One more: its struct
+/// above, its name here.
 using Distributions = TypeList<EqualShares, InverseElementShares, CriticalShares>;
 
-/// The shares that the options ask for, after shift_to_coarsest. Throws InputError for an unknown name, a list of the wrong
-/// length, a share that is not positive (critical: of a level without a
+/// The shares that the options ask for, after shift_to_coarsest. Throws InputError for an unknown
+/// name, a list of the wrong length, a share that is not positive (critical: of a level without a
 /// limit) or a sum that is not 1 to 1e-12.
 std::vector<double> make_shares(const IntegrationOptions& options, const LevelFacts& facts);
 
@@ -51,8 +55,8 @@ struct LevelLimits {
   int tets = 0;
   std::string integrator;
   bool is_explicit = true;
-  double critical_step =
-      0;  ///< of an explicit integrator its own, of an implicit one symplectic Euler's [s]; 0: none is stable
+  double critical_step = 0;    ///< of an explicit integrator its own, of an implicit one symplectic
+                               ///< Euler's [s]; 0: none is stable
   StiffElement stiffest = {};  ///< the worst of its elements
   double typical_element = 0;  ///< the median of what elements allow by themselves [s]
 };
@@ -63,11 +67,12 @@ struct StepPlan {
   std::vector<int> substeps;
 };
 
-/// Elements whose own step is below this part of their level's median are named: fewer than that the mesh means, more than
-/// sound meshes of one material have.
+/// Elements whose own step is below this part of their level's median are named: fewer than that
+/// the mesh means, more than sound meshes of one material have.
 inline constexpr double named_below = 0.5;
 
-/// An explicit sub-step above its limit. `element`: the one that sets the limit, if one alone does; a caller may number it otherwise.
+/// An explicit sub-step above its limit. `element`: the one that sets the limit, if one alone does;
+/// a caller may number it otherwise.
 class SubstepRefused : public InputError {
  public:
   SubstepRefused(const std::string& words, int level, const std::optional<StiffElement>& element);
@@ -76,8 +81,9 @@ class SubstepRefused : public InputError {
   std::optional<StiffElement> element;  ///< in the level's mesh
 };
 
-/// Shares, macro step and sub-steps of a cycle. Throws InputError for an explicit sub-step above its limit unless
-/// allow_unstable, with the numbers and the remedy, and where a macro step cannot be derived.
+/// Shares, macro step and sub-steps of a cycle. Throws InputError for an explicit sub-step above
+/// its limit unless allow_unstable, with the numbers and the remedy, and where a macro step cannot
+/// be derived.
 StepPlan plan_steps(const IntegrationOptions& options, const std::vector<LevelLimits>& levels);
 
 }  // namespace plica

@@ -15,13 +15,18 @@ constexpr double cells_across = 10;  // of the shortest extent, where nobody ask
 constexpr double affordable = 1 << 23, most_nodes = 1 << 27;
 
 double nodes_of(const Point& extent, double cell) {
-  return (extent / cell).array().ceil().unaryExpr([](double n) { return n + 1 + 2 * cells_around; }).prod();
+  return (extent / cell)
+      .array()
+      .ceil()
+      .unaryExpr([](double n) { return n + 1 + 2 * cells_around; })
+      .prod();
 }
 
 /// `sheet`: its thickness [m]; 0: no sheet
 double cell_size(const Point& extent, int cells, double sheet) {
   if (cells > 0) return extent.maxCoeff() / cells;
-  double cell = std::min(extent.maxCoeff() / 64, sheet > 0 ? sheet / 3 : extent.minCoeff() / cells_across);
+  double cell =
+      std::min(extent.maxCoeff() / 64, sheet > 0 ? sheet / 3 : extent.minCoeff() / cells_across);
   while (nodes_of(extent, cell) > affordable) cell *= 1.1;
   return cell;
 }
@@ -40,10 +45,11 @@ DistanceGrid sample_distance(const TriangleSurface& surface, int cells, double t
   DistanceGrid grid;
   grid.cell = distance_cell(surface, cells, thickness);
   grid.margin = cells_around * grid.cell;
-  const std::string size = text(number(extent[0], 3), " x ", number(extent[1], 3), " x ", number(extent[2], 3), " m");
+  const std::string size =
+      text(number(extent[0], 3), " x ", number(extent[1], 3), " x ", number(extent[2], 3), " m");
   if (const double nodes = nodes_of(extent, grid.cell); nodes > most_nodes)
-    throw InputError(text("cells is ", cells, ", a grid of ", number(nodes, 3), " nodes around ", size,
-                          "; expected at most ", number(most_nodes, 3)));
+    throw InputError(text("cells is ", cells, ", a grid of ", number(nodes, 3), " nodes around ",
+                          size, "; expected at most ", number(most_nodes, 3)));
   std::size_t total = 1;
   for (int k = 0; k < 3; ++k) {
     const int across = static_cast<int>(std::ceil(extent[k] / grid.cell)) + 2 * cells_around;
@@ -57,7 +63,8 @@ DistanceGrid sample_distance(const TriangleSurface& surface, int cells, double t
   for (int z = 0; z < grid.nodes[2]; ++z)
     for (int y = 0; y < grid.nodes[1]; ++y)
       for (int x = 0; x < grid.nodes[0]; ++x) {
-        const double bound = x > 0 ? std::abs(last) + grid.cell : std::numeric_limits<double>::infinity();
+        const double bound =
+            x > 0 ? std::abs(last) + grid.cell : std::numeric_limits<double>::infinity();
         last = distance(grid.origin + grid.cell * Point(x, y, z), bound);
         grid.value.push_back(thickness > 0 ? std::abs(last) - thickness / 2 : last);
       }

@@ -15,8 +15,9 @@ struct DistanceGrid {
   std::vector<double> value;
 };
 
-/// Of a closed surface, or of a sheet of a thickness [m]; with `cells` along its longest extent, 0: 64, and more where it is thin.
-/// InputError where the grid would be too large, or too coarse to have a node inside.
+/// Of a closed surface, or of a sheet of a thickness [m]; with `cells` along its longest extent, 0:
+/// 64, and more where it is thin. InputError where the grid would be too large, or too coarse to
+/// have a node inside.
 DistanceGrid sample_distance(const TriangleSurface& surface, int cells, double thickness = 0);
 /// The edge of that grid's cells [m].
 double distance_cell(const TriangleSurface& surface, int cells, double thickness = 0);

@@ -9,7 +9,9 @@ namespace plica {
 
 namespace {
 
-std::string coordinates(const Point& p) { return text("[", number(p[0]), ", ", number(p[1]), ", ", number(p[2]), "]"); }
+std::string coordinates(const Point& p) {
+  return text("[", number(p[0]), ", ", number(p[1]), ", ", number(p[2]), "]");
+}
 
 /// Chooses among points: the vertices, or the elements' centroids.
 struct Among {
@@ -25,7 +27,8 @@ struct Among {
   }
   std::vector<int> operator()(const Box& box) const {
     return where([&](const Point& p) {
-      return (p.array() >= box.min.array() - slack).all() && (p.array() <= box.max.array() + slack).all();
+      return (p.array() >= box.min.array() - slack).all() &&
+             (p.array() <= box.max.array() + slack).all();
     });
   }
   std::vector<int> operator()(const BallSelection& ball) const {
@@ -39,7 +42,8 @@ struct Among {
     const auto nearer = [&](const Point& a, const Point& b) {
       return (a - nearest.to).squaredNorm() < (b - nearest.to).squaredNorm();
     };
-    return {static_cast<int>(std::min_element(points.begin(), points.end(), nearer) - points.begin())};
+    return {
+        static_cast<int>(std::min_element(points.begin(), points.end(), nearer) - points.begin())};
   }
   template <class Named>
   std::vector<int> operator()(const Named&) const {
@@ -51,23 +55,26 @@ std::string described(const Selection& selection) {
   if (const auto* box = std::get_if<Box>(&selection))
     return "the box from " + coordinates(box->min) + " to " + coordinates(box->max) + " m";
   if (const auto* ball = std::get_if<BallSelection>(&selection))
-    return "the sphere of radius " + number(ball->radius) + " m at " + coordinates(ball->centre) + " m";
+    return "the sphere of radius " + number(ball->radius) + " m at " + coordinates(ball->centre) +
+           " m";
   const auto& half = std::get<HalfSpaceSelection>(selection);
   return "the plane at " + coordinates(half.point) + " m with normal " + coordinates(half.normal);
 }
 
 /// `what` is chosen among, of what reaches over `all` so.
-std::vector<int> select(const std::vector<Point>& points, const Selection& selection, const std::string& option,
-                        const std::string& what, const Box& all, const std::string& when) {
+std::vector<int> select(const std::vector<Point>& points, const Selection& selection,
+                        const std::string& option, const std::string& what, const Box& all,
+                        const std::string& when) {
   const auto chosen = std::visit(Among{points, 1e-9 * (all.max - all.min).norm()}, selection);
   if (chosen.empty())
-    throw InputError(option + ": " + described(selection) + " selects no " + what + ", which reaches from " +
-                     coordinates(all.min) + " to " + coordinates(all.max) + " m " + when);
+    throw InputError(option + ": " + described(selection) + " selects no " + what +
+                     ", which reaches from " + coordinates(all.min) + " to " +
+                     coordinates(all.max) + " m " + when);
   return chosen;
 }
 
-std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points, const Selection& selection,
-                        const Selecting& who, const std::string& what) {
+std::vector<int> select(const TetMesh& mesh, const std::vector<Point>& points,
+                        const Selection& selection, const Selecting& who, const std::string& what) {
   return select(points, selection, who.option, what + " on level " + std::to_string(who.level),
                 bounding_box(mesh.vertices), "at rest");
 }
@@ -81,7 +88,8 @@ const std::string* name_in(const Selection& selection) {
 /// The number of the region of that name; with `sets`, the mesh's vertex sets count as choices too.
 int region_named(const TetMesh& mesh, const std::string& name, const Selecting& who, bool sets) {
   const auto region = std::find(mesh.region_names.begin(), mesh.region_names.end(), name);
-  if (region != mesh.region_names.end() && !name.empty()) return static_cast<int>(region - mesh.region_names.begin());
+  if (region != mesh.region_names.end() && !name.empty())
+    return static_cast<int>(region - mesh.region_names.begin());
   std::vector<std::string> choices;
   for (const std::string& other : mesh.region_names)
     if (!other.empty()) choices.push_back(other);
@@ -89,7 +97,8 @@ int region_named(const TetMesh& mesh, const std::string& name, const Selecting& 
     if (sets) choices.push_back(set);
   throw InputError(
       who.option + ": " +
-      unknown_name((sets ? "group on level " : "region on level ") + std::to_string(who.level), name, choices));
+      unknown_name((sets ? "group on level " : "region on level ") + std::to_string(who.level),
+                   name, choices));
 }
 
 std::vector<int> elements_of(const TetMesh& mesh, int region) {
@@ -111,7 +120,8 @@ std::vector<int> vertices_of(const TetMesh& mesh, int region) {
 
 }  // namespace
 
-std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection, const Selecting& who) {
+std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection,
+                                 const Selecting& who) {
   const bool group = std::holds_alternative<GroupSelection>(selection);
   if (const std::string* name = name_in(selection)) {
     const auto set = mesh.vertex_sets.find(*name);
@@ -123,17 +133,21 @@ std::vector<int> select_vertices(const TetMesh& mesh, const Selection& selection
 
 void expect_without_name(const Selection& selection, const std::string& option) {
   if (name_in(selection))
-    throw InputError(option + ": a surface has no groups and regions; expected box, sphere, plane or nearest");
+    throw InputError(
+        option + ": a surface has no groups and regions; expected box, sphere, plane or nearest");
 }
 
 std::vector<int> select_points(const std::vector<Point>& points, const Selection& selection,
                                const std::string& option) {
   expect_without_name(selection, option);
-  return select(points, selection, option, "point of the surface", bounding_box(points), "at the start");
+  return select(points, selection, option, "point of the surface", bounding_box(points),
+                "at the start");
 }
 
-std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection, const Selecting& who) {
-  if (const std::string* name = name_in(selection)) return elements_of(mesh, region_named(mesh, *name, who, false));
+std::vector<int> select_elements(const TetMesh& mesh, const Selection& selection,
+                                 const Selecting& who) {
+  if (const std::string* name = name_in(selection))
+    return elements_of(mesh, region_named(mesh, *name, who, false));
   std::vector<Point> centroids;
   for (const auto& t : mesh.tets) {
     Point sum = Point::Zero();
@@ -147,30 +161,35 @@ std::vector<std::array<int, 3>> select_triangles(const TetMesh& mesh, const Sele
                                                  const Selecting& who) {
   if (!mesh.filled.empty())
     throw InputError(who.option + ": level " + std::to_string(who.level) +
-                     " is a lattice, whose faces are not the body's; expected a force, contact, or a mesh that fits");
+                     " is a lattice, whose faces are not the body's; expected a force, contact, or "
+                     "a mesh that fits");
   const std::vector<int> vertices = select_vertices(mesh, selection, who);
   std::vector<char> in(mesh.vertices.size(), 0);
   for (int v : vertices) in[static_cast<std::size_t>(v)] = 1;
   std::vector<std::array<int, 3>> chosen;
   for (const auto& t : boundary_triangles(mesh))
-    if (std::all_of(t.begin(), t.end(), [&](int v) { return in[static_cast<std::size_t>(v)] != 0; }))
+    if (std::all_of(t.begin(), t.end(),
+                    [&](int v) { return in[static_cast<std::size_t>(v)] != 0; }))
       chosen.push_back(t);
   if (chosen.empty())
-    throw InputError(who.option + ": selects " + std::to_string(vertices.size()) + " vertices on level " +
-                     std::to_string(who.level) +
-                     ", but no boundary triangle with all three of its vertices; a traction needs some");
+    throw InputError(
+        who.option + ": selects " + std::to_string(vertices.size()) + " vertices on level " +
+        std::to_string(who.level) +
+        ", but no boundary triangle with all three of its vertices; a traction needs some");
   return chosen;
 }
 
 void add_regions(TetMesh& mesh, const std::map<std::string, RegionOptions>& regions, int level) {
-  if (std::none_of(regions.begin(), regions.end(), [](const auto& entry) { return entry.second.where.has_value(); }))
+  if (std::none_of(regions.begin(), regions.end(),
+                   [](const auto& entry) { return entry.second.where.has_value(); }))
     return;
   const TetMesh given = mesh;
   std::vector<const std::string*> owner(mesh.tets.size(), nullptr);
   for (const auto& [name, options] : regions) {
     if (!options.where) continue;
     const std::string option = "body.regions." + name;
-    if (std::find(mesh.region_names.begin(), mesh.region_names.end(), name) != mesh.region_names.end())
+    if (std::find(mesh.region_names.begin(), mesh.region_names.end(), name) !=
+        mesh.region_names.end())
       throw InputError(option + ".where: the mesh of level " + std::to_string(level) +
                        " has a region of that name; leave `where` out, or choose another name");
     if (mesh.region.empty()) mesh.region.assign(mesh.tets.size(), 0), mesh.region_names = {""};
@@ -179,8 +198,9 @@ void add_regions(TetMesh& mesh, const std::map<std::string, RegionOptions>& regi
     for (int e : select_elements(given, *options.where, {option + ".where", level})) {
       const auto i = static_cast<std::size_t>(e);
       if (owner[i])
-        throw InputError(option + ".where: element " + std::to_string(e) + " of level " + std::to_string(level) +
-                         " belongs to region '" + *owner[i] + "' as well; regions must not overlap");
+        throw InputError(option + ".where: element " + std::to_string(e) + " of level " +
+                         std::to_string(level) + " belongs to region '" + *owner[i] +
+                         "' as well; regions must not overlap");
       owner[i] = &name;
       mesh.region[i] = number;
     }

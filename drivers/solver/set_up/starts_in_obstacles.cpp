@@ -26,7 +26,10 @@ constexpr double bearable_depth = 0.5;  // of an edge
 ObstaclePose pose_at_start(const ObstacleOptions& options) {
   std::vector<PathKnot> knots;
   const Path path = make_path(options.motion, knots);
-  ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement, .speed = {}, .time = 0, .turn = {}};
+  ObstaclePose pose{.displacement = path_at(path, knots.data(), 0).displacement,
+                    .speed = {},
+                    .time = 0,
+                    .turn = {}};
   if (options.turn) pose.turn = Turning(*options.turn, turned_about(options)).at(0);
   return pose;
 }
@@ -62,8 +65,9 @@ Deepest deepest_in(const ObstacleOptions& options, const std::vector<Point>& pla
   return found;
 }
 
-/// Places of a solid at the start that are all inside a body which it is inside of: its middle, both ends of a long one, the corners of a
-/// box. None of a shape that does not contain its middle: a bowl, a plane.
+/// Places of a solid at the start that are all inside a body which it is inside of: its middle,
+/// both ends of a long one, the corners of a box. None of a shape that does not contain its middle:
+/// a bowl, a plane.
 std::vector<Point> marks_of(const ObstacleOptions& options) {
   std::vector<Point> marks;
   visit_shape(options.shape, [&](auto shape, const auto& its) {
@@ -71,13 +75,14 @@ std::vector<Point> marks_of(const ObstacleOptions& options) {
       const auto gap = shape.template shape<double>(its);
       std::vector<Vec3<double>> places = {vec3<double>(shape.origin(its))};
       if (!(gap(places.front()).distance < 0)) return;
-      if constexpr (requires { its.to; }) places.insert(places.end(), {vec3<double>(its.from), vec3<double>(its.to)});
+      if constexpr (requires { its.to; })
+        places.insert(places.end(), {vec3<double>(its.from), vec3<double>(its.to)});
       if constexpr (requires { gap.axes; })
         for (const double x : {-1.0, 1.0})
           for (const double y : {-1.0, 1.0})
             for (const double z : {-1.0, 1.0})
-              places.push_back(gap.centre + x * gap.half[0] * gap.axes[0] + y * gap.half[1] * gap.axes[1] +
-                               z * gap.half[2] * gap.axes[2]);
+              places.push_back(gap.centre + x * gap.half[0] * gap.axes[0] +
+                               y * gap.half[1] * gap.axes[1] + z * gap.half[2] * gap.axes[2]);
       const ObstaclePose pose = pose_at_start(options);
       for (Vec3<double> at : places) {
         if (pose.turn.turned) at = pose.turn.centre + pose.turn.rotation * (at - pose.turn.centre);
@@ -89,8 +94,8 @@ std::vector<Point> marks_of(const ObstacleOptions& options) {
   return marks;
 }
 
-/// The body where it starts. What is inside it the surface says, which is what contact moves, where that is closed; lattices reach beyond
-/// it. Else the tetrahedra of level 0 do.
+/// The body where it starts. What is inside it the surface says, which is what contact moves, where
+/// that is closed; lattices reach beyond it. Else the tetrahedra of level 0 do.
 class StartingBody {
  public:
   explicit StartingBody(const Body& body)
@@ -99,14 +104,17 @@ class StartingBody {
     around_ = {skin.min.cwiseMin(cells.min), skin.max.cwiseMax(cells.max)};
   }
 
-  /// Whether a solid is inside it, of which the surface touches nothing. Not looked at where it turns about another point.
+  /// Whether a solid is inside it, of which the surface touches nothing. Not looked at where it
+  /// turns about another point.
   bool contains(const ObstacleOptions& options) {
     if (options.turn && options.turn->about) return false;
     std::vector<Point> marks = marks_of(options);
     for (Point& x : marks) x -= shift_;
-    if (marks.empty() || !std::ranges::all_of(marks, [&](const Point& x) { return is_near(x); })) return false;
+    if (marks.empty() || !std::ranges::all_of(marks, [&](const Point& x) { return is_near(x); }))
+      return false;
     look_at_surface();
-    return std::ranges::all_of(marks, [&](const Point& x) { return distance_ ? (*distance_)(x) < 0 : is_in_mesh(x); });
+    return std::ranges::all_of(
+        marks, [&](const Point& x) { return distance_ ? (*distance_)(x) < 0 : is_in_mesh(x); });
   }
 
  private:
@@ -128,7 +136,9 @@ class StartingBody {
   }
   bool is_in_mesh(const Point& x) const {
     return std::ranges::any_of(mesh_.tets, [&](const auto& tet) {
-      const auto at = [&](std::size_t k) { return mesh_.vertices[static_cast<std::size_t>(tet[k])]; };
+      const auto at = [&](std::size_t k) {
+        return mesh_.vertices[static_cast<std::size_t>(tet[k])];
+      };
       return is_in_tetrahedron({at(0), at(1), at(2), at(3)}, x);
     });
   }
@@ -139,7 +149,8 @@ class StartingBody {
 std::vector<std::string> starts_in_obstacles(const Problem& problem) {
   std::vector<std::string> sentences;
   const std::vector<ObstacleOptions>& obstacles = problem.contact.obstacles;
-  if (obstacles.empty() || !problem.body.surface || starts_deformed(problem.body.initial)) return sentences;
+  if (obstacles.empty() || !problem.body.surface || starts_deformed(problem.body.initial))
+    return sentences;
   const std::vector<Point> places = places_at_start(problem.body);
   const double edge = mean_edge_length(problem.body.levels.front());
   StartingBody body(problem.body);
@@ -149,12 +160,14 @@ std::vector<std::string> starts_in_obstacles(const Problem& problem) {
     if (found.inside == places.size())
       throw InputError(path + " contains the whole body at the start; expected a body outside");
     if (found.inside == 0 && !holds_at_start(obstacles[i], found) && body.contains(obstacles[i]))
-      throw InputError(path + " is inside the body at the start, where contact does not find it; expected it outside");
+      throw InputError(
+          path +
+          " is inside the body at the start, where contact does not find it; expected it outside");
     if (!(found.depth > bearable_depth * edge) || holds_at_start(obstacles[i], found)) continue;
     const Point& x = places[found.place];
-    sentences.push_back(text(path, ": the body starts inside it, ", number(found.depth, 3), " m deep at [",
-                             number(x[0], 4), ", ", number(x[1], 4), ", ", number(x[2], 4), "] m, ",
-                             number(found.depth / edge, 2),
+    sentences.push_back(text(path, ": the body starts inside it, ", number(found.depth, 3),
+                             " m deep at [", number(x[0], 4), ", ", number(x[1], 4), ", ",
+                             number(x[2], 4), "] m, ", number(found.depth / edge, 2),
                              " of a mean edge: it is thrown out; expected a body outside"));
   }
   return sentences;

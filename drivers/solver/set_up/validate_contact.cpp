@@ -38,15 +38,17 @@ void check_closed(const std::string& option, const TriangleSurface& surface) {
                      " are open (of one triangle), " + std::to_string(edges.crowded_edges) +
                      " of more than two triangles and " + std::to_string(edges.inconsistent_edges) +
                      " between triangles that face different sides; expected a closed surface");
-  Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,", enclosed_volume(surface));
+  Quantity{{.length = 3}, positive}.check(option + ", as an enclosed volume,",
+                                          enclosed_volume(surface));
 }
 
 /// `what` is in products of the stage's system alone.
 void refuse_matrix(const Problem& problem, const std::string& what) {
   if (const std::string by = needs_matrix(problem.integration); !by.empty())
-    throw InputError(by + ", whose matrix has no room for " + what +
-                     "; expected an explicit integrator, or an implicit one with integration.implicit.solver "
-                     "conjugate_gradients or auto");
+    throw InputError(
+        by + ", whose matrix has no room for " + what +
+        "; expected an explicit integrator, or an implicit one with integration.implicit.solver "
+        "conjugate_gradients or auto");
 }
 
 void check_attachments(const Problem& problem) {
@@ -57,18 +59,23 @@ void check_attachments(const Problem& problem) {
     const std::string path = "attachments." + std::to_string(i);
     for (std::size_t o = 0; o < problem.contact.obstacles.size(); ++o)
       if (const std::string to = obstacle_name(problem.contact, o); to == all[i].to)
-        throw InputError(path + ".to: " + to +
-                         " is an obstacle; expected a body, or in place of this contact.obstacles." +
-                         std::to_string(o) + ".grasp with from: 0, where and reach, which holds points from the start");
-    if (bodies.empty()) throw InputError(path + ": there is one body; expected several, by the key bodies");
+        throw InputError(
+            path + ".to: " + to +
+            " is an obstacle; expected a body, or in place of this contact.obstacles." +
+            std::to_string(o) +
+            ".grasp with from: 0, where and reach, which holds points from the start");
+    if (bodies.empty())
+      throw InputError(path + ": there is one body; expected several, by the key bodies");
     for (const auto& [key, name] : {std::pair{".body", all[i].body}, std::pair{".to", all[i].to}})
       if (std::ranges::find(bodies, name) == bodies.end())
         throw InputError(path + key + ": " + unknown_name("body", name, bodies));
     if (all[i].body == all[i].to)
-      throw InputError(path + ".to is " + all[i].to + ", as is the body that is attached; expected another one");
+      throw InputError(path + ".to is " + all[i].to +
+                       ", as is the body that is attached; expected another one");
     if (all[i].where) expect_without_name(*all[i].where, path + ".where");
     Quantity{length, not_negative}.check(path + ".reach", all[i].reach);
-    if (all[i].stiffness) Quantity{{.mass = 1, .time = -2}, positive}.check(path + ".stiffness", *all[i].stiffness);
+    if (all[i].stiffness)
+      Quantity{{.mass = 1, .time = -2}, positive}.check(path + ".stiffness", *all[i].stiffness);
   }
 }
 
@@ -81,12 +88,13 @@ void check_pairs(const Problem& problem) {
                                                    : "attachments",
                     instead = touches ? key + ": false" : "no attachments";
   if (!body.surface)
-    throw InputError(key + ": there is no surface to touch with; expected body.surface, or " + instead);
+    throw InputError(key + ": there is no surface to touch with; expected body.surface, or " +
+                     instead);
   for (const BodyPart& part : body.parts)
     if (part.points == 0)
       throw InputError("bodies." + part.name +
-                       ": it has no surface, which touching other bodies needs; expected bodies." + part.name +
-                       ".surface, or " + instead);
+                       ": it has no surface, which touching other bodies needs; expected bodies." +
+                       part.name + ".surface, or " + instead);
   check_closed("body.surface", *body.surface);
   refuse_matrix(problem, key);
 }
@@ -100,8 +108,9 @@ std::string needs_matrix(const IntegrationOptions& options) {
     implicit = implicit || !is_explicit(name);
   }
   const std::string& solver = options.implicit.solver;
-  return implicit && solver != "auto" && solver != "conjugate_gradients" ? "integration.implicit.solver is " + solver
-                                                                         : "";
+  return implicit && solver != "auto" && solver != "conjugate_gradients"
+             ? "integration.implicit.solver is " + solver
+             : "";
 }
 
 /// The inertia of him does not know the stiffness of a fluid.
@@ -123,7 +132,9 @@ void validate_contact(const Problem& problem) {
   if (problem.body.surface) check_numbers("body.surface", *problem.body.surface);
   if (has_pairs(problem)) check_pairs(problem);
   if (!obstacles.empty() && !problem.body.surface)
-    throw InputError("contact has obstacles but the body has no surface to touch them with; expected body.surface");
+    throw InputError(
+        "contact has obstacles but the body has no surface to touch them with; expected "
+        "body.surface");
   if (!obstacles.empty() && problem.body.surface->triangles.empty())
     throw InputError("body.surface has no triangle; contact needs its area");
   if (!obstacles.empty() && problem.contact.whole_surface == "always")
@@ -137,17 +148,17 @@ void validate_contact(const Problem& problem) {
                        "', which would break the columns of history.csv; expected no comma, "
                        "quotation mark or line break");
     if (const auto [other, first] = named.emplace(name, i); !first)
-      throw InputError(path + " is '" + name + "', as is that of obstacle " + std::to_string(other->second) +
-                       "; expected names that differ");
+      throw InputError(path + " is '" + name + "', as is that of obstacle " +
+                       std::to_string(other->second) + "; expected names that differ");
   }
   for (std::size_t i = 0; i < obstacles.size(); ++i)
     if (const auto* solid = std::any_cast<SurfaceOptions>(&obstacles[i].shape))
-      (solid->thickness > 0 ? check_triangles : check_closed)("contact.obstacles." + std::to_string(i) + ".surface",
-                                                              solid->surface);
+      (solid->thickness > 0 ? check_triangles : check_closed)(
+          "contact.obstacles." + std::to_string(i) + ".surface", solid->surface);
   for (const BodyPart& part : problem.body.parts)
     if (const auto other = named.find(part.name); other != named.end())
-      throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" + part.name +
-                       "', as is that of a body; expected names that differ");
+      throw InputError("contact.obstacles." + std::to_string(other->second) + ".name is '" +
+                       part.name + "', as is that of a body; expected names that differ");
 }
 
 }  // namespace plica

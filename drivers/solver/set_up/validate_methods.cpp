@@ -14,33 +14,40 @@ using namespace keys;
 
 namespace {
 
-void check_length(const std::string& option, std::size_t size, std::size_t levels, bool one_for_all) {
+void check_length(const std::string& option, std::size_t size, std::size_t levels,
+                  bool one_for_all) {
   if (size == levels || (size == 1 && one_for_all)) return;
-  throw InputError(option + ": expected " + (one_for_all ? "one for all or " : "") + "one for each level (" +
-                   std::to_string(levels) + " in body.levels), got a list of " + std::to_string(size));
+  throw InputError(option + ": expected " + (one_for_all ? "one for all or " : "") +
+                   "one for each level (" + std::to_string(levels) +
+                   " in body.levels), got a list of " + std::to_string(size));
 }
 
-[[noreturn]] void refuse(const IntegrationOptions& o, const char* key, const std::string& value, const char* why) {
-  throw InputError("integration." + std::string(key) + " is " + value + ", but cycle " + o.cycle + " " + why +
-                   "; leave it out");
+[[noreturn]] void refuse(const IntegrationOptions& o, const char* key, const std::string& value,
+                         const char* why) {
+  throw InputError("integration." + std::string(key) + " is " + value + ", but cycle " + o.cycle +
+                   " " + why + "; leave it out");
 }
 
 void check_him(const IntegrationOptions& o) {
   if (o.cycle != "him") return;
   for (const std::string& name : o.integrator)
-    if (name != "symplectic_euler") refuse(o, "integrator", name, "steps level 0 by leapfrog and no other level");
+    if (name != "symplectic_euler")
+      refuse(o, "integrator", name, "steps level 0 by leapfrog and no other level");
   for (const int n : o.substeps)
     if (n > 1) refuse(o, "substeps", std::to_string(n), "takes one step per macro step");
-  if (o.distribution != "critical") refuse(o, "distribution", o.distribution, "does not divide the macro step");
-  if (o.shift_to_coarsest > 0) refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
+  if (o.distribution != "critical")
+    refuse(o, "distribution", o.distribution, "does not divide the macro step");
+  if (o.shift_to_coarsest > 0)
+    refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
   if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
 }
 
 void check_failure(const IntegrationOptions& o) {
   if (o.on_failure.halvings > 0 && (o.cycle == "him" || o.cycle == "auto"))
     refuse(o, "on_failure.halvings", std::to_string(o.on_failure.halvings),
-           o.cycle == "him" ? "fits its inertia to one macro step, and again by itself where stability is lost"
-                            : "may choose him, which fits its inertia to one macro step");
+           o.cycle == "him"
+               ? "fits its inertia to one macro step, and again by itself where stability is lost"
+               : "may choose him, which fits its inertia to one macro step");
 }
 
 void check_auto(const IntegrationOptions& o) {
@@ -50,28 +57,34 @@ void check_auto(const IntegrationOptions& o) {
     if (name != "symplectic_euler") refuse(o, "integrator", name, "chooses how levels are stepped");
   for (const int n : o.substeps)
     if (n > 1) refuse(o, "substeps", std::to_string(n), "chooses how levels are stepped");
-  if (o.distribution != "critical") refuse(o, "distribution", o.distribution, "does not divide the macro step");
-  if (o.shift_to_coarsest > 0) refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
+  if (o.distribution != "critical")
+    refuse(o, "distribution", o.distribution, "does not divide the macro step");
+  if (o.shift_to_coarsest > 0)
+    refuse(o, "shift_to_coarsest", "above 0", "does not divide the macro step");
   if (o.allow_unstable) refuse(o, "allow_unstable", "true", "chooses among stable steps");
   if (o.outside != "clamp") refuse(o, "outside", o.outside, "has transfers of its own");
 }
 
 void check_direct(const ImplicitOptions& o) {
   const auto refuse = [](const std::string& what, const std::string& why) {
-    throw InputError("integration.implicit." + what + ", but solver direct " + why + "; leave it out");
+    throw InputError("integration.implicit." + what + ", but solver direct " + why +
+                     "; leave it out");
   };
-  if (o.preconditioner != "auto") refuse("preconditioner is " + o.preconditioner, "has no iterations to precondition");
+  if (o.preconditioner != "auto")
+    refuse("preconditioner is " + o.preconditioner, "has no iterations to precondition");
   if (o.matrix == "free") refuse("matrix is free", "factorises the assembled matrix");
   if (o.iterations > 0) refuse("iterations is " + std::to_string(o.iterations), "does not iterate");
 }
 
 void check_v_cycle(const ImplicitOptions& o) {
   const auto refuse = [](const std::string& what, const std::string& why) {
-    throw InputError("integration.implicit." + what + ", but solver v_cycle " + why + "; leave it out");
+    throw InputError("integration.implicit." + what + ", but solver v_cycle " + why +
+                     "; leave it out");
   };
   if (o.preconditioner != "auto" && o.preconditioner != "multigrid")
     refuse("preconditioner is " + o.preconditioner, "is a cycle of multigrid");
-  if (o.matrix == "assembled") refuse("matrix is assembled", "needs one only where its cycle is fitted");
+  if (o.matrix == "assembled")
+    refuse("matrix is assembled", "needs one only where its cycle is fitted");
   if (o.iterations > 0) refuse("iterations is " + std::to_string(o.iterations), "does not iterate");
 }
 
@@ -80,7 +93,8 @@ void check_implicit(const ImplicitOptions& o) {
   if (o.solver == "v_cycle") check_v_cycle(o);
   if (o.matrix == "free" && o.tangent == "positive")
     throw InputError(
-        "integration.implicit.matrix is free, but tangents projected to positive ones are assembled; expected auto");
+        "integration.implicit.matrix is free, but tangents projected to positive ones are "
+        "assembled; expected auto");
 }
 
 }  // namespace
@@ -91,7 +105,8 @@ void validate_shares(const IntegrationOptions& o, std::size_t levels) {
   for (const double one : o.shares) Shares::share.check("integration.distribution", one);
   const double sum = std::accumulate(o.shares.begin(), o.shares.end(), 0.0);
   if (!(std::abs(sum - 1) <= 1e-12))
-    throw InputError("integration.distribution: the shares must add up to 1, got " + number(sum, 15));
+    throw InputError("integration.distribution: the shares must add up to 1, got " +
+                     number(sum, 15));
 }
 
 void validate_methods(const IntegrationOptions& o, std::size_t levels) {

@@ -10,8 +10,8 @@ namespace {
 /// A V-cycle with these mappings, which need what the entry says.
 template <class B, class Entry, class Down, class Up>
 std::unique_ptr<Stepper<B>> v_cycle() {
-  static_assert(Entry::needs.drift_limits ==
-                ((Down::needs_state && Down::needs_variation) || (Up::needs_state && Up::needs_variation)));
+  static_assert(Entry::needs.drift_limits == ((Down::needs_state && Down::needs_variation) ||
+                                              (Up::needs_state && Up::needs_variation)));
   return std::make_unique<VCycle<B, Down, Up>>();
 }
 

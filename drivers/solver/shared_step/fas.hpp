@@ -6,12 +6,14 @@
 
 namespace plica {
 
-/// A V-cycle whose coarse levels strive for the finest level's equilibrium, not their own: each carries the constant force
-/// tau = P^T (the finer level's force) - (its own), both at the state the cycle starts from, after the full approximation
-/// scheme (Brandt 1977). Restriction is the adjoint of the interpolation, coarse masses are inherited from the finer ones:
-/// mass and linear momentum pass exactly. State down, variation up.
+/// A V-cycle whose coarse levels strive for the finest level's equilibrium, not their own: each
+/// carries the constant force tau = P^T (the finer level's force) - (its own), both at the state
+/// the cycle starts from, after the full approximation scheme (Brandt 1977). Restriction is the
+/// adjoint of the interpolation, coarse masses are inherited from the finer ones: mass and linear
+/// momentum pass exactly. State down, variation up.
 ///
-/// Not symplectic: its linearised map has a spectral radius a little above 1 at every macro step with explicit levels.
+/// Not symplectic: its linearised map has a spectral radius a little above 1 at every macro step
+/// with explicit levels.
 template <class B>
 class FasCycle final : public SharedStep<B> {
   using Base = SharedStep<B>;
@@ -51,13 +53,15 @@ class FasCycle final : public SharedStep<B> {
   static void restrict_state(Hierarchy<B>& h, int i) {
     const Level<B>&fine = h[i - 1], &coarse = h[i];
     h.clock.time("restrict", i, [&] {
-      update_vertices<B>(h.exec(), "plica::restrict", coarse.model.vertices,
-                         RestrictState<B>{coarse.adjoint, fine.state, coarse.state, coarse.model.inverse_mass});
+      update_vertices<B>(
+          h.exec(), "plica::restrict", coarse.model.vertices,
+          RestrictState<B>{coarse.adjoint, fine.state, coarse.state, coarse.model.inverse_mass});
       coarse.start.copy(h.exec(), coarse.state);
     });
   }
 
-  /// As the level's own sub-steps take it: a stiff penalty by itself is no force to hold for a macro step.
+  /// As the level's own sub-steps take it: a stiff penalty by itself is no force to hold for a
+  /// macro step.
   static ContactStep contact_of(const SolverLevel<B>& level, double t) {
     return {.span = level.share * t / level.substeps, .ends = false};
   }
@@ -71,8 +75,8 @@ class FasCycle final : public SharedStep<B> {
     coarse.evaluate(coarse.state, time, coarse.f, contact_of(coarse, t));
     h.clock.time("correct", i, [&] {
       update_vertices<B>(h.exec(), "plica::correction", coarse.model.vertices,
-                         DefectCorrection<B>{coarse.adjoint, fine.f, fine.model.inverse_mass, coarse.model.inverse_mass,
-                                             coarse.f, tau});
+                         DefectCorrection<B>{coarse.adjoint, fine.f, fine.model.inverse_mass,
+                                             coarse.model.inverse_mass, coarse.f, tau});
     });
     coarse.set_correction(tau);
     coarse.add_correction(coarse.f);
@@ -81,8 +85,8 @@ class FasCycle final : public SharedStep<B> {
   static void interpolate_variation(Hierarchy<B>& h, int i) {
     const Level<B>&fine = h[i], &coarse = h[i + 1];
     h.clock.time("interpolate", i, [&] {
-      map_fields<B, MapVariation>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state, coarse.start,
-                                  fine.state, fine.state, {});
+      map_fields<B, MapVariation>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state,
+                                  coarse.start, fine.state, fine.state, {});
     });
   }
 };

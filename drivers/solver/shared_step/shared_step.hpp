@@ -9,12 +9,14 @@
 
 namespace plica {
 
-/// What the paper's cycles have in common: the macro step is shared out among the levels, and each integrates its share.
+/// What the paper's cycles have in common: the macro step is shared out among the levels, and each
+/// integrates its share.
 ///
-/// The limit of an explicit level is that of its state at rest. A body that is pressed or struck stiffens, and has a shorter one. So where the
-/// number of sub-steps was left to the plan, repair() cuts the explicit levels' sub-steps in half, and lengthen() doubles them again where
-/// the largest eigenvalue allows it. Beyond its limit the fastest motion grows by a part in every step: where kinetic energy has grown
-/// much, lost_stability() asks for the eigenvalue of what moves.
+/// The limit of an explicit level is that of its state at rest. A body that is pressed or struck
+/// stiffens, and has a shorter one. So where the number of sub-steps was left to the plan, repair()
+/// cuts the explicit levels' sub-steps in half, and lengthen() doubles them again where the largest
+/// eigenvalue allows it. Beyond its limit the fastest motion grows by a part in every step: where
+/// kinetic energy has grown much, lost_stability() asks for the eigenvalue of what moves.
 template <class B>
 class SharedStep : public Stepper<B> {
  public:
@@ -22,8 +24,8 @@ class SharedStep : public Stepper<B> {
   void plan(StepperSetup<B>& setup) override {
     std::vector<LevelLimits> limits;
     for (const LevelReport& r : setup.reports)
-      limits.push_back(
-          {r.tets, r.integrator, r.explicit_integrator, r.critical_step, r.stiffest.front(), r.typical_element});
+      limits.push_back({r.tets, r.integrator, r.explicit_integrator, r.critical_step,
+                        r.stiffest.front(), r.typical_element});
     const StepPlan steps = plan_steps(setup.problem.integration, limits);
     setup.macro_step = steps.macro_step;
     for (int i = 0; i < setup.hierarchy.count(); ++i) {
@@ -31,13 +33,15 @@ class SharedStep : public Stepper<B> {
       setup.hierarchy[i].share = setup.reports[k].share = steps.share[k];
       setup.hierarchy[i].substeps = setup.reports[k].substeps = steps.substeps[k];
       is_explicit_.push_back(setup.reports[k].explicit_integrator);
-      Integrators::visit(setup.reports[k].integrator, [&](auto kind) { radius_.push_back(kind.limit.radius); });
+      Integrators::visit(setup.reports[k].integrator,
+                         [&](auto kind) { radius_.push_back(kind.limit.radius); });
     }
     macro_step_ = steps.macro_step;
     const IntegrationOptions& o = setup.problem.integration;
     safety_ = o.safety;
     const bool is_automatic = std::ranges::all_of(o.substeps, [](int n) { return n == 0; });
-    shortens_ = is_automatic && !o.allow_unstable && o.on_failure.halvings == FailureOptions::automatic &&
+    shortens_ = is_automatic && !o.allow_unstable &&
+                o.on_failure.halvings == FailureOptions::automatic &&
                 std::ranges::count(is_explicit_, true) > 0;
     allocate(setup.hierarchy);
   }
@@ -50,7 +54,8 @@ class SharedStep : public Stepper<B> {
     for (int i = 0; grew && i < h.count(); ++i) {
       const SolverLevel<B>& level = h[i];
       const double most = most_at(h, i, halvings_);
-      if (most > 0 && excited_eigenvalue<B>(h.exec(), stiffness_at(level, most), level.state.v) > most * most)
+      if (most > 0 &&
+          excited_eigenvalue<B>(h.exec(), stiffness_at(level, most), level.state.v) > most * most)
         return true;
     }
     return false;
@@ -100,7 +105,8 @@ class SharedStep : public Stepper<B> {
     level.book("integrate", [&] {
       prescribe(h.exec(), level, level.state, time);
       if (h.count() > 1) level.integrator->forget();  // other levels have changed the state
-      const int substeps = level.substeps * (is_explicit_[static_cast<std::size_t>(i)] ? parts() : 1);
+      const int substeps =
+          level.substeps * (is_explicit_[static_cast<std::size_t>(i)] ? parts() : 1);
       level.integrator->advance(level, time, span / substeps, substeps);
     });
     return time + span;
@@ -118,21 +124,25 @@ class SharedStep : public Stepper<B> {
   Regaining regaining_;
   double calm_ = 0;  ///< what kinetic energy is compared with [J]
 
-  /// The largest angular frequency that level i's sub-steps bear with so many halvings [1/s]; 0: no limit.
+  /// The largest angular frequency that level i's sub-steps bear with so many halvings [1/s]; 0: no
+  /// limit.
   double most_at(const Hierarchy<B>& h, int i, int halvings) const {
     const SolverLevel<B>& level = h[i];
-    return radius_[static_cast<std::size_t>(i)] * level.substeps * (1 << halvings) / (level.share * macro_step_);
+    return radius_[static_cast<std::size_t>(i)] * level.substeps * (1 << halvings) /
+           (level.share * macro_step_);
   }
 
   static StiffnessAt<B> stiffness_at(const SolverLevel<B>& level, double over) {
     return {level, level.elasticity(), level.state.u, over};
   }
 
-  /// Whether all levels are below their limits as they are, with half the room that sub-steps have at rest.
+  /// Whether all levels are below their limits as they are, with half the room that sub-steps have
+  /// at rest.
   bool is_stable(const Hierarchy<B>& h, int halvings) const {
     for (int i = 0; i < h.count(); ++i) {
       const double most = most_at(h, i, halvings), enough = (1 + safety_) / 2 * most;
-      if (most > 0 && largest_eigenvalue<B>(h.exec(), stiffness_at(h[i], most)) > enough * enough) return false;
+      if (most > 0 && largest_eigenvalue<B>(h.exec(), stiffness_at(h[i], most)) > enough * enough)
+        return false;
     }
     return true;
   }

@@ -6,12 +6,14 @@
 
 namespace plica {
 
-/// The V-cycle of Wu, Yao, Enquobahrie, Zhang & Audette (EMBC 2012): down, the state of every level goes to the next coarser
-/// one; up, every level takes over from the next coarser one and integrates its share of the macro step. Levels act one
-/// after the other, so that the coarsest covers the macro step's beginning and the finest its end.
+/// The V-cycle of Wu, Yao, Enquobahrie, Zhang & Audette (EMBC 2012): down, the state of every level
+/// goes to the next coarser one; up, every level takes over from the next coarser one and
+/// integrates its share of the macro step. Levels act one after the other, so that the coarsest
+/// covers the macro step's beginning and the finest its end.
 ///
-/// A mapping hands over the state itself or its variation, what has changed over one macro step, added to a base that does not
-/// have it yet: down, the level's state at the start of the last cycle; up, its state now.
+/// A mapping hands over the state itself or its variation, what has changed over one macro step,
+/// added to a base that does not have it yet: down, the level's state at the start of the last
+/// cycle; up, its state now.
 template <class B, class Down, class Up>
 class VCycle final : public SharedStep<B> {
   using Base = SharedStep<B>;
@@ -23,7 +25,8 @@ class VCycle final : public SharedStep<B> {
     for (int i = 0; i < h.count() && h.count() > 1; ++i) {
       Level<B>& level = h[i];
       if (i > 0)
-        map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].state, {}, {}, level.state, {});
+        map_fields<B, MapState>(h.exec(), "plica::restrict", level.from_finer, h[i - 1].state, {},
+                                {}, level.state, {});
       if (keeps_start) level.start.copy(h.exec(), level.state);
       if (keeps_previous && i + 1 < h.count()) level.previous.copy(h.exec(), level.state);
     }
@@ -47,7 +50,8 @@ class VCycle final : public SharedStep<B> {
   void allocate(Hierarchy<B>& h) override {
     for (int i = 0; i < h.count() && h.count() > 1; ++i) {
       if (keeps_start) h[i].start = State<B>("start", h[i].model.vertices);
-      if (keeps_previous && i + 1 < h.count()) h[i].previous = State<B>("previous", h[i].model.vertices);
+      if (keeps_previous && i + 1 < h.count())
+        h[i].previous = State<B>("previous", h[i].model.vertices);
     }
   }
 
@@ -61,16 +65,16 @@ class VCycle final : public SharedStep<B> {
   static void restrict_state(Hierarchy<B>& h, int i) {
     const Level<B>&fine = h[i - 1], &coarse = h[i];
     h.clock.time("restrict", i, [&] {
-      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous, coarse.start,
-                          coarse.state, coarse.drift_limit);
+      map_fields<B, Down>(h.exec(), "plica::restrict", coarse.from_finer, fine.state, fine.previous,
+                          coarse.start, coarse.state, coarse.drift_limit);
     });
   }
 
   static void interpolate_state(Hierarchy<B>& h, int i) {
     const Level<B>&fine = h[i], &coarse = h[i + 1];
     h.clock.time("interpolate", i, [&] {
-      map_fields<B, Up>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state, coarse.start, fine.state,
-                        fine.state, fine.drift_limit);
+      map_fields<B, Up>(h.exec(), "plica::interpolate", coarse.to_finer, coarse.state, coarse.start,
+                        fine.state, fine.state, fine.drift_limit);
     });
   }
 };

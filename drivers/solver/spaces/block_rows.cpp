@@ -14,14 +14,16 @@ using BlockRow = BlockRows::value_type;
 /// The first entry of a row in this column or behind it.
 template <class Row>
 auto from_column(Row& row, int column) {
-  return std::lower_bound(row.begin(), row.end(), column, [](const auto& e, int c) { return e.first < c; });
+  return std::lower_bound(row.begin(), row.end(), column,
+                          [](const auto& e, int c) { return e.first < c; });
 }
 
 /// Each vertex's tetrahedra, ascending.
 struct TetsOfVertices {
   std::vector<int> first, tet;
 
-  explicit TetsOfVertices(const TetMesh& mesh) : first(mesh.vertices.size() + 1, 0), tet(4 * mesh.tets.size()) {
+  explicit TetsOfVertices(const TetMesh& mesh)
+      : first(mesh.vertices.size() + 1, 0), tet(4 * mesh.tets.size()) {
     for (const auto& t : mesh.tets)
       for (const int a : t) ++first[index_of(a) + 1];
     for (std::size_t a = 0; a < mesh.vertices.size(); ++a) first[a + 1] += first[a];

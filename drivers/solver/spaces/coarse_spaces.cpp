@@ -19,10 +19,12 @@ constexpr std::size_t fewest_neighbours = 3;
 
 using Row = std::vector<std::pair<int, double>>;
 
-/// Vertices are taken out one after the other; what is left is a smaller body with its own K and masses.
+/// Vertices are taken out one after the other; what is left is a smaller body with its own K and
+/// masses.
 class Elimination {
  public:
-  Elimination(const TetMesh& mesh, const std::vector<char>& constrained, std::vector<double>&& mass, BlockRows&& K)
+  Elimination(const TetMesh& mesh, const std::vector<char>& constrained, std::vector<double>&& mass,
+              BlockRows&& K)
       : mesh_(mesh),
         constrained_(constrained),
         mass_(std::move(mass)),
@@ -80,15 +82,17 @@ class Elimination {
   std::vector<std::pair<double, int>> stiffnesses() const {
     std::vector<std::pair<double, int>> all;
     for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
-      if (!gone_[index_of(a)] && !constrained_[index_of(a)]) all.emplace_back(lambda_[index_of(a)], a);
+      if (!gone_[index_of(a)] && !constrained_[index_of(a)])
+        all.emplace_back(lambda_[index_of(a)], a);
     return all;
   }
 
   Eigen::Matrix3d& block(int a, int b) {
     auto& row = K_[index_of(a)];
-    auto place =
-        std::lower_bound(row.begin(), row.end(), b, [](const auto& e, int column) { return e.first < column; });
-    if (place == row.end() || place->first != b) place = row.insert(place, {b, Eigen::Matrix3d::Zero()});
+    auto place = std::lower_bound(row.begin(), row.end(), b,
+                                  [](const auto& e, int column) { return e.first < column; });
+    if (place == row.end() || place->first != b)
+      place = row.insert(place, {b, Eigen::Matrix3d::Zero()});
     return place->second;
   }
 
@@ -96,7 +100,9 @@ class Elimination {
     const auto row = K_[index_of(a)];  // with the own block
     if (locked_[index_of(a)] == round || row.size() - 1 < fewest_neighbours) return;
     double radius = 0;
-    const auto offset = [&](int b) { return Point(mesh_.vertices[index_of(b)] - mesh_.vertices[index_of(a)]); };
+    const auto offset = [&](int b) {
+      return Point(mesh_.vertices[index_of(b)] - mesh_.vertices[index_of(a)]);
+    };
     for (const auto& [b, K] : row) radius = std::max(radius, 1.1 * offset(b).norm());
     fit_.clear();
     for (const auto& [b, K] : row)
@@ -111,7 +117,8 @@ class Elimination {
     take_out(a, row, followed, round);
   }
 
-  /// K and m of the others, with u_a the sum of w_b u_b: K_bc += w_b K_ac + K_ba w_c + w_b K_aa w_c, m_b += w_b m_a.
+  /// K and m of the others, with u_a the sum of w_b u_b: K_bc += w_b K_ac + K_ba w_c + w_b K_aa
+  /// w_c, m_b += w_b m_a.
   void take_out(int a, const BlockRows::value_type& row, const Row& followed, int round) {
     Eigen::Matrix3d own = block(a, a);
     BlockRows::value_type beside;
@@ -134,7 +141,8 @@ class Elimination {
   void write(SliverSpace& result) const {
     std::vector<int> number(mass_.size(), -1);
     for (int a = 0; a < static_cast<int>(mass_.size()); ++a)
-      if (!gone_[index_of(a)]) number[index_of(a)] = static_cast<int>(result.kept.size()), result.kept.push_back(a);
+      if (!gone_[index_of(a)])
+        number[index_of(a)] = static_cast<int>(result.kept.size()), result.kept.push_back(a);
     std::vector<std::vector<std::pair<int, double>>> rows(mass_.size());
     for (const int a : result.kept) rows[index_of(a)] = {{number[index_of(a)], 1.0}};
     for (std::size_t i = order_.size(); i-- > 0;) {
@@ -161,7 +169,8 @@ constexpr int fewest_free = 120;
 constexpr double most_ratio = 5;
 
 /// The columns of free points, and these points.
-RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& constrained, std::vector<int>& points) {
+RowMatrix without_constrained(const RowMatrix& P, const std::vector<char>& constrained,
+                              std::vector<int>& points) {
   std::vector<int> number, free;
   for (const int point : points) {
     number.push_back(constrained[index_of(point)] ? -1 : static_cast<int>(free.size()));
@@ -183,7 +192,8 @@ std::optional<CoarseSpace> slivers_of(const TetMesh& mesh, const std::vector<cha
 }
 
 void drop_constrained_rows(RowMatrix& P, const std::vector<char>& constrained) {
-  P = some_entries(P, [&](Eigen::Index a, int, double) { return !constrained[static_cast<std::size_t>(a)]; });
+  P = some_entries(
+      P, [&](Eigen::Index a, int, double) { return !constrained[static_cast<std::size_t>(a)]; });
 }
 
 RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
@@ -197,8 +207,10 @@ RowMatrix rows_of(const RowMatrix& P, const std::vector<int>& rows) {
   return some;
 }
 
-/// The first of these points, `count` of them free, ascending: neighbours beside each other, as in the mesh.
-std::vector<int> first_free(const std::vector<int>& order, int count, const std::vector<char>& constrained) {
+/// The first of these points, `count` of them free, ascending: neighbours beside each other, as in
+/// the mesh.
+std::vector<int> first_free(const std::vector<int>& order, int count,
+                            const std::vector<char>& constrained) {
   std::vector<int> points;
   for (auto point = order.begin(); count > 0 && point != order.end(); ++point)
     points.push_back(*point), count -= !constrained[index_of(*point)];
@@ -222,17 +234,21 @@ std::vector<int> places_of(const std::vector<int>& numbers, const std::vector<in
 std::vector<int> space_sizes(int free_vertices, SizeRule rule) {
   if (free_vertices < fewest_free) return {};
   const double first = rule.first * free_vertices,
-               last = std::clamp(std::round(rule.last * free_vertices), 1.0 * rule.fewest, 1.0 * rule.most);
-  if (first < 1.5 * last) return {std::min(static_cast<int>(last), static_cast<int>(free_vertices / rule.sparsest))};
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::log(first / last) / std::log(most_ratio))));
+               last = std::clamp(std::round(rule.last * free_vertices), 1.0 * rule.fewest,
+                                 1.0 * rule.most);
+  if (first < 1.5 * last)
+    return {std::min(static_cast<int>(last), static_cast<int>(free_vertices / rule.sparsest))};
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(std::log(first / last) / std::log(most_ratio))));
   std::vector<int> sizes;
   for (int i = 0; i <= steps; ++i)
-    sizes.push_back(static_cast<int>(std::lround(first * std::pow(last / first, static_cast<double>(i) / steps))));
+    sizes.push_back(static_cast<int>(
+        std::lround(first * std::pow(last / first, static_cast<double>(i) / steps))));
   return sizes;
 }
 
-std::vector<int> space_sizes(const std::optional<std::vector<int>>& asked, const std::vector<char>& constrained,
-                             SizeRule rule) {
+std::vector<int> space_sizes(const std::optional<std::vector<int>>& asked,
+                             const std::vector<char>& constrained, SizeRule rule) {
   if (asked && !asked->empty()) return *asked;
   return space_sizes(static_cast<int>(std::ranges::count(constrained, 0)), rule);
 }
@@ -266,8 +282,9 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
     // from the points above, along the edges of their graph
     const EdgeGraph& edges = i == 0 ? graph : graphs[i - 1].graph;
     const std::vector<int>& above = i == 0 ? all : points[i - 1];
-    const RowMatrix P = moving_least_squares(edges, places_of(rows, above), places_of(points[i], above),
-                                             graphs[i].spacing, options.reach);
+    const RowMatrix P =
+        moving_least_squares(edges, places_of(rows, above), places_of(points[i], above),
+                             graphs[i].spacing, options.reach);
     rows = points[i];
     spaces.push_back({without_constrained(P, constrained, rows), rows, graphs[i].spacing});
   }
@@ -275,8 +292,8 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
   return spaces;
 }
 
-LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass, const BlockRows& K,
-                         const SpaceOptions& options, bool smooth) {
+LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass,
+                         const BlockRows& K, const SpaceOptions& options, bool smooth) {
   LevelsBelow below;
   const RestLevel& finest = levels.front();
   if (levels.size() == 1) {
@@ -287,13 +304,15 @@ LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const RestLevel &fine = levels[i - 1], &coarse = levels[i];
     const auto transfer = [&](const Embedding& up) {
-      return transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained, up, smooth);
+      return transfer_matrix(fine.mesh, fine.constrained, coarse.mesh, coarse.constrained, up,
+                             smooth);
     };
-    below.transfers.push_back(
-        transfer(coarse.up ? *coarse.up : embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate)));
+    below.transfers.push_back(transfer(
+        coarse.up ? *coarse.up : embed(fine.mesh.vertices, coarse.mesh, Outside::extrapolate)));
   }
   const RestLevel& coarsest = levels.back();
-  below.made = coarse_spaces(coarsest.mesh, coarsest.constrained, {}, {}, {options.sizes, options.reach});
+  below.made =
+      coarse_spaces(coarsest.mesh, coarsest.constrained, {}, {}, {options.sizes, options.reach});
   for (const CoarseSpace& space : below.made) below.transfers.push_back(space.up);
   if (!options.slivers) return below;
   if (auto slivers = slivers_of(finest.mesh, finest.constrained, mass, K)) {

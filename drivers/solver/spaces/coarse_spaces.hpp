@@ -7,8 +7,9 @@
 #include <plica/meshes/embedding.hpp>
 #include <vector>
 
-// Coarse levels that are made of the finest mesh alone: spaces of motions of its vertices, without elements. Steppers and
-// preconditioners that need no coarse elements run on them where a body has no coarser meshes.
+// Coarse levels that are made of the finest mesh alone: spaces of motions of its vertices, without
+// elements. Steppers and preconditioners that need no coarse elements run on them where a body has
+// no coarser meshes.
 //
 //   vertices of the mesh          all of them, slivers included
 //        | sliver_space()         the few that are much too stiff follow their neighbours
@@ -19,19 +20,23 @@
 //   points, 300 of them           the first of these
 namespace plica {
 
-/// A mesh without the freedom that slivers give it: their stiffest vertices follow their neighbours.
+/// A mesh without the freedom that slivers give it: their stiffest vertices follow their
+/// neighbours.
 struct SliverSpace {
-  RowMatrix up;           ///< [vertices x kept]: mostly the identity
-  std::vector<int> kept;  ///< the vertices that stay free, and those whose motion is given; ascending
-  double before = 0;      ///< the largest lambda_a over the median, see sliver_space()
-  double after = 0;       ///< the same of the kept ones
+  RowMatrix up;  ///< [vertices x kept]: mostly the identity
+  /// the vertices that stay free, and those whose motion is given; ascending
+  std::vector<int> kept;
+  double before = 0;  ///< the largest lambda_a over the median, see sliver_space()
+  double after = 0;   ///< the same of the kept ones
 };
 
-/// lambda_a = lambda_max(K_aa) / m_a says how stiff a vertex is for its mass; of a mesh of tetrahedra the largest eigenvalue of
-/// M^-1 K is between the largest lambda_a and four times that. Slivers raise it for a few vertices, and these shorten the
-/// stable step of all. Vertices above 3.5 times the median follow a linear fit of their neighbours, the stiffest first, no
-/// two neighbours in a round; K and m become those of the vertices that are left (Galerkin), and it is looked again, at most twelve times
-/// and up to 35 % of the vertices. None where there is no such vertex.
+/// lambda_a = lambda_max(K_aa) / m_a says how stiff a vertex is for its mass; of a mesh of
+/// tetrahedra the largest eigenvalue of M^-1 K is between the largest lambda_a and four times that.
+/// Slivers raise it for a few vertices, and these shorten the stable step of all. Vertices
+/// above 3.5 times the median follow a linear fit of their neighbours, the stiffest first, no two
+/// neighbours in a round; K and m become those of the vertices that are left (Galerkin), and it is
+/// looked again, at most twelve times and up to 35 % of the vertices. None where there is no such
+/// vertex.
 /// @param constrained  per vertex: its motion is given, it stays
 /// @param mass         per vertex [kg]
 /// @param K            the mesh's stiffness; used up
@@ -40,10 +45,12 @@ std::optional<SliverSpace> sliver_space(const TetMesh& mesh, const std::vector<c
 
 /// A coarse space, as the next finer one sees it.
 struct CoarseSpace {
-  RowMatrix up;             ///< P: values at its points -> at those of the finer one, [finer points x points]
+  /// P: values at its points -> at those of the finer one, [finer points x points]
+  RowMatrix up;
   std::vector<int> points;  ///< vertices of the mesh; where these are fixed a space has none
-  double spacing = 0;       ///< mean distance along edges to the next point; not of a sliver space [m]
-  bool slivers = false;     ///< whether it is a sliver space
+  /// mean distance along edges to the next point; not of a sliver space [m]
+  double spacing = 0;
+  bool slivers = false;  ///< whether it is a sliver space
 };
 
 /// How many points spaces have by themselves.
@@ -65,8 +72,8 @@ std::vector<int> space_sizes(int free_vertices, SizeRule rule = him_sizes);
 /// Those that are asked for, or these.
 /// @param asked        see Body::coarsen
 /// @param constrained  per vertex of the mesh: its motion is given
-std::vector<int> space_sizes(const std::optional<std::vector<int>>& asked, const std::vector<char>& constrained,
-                             SizeRule rule = him_sizes);
+std::vector<int> space_sizes(const std::optional<std::vector<int>>& asked,
+                             const std::vector<char>& constrained, SizeRule rule = him_sizes);
 
 struct SpaceOptions {
   std::vector<int> sizes;  ///< numbers of free points, finest first, at least fewest_points each
@@ -85,20 +92,22 @@ std::vector<CoarseSpace> coarse_spaces(const TetMesh& mesh, const std::vector<ch
 struct RestLevel {
   const TetMesh& mesh;
   const std::vector<char>& constrained;  ///< per vertex: its motion is given
-  const Embedding* up = nullptr;  ///< the next finer level's vertices in this mesh; none: worked out where it is needed
+  /// the next finer level's vertices in this mesh; none: worked out where it is needed
+  const Embedding* up = nullptr;
 };
 
 /// What lies below a level.
 struct LevelsBelow {
-  std::vector<RowMatrix>
-      transfers;  ///< P of each, finest first: values at its vertices or points -> at those of the one above
-  std::vector<CoarseSpace> made;  ///< those of them that are no meshes
+  std::vector<RowMatrix> transfers;  ///< P of each, finest first: values at its vertices or points
+                                     ///< -> at those of the one above
+  std::vector<CoarseSpace> made;     ///< those of them that are no meshes
 };
 
-/// The coarser meshes, and coarse_spaces() of the last mesh where sizes are given. Where asked for, a sliver space stands in front of them.
+/// The coarser meshes, and coarse_spaces() of the last mesh where sizes are given. Where asked for,
+/// a sliver space stands in front of them.
 /// @param levels  meshes, finest first
 /// @param smooth  the transfers of meshes: see transfer_matrix()
-LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass, const BlockRows& K,
-                         const SpaceOptions& options, bool smooth);
+LevelsBelow levels_below(const std::vector<RestLevel>& levels, const std::vector<double>& mass,
+                         const BlockRows& K, const SpaceOptions& options, bool smooth);
 
 }  // namespace plica

@@ -18,7 +18,8 @@ constexpr std::size_t most_waves = 4096;
 }  // namespace
 
 WaveQueue::WaveQueue(const EdgeGraph& graph) {
-  const double width = std::max({graph.mean, 2 * graph.longest / static_cast<double>(most_waves), 1e-300});
+  const double width =
+      std::max({graph.mean, 2 * graph.longest / static_cast<double>(most_waves), 1e-300});
   per_metre_ = 1 / width;
   std::size_t count = 4;  // a distance exceeds the last one taken by an edge at most
   while (static_cast<double>(count) < graph.longest / width + 3) count *= 2;
@@ -52,11 +53,13 @@ EdgeGraph edge_graph(const TetMesh& mesh) {
   return graph;
 }
 
-std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart) {
+std::vector<int> farthest_points(const EdgeGraph& graph, int count,
+                                 const std::vector<char>& apart) {
   std::vector<double> distance(index_of(graph.vertices()), unreached);
   std::vector<std::pair<double, int>> all;
   for (int v = 0; v < graph.vertices(); ++v) all.emplace_back(unreached, v);
-  std::priority_queue furthest(std::less<>(), std::move(all));  // distances that may have shrunk since
+  // distances that may have shrunk since
+  std::priority_queue furthest(std::less<>(), std::move(all));
   std::vector<int> points;
   WaveQueue open(graph);
   for (int counted = 0; counted < count && !furthest.empty();) {
@@ -94,7 +97,8 @@ struct Nearest {
 };
 
 Nearest nearest_points(const EdgeGraph& graph, const std::vector<int>& points) {
-  Nearest all{std::vector(index_of(graph.vertices()), unreached), std::vector(index_of(graph.vertices()), -1)};
+  Nearest all{std::vector(index_of(graph.vertices()), unreached),
+              std::vector(index_of(graph.vertices()), -1)};
   // the nearest on top: of two points as near, which one a vertex goes to depends on the order
   using Open = std::pair<double, int>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
@@ -121,7 +125,8 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
   const Grouping owned(nearest.owner, points.size());
   PointGraph result;
   EdgeGraph& coarse = result.graph;
-  std::vector<double> way(points.size(), unreached);  // from the present point to another one, where they meet
+  // from the present point to another one, where they meet
+  std::vector<double> way(points.size(), unreached);
   std::vector<int> met;
   int connected = 0;
   double sum = 0;
@@ -132,7 +137,8 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
         const int w = graph.neighbour[index_of(k)], b = nearest.owner[index_of(w)];
         if (b == static_cast<int>(a)) continue;
         if (way[index_of(b)] == unreached) met.push_back(b);
-        way[index_of(b)] = std::min(way[index_of(b)], nearest.distance[index_of(v)] + nearest.distance[index_of(w)] +
+        way[index_of(b)] = std::min(way[index_of(b)], nearest.distance[index_of(v)] +
+                                                          nearest.distance[index_of(w)] +
                                                           graph.length[index_of(k)]);
       }
     std::ranges::sort(met);
@@ -148,7 +154,8 @@ PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points) {
     coarse.place.push_back(graph.place[index_of(points[a])]);
     coarse.first.push_back(static_cast<int>(coarse.neighbour.size()));
   }
-  if (connected > 0) result.spacing /= connected, coarse.mean = sum / static_cast<double>(coarse.length.size());
+  if (connected > 0)
+    result.spacing /= connected, coarse.mean = sum / static_cast<double>(coarse.length.size());
   return result;
 }
 

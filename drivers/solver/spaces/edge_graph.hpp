@@ -20,18 +20,22 @@ struct EdgeGraph {
   static constexpr double detour = 1.4;
 
   int vertices() const { return static_cast<int>(first.size()) - 1; }
-  /// The straight distance of two vertices; or a longer one where the way along edges makes more than a detour. [m]
+  /// The straight distance of two vertices; or a longer one where the way along edges makes more
+  /// than a detour. [m]
   /// @param along  the length of this way [m]
   double distance(int v, int w, double along) const {
-    return std::max((place[static_cast<std::size_t>(v)] - place[static_cast<std::size_t>(w)]).norm(), along / detour);
+    return std::max(
+        (place[static_cast<std::size_t>(v)] - place[static_cast<std::size_t>(w)]).norm(),
+        along / detour);
   }
 };
 
 /// The edges of a mesh.
 EdgeGraph edge_graph(const TetMesh& mesh);
 
-/// Some vertices of a graph, the points, as a smaller graph. Each owns the vertices that are nearest to it along edges. Where what
-/// two of them own meets they are neighbours, and the edge is as long as their distance().
+/// Some vertices of a graph, the points, as a smaller graph. Each owns the vertices that are
+/// nearest to it along edges. Where what two of them own meets they are neighbours, and the edge is
+/// as long as their distance().
 struct PointGraph {
   EdgeGraph graph;     ///< of the points, in their order
   double spacing = 0;  ///< the mean distance along edges from a point to the nearest other one [m]
@@ -40,8 +44,9 @@ struct PointGraph {
 /// @param points  numbers of vertices
 PointGraph point_graph(const EdgeGraph& graph, const std::vector<int>& points);
 
-/// Distances along edges and the vertex, about the nearest first: by intervals of distance (Dial 1969). Where all that can shorten a
-/// distance is gone through again, distances come out as with a queue that is sorted, in a fraction of its time.
+/// Distances along edges and the vertex, about the nearest first: by intervals of distance (Dial
+/// 1969). Where all that can shorten a distance is gone through again, distances come out as with a
+/// queue that is sorted, in a fraction of its time.
 class WaveQueue {
  public:
   /// @param graph  its edges' lengths are what one distance can exceed another by
@@ -68,7 +73,9 @@ class WaveQueue {
   std::size_t mask_ = 0, now_ = 0, size_ = 0;
   double per_metre_ = 1;
 
-  std::size_t interval(double distance) const { return static_cast<std::size_t>(distance * per_metre_); }
+  std::size_t interval(double distance) const {
+    return static_cast<std::size_t>(distance * per_metre_);
+  }
 };
 
 /// Vertices and their distance along edges from one of them. Its memory serves many walks.
@@ -77,14 +84,16 @@ class EdgeWalk {
   explicit EdgeWalk(const EdgeGraph& graph)
       : graph_(graph), queue_(graph), state_(static_cast<std::size_t>(graph.vertices())) {}
 
-  /// Calls visit(vertex, distance) for all that are not further than `reach` [m], the start included, in no particular order.
+  /// Calls visit(vertex, distance) for all that are not further than `reach` [m], the start
+  /// included, in no particular order.
   template <class Visit>
   void from(int start, double reach, const Visit& visit) {
     from(
         start, reach, [](int) { return 0.0; }, visit);
   }
 
-  /// The same where only some vertices matter. The others may be left out, or come with a distance that is too long.
+  /// The same where only some vertices matter. The others may be left out, or come with a distance
+  /// that is too long.
   /// @param beyond  of a vertex: no way from it to one that matters is shorter [m]
   template <class Beyond, class Visit>
   void from(int start, double reach, const Beyond& beyond, const Visit& visit) {
@@ -96,7 +105,8 @@ class EdgeWalk {
     while (!queue_.empty()) {
       const auto [d, v] = queue_.take();
       if (d > state_[static_cast<std::size_t>(v)].distance || d + beyond(v) > most) continue;
-      for (int k = graph_.first[static_cast<std::size_t>(v)]; k < graph_.first[static_cast<std::size_t>(v) + 1]; ++k) {
+      for (int k = graph_.first[static_cast<std::size_t>(v)];
+           k < graph_.first[static_cast<std::size_t>(v) + 1]; ++k) {
         const double there = d + graph_.length[static_cast<std::size_t>(k)];
         if (there <= reach) keep(graph_.neighbour[static_cast<std::size_t>(k)], there);
       }
@@ -126,10 +136,12 @@ class EdgeWalk {
   }
 };
 
-/// Vertices in the order in which each is the furthest, along edges, from all before it (Gonzalez 1985): any first part of
-/// them is spread evenly. Every part of a body that hangs together gets one before any gets its second.
+/// Vertices in the order in which each is the furthest, along edges, from all before it (Gonzalez
+/// 1985): any first part of them is spread evenly. Every part of a body that hangs together gets
+/// one before any gets its second.
 /// @param count        how many; vertices that are `apart` come on top of it
 /// @param apart        per vertex; or empty
-std::vector<int> farthest_points(const EdgeGraph& graph, int count, const std::vector<char>& apart = {});
+std::vector<int> farthest_points(const EdgeGraph& graph, int count,
+                                 const std::vector<char>& apart = {});
 
 }  // namespace plica

@@ -6,7 +6,8 @@
 
 namespace plica {
 
-RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows, Eigen::Index columns) {
+RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows,
+                      Eigen::Index columns) {
   RowMatrix result(rows, columns);
   int* const first = result.outerIndexPtr();
   Eigen::Index row = 0;
@@ -32,16 +33,20 @@ namespace {
 class ProductRow {
  public:
   explicit ProductRow(Eigen::Index columns)
-      : sum_(static_cast<std::size_t>(columns), 0.0), known_(sum_.size(), 0), columns_(sum_.size() + 1) {}
+      : sum_(static_cast<std::size_t>(columns), 0.0),
+        known_(sum_.size(), 0),
+        columns_(sum_.size() + 1) {}
 
-  /// += factor times a row of B, from a column on. Without branches: which columns are new is hard to foresee.
+  /// += factor times a row of B, from a column on. Without branches: which columns are new is hard
+  /// to foresee.
   void add(double factor, const RowMatrix& B, Eigen::Index row, int from = 0) {
     const int *const column = B.innerIndexPtr(), *const last = column + B.outerIndexPtr()[row + 1];
     const double* const value = B.valuePtr();
     double* const sum = sum_.data();
     char* const known = known_.data();
     int* next = columns_.data() + count_;
-    for (const int* at = std::lower_bound(column + B.outerIndexPtr()[row], last, from); at < last; ++at) {
+    for (const int* at = std::lower_bound(column + B.outerIndexPtr()[row], last, from); at < last;
+         ++at) {
       *next = *at;
       next += std::exchange(known[*at], 1) == 0;
       sum[*at] += factor * value[at - column];
@@ -92,21 +97,24 @@ RowMatrix product(const RowMatrix& A, const RowMatrix& B) {
 }
 
 RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P) {
-  const RowMatrix upper =
-      product_from(RowMatrix(P.transpose()), product(A, P), [](std::size_t i) { return static_cast<int>(i); });
+  const RowMatrix upper = product_from(RowMatrix(P.transpose()), product(A, P),
+                                       [](std::size_t i) { return static_cast<int>(i); });
   return upper.selfadjointView<Eigen::Upper>();
 }
 
-RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns) {
+RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows,
+                         Eigen::Index columns) {
   RowMatrix A(static_cast<Eigen::Index>(rows.size()), columns);
   int* first = A.outerIndexPtr();
   first[0] = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) first[i + 1] = first[i] + static_cast<int>(rows[i].size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    first[i + 1] = first[i] + static_cast<int>(rows[i].size());
   A.resizeNonZeros(first[rows.size()]);
   for_row_ranges(rows.size(), [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       int place = first[i];
-      for (const auto& entry : rows[i]) std::tie(A.innerIndexPtr()[place], A.valuePtr()[place]) = entry, ++place;
+      for (const auto& entry : rows[i])
+        std::tie(A.innerIndexPtr()[place], A.valuePtr()[place]) = entry, ++place;
     }
   });
   return A;

@@ -10,14 +10,16 @@ namespace plica {
 
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same bits for any number of threads.
+/// A B by all threads of the host. Every entry is summed in the order of A's columns, with the same
+/// bits for any number of threads.
 RowMatrix product(const RowMatrix& A, const RowMatrix& B);
 
 /// P^T A P of a symmetric A.
 RowMatrix galerkin_product(const RowMatrix& A, const RowMatrix& P);
 
 /// The matrix of these rows of (column, value), columns ascending.
-RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows, Eigen::Index columns);
+RowMatrix matrix_of_rows(const std::vector<std::vector<std::pair<int, double>>>& rows,
+                         Eigen::Index columns);
 
 /// Some of a matrix's rows, one after the other.
 struct MatrixRows {
@@ -29,10 +31,11 @@ struct MatrixRows {
 };
 
 /// The matrix of the rows of all parts, one after the other.
-RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows, Eigen::Index columns);
+RowMatrix joined_rows(const std::vector<MatrixRows>& parts, Eigen::Index rows,
+                      Eigen::Index columns);
 
-/// A with column number(row, column, value) in place of a column, and without entries where that is negative. Numbers ascend with
-/// the columns.
+/// A with column number(row, column, value) in place of a column, and without entries where that is
+/// negative. Numbers ascend with the columns.
 template <class Number>
 RowMatrix renumbered(const RowMatrix& A, Eigen::Index columns, const Number& number) {
   const auto rows = static_cast<std::size_t>(A.rows());
@@ -40,7 +43,8 @@ RowMatrix renumbered(const RowMatrix& A, Eigen::Index columns, const Number& num
   for_row_parts(rows, [&](std::size_t p, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       for (RowMatrix::InnerIterator entry(A, static_cast<Eigen::Index>(i)); entry; ++entry)
-        if (const int column = number(entry.row(), static_cast<int>(entry.col()), entry.value()); column >= 0)
+        if (const int column = number(entry.row(), static_cast<int>(entry.col()), entry.value());
+            column >= 0)
           parts[p].add(column, entry.value());
       parts[p].end_row();
     }
@@ -51,8 +55,9 @@ RowMatrix renumbered(const RowMatrix& A, Eigen::Index columns, const Number& num
 /// The entries of A of which keep(row, column, value).
 template <class Keep>
 RowMatrix some_entries(const RowMatrix& A, const Keep& keep) {
-  return renumbered(A, A.cols(),
-                    [&](Eigen::Index row, int column, double value) { return keep(row, column, value) ? column : -1; });
+  return renumbered(A, A.cols(), [&](Eigen::Index row, int column, double value) {
+    return keep(row, column, value) ? column : -1;
+  });
 }
 
 }  // namespace plica

@@ -11,22 +11,26 @@ constexpr std::size_t index_of(int number) { return static_cast<std::size_t>(num
 
 /// How many parts for_row_parts() cuts so many rows into.
 inline std::size_t row_parts(std::size_t count) {
-  return std::min(count, 8 * static_cast<std::size_t>(Kokkos::DefaultHostExecutionSpace().concurrency()));
+  return std::min(count,
+                  8 * static_cast<std::size_t>(Kokkos::DefaultHostExecutionSpace().concurrency()));
 }
 
-/// Calls work(part, first, last) for parts of 0 ... count - 1 that together are all of it, by all threads of the host.
+/// Calls work(part, first, last) for parts of 0 ... count - 1 that together are all of it, by all
+/// threads of the host.
 template <class Work>
 void for_row_parts(std::size_t count, const Work& work) {
   using Exec = Kokkos::DefaultHostExecutionSpace;
   const std::size_t parts = row_parts(count);
-  Kokkos::parallel_for("plica::row_ranges", Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>(0, parts),
+  Kokkos::parallel_for("plica::row_ranges",
+                       Kokkos::RangePolicy<Exec, Kokkos::Schedule<Kokkos::Dynamic>>(0, parts),
                        [&](std::size_t p) { work(p, p * count / parts, (p + 1) * count / parts); });
 }
 
 /// The same, for work that need not know its part's number.
 template <class Work>
 void for_row_ranges(std::size_t count, const Work& work) {
-  for_row_parts(count, [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
+  for_row_parts(count,
+                [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
 }
 
 }  // namespace plica

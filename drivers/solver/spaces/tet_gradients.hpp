@@ -15,7 +15,8 @@ struct TetGradients {
     Eigen::Matrix3d edges;
     for (std::size_t c = 0; c < 3; ++c)
       edges.row(static_cast<Eigen::Index>(c)) =
-          (mesh.vertices[static_cast<std::size_t>(tet[c + 1])] - mesh.vertices[static_cast<std::size_t>(tet[0])])
+          (mesh.vertices[static_cast<std::size_t>(tet[c + 1])] -
+           mesh.vertices[static_cast<std::size_t>(tet[0])])
               .transpose();
     volume = mesh.part(e) * edges.determinant() / 6;
     gradient.bottomRows<3>() = edges.inverse().transpose();

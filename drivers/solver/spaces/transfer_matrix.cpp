@@ -16,7 +16,8 @@ constexpr std::size_t fewest = 5;  // entries
 
 double spline(double s) { return s < 1 ? (1 - s) * (1 - s) * (1 + 2 * s) : 0; }
 
-// The weights of `ring`, whose first entry is the vertex itself; empty where they are not to be had.
+// The weights of `ring`, whose first entry is the vertex itself; empty where they are not to be
+// had.
 std::vector<double> ring_weights(const TetMesh& mesh, const std::vector<int>& ring) {
   const auto at = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)]; };
   if (ring.size() < fewest) return {};
@@ -31,7 +32,8 @@ std::vector<double> ring_weights(const TetMesh& mesh, const std::vector<int>& ri
     weight.push_back(spline(d.norm()));
     moments += weight.back() * basis.back() * basis.back().transpose();
   }
-  const Eigen::Vector4d c = moments.completeOrthogonalDecomposition().solve(Eigen::Vector4d::Unit(0));
+  const Eigen::Vector4d c =
+      moments.completeOrthogonalDecomposition().solve(Eigen::Vector4d::Unit(0));
   double sum = 0, size = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     weight[i] *= c.dot(basis[i]);
@@ -68,20 +70,24 @@ RowMatrix barycentric_transfer(const Embedding& up, std::size_t coarse_vertices)
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t a = 0; a < up.vertices.size(); ++a)
     for (std::size_t c = 0; c < 4; ++c)
-      if (up.weights[a][c] != 0) entries.emplace_back(static_cast<int>(a), up.vertices[a][c], up.weights[a][c]);
-  RowMatrix P(static_cast<Eigen::Index>(up.vertices.size()), static_cast<Eigen::Index>(coarse_vertices));
+      if (up.weights[a][c] != 0)
+        entries.emplace_back(static_cast<int>(a), up.vertices[a][c], up.weights[a][c]);
+  RowMatrix P(static_cast<Eigen::Index>(up.vertices.size()),
+              static_cast<Eigen::Index>(coarse_vertices));
   P.setFromTriplets(entries.begin(), entries.end());
   return P;
 }
 
 }  // namespace
 
-RowMatrix transfer_matrix(const TetMesh& fine, const std::vector<char>& fine_constrained, const TetMesh& coarse,
-                          const std::vector<char>& coarse_constrained, const Embedding& up, bool smooth) {
+RowMatrix transfer_matrix(const TetMesh& fine, const std::vector<char>& fine_constrained,
+                          const TetMesh& coarse, const std::vector<char>& coarse_constrained,
+                          const Embedding& up, bool smooth) {
   RowMatrix P = barycentric_transfer(up, coarse.vertices.size());
   if (smooth) P = RowMatrix(ring_smoothing(fine) * P);
   return some_entries(P, [&](Eigen::Index a, int b, double value) {
-    return !fine_constrained[static_cast<std::size_t>(a)] && !coarse_constrained[index_of(b)] && std::abs(value) > 1e-6;
+    return !fine_constrained[static_cast<std::size_t>(a)] && !coarse_constrained[index_of(b)] &&
+           std::abs(value) > 1e-6;
   });
 }
 

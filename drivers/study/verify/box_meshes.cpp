@@ -23,9 +23,10 @@ struct Stored {
   std::span<const int[4]> tets;
 };
 
-constexpr Stored all[] = {{{8, 2, 2}, vertices_8x2x2, tets_8x2x2}, {{16, 4, 4}, vertices_16x4x4, tets_16x4x4},
-                          {{4, 4, 2}, vertices_4x4x2, tets_4x4x2}, {{8, 8, 2}, vertices_8x8x2, tets_8x8x2},
-                          {{4, 4, 4}, vertices_4x4x4, tets_4x4x4}, {{6, 6, 6}, vertices_6x6x6, tets_6x6x6}};
+constexpr Stored all[] = {
+    {{8, 2, 2}, vertices_8x2x2, tets_8x2x2}, {{16, 4, 4}, vertices_16x4x4, tets_16x4x4},
+    {{4, 4, 2}, vertices_4x4x2, tets_4x4x2}, {{8, 8, 2}, vertices_8x8x2, tets_8x8x2},
+    {{4, 4, 4}, vertices_4x4x4, tets_4x4x4}, {{6, 6, 6}, vertices_6x6x6, tets_6x6x6}};
 
 const Stored* find(const std::array<int, 3>& cells) {
   const auto found = std::ranges::find(all, cells, &Stored::cells);
@@ -33,9 +34,11 @@ const Stored* find(const std::array<int, 3>& cells) {
 }
 
 TetMesh scaled(const Stored& stored, const Box& box) {
-  const Point cell = (box.max - box.min).cwiseQuotient(Point(stored.cells[0], stored.cells[1], stored.cells[2]));
+  const Point cell =
+      (box.max - box.min).cwiseQuotient(Point(stored.cells[0], stored.cells[1], stored.cells[2]));
   TetMesh mesh;
-  for (const auto& x : stored.vertices) mesh.vertices.push_back(box.min + cell.cwiseProduct(Point(x[0], x[1], x[2])));
+  for (const auto& x : stored.vertices)
+    mesh.vertices.push_back(box.min + cell.cwiseProduct(Point(x[0], x[1], x[2])));
   for (const auto& t : stored.tets) mesh.tets.push_back({t[0], t[1], t[2], t[3]});
   return mesh;
 }

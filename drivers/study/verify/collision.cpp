@@ -26,7 +26,8 @@ struct BallMomenta {
 };
 
 /// Of the vertices; `left` is the momentum of the first half of them.
-BallMomenta momenta_of_balls(const Simulation<HostBackend>& simulation, const std::vector<double>& mass) {
+BallMomenta momenta_of_balls(const Simulation<HostBackend>& simulation,
+                             const std::vector<double>& mass) {
   BallMomenta sums;
   const auto x = simulation.positions(), v = simulation.velocities();
   for (std::size_t a = 0; a < mass.size(); ++a) {
@@ -41,15 +42,17 @@ BallMomenta momenta_of_balls(const Simulation<HostBackend>& simulation, const st
 
 VerifyRows collision(const VerifyContext& context) {
   using namespace colliding;
-  VerifyRows rows = {{.quantity = "change of both balls' momentum, over one ball's", .unit = "1", .accepted = 0},
-                     {.quantity = "change of their angular momentum, over one ball's momentum times its radius",
-                      .unit = "1",
-                      .accepted = 0},
-                     {.quantity = "energy at the end over that at the start, less 1", .unit = "1", .accepted = 0},
-                     {.quantity = "momentum of the first ball along x afterwards, over that before", .unit = "1"}};
+  VerifyRows rows = {
+      {.quantity = "change of both balls' momentum, over one ball's", .unit = "1", .accepted = 0},
+      {.quantity = "change of their angular momentum, over one ball's momentum times its radius",
+       .unit = "1",
+       .accepted = 0},
+      {.quantity = "energy at the end over that at the start, less 1", .unit = "1", .accepted = 0},
+      {.quantity = "momentum of the first ball along x afterwards, over that before", .unit = "1"}};
   rows[0].source = rows[1].source = "action is reaction, along one line";
   rows[0].judged = rows[1].judged = Judged::size, rows[0].tolerance = rows[1].tolerance = 1e-12;
-  rows[2].source = "what contact's damping takes", rows[3].source = "-1 without vibrations and damping, head-on";
+  rows[2].source = "what contact's damping takes",
+  rows[3].source = "-1 without vibrations and damping, head-on";
   for (const int n : {6, 10}) {
     if (context.small && n > 6) break;
     context.proceed();
@@ -57,7 +60,8 @@ VerifyRows collision(const VerifyContext& context) {
     p.body = join_bodies({{"left", flying({-1.01 * radius, 0, 0}, {speed, 0, 0}, n)},
                           {"right", flying({1.01 * radius, askew, 0}, {-speed, 0, 0}, n)}});
     Simulation<HostBackend> simulation(p);
-    const std::vector<double> mass = lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
+    const std::vector<double> mass =
+        lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
     const BallMomenta before = momenta_of_balls(simulation, mass);
     const double energy = simulation.energies().total(), one = before.left.norm();
     while (simulation.time() < duration) simulation.step();

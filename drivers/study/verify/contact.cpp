@@ -23,7 +23,8 @@ double along(const Simulation<HostBackend>& simulation) {
 
 /// Whether it gains speed on a slope of this tangent, after the first jolt.
 bool slides(int n, double tangent) {
-  Problem p = verify_body(box_mesh({{0, 0, 0}, {size, size, size}}, {n, n, n}), {"corotational", 2e5, 0.3, 1000});
+  Problem p = verify_body(box_mesh({{0, 0, 0}, {size, size, size}}, {n, n, n}),
+                          {"corotational", 2e5, 0.3, 1000});
   const double angle = std::atan(tangent);
   p.gravity = g * Point(std::sin(angle), 0, -std::cos(angle));
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
@@ -55,7 +56,8 @@ VerifyRows friction_on_a_slope(const VerifyContext& context) {
                 .accepted = incline::friction};
   row.source = "Coulomb's law: tan(angle) = mu";
   row.judged = Judged::finest, row.tolerance = 0.02;
-  row.note = "it slips where from 0.3 to 0.6 s it gains 1 % of the speed of free fall along the slope";
+  row.note =
+      "it slips where from 0.3 to 0.6 s it gains 1 % of the speed of free fall along the slope";
   for (const int n : {3, 6}) {
     context.proceed();
     row.add(cells_text(n, n, n), 1.0 / n, incline::slips_at(n));

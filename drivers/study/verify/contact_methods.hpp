@@ -25,7 +25,8 @@ struct ContactMethod {
     if (step > 0) p.integration.macro_step = step;
   }
   std::string text() const {
-    return step > 0 ? name + " " + std::to_string(static_cast<int>(step * 1e3 + 0.5)) + " ms" : name;
+    return step > 0 ? name + " " + std::to_string(static_cast<int>(step * 1e3 + 0.5)) + " ms"
+                    : name;
   }
 };
 
@@ -39,7 +40,8 @@ inline Problem touching_body(TetMesh mesh, const MaterialOptions& material) {
 /// Sums over the vertices of level 0.
 class BodySums {
  public:
-  explicit BodySums(const Body& body) : mass_(lumped_masses(body.levels[0], region_densities(body, body.levels[0]))) {}
+  explicit BodySums(const Body& body)
+      : mass_(lumped_masses(body.levels[0], region_densities(body, body.levels[0]))) {}
   double mass() const {
     double sum = 0;
     for (const double m : mass_) sum += m;

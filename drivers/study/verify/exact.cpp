@@ -8,18 +8,22 @@
 
 namespace plica {
 
-// Boundary vertices go where x = F X + c takes them; inner ones start off their place and must find it.
+// Boundary vertices go where x = F X + c takes them; inner ones start off their place and must find
+// it.
 VerifyRows affine_patch(const VerifyContext& context) {
-  constexpr const char* source = "exact: linear shape functions (Irons' patch test; Zienkiewicz & Taylor, FEM vol. 1)";
-  VerifyRow place{.quantity = "error of inner vertices, over the displacement", .unit = "1", .source = source};
-  VerifyRow stress{.quantity = "error of the mean first Piola-Kirchhoff stress against P(F), relative",
-                   .unit = "1",
-                   .source = source};
+  constexpr const char* source =
+      "exact: linear shape functions (Irons' patch test; Zienkiewicz & Taylor, FEM vol. 1)";
+  VerifyRow place{
+      .quantity = "error of inner vertices, over the displacement", .unit = "1", .source = source};
+  VerifyRow stress{
+      .quantity = "error of the mean first Piola-Kirchhoff stress against P(F), relative",
+      .unit = "1",
+      .source = source};
   place.judged = stress.judged = Judged::size;
   place.tolerance = stress.tolerance = 1e-11;
   std::mt19937 random(9);
-  const Eigen::Matrix3d F =
-      random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() * random_rotation(random);
+  const Eigen::Matrix3d F = random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() *
+                            random_rotation(random);
   const int n = context.small ? 4 : 8;
   Materials::for_each([&](auto material) {
     using M = decltype(material);
@@ -41,7 +45,8 @@ VerifyRows affine_patch(const VerifyContext& context) {
     auto off = u;
     for (std::size_t a = 0; a < u.size(); ++a) off[a] -= want[a];
     place.add(M::name, 1, largest_length(off) / largest_length(want));
-    const auto c = M::kernel_constants(parameter_values(*find_material(M::name), problem.body.material, {}).data());
+    const auto c = M::kernel_constants(
+        parameter_values(*find_material(M::name), problem.body.material, {}).data());
     const Eigen::Matrix3d P = eigen(M::stress(mat3<double>(F), c));
     stress.add(M::name, 1, (virial(probe.force(u), mesh) / 1e-3 - P).norm() / P.norm());
   });
@@ -54,7 +59,8 @@ namespace {
 VerifyRow stress_of_a_turn(int n) {
   const Problem problem = irregular_cube(Linear::name, n);
   const TetMesh& mesh = problem.body.levels[0];
-  const Lame<double> c = lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
+  const Lame<double> c =
+      lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
   const double angle = 0.4;
   LevelProbe<HostBackend> probe(problem);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Point::UnitZ()).toRotationMatrix();
@@ -71,8 +77,9 @@ VerifyRow stress_of_a_turn(int n) {
 }  // namespace
 
 VerifyRows rigid_motion(const VerifyContext& context) {
-  VerifyRow row{.quantity = "largest force of a random rotation and translation, over E times a cell's face",
-                .unit = "1"};
+  VerifyRow row{
+      .quantity = "largest force of a random rotation and translation, over E times a cell's face",
+      .unit = "1"};
   row.source = "frame indifference (Bonet & Wood, Nonlinear Continuum Mechanics for FEA, 4.15)";
   row.judged = Judged::size, row.tolerance = 1e-12;
   const int n = context.small ? 4 : 8;
@@ -82,7 +89,8 @@ VerifyRows rigid_motion(const VerifyContext& context) {
     context.proceed();
     const Problem problem = irregular_cube(M::name, n);
     LevelProbe<HostBackend> probe(problem);
-    const Eigen::Matrix3d R = M::rotation_invariant ? random_rotation(random) : Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d R =
+        M::rotation_invariant ? random_rotation(random) : Eigen::Matrix3d::Identity();
     const auto f = probe.force(affine_field(problem.body.levels[0], R, {0.05, -0.02, 0.01}));
     const double face = 0.01 / (n * n);
     row.add(M::rotation_invariant ? M::name : std::string(M::name) + ", only moved", 1,
@@ -109,7 +117,8 @@ double worst_at_a_point(bool of_stress) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> within(-1, 1);
   for (const Gradient& g : gradients(M::survives_inversion)) {
-    const Eigen::Matrix3d D = Eigen::Matrix3d::NullaryExpr([&](auto, auto) { return within(random); });
+    const Eigen::Matrix3d D =
+        Eigen::Matrix3d::NullaryExpr([&](auto, auto) { return within(random); });
     const double h = 1e-4 * g.smallest;
     const auto F = [&](double t) { return mat3<double>(Eigen::Matrix3d(g.F + t * D)); };
     const Eigen::Matrix3d P = eigen(M::stress(F(0), some_tissue));
@@ -118,7 +127,9 @@ double worst_at_a_point(bool of_stress) {
       const auto stress = [&](double t) { return eigen(M::stress(F(t), some_tissue)); };
       worst = std::max(worst, (slope_at_zero(stress, h) - dP).norm() / dP.norm());
     } else {
-      const auto energy = [&](double t) { return Eigen::Matrix<double, 1, 1>(M::energy(F(t), some_tissue)); };
+      const auto energy = [&](double t) {
+        return Eigen::Matrix<double, 1, 1>(M::energy(F(t), some_tissue));
+      };
       const double found = slope_at_zero(energy, h)(0);
       worst = std::max(worst, std::abs(found - P.cwiseProduct(D).sum()) / (P.norm() * D.norm()));
     }
@@ -128,7 +139,8 @@ double worst_at_a_point(bool of_stress) {
 
 Eigen::VectorXd stacked(const std::vector<Point>& field) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(3 * field.size()));
-  for (std::size_t a = 0; a < field.size(); ++a) x.segment<3>(static_cast<Eigen::Index>(3 * a)) = field[a];
+  for (std::size_t a = 0; a < field.size(); ++a)
+    x.segment<3>(static_cast<Eigen::Index>(3 * a)) = field[a];
   return x;
 }
 
@@ -136,16 +148,21 @@ Eigen::VectorXd stacked(const std::vector<Point>& field) {
 std::array<double, 2> on_a_mesh(const char* material, int cells) {
   LevelProbe<HostBackend> probe(irregular_cube(material, cells));
   const double size = 0.01 / cells;
-  const auto u = random_field(probe.vertices(), size, 1), p = random_field(probe.vertices(), size, 2);
+  const auto u = random_field(probe.vertices(), size, 1),
+             p = random_field(probe.vertices(), size, 2);
   const auto at = [&](double t) {
     auto moved = u;
     for (std::size_t a = 0; a < u.size(); ++a) moved[a] += t * p[a];
     return moved;
   };
-  const Eigen::VectorXd f = stacked(probe.force(u)), direction = stacked(p), Kp = stacked(probe.stiffness(u, p));
-  const auto energy = [&](double t) { return Eigen::Matrix<double, 1, 1>(probe.elastic_energy(at(t))); };
+  const Eigen::VectorXd f = stacked(probe.force(u)), direction = stacked(p),
+                        Kp = stacked(probe.stiffness(u, p));
+  const auto energy = [&](double t) {
+    return Eigen::Matrix<double, 1, 1>(probe.elastic_energy(at(t)));
+  };
   const auto force = [&](double t) { return stacked(probe.force(at(t))); };
-  constexpr double h = 1e-5;  // so short that hardly any fibre becomes slack in it, where its tangent jumps
+  // so short that hardly any fibre becomes slack in it, where its tangent jumps
+  constexpr double h = 1e-5;
   return {std::abs(slope_at_zero(energy, h)(0) / f.dot(direction) + 1),
           (slope_at_zero(force, h) + Kp).norm() / Kp.norm()};
 }
@@ -155,11 +172,13 @@ std::array<double, 2> on_a_mesh(const char* material, int cells) {
 VerifyRows derivatives(const VerifyContext& context) {
   constexpr const char* source = "central differences of order 4 of the same functions";
   VerifyRows rows = {
-      {.quantity = "error of the stress against the derivative of the energy; some F nearly flat or inverted"},
+      {.quantity = "error of the stress against the derivative of the energy; some F nearly flat "
+                   "or inverted"},
       {.quantity = "error of its change against the derivative of the stress"},
       {.quantity = "error of nodal forces against the derivative of the mesh's energy"},
       {.quantity = "error of the tangent against the derivative of the nodal forces"}};
-  for (VerifyRow& row : rows) row.unit = "1", row.source = source, row.judged = Judged::size, row.tolerance = tolerance;
+  for (VerifyRow& row : rows)
+    row.unit = "1", row.source = source, row.judged = Judged::size, row.tolerance = tolerance;
   Materials::for_each([&](auto material) {
     using M = decltype(material);
     context.proceed();

@@ -7,27 +7,35 @@
 
 namespace plica {
 
-// A beam of 10 x 1 x 1 mm with fibres along it, clamped at x = 0; a pressure of 4 Pa follows its lower face.
+// A beam of 10 x 1 x 1 mm with fibres along it, clamped at x = 0; a pressure of 4 Pa follows its
+// lower face.
 VerifyRows bending_heart_muscle(const VerifyContext& context) {
   constexpr double mm = 1e-3;
-  VerifyRow row{.quantity = "z of the point (10, 0.5, 1) mm", .unit = "mm", .element = "nodal", .accepted = 4.17};
-  row.source = "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1: 4.17 +- 0.01 of most of 11 programs";
+  VerifyRow row{.quantity = "z of the point (10, 0.5, 1) mm",
+                .unit = "mm",
+                .element = "nodal",
+                .accepted = 4.17};
+  row.source =
+      "Land et al., Proc. R. Soc. A 471:20150641, 2015, problem 1: 4.17 +- 0.01 of most of 11 "
+      "programs";
   row.judged = Judged::finest, row.tolerance = context.small ? 0.15 : 0.04;
   row.note = "theirs is incompressible; here kappa is 50 times mu at rest";
   for (const int n : context.small ? std::vector{2} : std::vector{2, 4}) {
     context.proceed();
-    Problem p = verify_body(box_mesh({{0, 0, 0}, {10 * mm, mm, mm}}, {10 * n, n, n}), tissue_material("heart_muscle"));
+    Problem p = verify_body(box_mesh({{0, 0, 0}, {10 * mm, mm, mm}}, {10 * n, n, n}),
+                            tissue_material("heart_muscle"));
     p.body.material.fibres = FibreOptions{};
     p.body.element = {"nodal"};
     p.body.fixed = {HalfSpaceSelection{Point::Zero(), Point::UnitX()}};
-    p.body.loads = {
-        {HalfSpaceSelection{Point::Zero(), Point::UnitZ()}, FollowerPressure{4}, PolygonCourse{{{0, 0}, {1, 1}}}}};
+    p.body.loads = {{HalfSpaceSelection{Point::Zero(), Point::UnitZ()}, FollowerPressure{4},
+                     PolygonCourse{{{0, 0}, {1, 1}}}}};
     LevelProbe<HostBackend> probe(p);
     StaticOptions options;
     options.load_steps = 8, options.relative_residual = 1e-5;
     const Point tip(10 * mm, 0.5 * mm, mm);
     const std::size_t at = vertex_at(p.body.levels[0], tip);
-    row.add(cells_text(10 * n, n, n), 1.0 / n, (1 + static_equilibrium(probe, options)[at][2] / mm));
+    row.add(cells_text(10 * n, n, n), 1.0 / n,
+            (1 + static_equilibrium(probe, options)[at][2] / mm));
   }
   if (context.small) return {row};
   VerifyRow limit = row;

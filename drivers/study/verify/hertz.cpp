@@ -15,13 +15,15 @@ namespace hertz {
 
 constexpr double sphere_young = 1e5, nu = 0.3, rho = 1000, R = 0.5, contact_radius = 0.014;  // SI
 
-/// Cells across half of a block, the smallest, which is at the contact, over R, and how much larger the next one is.
+/// Cells across half of a block, the smallest, which is at the contact, over R, and how much larger
+/// the next one is.
 struct Grading {
   int cells;
   double smallest, growth;
 };
 
-/// A block whose upper face is part of a sphere about its middle, where it touches z = 0; `shift` is across z.
+/// A block whose upper face is part of a sphere about its middle, where it touches z = 0; `shift`
+/// is across z.
 struct Cap {
   Body body;
   double size;  ///< from the contact to the faces that are held
@@ -38,12 +40,14 @@ Cap cap(const Grading& grading, bool upside_down, const Point& shift) {
   };
   TetMesh mesh = grid_mesh({2 * n, 2 * n, n}, {true, true, false}, [&](const Point& u) {
     const Point x(place(2 * u[0] - 1), place(2 * u[1] - 1), -place(1 - u[2]));
-    const double square = std::min(x[0] * x[0] + x[1] * x[1], cut * cut), z = x[2] - square / (2 * R) * (1 + x[2] / L);
+    const double square = std::min(x[0] * x[0] + x[1] * x[1], cut * cut),
+                 z = x[2] - square / (2 * R) * (1 + x[2] / L);
     return Point(shift + (upside_down ? Point(x[0], -x[1], -z) : Point(x[0], x[1], z)));
   });
   for (std::size_t a = 0; a < mesh.vertices.size(); ++a) {
     const Point d = mesh.vertices[a] - shift;
-    if (d.cwiseAbs().maxCoeff() > 0.999 * L) mesh.vertex_sets["held"].push_back(static_cast<int>(a));
+    if (d.cwiseAbs().maxCoeff() > 0.999 * L)
+      mesh.vertex_sets["held"].push_back(static_cast<int>(a));
   }
   Body body = verify_body(std::move(mesh), {"linear", sphere_young, nu, rho}).body;
   body.element = {"nodal"};
@@ -51,11 +55,12 @@ Cap cap(const Grading& grading, bool upside_down, const Point& shift) {
   return {body, L};
 }
 
-/// Force over Hertz's, mean of the second half of an approach to `contact_radius`, slow to waves; of a sphere on a rigid plane or on
-/// its like.
+/// Force over Hertz's, mean of the second half of an approach to `contact_radius`, slow to waves;
+/// of a sphere on a rigid plane or on its like.
 double force_over_theory(const Grading& grading, bool spheres) {
   const Cap below = cap(grading, false, Point::Zero());
-  const double radius = spheres ? R / 2 : R, stiffness = sphere_young / (1 - nu * nu) / (spheres ? 2 : 1);
+  const double radius = spheres ? R / 2 : R,
+               stiffness = sphere_young / (1 - nu * nu) / (spheres ? 2 : 1);
   const double all = contact_radius * contact_radius / radius,
                wave = std::sqrt(sphere_young * (1 - nu) / (1 + nu) / (1 - 2 * nu) / rho),
                duration = 4 * below.size / wave;
@@ -69,7 +74,8 @@ double force_over_theory(const Grading& grading, bool spheres) {
     above.body.initial.velocity = velocity;
     p.body = join_bodies({{"below", p.body}, {"above", above.body}});
   } else {
-    p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0}, {0, 0, -1}}, {}, SteadyMotion{velocity}});
+    p.contact.obstacles.push_back(
+        {PlaneOptions{{0, 0, 0}, {0, 0, -1}}, {}, SteadyMotion{velocity}});
   }
   Simulation<HostBackend> simulation(p);
   double sum = 0;
@@ -78,7 +84,8 @@ double force_over_theory(const Grading& grading, bool spheres) {
     simulation.step();
     const double approach = -velocity[2] * simulation.time();
     if (approach < all / 2) continue;
-    sum += simulation.wrenches()[0].force.norm() / (4.0 / 3 * stiffness * std::sqrt(radius) * std::pow(approach, 1.5)),
+    sum += simulation.wrenches()[0].force.norm() /
+           (4.0 / 3 * stiffness * std::sqrt(radius) * std::pow(approach, 1.5)),
         ++count;
   }
   require_sound(simulation);
@@ -91,7 +98,8 @@ double force_over_theory(const Grading& grading, bool spheres) {
 VerifyRows hertz_contact(const VerifyContext& context) {
   VerifyRows rows;
   for (const bool spheres : {false, true}) {
-    VerifyRow row{.quantity = std::string("force of a sphere on ") + (spheres ? "its like" : "a rigid plane") +
+    VerifyRow row{.quantity = std::string("force of a sphere on ") +
+                              (spheres ? "its like" : "a rigid plane") +
                               " over Hertz's, mean of approaches",
                   .unit = "1",
                   .element = "nodal",
@@ -99,7 +107,8 @@ VerifyRows hertz_contact(const VerifyContext& context) {
     row.source = "Hertz: F = 4/3 E* sqrt(R) d^1.5 (Johnson, Contact Mechanics, 4.2)";
     row.judged = Judged::finest, row.tolerance = context.small ? 0.05 : 0.03;
     row.note =
-        "a block with a curved face, its least cell .29 and .18 of the largest contact radius; 14 of these cells, .1 "
+        "a block with a curved face, its least cell .29 and .18 of the largest contact radius; 14 "
+        "of these cells, .1 "
         "of it: .985 and .984";
     for (const auto& grading : {hertz::Grading{8, 0.008, 1.6}, {10, 0.005, 1.5}}) {
       if (context.small && !row.ours.empty()) break;

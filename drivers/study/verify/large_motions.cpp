@@ -13,7 +13,8 @@ namespace plica {
 namespace {
 
 Problem soft_cube(const std::string& element, const std::string& kind, int n, double nu) {
-  Problem p = verify_body(box_of(kind, {{0, 0, 0}, {0.1, 0.1, 0.1}}, {n, n, n}), {"neo_hookean", 20e3, nu, 1000});
+  Problem p = verify_body(box_of(kind, {{0, 0, 0}, {0.1, 0.1, 0.1}}, {n, n, n}),
+                          {"neo_hookean", 20e3, nu, 1000});
   p.body.element = {element};
   return p;
 }
@@ -23,8 +24,10 @@ Problem soft_cube(const std::string& element, const std::string& kind, int n, do
 VerifyRows free_spin(const VerifyContext& context) {
   VerifyRows rows = {{.quantity = "largest change of the energy over the run, relative"},
                      {.quantity = "change of the angular momentum, relative"}};
-  for (VerifyRow& row : rows) row.unit = "1", row.element = "nodal", row.mesh = "jittered", row.judged = Judged::size;
-  rows[0].source = "no outside work: symplectic_euler keeps the energy but for a bounded oscillation";
+  for (VerifyRow& row : rows)
+    row.unit = "1", row.element = "nodal", row.mesh = "jittered", row.judged = Judged::size;
+  rows[0].source =
+      "no outside work: symplectic_euler keeps the energy but for a bounded oscillation";
   rows[1].source = "no outside moment: symplectic_euler conserves it";
   rows[0].tolerance = 0.01, rows[1].tolerance = 1e-9;
   const int steps = context.small ? 2000 : 28000;
@@ -67,19 +70,23 @@ double stretch_across(double along, const Lame<double>& c) {
   return (low + high) / 2;
 }
 
-/// The least height, over that at rest, to which a cube between lubricated plates keeps the affine answer, by steps of 0.025 to 0.4; it is
-/// disturbed before each of them. A quarter, between its planes of symmetry.
+/// The least height, over that at rest, to which a cube between lubricated plates keeps the affine
+/// answer, by steps of 0.025 to 0.4; it is disturbed before each of them. A quarter, between its
+/// planes of symmetry.
 double least_height(const Problem& p, int n) {
   constexpr double side = 0.1, step = 0.025, last = 0.4;
   const std::vector<Point>& X = p.body.levels[0].vertices;
   LevelProbe<HostBackend> probe(p);
   StaticOptions options;
-  options.held = [](const Point& x, int axis) { return x[axis] < 1e-9 || (axis == 2 && x[2] > side - 1e-9); };
+  options.held = [](const Point& x, int axis) {
+    return x[axis] < 1e-9 || (axis == 2 && x[2] > side - 1e-9);
+  };
   options.start = probe.zero();
   const MaterialOptions& m = p.body.material;
   double kept = 1;
   for (double height = 1 - step; height > last - step / 2; height -= step) {
-    const auto disorder = random_field(X.size(), 0.01 * side / n, static_cast<unsigned>(1000 * height));
+    const auto disorder =
+        random_field(X.size(), 0.01 * side / n, static_cast<unsigned>(1000 * height));
     for (std::size_t a = 0; a < X.size(); ++a) {
       options.start[a][2] = height / kept * (X[a][2] + options.start[a][2]) - X[a][2];
       for (int k = 0; k < 3; ++k)
@@ -92,7 +99,8 @@ double least_height(const Problem& p, int n) {
     }
     const double across = stretch_across(height, lame_constants(m.young_modulus, m.poisson_ratio));
     for (std::size_t a = 0; a < X.size(); ++a)
-      if ((X[a] + options.start[a] - X[a].cwiseProduct(Point(across, across, height))).norm() > 1e-7 * side)
+      if ((X[a] + options.start[a] - X[a].cwiseProduct(Point(across, across, height))).norm() >
+          1e-7 * side)
         return kept;
     kept = height;
   }
@@ -108,11 +116,13 @@ VerifyRows squash(const VerifyContext& context) {
     for (const double nu : {0.3, 0.45})
       for (const std::string kind : mesh_kinds) {
         context.proceed();
-        VerifyRow row{
-            .quantity = text("least height, over that at rest, to which the answer stays affine, nu ", number(nu, 2))};
+        VerifyRow row{.quantity = text(
+                          "least height, over that at rest, to which the answer stays affine, nu ",
+                          number(nu, 2))};
         row.unit = "1", row.source = "no stress across, from the law's own stress; tried to 0.4";
         row.element = element, row.mesh = kind, row.judged = Judged::size, row.tolerance = 0.65;
-        if (element == "nodal") row.note = "below, other shapes balance, too; with a larger body.stabilisation later";
+        if (element == "nodal")
+          row.note = "below, other shapes balance, too; with a larger body.stabilisation later";
         row.add(cells_text(n, n, n), 1, least_height(soft_cube(element, kind, n, nu), n));
         rows.push_back(row);
       }

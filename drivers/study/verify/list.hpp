@@ -17,7 +17,8 @@ struct VerifyContext {
   void proceed() const {
     if (go_on && !go_on()) throw VerifyStopped{};
   }
-  /// Three numbers of cells, each twice the one before; the first of the small version is half the `coarsest`, which is even.
+  /// Three numbers of cells, each twice the one before; the first of the small version is half the
+  /// `coarsest`, which is even.
   std::vector<int> refined(int coarsest) const {
     const int first = small ? coarsest / 2 : coarsest;
     return {first, 2 * first, 4 * first};
@@ -73,10 +74,15 @@ struct VerifyProblem {
 
 /// All there are. One more: its file in this folder, its function above, its line here.
 inline constexpr VerifyProblem verify_list[] = {
-    {"affine_patch", "an irregular mesh takes an affine deformation exactly, in every material", affine_patch},
-    {"rigid_motion", "a turned and moved body feels no force; small-strain `linear` feels a known one", rigid_motion},
-    {"derivatives", "energy, force and tangent are each other's derivatives, in every material", derivatives},
-    {"conservation", "momentum and energy of a free body, by every integrator and cycle", conservation},
+    {"affine_patch", "an irregular mesh takes an affine deformation exactly, in every material",
+     affine_patch},
+    {"rigid_motion",
+     "a turned and moved body feels no force; small-strain `linear` feels a known one",
+     rigid_motion},
+    {"derivatives", "energy, force and tangent are each other's derivatives, in every material",
+     derivatives},
+    {"conservation", "momentum and energy of a free body, by every integrator and cycle",
+     conservation},
     {"critical_step", "2/w_max against dense eigenvalues and against runs", critical_steps},
     {"hanging_bar", "a bar under its own weight", hanging_bar},
     {"uniaxial_tension", "a bar under traction at both ends", uniaxial_tension},
@@ -84,24 +90,37 @@ inline constexpr VerifyProblem verify_list[] = {
     {"cantilever", "deflection and first frequency of a slender beam", cantilever},
     {"stopped_bar", "velocity pulses in a bar that is stopped at one end", stopped_bar},
     {"cook_membrane", "Cook's membrane at finite strain", cook_membrane},
-    {"bending", "slender and stubby clamped beams, nu from 0.3 to 0.4999, of linear and of nodal elements", bending},
-    {"cook_incompressible", "Cook's membrane at nu 0.4999, flat and thick, of both elements", cook_incompressible},
-    {"punch", "a punched block, nearly incompressible, squeezed to a third, of nodal elements", punch},
+    {"bending",
+     "slender and stubby clamped beams, nu from 0.3 to 0.4999, of linear and of nodal elements",
+     bending},
+    {"cook_incompressible", "Cook's membrane at nu 0.4999, flat and thick, of both elements",
+     cook_incompressible},
+    {"punch", "a punched block, nearly incompressible, squeezed to a third, of nodal elements",
+     punch},
     {"free_cube",
-     "frequencies of a nearly incompressible free cube: linear elements lock, nodal ones have the first 20 modes",
+     "frequencies of a nearly incompressible free cube: linear elements lock, nodal ones have the "
+     "first 20 modes",
      free_cube},
-    {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)", tapered_membrane},
-    {"laws_of_tissue", "stretched and sheared boxes of every law of tissue, in closed form, of both elements",
+    {"tapered_membrane", "in-plane frequencies of a tapered membrane (NAFEMS FV32)",
+     tapered_membrane},
+    {"laws_of_tissue",
+     "stretched and sheared boxes of every law of tissue, in closed form, of both elements",
      laws_of_tissue},
-    {"relaxation", "steps, ramps and sines of viscous materials, in closed form, of both elements", relaxation},
+    {"relaxation", "steps, ramps and sines of viscous materials, in closed form, of both elements",
+     relaxation},
     {"bending_heart_muscle",
      "a beam bent by a pressure that follows it (Land et al. 2015, problem 1), of nodal elements",
      bending_heart_muscle},
-    {"twisting_column", "a twisting column against its own finest mesh, and its energy, of both elements",
+    {"twisting_column",
+     "a twisting column against its own finest mesh, and its energy, of both elements",
      twisting_column},
-    {"free_spin", "energy and angular momentum of a spinning cube over 28 000 steps, of nodal elements", free_spin},
-    {"squash", "how far a cube can be squashed between lubricated plates, of both elements", squash},
-    {"manufactured_solution", "a chosen motion and the body force that it takes: order in space of both elements",
+    {"free_spin",
+     "energy and angular momentum of a spinning cube over 28 000 steps, of nodal elements",
+     free_spin},
+    {"squash", "how far a cube can be squashed between lubricated plates, of both elements",
+     squash},
+    {"manufactured_solution",
+     "a chosen motion and the body force that it takes: order in space of both elements",
      manufactured_solution},
     {"time_order", "the order in time of every integrator on a nonlinear problem", time_order},
     {"friction_on_a_slope", "the slope on which a block begins to slip", friction_on_a_slope},
@@ -109,10 +128,14 @@ inline constexpr VerifyProblem verify_list[] = {
      sticking_and_slipping},
     {"grip_and_lift", "a cube that jaws lift by friction and hold", grip_and_lift},
     {"turntable", "a cube that sticks on a table that turns by 90 degrees", stuck_on_a_turntable},
-    {"impact_on_a_plate", "a soft block that falls on a stiff plate: peak force, impulse, energy", impact_on_a_plate},
-    {"thrown_cube", "a cube thrown at a floor gains no energy, by explicit and implicit steps", thrown_cube},
-    {"reactions", "forces of obstacles against the change of momentum, in every integrator", reactions},
-    {"hertz", "force against approach of a sphere on a plane and on its like, of nodal elements", hertz_contact},
+    {"impact_on_a_plate", "a soft block that falls on a stiff plate: peak force, impulse, energy",
+     impact_on_a_plate},
+    {"thrown_cube", "a cube thrown at a floor gains no energy, by explicit and implicit steps",
+     thrown_cube},
+    {"reactions", "forces of obstacles against the change of momentum, in every integrator",
+     reactions},
+    {"hertz", "force against approach of a sphere on a plane and on its like, of nodal elements",
+     hertz_contact},
     {"collision", "momenta of two equal balls that collide askew", collision}};
 
 }  // namespace plica

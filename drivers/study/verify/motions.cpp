@@ -26,8 +26,8 @@ struct Pulses {
 };
 
 Pulses pulses(int n) {
-  Problem p =
-      verify_body(box_mesh({{0, 0, 0}, {length, width, width}}, {20 * n, n, n}), {"linear", bar_young, nu, rho});
+  Problem p = verify_body(box_mesh({{0, 0, 0}, {length, width, width}}, {20 * n, n, n}),
+                          {"linear", bar_young, nu, rho});
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
   p.body.initial.velocity = {-speed, 0, 0};
   Simulation<HostBackend> simulation(p);
@@ -52,7 +52,8 @@ Pulses pulses(int n) {
     before = now;
   }
   require_sound(simulation);
-  if (crossings.size() != 6) throw std::runtime_error(std::to_string(crossings.size()) + " fronts seen, there are 6");
+  if (crossings.size() != 6)
+    throw std::runtime_error(std::to_string(crossings.size()) + " fronts seen, there are 6");
   found.arrival = crossings[0], found.period = (crossings[4] - crossings[0]) / 2;
   found.error = std::sqrt(sum / static_cast<double>(samples)) / speed;
   found.energy = simulation.energies().total() / start - 1;
@@ -66,20 +67,28 @@ VerifyRows stopped_bar(const VerifyContext& context) {
   using namespace stopped;
   const double c = std::sqrt(bar_young / rho);
   constexpr const char* source =
-      "one-dimensional wave equation, c = sqrt(E/rho): L/c, 4L/c (Graff, Wave Motion in Elastic Solids, 2.4)";
+      "one-dimensional wave equation, c = sqrt(E/rho): L/c, 4L/c (Graff, Wave Motion in Elastic "
+      "Solids, 2.4)";
   VerifyRows rows = {
-      {.quantity = "arrival of the first front at the free end", .unit = "s", .accepted = length / c},
+      {.quantity = "arrival of the first front at the free end",
+       .unit = "s",
+       .accepted = length / c},
       {.quantity = "period of the pulses there", .unit = "s", .accepted = 4 * length / c},
       {.quantity = "overshoot of the velocity there, over v", .unit = "1", .accepted = 0},
-      {.quantity = "error of the velocity there against rectangular pulses, L2 over v", .unit = "1", .accepted = 0},
+      {.quantity = "error of the velocity there against rectangular pulses, L2 over v",
+       .unit = "1",
+       .accepted = 0},
       {.quantity = "energy at the end over that at the start, less 1", .unit = "1", .accepted = 0}};
   for (VerifyRow& row : rows) row.source = source;
-  rows[0].judged = rows[1].judged = Judged::finest, rows[0].tolerance = 0.02, rows[1].tolerance = 0.01;
+  rows[0].judged = rows[1].judged = Judged::finest, rows[0].tolerance = 0.02,
+  rows[1].tolerance = 0.01;
   rows[0].note =
-      "late by lateral inertia, which the wave equation leaves out: Love's rod, whose front is an integral of Airy's "
+      "late by lateral inertia, which the wave equation leaves out: Love's rod, whose front is an "
+      "integral of Airy's "
       "function, gives 3.98e-06";
   rows[2].note =
-      "Airy's front overshoots by 0.27 of the jump, 0.55; the rest are Gibbs' oscillations on the mesh, which nothing "
+      "Airy's front overshoots by 0.27 of the jump, 0.55; the rest are Gibbs' oscillations on the "
+      "mesh, which nothing "
       "damps";
   rows[3].note = "does not vanish: the wave equation has no dispersion";
   rows[4].note = "symplectic_euler: bounded oscillation of the energy, no drift";
@@ -87,7 +96,8 @@ VerifyRows stopped_bar(const VerifyContext& context) {
     context.proceed();
     const Pulses found = pulses(n);
     const double ours[] = {found.arrival, found.period, found.overshoot, found.error, found.energy};
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].add(cells_text(20 * n, n, n), 1.0 / n, ours[i]);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].add(cells_text(20 * n, n, n), 1.0 / n, ours[i]);
   }
   return rows;
 }
@@ -103,11 +113,12 @@ struct Twist {
 };
 
 Twist twist(const std::string& element, int n) {
-  Problem p =
-      verify_body(box_mesh({{-0.5, 0, -0.5}, {0.5, height, 0.5}}, {n, 6 * n, n}), {"neo_hookean", 17e6, 0.45, 1100});
+  Problem p = verify_body(box_mesh({{-0.5, 0, -0.5}, {0.5, height, 0.5}}, {n, 6 * n, n}),
+                          {"neo_hookean", 17e6, 0.45, 1100});
   p.body.element = {element};
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 1, 0}}};
-  p.integration.macro_step = steps_below_limit * Simulation<HostBackend>(p).levels()[0].critical_step;
+  p.integration.macro_step =
+      steps_below_limit * Simulation<HostBackend>(p).levels()[0].critical_step;
   Simulation<HostBackend> simulation(p);
   const TetMesh& mesh = p.body.levels[0];
   std::vector<Point> v;
@@ -124,7 +135,8 @@ Twist twist(const std::string& element, int n) {
     simulation.step();
     Kokkos::fence("plica::twisting_column");
     const double x = corner[0] + u(probe, 0), z = corner[2] + u(probe, 2);
-    const double turned = std::atan2(corner[2], corner[0]) - std::atan2(z, x);  // about y, from z to x
+    // about y, from z to x
+    const double turned = std::atan2(corner[2], corner[0]) - std::atan2(z, x);
     angle += std::remainder(turned - angle, 2 * std::numbers::pi);
     if (angle > found.largest) found.largest = angle, found.when = simulation.time();
     if (i % 50 == 0) require_sound(simulation);
@@ -142,11 +154,14 @@ VerifyRows twisting_column(const VerifyContext& context) {
   for (const std::string element : {"linear", "nodal"}) {
     VerifyRows rows = {{.quantity = "largest rotation of the top", .unit = "rad"},
                        {.quantity = "time of that", .unit = "s"},
-                       {.quantity = "energy at 0.25 s over that at the start, less 1", .unit = "1", .accepted = 0}};
+                       {.quantity = "energy at 0.25 s over that at the start, less 1",
+                        .unit = "1",
+                        .accepted = 0}};
     rows[0].source = rows[1].source = "none; compared with its own finest mesh";
     if (element == "linear")
       rows[0].note = rows[1].note =
-          "E 17 MPa, nu 0.45: linear tetrahedra are too stiff, so it turns further as the mesh is refined";
+          "E 17 MPa, nu 0.45: linear tetrahedra are too stiff, so it turns further as the mesh is "
+          "refined";
     rows[2].source = "no outside work", rows[2].judged = Judged::size, rows[2].tolerance = 0.01;
     std::vector<int> across = context.refined(4);
     if (element == "nodal" && !context.small) across.pop_back();
@@ -154,7 +169,8 @@ VerifyRows twisting_column(const VerifyContext& context) {
       context.proceed();
       const Twist found = twist(element, n);
       const double ours[] = {found.largest, found.when, found.energy};
-      for (std::size_t i = 0; i < rows.size(); ++i) rows[i].add(cells_text(n, 6 * n, n), 1.0 / n, ours[i]);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i].add(cells_text(n, 6 * n, n), 1.0 / n, ours[i]);
     }
     for (VerifyRow& row : rows) row.element = element, all.push_back(row);
   }
@@ -164,7 +180,8 @@ VerifyRows twisting_column(const VerifyContext& context) {
 namespace {
 namespace manufactured {
 
-// u(X, t) = d sin(w t) phi(X), phi = sin(pi X) sin(pi Y) sin(pi Z) on the unit cube, whose boundary is fixed
+// u(X, t) = d sin(w t) phi(X), phi = sin(pi X) sin(pi Y) sin(pi Z) on the unit cube, whose boundary
+// is fixed
 constexpr double pi = std::numbers::pi, omega = 2 * pi, duration = 0.3, rho = 1000;
 const Point direction(0.06, -0.04, 0.05);
 const MaterialOptions soft_matter{NeoHookean::name, 20e3, 0.3, rho};
@@ -188,7 +205,8 @@ Phi phi_at(const Point& X) {
 Point body_force(const Phi& phi, double t) {
   const Lame<double> c = lame_constants(soft_matter.young_modulus, soft_matter.poisson_ratio);
   const double s = std::sin(omega * t);
-  const Mat3<double> F = mat3<double>(Eigen::Matrix3d::Identity() + s * direction * phi.slope.transpose());
+  const Mat3<double> F =
+      mat3<double>(Eigen::Matrix3d::Identity() + s * direction * phi.slope.transpose());
   Point b = -rho * omega * omega * s * phi.value * direction;
   for (int k = 0; k < 3; ++k) {
     const Mat3<double> dF = mat3<double>(s * direction * phi.curvature.col(k).transpose());
@@ -237,7 +255,8 @@ std::array<double, 2> errors(const std::string& element, int n) {
     want_u.emplace_back(std::sin(omega * simulation.time()) * phi[a].value * direction);
     want_v.emplace_back(omega * std::cos(omega * simulation.time()) * phi[a].value * direction);
   }
-  return {distance(u, want_u, m) / distance(want_u, zero, m), distance(v, want_v, m) / distance(want_v, zero, m)};
+  return {distance(u, want_u, m) / distance(want_u, zero, m),
+          distance(v, want_v, m) / distance(want_v, zero, m)};
 }
 
 }  // namespace manufactured
@@ -247,18 +266,23 @@ VerifyRows manufactured_solution(const VerifyContext& context) {
   using namespace manufactured;
   VerifyRows all;
   for (const std::string element : {"linear", "nodal"}) {
-    VerifyRows rows = {{.quantity = "error of the displacement against the chosen motion, L2 relative"},
-                       {.quantity = "error of the velocity against the chosen motion, L2 relative"}};
+    VerifyRows rows = {
+        {.quantity = "error of the displacement against the chosen motion, L2 relative"},
+        {.quantity = "error of the velocity against the chosen motion, L2 relative"}};
     for (VerifyRow& row : rows) {
       row.element = element, row.unit = "1", row.accepted = 2, row.judged = Judged::order;
-      row.tolerance = element == "nodal" && context.small ? 0.4 : 0.3;  // 8 cells are few for nodal ones
-      row.source = "h^2 of linear elements (Hughes, The Finite Element Method, 4.1); b = rho0 x'' - Div P (Roache)";
+      // 8 cells are few for nodal ones
+      row.tolerance = element == "nodal" && context.small ? 0.4 : 0.3;
+      row.source =
+          "h^2 of linear elements (Hughes, The Finite Element Method, 4.1); b = rho0 x'' - Div P "
+          "(Roache)";
       row.note = "neo_hookean, irregular mesh, rk4";
     }
     for (const int n : context.refined(4)) {
       context.proceed();
       const auto found = errors(element, n);
-      for (std::size_t i = 0; i < rows.size(); ++i) rows[i].add(cells_text(n, n, n), 1.0 / n, found[i]);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i].add(cells_text(n, n, n), 1.0 / n, found[i]);
     }
     all.insert(all.end(), rows.begin(), rows.end());
   }

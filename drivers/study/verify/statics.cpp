@@ -11,12 +11,14 @@ VerifyRows uniaxial_tension(const VerifyContext& context) {
   context.proceed();
   const double E = 20e3, nu = 0.3, p_over_E = 1e-3, L = 0.4, w = 0.1;
   const int n = context.small ? 2 : 4;
-  Problem p = verify_body(jittered_box({{0, 0, 0}, {L, w, w}}, {4 * n, n, n}), {"linear", E, nu, 1000});
+  Problem p =
+      verify_body(jittered_box({{0, 0, 0}, {L, w, w}}, {4 * n, n, n}), {"linear", E, nu, 1000});
   p.body.loads = {{HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}, Traction{{-p_over_E * E, 0, 0}}, {}},
                   {HalfSpaceSelection{{L, 0, 0}, {-1, 0, 0}}, Traction{{p_over_E * E, 0, 0}}, {}}};
   const auto held = [=](const Point& X, int axis) {  // rigid motion, at three corners
     if (X.norm() < 1e-9) return true;
-    return ((X - Point(L, 0, 0)).norm() < 1e-9 && axis > 0) || ((X - Point(0, 0, w)).norm() < 1e-9 && axis == 1);
+    return ((X - Point(L, 0, 0)).norm() < 1e-9 && axis > 0) ||
+           ((X - Point(0, 0, w)).norm() < 1e-9 && axis == 1);
   };
   LevelProbe<HostBackend> probe(p);
   const SparseStiffness K(probe, held);
@@ -24,7 +26,10 @@ VerifyRows uniaxial_tension(const VerifyContext& context) {
   const Point corner = u[vertex_at(p.body.levels[0], {L, w, w})];
   VerifyRows rows = {
       {.quantity = "strain along", .unit = "1", .accepted = p_over_E, .source = "p/E (Hooke)"},
-      {.quantity = "strain across", .unit = "1", .accepted = -nu * p_over_E, .source = "-nu p/E (Hooke)"}};
+      {.quantity = "strain across",
+       .unit = "1",
+       .accepted = -nu * p_over_E,
+       .source = "-nu p/E (Hooke)"}};
   const double ours[] = {corner[0] / L, corner[1] / w};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].judged = Judged::finest, rows[i].tolerance = 1e-10;
@@ -44,8 +49,8 @@ Problem membrane(int n) {
   });
   Problem p = verify_body(std::move(mesh), {"neo_hookean", 2 * mu * (1 + nu), nu, 1000});
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
-  p.body.loads = {{HalfSpaceSelection{{48 * mm, 0, 0}, {-1, 0, 0}}, Traction{{0, 1 / (16e-3 * 1e-3), 0}},
-                   PolygonCourse{{{0, 0}, {1, 1}}}}};
+  p.body.loads = {{HalfSpaceSelection{{48 * mm, 0, 0}, {-1, 0, 0}},
+                   Traction{{0, 1 / (16e-3 * 1e-3), 0}}, PolygonCourse{{{0, 0}, {1, 1}}}}};
   return p;
 }
 
@@ -54,12 +59,14 @@ Problem membrane(int n) {
 VerifyRows cook_membrane(const VerifyContext& context) {
   VerifyRow row{.quantity = "u_y at (48, 52) mm under 1 N upward", .unit = "mm", .accepted = 14.74};
   row.source =
-      "converged value for this energy (Simo & Hughes, Computational Inelasticity, eq. 9.2.6); Q1 with 2 to 64 cells "
+      "converged value for this energy (Simo & Hughes, Computational Inelasticity, eq. 9.2.6); Q1 "
+      "with 2 to 64 cells "
       "an edge: "
       "8.638 12.07 13.86 14.49 14.67 14.72";
   row.judged = Judged::limit, row.tolerance = 0.01, row.power = -1;
   row.note =
-      "from below: linear tetrahedra are stiff in bending and lock at low resolution; its stiffness is extrapolated";
+      "from below: linear tetrahedra are stiff in bending and lock at low resolution; its "
+      "stiffness is extrapolated";
   for (const int n : context.refined(16)) {
     context.proceed();
     const Problem p = membrane(n);
@@ -69,7 +76,8 @@ VerifyRows cook_membrane(const VerifyContext& context) {
     options.load_steps = 4;
     const auto u = static_equilibrium(probe, options);
     double sum = 0;
-    for (const double z : {0.0, 1e-3}) sum += u[vertex_at(p.body.levels[0], {48e-3, 52e-3, z})][1] / 2;
+    for (const double z : {0.0, 1e-3})
+      sum += u[vertex_at(p.body.levels[0], {48e-3, 52e-3, z})][1] / 2;
     row.add(cells_text(n, n, 1), 1.0 / n, 1e3 * sum);
   }
   return {row};
@@ -79,12 +87,14 @@ namespace {
 
 constexpr double pillar_young = 2e11, nu = 0.3, rho = 7800, g = 9.81, length = 3, half = 0.5;
 
-// Hung at its upper end, z = L, where a uniform traction carries it; a quarter, between its planes of symmetry.
+// Hung at its upper end, z = L, where a uniform traction carries it; a quarter, between its planes
+// of symmetry.
 Problem bar(int n) {
-  Problem p =
-      verify_body(box_mesh({{0, 0, 0}, {half, half, length}}, {n, n, 6 * n}), {"linear", pillar_young, nu, rho});
+  Problem p = verify_body(box_mesh({{0, 0, 0}, {half, half, length}}, {n, n, 6 * n}),
+                          {"linear", pillar_young, nu, rho});
   p.gravity = {0, 0, -g};
-  p.body.loads = {{HalfSpaceSelection{{0, 0, length}, {0, 0, -1}}, Traction{{0, 0, rho * g * length}}, {}}};
+  p.body.loads = {
+      {HalfSpaceSelection{{0, 0, length}, {0, 0, -1}}, Traction{{0, 0, rho * g * length}}, {}}};
   return p;
 }
 
@@ -102,16 +112,19 @@ Point exact(const Point& X) {
 
 VerifyRows hanging_bar(const VerifyContext& context) {
   constexpr const char* source =
-      "w = rho g z^2/2E + nu rho g (x^2 + y^2)/2E - rho g L^2/2E (Timoshenko & Goodier, Theory of Elasticity, art. 96; "
+      "w = rho g z^2/2E + nu rho g (x^2 + y^2)/2E - rho g L^2/2E (Timoshenko & Goodier, Theory of "
+      "Elasticity, art. 96; "
       "VPCS SSLV07)";
-  VerifyRows rows = {{.quantity = "deflection of the lower end on the axis", .unit = "m", .source = source},
-                     {.quantity = "lateral contraction at the upper end's edge", .unit = "m", .source = source},
-                     {.quantity = "error of the displacement, without vertical translation, L2 relative",
-                      .unit = "1",
-                      .source = source}};
+  VerifyRows rows = {
+      {.quantity = "deflection of the lower end on the axis", .unit = "m", .source = source},
+      {.quantity = "lateral contraction at the upper end's edge", .unit = "m", .source = source},
+      {.quantity = "error of the displacement, without vertical translation, L2 relative",
+       .unit = "1",
+       .source = source}};
   rows[0].accepted = exact({0, 0, 0})[2], rows[0].judged = Judged::finest,
   rows[0].tolerance = context.small ? 0.01 : 0.005;
-  rows[1].accepted = exact({half, 0, length})[0], rows[1].judged = Judged::finest, rows[1].tolerance = 0.02;
+  rows[1].accepted = exact({half, 0, length})[0], rows[1].judged = Judged::finest,
+  rows[1].tolerance = 0.02;
   rows[2].accepted = 2, rows[2].judged = Judged::order, rows[2].tolerance = 0.3;
   for (const int n : context.refined(2)) {
     context.proceed();

@@ -17,7 +17,8 @@ constexpr double duration = 0.016;  // [s]
 std::vector<Point> positions_at_end(const std::string& integrator, double step) {
   Problem p = irregular_cube("neo_hookean", 2);
   p.integration.integrator = {integrator};
-  p.integration.macro_step = step, p.integration.substeps = {1}, p.integration.allow_unstable = true;
+  p.integration.macro_step = step, p.integration.substeps = {1},
+  p.integration.allow_unstable = true;
   p.integration.implicit.relative_residual = 1e-12;
   p.integration.implicit.newton_iterations = 10, p.integration.implicit.newton_tolerance = 1e-11;
   p.body.damping.mass = 20;
@@ -41,8 +42,10 @@ VerifyRows time_order(const VerifyContext& context) {
     using Kind = decltype(integrator);
     const std::string name = Kind::name;
     context.proceed();
-    VerifyRow row{.quantity = name + ": difference of positions from rk4 with steps of 1/640 of the time, rms",
-                  .unit = "m"};
+    VerifyRow row{
+        .quantity =
+            name + ": difference of positions from rk4 with steps of 1/640 of the time, rms",
+        .unit = "m"};
     row.accepted = Kind::order, row.judged = Judged::order, row.tolerance = 0.1 * *row.accepted;
     row.source = "as `plica list integrators` states (Hairer & Wanner, Solving ODEs I and II)";
     const int most = *row.accepted > 2 ? 80 : 320;  // between coarse steps and round-off
@@ -59,7 +62,8 @@ namespace {
 Problem at_any_step(int cells, const std::string& integrator) {
   Problem p = irregular_cube("linear", cells);
   p.integration.integrator = {integrator};
-  p.integration.substeps = {1}, p.integration.allow_unstable = true, p.integration.macro_step = 1e-7;
+  p.integration.substeps = {1}, p.integration.allow_unstable = true,
+  p.integration.macro_step = 1e-7;
   return p;
 }
 
@@ -68,8 +72,11 @@ VerifyRow against_eigenvalues(int cells) {
   LevelProbe<HostBackend> probe(at_any_step(cells, "symplectic_euler"));
   const Eigen::MatrixXd S = probe.scaled_by_mass(probe.stiffness_matrix(probe.zero()));
   const double w2 = symmetric_eigenvalues(S).maxCoeff();
-  VerifyRow row{.quantity = "predicted critical step, symplectic_euler", .unit = "s", .accepted = 2 / std::sqrt(w2)};
-  row.source = "2/w_max, dense eigenvalues of the same matrices (Hughes, The Finite Element Method, 9.2)";
+  VerifyRow row{.quantity = "predicted critical step, symplectic_euler",
+                .unit = "s",
+                .accepted = 2 / std::sqrt(w2)};
+  row.source =
+      "2/w_max, dense eigenvalues of the same matrices (Hughes, The Finite Element Method, 9.2)";
   row.judged = Judged::finest, row.tolerance = 0.02;
   row.note = "too small by up to 1e-3, which is added to the eigenvalue for safety";
   row.add(cells_text(cells, cells, cells) + ", irregular", 1, probe.built.reports[0].critical_step);
@@ -83,10 +90,14 @@ VerifyRow against_runs(const std::string& integrator, double predicted, int cell
     auto built = build_hierarchy<HostBackend>(p, {});
     return small_motion(built, t, {2000, {}}).bounded;
   };
-  VerifyRow row{.quantity = "largest stable step of runs, " + integrator, .unit = "s", .accepted = predicted};
-  row.source = "its own prediction before the run; the scalar test equation (Hairer & Wanner, Solving ODEs II, IV.2)";
+  VerifyRow row{
+      .quantity = "largest stable step of runs, " + integrator, .unit = "s", .accepted = predicted};
+  row.source =
+      "its own prediction before the run; the scalar test equation (Hairer & Wanner, Solving ODEs "
+      "II, IV.2)";
   row.judged = Judged::finest, row.tolerance = 0.02;
-  const LargestStep found = largest_stable({0.97 * predicted, 0.5 * predicted, 2 * predicted, 1.02, 0.002}, stable);
+  const LargestStep found =
+      largest_stable({0.97 * predicted, 0.5 * predicted, 2 * predicted, 1.02, 0.002}, stable);
   row.add(cells_text(cells, cells, cells) + ", irregular", 1, found.step);
   return row;
 }
@@ -99,7 +110,8 @@ VerifyRows critical_steps(const VerifyContext& context) {
   VerifyRows rows = {against_eigenvalues(cells)};
   for (const std::string& integrator : names(integrators())) {
     context.proceed();
-    const LevelReport report = LevelProbe<HostBackend>(at_any_step(cells, integrator)).built.reports[0];
+    const LevelReport report =
+        LevelProbe<HostBackend>(at_any_step(cells, integrator)).built.reports[0];
     if (report.explicit_integrator && report.critical_step > 0)  // euler has none without damping
       rows.push_back(against_runs(integrator, report.critical_step, cells));
   }
@@ -130,7 +142,8 @@ struct Budget {
   double energy = 0;
 };
 
-// Changes over the run: of the linear and angular momentum over the sum of m |v| and m |x| |v|, of the energy over the kinetic
+// Changes over the run: of the linear and angular momentum over the sum of m |v| and m |x| |v|, of
+// the energy over the kinetic
 std::array<double, 3> changes(const Problem& p) {
   const TetMesh& mesh = p.body.levels[0];
   Problem alone = p;
@@ -147,7 +160,8 @@ std::array<double, 3> changes(const Problem& p) {
   const auto take = [&] {
     Budget now;
     const auto x = simulation.positions(), w = simulation.velocities();
-    for (std::size_t a = 0; a < x.size(); ++a) now.linear += m[a] * w[a], now.angular += m[a] * x[a].cross(w[a]);
+    for (std::size_t a = 0; a < x.size(); ++a)
+      now.linear += m[a] * w[a], now.angular += m[a] * x[a].cross(w[a]);
     now.energy = simulation.energies().total();
     return now;
   };
@@ -155,7 +169,8 @@ std::array<double, 3> changes(const Problem& p) {
   for (int i = 0; i < bit_steps; ++i) simulation.step();
   require_sound(simulation);
   const Budget after = take();
-  return {(after.linear - before.linear).norm() / impulse, (after.angular - before.angular).norm() / (0.1 * impulse),
+  return {(after.linear - before.linear).norm() / impulse,
+          (after.angular - before.angular).norm() / (0.1 * impulse),
           after.energy / before.energy - 1};
 }
 
@@ -165,7 +180,8 @@ VerifyRows conservation(const VerifyContext& context) {
   VerifyRows rows = {{.quantity = "change of linear momentum over the sum of m |v|"},
                      {.quantity = "change of angular momentum over 0.1 m times that"},
                      {.quantity = "change of energy, relative"}};
-  for (VerifyRow& row : rows) row.unit = "1", row.accepted = 0, row.source = "Newton's third law; no outside force";
+  for (VerifyRow& row : rows)
+    row.unit = "1", row.accepted = 0, row.source = "Newton's third law; no outside force";
   rows[0].judged = Judged::size, rows[0].tolerance = 1e-11;
   rows[1].note = "conserved by symplectic_euler; reported of the others";
   rows[2].note = "dissipative and growing integrators among them: reported";
@@ -176,7 +192,8 @@ VerifyRows conservation(const VerifyContext& context) {
   };
   for (const std::string& integrator : names(integrators()))
     add("single/" + integrator, free_body("single", integrator));
-  for (const char* cycle : {"fas", "him"}) add(std::string("cycle/") + cycle, free_body(cycle, "symplectic_euler"));
+  for (const char* cycle : {"fas", "him"})
+    add(std::string("cycle/") + cycle, free_body(cycle, "symplectic_euler"));
   return rows;
 }
 

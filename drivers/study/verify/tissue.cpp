@@ -7,8 +7,9 @@
 #include <plica/drivers/study/verify/list.hpp>
 #include <plica/kernels/materials/list.hpp>
 
-// Laws of tissue in homogeneous states, against Cauchy's stress in closed form, written by principal stretches: independent of the
-// kernels, which know no stretches but for Ogden's law. Fibres lie along z.
+// Laws of tissue in homogeneous states, against Cauchy's stress in closed form, written by
+// principal stretches: independent of the kernels, which know no stretches but for Ogden's law.
+// Fibres lie along z.
 namespace plica {
 
 namespace {
@@ -52,15 +53,16 @@ std::array<double, 2> by_invariants(const Law& law, double I1, double I2) {
   const double x = I1 - 3, y = I2 - 3;
   if (law.name == "mooney_rivlin") return {law["c10"], law["c01"]};
   if (law.name == "polynomial")
-    return {law["c10"] + 2 * law["c20"] * x + law["c11"] * y, law["c01"] + law["c11"] * x + 2 * law["c02"] * y};
+    return {law["c10"] + 2 * law["c20"] * x + law["c11"] * y,
+            law["c01"] + law["c11"] * x + 2 * law["c02"] * y};
   if (law.name == "veronda_westmann") {
     const double mu = law["c1"] * law["c2"];
     return {mu * std::exp(law["c2"] * x), -mu / 2};
   }
   if (law.name == "arruda_boyce") {
     const double N = law["lambda_m"] * law["lambda_m"];
-    return {law["mu"] * (1.0 / 2 + I1 / (10 * N) + 11 * I1 * I1 / (350 * N * N) + 19 * std::pow(I1 / N, 3) / 1750 +
-                         519 * std::pow(I1 / N, 4) / 134750),
+    return {law["mu"] * (1.0 / 2 + I1 / (10 * N) + 11 * I1 * I1 / (350 * N * N) +
+                         19 * std::pow(I1 / N, 3) / 1750 + 519 * std::pow(I1 / N, 4) / 134750),
             0};
   }
   if (law.name == "gent") return {law["mu"] / 2 / (1 - x / law["j_m"]), 0};
@@ -74,11 +76,13 @@ Stretches pulls(const Law& law, const Stretches& l) {
   if (law.name == "ogden") {
     t.setZero();
     for (const OgdenTerm& term : law.material.terms)
-      t += term.mu / term.alpha * l.array().pow(term.alpha).matrix();  // c alpha with c = mu/alpha^2
+      t +=
+          term.mu / term.alpha * l.array().pow(term.alpha).matrix();  // c alpha with c = mu/alpha^2
     return t;
   }
   if (law.name == "costa") {
-    const Stretches E = (l.array().square() - 1).matrix() / 2, b(law["b_ss"], law["b_nn"], law["b_ff"]);
+    const Stretches E = (l.array().square() - 1).matrix() / 2,
+                    b(law["b_ss"], law["b_nn"], law["b_ff"]);
     const double Q = b.dot(E.cwiseAbs2());
     return law["a"] * std::exp(Q) * b.cwiseProduct(E).cwiseProduct(l.cwiseAbs2());
   }
@@ -101,8 +105,8 @@ Stretches principal_stress(const Law& law, const Stretches& l) {
   return (t.array() - t.mean()).matrix() / J + Stretches::Constant(pressure(law, J));
 }
 
-/// The stretches with these given along some axes (0: free), the others alike and without stress: by bisection, as a stress rises with
-/// its own stretch.
+/// The stretches with these given along some axes (0: free), the others alike and without stress:
+/// by bisection, as a stress rises with its own stretch.
 Stretches with_free_sides(const Law& law, const Stretches& given) {
   const auto at = [&](double side) {
     return Stretches(given.unaryExpr([side](double l) { return l > 0 ? l : side; }));
@@ -117,7 +121,8 @@ Stretches with_free_sides(const Law& law, const Stretches& given) {
   return at((low + high) / 2);
 }
 
-/// Cauchy's stress xz of x += shear z, where volumes stay: by the principal stretches where there are no fibres.
+/// Cauchy's stress xz of x += shear z, where volumes stay: by the principal stretches where there
+/// are no fibres.
 double shear_stress(const Law& law, double shear) {
   if (law.name == "costa") {
     const double E = shear * shear / 2, Q = law["b_ff"] * E * E + law["b_fs"] * shear * shear / 2;
@@ -136,14 +141,16 @@ double shear_stress(const Law& law, double shear) {
   return fibres + (t[0] - t[2]) / root;
 }
 
-/// The mean first Piola-Kirchhoff stress of the deformed box and its largest force off the faces that are held.
+/// The mean first Piola-Kirchhoff stress of the deformed box and its largest force off the faces
+/// that are held.
 struct Found {
   Eigen::Matrix3d P;
   double free = 0;
 };
 Found deformed(const Law& law, const std::string& element, int cells, const Eigen::Matrix3d& F,
                const std::function<bool(const Point&)>& held) {
-  Problem p = verify_body(jittered_box({{0, 0, 0}, {edge, edge, edge}}, {cells, cells, cells}), law.material);
+  Problem p = verify_body(jittered_box({{0, 0, 0}, {edge, edge, edge}}, {cells, cells, cells}),
+                          law.material);
   p.body.material = law.material, p.body.element = {element}, p.body.pressure = "plain";
   LevelProbe<HostBackend> probe(p);
   const TetMesh& mesh = p.body.levels[0];
@@ -167,11 +174,13 @@ VerifyRows laws_of_tissue(const VerifyContext& context) {
         "shear of 0.4 in xz: error of the shear stress, relative",
         "of both stretches: largest force off the held faces, over the stress times a cell's face"};
     VerifyRows four;
-    for (const char* quantity : quantities) four.push_back({.quantity = quantity, .unit = "1", .element = element});
+    for (const char* quantity : quantities)
+      four.push_back({.quantity = quantity, .unit = "1", .element = element});
     for (VerifyRow& row : four) {
       row.mesh = "jittered", row.judged = Judged::size, row.tolerance = 1e-10;
       row.source =
-          "closed form by principal stretches, one scalar equation for the free sides (Ogden, Non-Linear Elastic "
+          "closed form by principal stretches, one scalar equation for the free sides (Ogden, "
+          "Non-Linear Elastic "
           "Deformations, 4.2, 4.3)";
       row.note = "the worst of volume simo_hughes, logarithmic, quadratic; fibres along z";
     }
@@ -193,7 +202,8 @@ VerifyRows laws_of_tissue(const VerifyContext& context) {
         Eigen::Matrix3d F = Eigen::Matrix3d::Identity();
         F(0, 2) = 0.4;
         const Found found = deformed(law, element, n, F, [](const Point&) { return true; });
-        worst[2] = std::max(worst[2], std::abs((found.P * F.transpose())(0, 2) / shear_stress(law, 0.4) - 1));
+        worst[2] = std::max(worst[2],
+                            std::abs((found.P * F.transpose())(0, 2) / shear_stress(law, 0.4) - 1));
       }
       for (std::size_t k = 0; k < 4; ++k) four[k].add(std::string(info.name), 1, worst[k]);
     }

@@ -7,8 +7,9 @@
 #include <plica/drivers/study/sample_bodies.hpp>
 #include <plica/drivers/study/verify/list.hpp>
 
-// Boxes whose isochoric second Piola stress S_e is a given function of time times a constant: their shape stays and their size changes, since
-// S_e of F = s F_0 is S_e(F_0)/s^2. What is left of the elastic stress is then known in closed form.
+// Boxes whose isochoric second Piola stress S_e is a given function of time times a constant: their
+// shape stays and their size changes, since S_e of F = s F_0 is S_e(F_0)/s^2. What is left of the
+// elastic stress is then known in closed form.
 namespace plica {
 
 namespace {
@@ -25,8 +26,8 @@ class StretchedBox {
     unit_ = deviator(1);
   }
 
-  /// The stress of shape at `time` [s] over the elastic one at the start, where S_e has `size` times its first value; `final`: the body
-  /// goes on from there.
+  /// The stress of shape at `time` [s] over the elastic one at the start, where S_e has `size`
+  /// times its first value; `final`: the body goes on from there.
   double stress(double size, double time, bool final) {
     apply(size, time, final);
     return deviator(1 / std::sqrt(size)) / unit_;
@@ -46,7 +47,8 @@ class StretchedBox {
   }
 
   void apply(double size, double time, bool final) {
-    const std::vector<Point> u = affine_field(probe_.problem.body.levels[0], 1 / std::sqrt(size) * F0_, Point::Zero());
+    const std::vector<Point> u =
+        affine_field(probe_.problem.body.levels[0], 1 / std::sqrt(size) * F0_, Point::Zero());
     auto& level = probe_.at(0);
     copy(level.exec(), level.state.u, device_field<HostBackend>(u));
     if (final) level.remember(time);
@@ -55,7 +57,8 @@ class StretchedBox {
 
   /// zz - xx of P F^T / s^2: no pressure is in it.
   double deviator(double s) const {
-    const Eigen::Matrix3d P = virial(f_, probe_.problem.body.levels[0]) / (box_edge * box_edge * box_edge);
+    const Eigen::Matrix3d P =
+        virial(f_, probe_.problem.body.levels[0]) / (box_edge * box_edge * box_edge);
     const Eigen::Matrix3d tau = P * F0_ / s;
     return tau(2, 2) - tau(0, 0);
   }
@@ -75,7 +78,8 @@ double left_of_ramp(double rate, double t) {
   return sum;
 }
 
-/// The parts of the answer to S_e = 1 + a sin wt in phase and a quarter of a turn ahead, over a, once the start is forgotten.
+/// The parts of the answer to S_e = 1 + a sin wt in phase and a quarter of a turn ahead, over a,
+/// once the start is forgotten.
 std::array<double, 2> moduli(StretchedBox& box, double w, double a, int steps) {
   const double period = 2 * std::numbers::pi / w, h = period / steps;
   const int before = static_cast<int>(std::ceil(15 * 0.5 / period)) * steps;
@@ -99,7 +103,8 @@ std::array<double, 2> known_moduli(double w) {
 VerifyRow relaxation_row(const char* quantity, const std::string& element) {
   VerifyRow row{.quantity = quantity, .unit = "1", .element = element, .mesh = "jittered"};
   row.source =
-      "Simo & Hughes, Computational Inelasticity, 10.3: the convolution in closed form; alpha .3 .4, tau 20, 500 ms";
+      "Simo & Hughes, Computational Inelasticity, 10.3: the convolution in closed form; alpha .3 "
+      ".4, tau 20, 500 ms";
   row.judged = Judged::size, row.tolerance = 1e-10;
   return row;
 }
@@ -110,8 +115,10 @@ VerifyRows relaxation(const VerifyContext& context) {
   VerifyRows rows;
   for (const char* element : {"linear", "nodal"}) {
     VerifyRow step = relaxation_row("stress after a step of strain: largest error", element);
-    VerifyRow ramp = relaxation_row("stress on a ramp of S_e, in steps of 0.15 to 4 tau: largest error", element);
-    VerifyRow within = relaxation_row("the same inside such steps, whose start is remembered", element);
+    VerifyRow ramp = relaxation_row(
+        "stress on a ramp of S_e, in steps of 0.15 to 4 tau: largest error", element);
+    VerifyRow within =
+        relaxation_row("the same inside such steps, whose start is remembered", element);
     for (const MaterialInfo& law : material_list()) {
       if (!law.with_shape) continue;
       context.proceed();
@@ -120,7 +127,8 @@ VerifyRows relaxation(const VerifyContext& context) {
         worst[k] = std::max(worst[k], std::abs(found - known));
       };
       StretchedBox held(law, element), pulled(law, element);
-      for (const double t : {0.0, 0.003, 0.08, 0.5, 3.0}) note(0, held.stress(1, t, t != 0.08), left_after(t));
+      for (const double t : {0.0, 0.003, 0.08, 0.5, 3.0})
+        note(0, held.stress(1, t, t != 0.08), left_after(t));
       for (const double t : {0.003, 0.08, 0.5, 0.6}) {
         note(2, pulled.stress(1 + 2 * t, t, false), left_of_ramp(2, t));
         note(1, pulled.stress(1 + 2 * t, t, true), left_of_ramp(2, t));

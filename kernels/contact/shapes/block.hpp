@@ -7,9 +7,10 @@ namespace plica {
 
 /// A solid box.
 struct BlockOptions {
-  Point centre = Point::Zero();    ///< [m]
-  Point size = Point::Ones();      ///< edges [m]
-  Point rotation = Point::Zero();  ///< about the centre: its direction is the axis, its length the angle [rad]
+  Point centre = Point::Zero();  ///< [m]
+  Point size = Point::Ones();    ///< edges [m]
+  /// about the centre: its direction is the axis, its length the angle [rad]
+  Point rotation = Point::Zero();
 };
 
 /// Its parameters, named, with kind, unit, range and meaning.
@@ -18,7 +19,8 @@ void describe(V& v, BlockOptions& o) {
   using namespace keys;
   v("centre", o.centre, Vector{length}, "centre");
   v.required("size", o.size, Vector{length, positive}, "edges");
-  v("rotation", o.rotation, Vector{angle}, "about the centre: [0, 0, 30 deg] turns it by 30 degrees about z");
+  v("rotation", o.rotation, Vector{angle},
+    "about the centre: [0, 0, 30 deg] turns it by 30 degrees about z");
 }
 
 /// A box, turned as one likes: the nearest point of a face, an edge or a corner.
@@ -47,7 +49,8 @@ struct Block {
         squared += beyond[k] * beyond[k];
         if (depth[k] > depth[nearest]) nearest = k;
       }
-      if (!(squared > 0)) return {depth[nearest], (d[nearest] < 0 ? Real(-1) : Real(1)) * axes[nearest]};
+      if (!(squared > 0))
+        return {depth[nearest], (d[nearest] < 0 ? Real(-1) : Real(1)) * axes[nearest]};
       const Real r = sqrt(squared);
       return {r, (Real(1) / r) * (transpose(axes) * beyond)};
     }

@@ -7,11 +7,13 @@
 
 namespace plica {
 
-/// A block with flat top out of which a sphere is hollowed: the inside of a spherical shell, up to its rim.
+/// A block with flat top out of which a sphere is hollowed: the inside of a spherical shell, up to
+/// its rim.
 struct BowlOptions {
   Point centre = Point::Zero();  ///< of the sphere [m]
   double radius = 1;             ///< [m]
-  double rim = 0;  ///< height of the flat top above the bowl's lowest point, at most the radius; 0: radius [m]
+  /// height of the flat top above the bowl's lowest point, at most the radius; 0: radius [m]
+  double rim = 0;
 };
 
 /// Its parameters, named, with kind, unit, range and meaning.
@@ -20,11 +22,13 @@ void describe(V& v, BowlOptions& o) {
   using namespace keys;
   v("centre", o.centre, Vector{length}, "of the sphere");
   v.required("radius", o.radius, Quantity{length, positive}, "of the sphere");
-  v("rim", o.rim, Quantity{length, not_negative}, "height of the rim above the lowest point; 0: the radius");
+  v("rim", o.rim, Quantity{length, not_negative},
+    "height of the rim above the lowest point; 0: the radius");
 }
 
-/// A block whose flat top is at height `rim` above the lowest point of a sphere hollowed out of it: inside a spherical shell
-/// below the rim, the top's plane beside it, and the rim's edge seen from above.
+/// A block whose flat top is at height `rim` above the lowest point of a sphere hollowed out of it:
+/// inside a spherical shell below the rim, the top's plane beside it, and the rim's edge seen from
+/// above.
 struct Bowl {
   static constexpr const char* name = "bowl";
   static constexpr const char* summary = "the inside of a spherical shell, up to a rim";
@@ -41,11 +45,13 @@ struct Bowl {
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - centre;
       const Real r = sqrt(dot(d, d)), inside = radius - r, above = d[2] - top;
-      const Real opening = sqrt(max(radius * radius - top * top, Real(0))), across = sqrt(d[0] * d[0] + d[1] * d[1]);
+      const Real opening = sqrt(max(radius * radius - top * top, Real(0))),
+                 across = sqrt(d[0] * d[0] + d[1] * d[1]);
       // nearest to the rim's circle: above the plane over the solid's side of the opening's cone
       if (above > 0 && across < opening && across * (-top) > -d[2] * opening) {
         const Real o = across - opening, l = sqrt(o * o + above * above);
-        if (!(across > 0)) return {l, {o / l, Real(0), above / l}};  // on the axis, from any point of the circle
+        // on the axis, from any point of the circle
+        if (!(across > 0)) return {l, {o / l, Real(0), above / l}};
         const Real s = o / (across * l);
         return {l, {s * d[0], s * d[1], above / l}};
       }
@@ -63,7 +69,8 @@ struct Bowl {
   static void check(const std::string& path, const Options& o) {
     if (o.rim > o.radius)
       throw InputError(path + ".rim is " + keys::Quantity{keys::length}.shown(o.rim) +
-                       "; expected at most the radius, " + keys::Quantity{keys::length}.shown(o.radius));
+                       "; expected at most the radius, " +
+                       keys::Quantity{keys::length}.shown(o.radius));
   }
 
   template <class Real>

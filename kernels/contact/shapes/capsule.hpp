@@ -36,7 +36,9 @@ struct Capsule {
 
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - from;
-      const Real along = dot(d, axis), on_line = along < 0 ? Real(0) : along > length ? length : along;
+      const Real along = dot(d, axis), on_line = along < 0        ? Real(0)
+                                                 : along > length ? length
+                                                                  : along;
       const Vec3<Real> across = d - on_line * axis;
       const Real r = sqrt(dot(across, across));
       return {r - radius, direction_across(axis, across, r)};

@@ -31,14 +31,17 @@ struct Cone {
   static constexpr const char* summary = "a cone with a tip or flat ends";
   static Point origin(const ConeOptions& o) { return (o.from + o.to) / 2; }
   // Of its narrower end, which fits between points before the rest does; 0: a tip.
-  static double radius(const ConeOptions& o) { return std::min({o.radius, o.to_radius, (o.to - o.from).norm() / 2}); }
+  static double radius(const ConeOptions& o) {
+    return std::min({o.radius, o.to_radius, (o.to - o.from).norm() / 2});
+  }
   using Options = ConeOptions;
   template <class Real>
   struct Shape {
     static constexpr bool convex = true;
     Vec3<Real> from, axis;           ///< axis: a unit vector
     Real length, radius, to_radius;  ///< radius: at from
-    Real side, widening, rising;     ///< its side's length; the unit vector along it, across the axis and along it
+    /// its side's length; the unit vector along it, across the axis and along it
+    Real side, widening, rising;
 
     KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
       const Vec3<Real> d = x - from;
@@ -48,10 +51,14 @@ struct Cone {
       const Vec3<Real> outward = direction_across(axis, across, r);
       const bool upper = along > Real(0.5f) * length;  // which end is nearer
       const Real above = upper ? along - length : -along, end = upper ? to_radius : radius;
-      const Real up_side = beside * widening + along * rising, out = beside * rising - along * widening;
-      if ((above > 0 && r <= end) || (above <= 0 && out <= above)) return {above, (upper ? Real(1) : Real(-1)) * axis};
-      if ((above <= 0 && out <= 0) || (up_side > 0 && up_side < side)) return {out, rising * outward - widening * axis};
-      const Real beyond = up_side > 0 ? r - to_radius : beside, over = up_side > 0 ? along - length : along;
+      const Real up_side = beside * widening + along * rising,
+                 out = beside * rising - along * widening;
+      if ((above > 0 && r <= end) || (above <= 0 && out <= above))
+        return {above, (upper ? Real(1) : Real(-1)) * axis};
+      if ((above <= 0 && out <= 0) || (up_side > 0 && up_side < side))
+        return {out, rising * outward - widening * axis};
+      const Real beyond = up_side > 0 ? r - to_radius : beside,
+                 over = up_side > 0 ? along - length : along;
       const Real l = sqrt(beyond * beyond + over * over);  // from the rim or the tip
       return {l, (beyond / l) * outward + (over / l) * axis};
     }

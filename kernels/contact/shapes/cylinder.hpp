@@ -27,7 +27,9 @@ struct Cylinder {
   static constexpr const char* name = "cylinder";
   static constexpr const char* summary = "a cylinder with flat ends";
   static Point origin(const CylinderOptions& o) { return (o.from + o.to) / 2; }
-  static double radius(const CylinderOptions& o) { return std::min(o.radius, (o.to - o.from).norm() / 2); }
+  static double radius(const CylinderOptions& o) {
+    return std::min(o.radius, (o.to - o.from).norm() / 2);
+  }
   using Options = CylinderOptions;
   template <class Real>
   struct Shape {
@@ -40,7 +42,8 @@ struct Cylinder {
       const Real along = dot(d, axis);
       const Vec3<Real> across = d - along * axis;
       const Real r = sqrt(dot(across, across));
-      const Vec3<Real> outward = direction_across(axis, across, r), up = (along < 0 ? Real(-1) : Real(1)) * axis;
+      const Vec3<Real> outward = direction_across(axis, across, r),
+                       up = (along < 0 ? Real(-1) : Real(1)) * axis;
       const Real beside = r - radius, above = (along < 0 ? -along : along) - half;
       if (beside > 0 && above > 0) {  // nearest to the rim
         const Real l = sqrt(beside * beside + above * above);
@@ -56,8 +59,8 @@ struct Cylinder {
   template <class Real>
   static Shape<Real> shape(const Options& o) {
     const Point along = o.to - o.from;
-    return {vec3<Real>((o.from + o.to) / 2), vec3<Real>(along.normalized()), static_cast<Real>(along.norm() / 2),
-            static_cast<Real>(o.radius)};
+    return {vec3<Real>((o.from + o.to) / 2), vec3<Real>(along.normalized()),
+            static_cast<Real>(along.norm() / 2), static_cast<Real>(o.radius)};
   }
 };
 

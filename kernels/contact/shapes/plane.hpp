@@ -31,7 +31,9 @@ struct Plane {
   struct Shape {
     static constexpr bool convex = true;
     Vec3<Real> point, normal;
-    KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const { return {dot(normal, x - point), normal}; }
+    KOKKOS_INLINE_FUNCTION Gap<Real> operator()(const Vec3<Real>& x) const {
+      return {dot(normal, x - point), normal};
+    }
   };
 
   template <class Real>

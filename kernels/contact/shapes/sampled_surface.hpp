@@ -6,11 +6,15 @@
 
 namespace plica {
 
-/// The inside of a closed surface, by its signed distance on a regular grid; or a sheet, with two sides.
+/// The inside of a closed surface, by its signed distance on a regular grid; or a sheet, with two
+/// sides.
 struct SurfaceOptions {
-  TriangleSurface surface;  ///< closed, every triangle counter-clockwise seen from outside; or any, with a thickness
-  int cells = 0;            ///< of the grid along the surface's longest extent; 0: chosen from its shape
-  double thickness = 0;     ///< of a sheet: all that is no further from the surface than half of it [m]; 0: its inside
+  /// closed, every triangle counter-clockwise seen from outside; or any, with a thickness
+  TriangleSurface surface;
+  /// of the grid along the surface's longest extent; 0: chosen from its shape
+  int cells = 0;
+  /// of a sheet: all that is no further from the surface than half of it [m]; 0: its inside
+  double thickness = 0;
 };
 
 /// Its parameters, named, with kind, unit, range and meaning.
@@ -20,14 +24,17 @@ void describe(V& v, SurfaceOptions& o) {
   v("cells", o.cells, Count{0, 512},
     "of its distance grid, along the longest extent; 0: 64, and more where it is thin");
   v("thickness", o.thickness, Quantity{length, not_negative},
-    "of a sheet, which need not be closed: half of it on each side; 0: the inside of a closed surface");
+    "of a sheet, which need not be closed: half of it on each side; 0: the inside of a closed "
+    "surface");
 }
 
-/// The inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in between; the normal is the
-/// gradient's direction. Outside the grid the distance is a lower bound: that to the grid and its margin.
+/// The inside of a closed surface: signed distances at the nodes of a regular grid, trilinear in
+/// between; the normal is the gradient's direction. Outside the grid the distance is a lower bound:
+/// that to the grid and its margin.
 struct SampledSurface {
   static constexpr const char* name = "surface";
-  static constexpr const char* summary = "the inside of a closed triangulated surface, or a sheet of one";
+  static constexpr const char* summary =
+      "the inside of a closed triangulated surface, or a sheet of one";
   static Point origin(const SurfaceOptions&) { return Point::Zero(); }
   using Options = SurfaceOptions;
   template <class Real>
@@ -73,11 +80,13 @@ struct SampledSurface {
         }
         const Real v = value[(node[2] * nodes[1] + node[1]) * nodes[0] + node[0]];
         gap.distance += w[0] * w[1] * w[2] * v;
-        gap.normal += Vec3<Real>{slope[0] * w[1] * w[2] * v, w[0] * slope[1] * w[2] * v, w[0] * w[1] * slope[2] * v};
+        gap.normal += Vec3<Real>{slope[0] * w[1] * w[2] * v, w[0] * slope[1] * w[2] * v,
+                                 w[0] * w[1] * slope[2] * v};
       }
       const Real length = sqrt(dot(gap.normal, gap.normal));
       // in the middle between two sides the gradient may vanish: any direction leads out
-      gap.normal = length > 0 ? (Real(1) / length) * gap.normal : Vec3<Real>{Real(0), Real(0), Real(1)};
+      gap.normal =
+          length > 0 ? (Real(1) / length) * gap.normal : Vec3<Real>{Real(0), Real(0), Real(1)};
       return gap;
     }
   };

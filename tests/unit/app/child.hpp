@@ -57,14 +57,17 @@ struct Child {
   std::string output, errors;
 };
 
-/// Runs it to its end; `meanwhile` is called with its process id again and again until it returns true.
+/// Runs it to its end; `meanwhile` is called with its process id again and again until it returns
+/// true.
 inline Child run_child(std::vector<std::string> words, const TemporaryFolder& folder,
                        const std::function<bool(pid_t)>& meanwhile = {}) {
   const std::string out = folder / "stdout.txt", err = folder / "stderr.txt";
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                   0600);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -79,7 +82,8 @@ inline Child run_child(std::vector<std::string> words, const TemporaryFolder& fo
     if (!wanted) waitpid(id, &state, 0);
   }
   if (!meanwhile) waitpid(id, &state, 0);
-  return {WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state), content_of(out), content_of(err)};
+  return {WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state), content_of(out),
+          content_of(err)};
 }
 
 /// The Python of the project's own environment where that was made, else the system's.
@@ -115,7 +119,8 @@ class ProgramTest : public testing::Test {
  protected:
   explicit ProgramTest(const std::string& text) { std::ofstream(scene) << text; }
 
-  Child plica(std::vector<std::string> words, const std::function<bool(pid_t)>& meanwhile = {}) const {
+  Child plica(std::vector<std::string> words,
+              const std::function<bool(pid_t)>& meanwhile = {}) const {
     words.insert(words.begin(), PLICA_EXECUTABLE);
     return run_child(words, folder, meanwhile);
   }
@@ -142,9 +147,12 @@ class Program : public ProgramTest {
   }
   // A run without end, and what to wait for before it is stopped
   std::vector<std::string> endless() const {
-    return {"run", scene, "-o", out, "--duration", "1000 s", "--set", "output.every=2 ms", "--threads", "1"};
+    return {"run",       scene, "-o", out, "--duration", "1000 s", "--set", "output.every=2 ms",
+            "--threads", "1"};
   }
-  bool has_frames() const { return std::filesystem::exists(folder / "out/frames/surface_0003.vtu"); }
+  bool has_frames() const {
+    return std::filesystem::exists(folder / "out/frames/surface_0003.vtu");
+  }
 };
 
 }  // namespace plica::app::test

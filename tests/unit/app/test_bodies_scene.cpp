@@ -64,21 +64,27 @@ TEST(BodiesScene, HaveCoarseSpacesOfTheirOwn) {
   EXPECT_EQ(*body.parts[0].coarsen, std::vector<int>{50});
   EXPECT_EQ(*body.parts[1].coarsen, (std::vector<int>{60, 30}));
   EXPECT_EQ(*body.coarsen, (std::vector<int>{110, 80}));
-  const std::string many = refusal([&] { scene_of(text.replace(text.find("{coarsen: 60}"), 13, "{coarsen: 10}")); });
+  const std::string many =
+      refusal([&] { scene_of(text.replace(text.find("{coarsen: 60}"), 13, "{coarsen: 10}")); });
   EXPECT_NE(many.find("two.yaml:10: bodies.right.levels"), std::string::npos) << many;
 }
 
 TEST(BodiesScene, SaysWhatIsWrongAndWhere) {
   const auto said = [](const std::string& text) { return refusal([&] { scene_of(text); }); };
-  EXPECT_NE(said(with("young_modulus", "young_modulos")).find("two.yaml:6: bodies.left.material: unknown key"),
+  EXPECT_NE(said(with("young_modulus", "young_modulos"))
+                .find("two.yaml:6: bodies.left.material: unknown key"),
             std::string::npos)
       << said(with("young_modulus", "young_modulos"));
-  EXPECT_NE(said(with("normal: [0, 0, 1]", "point: [0, 0, -5]")).find("bodies.left.fixed.0"), std::string::npos);
-  EXPECT_NE(said(with("{sphere: {radius: 0.4, subdivisions: 1}}", "{file: none.obj}")).find("two.yaml:12:"),
+  EXPECT_NE(said(with("normal: [0, 0, 1]", "point: [0, 0, -5]")).find("bodies.left.fixed.0"),
             std::string::npos);
-  EXPECT_NE(said(with("    surface: {sphere", "    #surface: {sphere")).find("bodies.right: it has no surface"),
+  EXPECT_NE(said(with("{sphere: {radius: 0.4, subdivisions: 1}}", "{file: none.obj}"))
+                .find("two.yaml:12:"),
             std::string::npos);
-  EXPECT_NE(said(two + "body: {levels: [{box: {size: [1, 1, 1], cells: [1, 1, 1]}}]}").find("only one of body, bodies"),
+  EXPECT_NE(said(with("    surface: {sphere", "    #surface: {sphere"))
+                .find("bodies.right: it has no surface"),
+            std::string::npos);
+  EXPECT_NE(said(two + "body: {levels: [{box: {size: [1, 1, 1], cells: [1, 1, 1]}}]}")
+                .find("only one of body, bodies"),
             std::string::npos);
   EXPECT_NE(said("duration: 1\nbodies: {}").find("at least one body"), std::string::npos);
 }
@@ -92,7 +98,8 @@ TEST(BodiesScene, TakeTheStepsOfEachIfTheyAreTheSame) {
     return text.replace(text.find("\n    initial:"), 0, right.empty() ? "" : line + right + "}");
   };
   const IntegrationOptions one =
-      scene_of(both("", "macro_step: 1 ms, cycle: rs, him: {smoothing: false}")).problem.integration;
+      scene_of(both("", "macro_step: 1 ms, cycle: rs, him: {smoothing: false}"))
+          .problem.integration;
   EXPECT_EQ(one.macro_step, 1e-3);
   EXPECT_EQ(one.cycle, "rs");
   EXPECT_EQ(one.safety, 0.8);
@@ -101,27 +108,32 @@ TEST(BodiesScene, TakeTheStepsOfEachIfTheyAreTheSame) {
   const IntegrationOptions same =
       scene_of(both("macro_step: 0.001, cycle: single", "macro_step: 1 ms")).problem.integration;
   EXPECT_EQ(same.macro_step, 1e-3);
-  EXPECT_EQ(scene_of(both("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.3, 0.7]"))
-                .problem.integration.shares[1],
-            0.7);
+  EXPECT_EQ(
+      scene_of(both("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.3, 0.7]"))
+          .problem.integration.shares[1],
+      0.7);
 
   const auto said = [&](const std::string& left, const std::string& right) {
     return refusal([&] { scene_of(both(left, right)); });
   };
   EXPECT_EQ(said("macro_step: 1 ms", "macro_step: 3 ms"),
-            "two.yaml:12: bodies.right.integration.macro_step is 0.003 s, but bodies.left.integration.macro_step is "
+            "two.yaml:12: bodies.right.integration.macro_step is 0.003 s, but "
+            "bodies.left.integration.macro_step is "
             "0.001 s; expected the same: bodies are stepped together, since they may touch");
-  EXPECT_NE(said("him: {sigma: 0.5}", "safety: 0.8").find("bodies.right.integration.him.sigma is 0.7, but bodies.left"),
+  EXPECT_NE(said("him: {sigma: 0.5}", "safety: 0.8")
+                .find("bodies.right.integration.him.sigma is 0.7, but bodies.left"),
             std::string::npos)
       << said("him: {sigma: 0.5}", "safety: 0.8");
   EXPECT_NE(said("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.4, 0.6]")
                 .find("distribution is custom 0.4 0.6, but"),
             std::string::npos)
       << said("cycle: rs, distribution: [0.3, 0.7]", "cycle: rs, distribution: [0.4, 0.6]");
-  EXPECT_NE(said("", "macro_stepp: 1 ms").find("two.yaml:11: bodies.right.integration: unknown key 'macro_stepp'"),
+  EXPECT_NE(said("", "macro_stepp: 1 ms")
+                .find("two.yaml:11: bodies.right.integration: unknown key 'macro_stepp'"),
             std::string::npos)
       << said("", "macro_stepp: 1 ms");
-  EXPECT_NE(said("cycle: rs, macro_step: 3 s", "").find("two.yaml:7: integration.macro_step is 3 s; expected at most"),
+  EXPECT_NE(said("cycle: rs, macro_step: 3 s", "")
+                .find("two.yaml:7: integration.macro_step is 3 s; expected at most"),
             std::string::npos)
       << said("cycle: rs, macro_step: 3 s", "");
 }
@@ -135,7 +147,8 @@ TEST(BodiesScene, LatticesStandBesideMeshes) {
   ASSERT_EQ(mesh.filled.size(), mesh.tets.size());
   EXPECT_EQ(mesh.filled.front(), 1);
   EXPECT_LT(mesh.filled.back(), 1);
-  const std::string said = refusal([&] { scene_of(with(box, "{" + surface + "[2 cm]}\n    initial")); });
+  const std::string said =
+      refusal([&] { scene_of(with(box, "{" + surface + "[2 cm]}\n    initial")); });
   EXPECT_NE(said.find("bodies.right.levels.sizes are 1; expected 2"), std::string::npos) << said;
 }
 

@@ -18,7 +18,8 @@ namespace {
 constexpr const char* block = R"(duration: 1
 body: {levels: [{box: {size: [1, 1, 1], cells: [2, 2, 2]}}]}
 )";
-const std::vector<std::string> implicit = {"integration.integrator=implicit_euler", "integration.macro_step=1ms"};
+const std::vector<std::string> implicit = {"integration.integrator=implicit_euler",
+                                           "integration.macro_step=1ms"};
 
 // Columns more, and only where something rubs, and where implicit steps may be halved
 TEST(RunFiles, HistoryTellsOfFriction) {
@@ -34,7 +35,9 @@ TEST(RunFiles, HistoryTellsOfFriction) {
   now.step_halvings = 7, now.friction_work = -0.25, now.slipping = {0.5, 1};
   files.write(now);
   const std::string text = content_of(folder / "history.csv");
-  EXPECT_NE(text.find("ice.torque_z,step_halvings,friction_work,floor.slipping\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("ice.torque_z,step_halvings,friction_work,floor.slipping\n"),
+            std::string::npos)
+      << text;
   EXPECT_TRUE(text.ends_with(",4,5,6,7,-0.25,0.5\n")) << text;
   EXPECT_FALSE(has_friction(scene_of(block).problem.contact));
   Scene once = scene_of(block, implicit);
@@ -74,8 +77,10 @@ TEST(ContactDepths, WarnOfWhatIsDeep) {
   fine.look(1, {0.49, 0.049}, {}), ball.look(1, {0.6, 0.01}, {}), needle.look(1, {0.4, 0.06}, {});
   both.look(1, {0.6, 0.01}, {}), both.look(2, {0.2, 0.09}, {});
   EXPECT_EQ(fine.warning(), "");
-  EXPECT_NE(ball.warning().find("ball was 0.6 m deep in the surface, 0.6 of a mean edge"), std::string::npos);
-  EXPECT_NE(needle.warning().find("needle was 0.06 m deep in the surface, 0.6 of its radius"), std::string::npos);
+  EXPECT_NE(ball.warning().find("ball was 0.6 m deep in the surface, 0.6 of a mean edge"),
+            std::string::npos);
+  EXPECT_NE(needle.warning().find("needle was 0.06 m deep in the surface, 0.6 of its radius"),
+            std::string::npos);
   EXPECT_NE(both.warning().find("at 2 s needle was 0.09 m"), std::string::npos) << both.warning();
 }
 
@@ -99,10 +104,13 @@ TEST(RunFiles, GoOnFromWhereTheyAreCutBack) {
   EXPECT_FALSE(std::filesystem::exists(folder / "frames/surface_0001.vtu"));
   now.time = 0.3;
   files.write(now);
-  const std::string history = content_of(folder / "history.csv"), film = content_of(folder / "frames.pvd");
+  const std::string history = content_of(folder / "history.csv"),
+                    film = content_of(folder / "frames.pvd");
   EXPECT_EQ(std::ranges::count(history, '\n'), 3) << history;
   EXPECT_NE(history.find("\n0.3,"), std::string::npos) << history;
-  EXPECT_NE(film.find("timestep=\"0.3\" part=\"0\" file=\"frames/surface_0001.vtu\""), std::string::npos) << film;
+  EXPECT_NE(film.find("timestep=\"0.3\" part=\"0\" file=\"frames/surface_0001.vtu\""),
+            std::string::npos)
+      << film;
   EXPECT_EQ(film.find("timestep=\"0.25\""), std::string::npos) << film;
 }
 

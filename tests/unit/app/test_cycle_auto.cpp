@@ -36,18 +36,21 @@ TEST_F(CycleAuto, IsExplained) {
   ASSERT_EQ(text.status, 0) << text.errors;
   EXPECT_NE(text.output.find("Cycle auto"), std::string::npos) << text.output;
   EXPECT_NE(text.output.find("interactive: the run is short"), std::string::npos) << text.output;
-  const Json json = Json::parse(plica({"explain", scene, "--json"}).output), choice = json["choice"];
+  const Json json = Json::parse(plica({"explain", scene, "--json"}).output),
+             choice = json["choice"];
   EXPECT_EQ(json["cycle"], "single");
   EXPECT_EQ(json["cycle"], choice["cycle"]);
   EXPECT_EQ(json["macro_step"], choice["macro_step"]);
   EXPECT_EQ(choice["error_class"], "interactive");
   EXPECT_EQ(choice["trials"], Json::array()) << "a cheap run tries nothing";
   EXPECT_EQ(choice["single_time"], 0) << "nor times anything";
-  const Json named = Json::parse(plica({"explain", scene, "--json", "--set", "integration={cycle: single}"}).output);
+  const Json named = Json::parse(
+      plica({"explain", scene, "--json", "--set", "integration={cycle: single}"}).output);
   EXPECT_TRUE(named["choice"].is_null());
   const Child run = plica({"run", scene, "-o", out});
   ASSERT_EQ(run.status, 0) << run.errors;
-  EXPECT_NE(run.output.find("the keys {cycle: single, macro_step: auto} of"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("the keys {cycle: single, macro_step: auto} of"), std::string::npos)
+      << run.output;
   EXPECT_EQ(choice_of("out"), choice);
 }
 
@@ -58,9 +61,11 @@ TEST_F(CycleAuto, CheckSaysWhatWouldBeTried) {
     return Json::parse(child.output);
   };
   EXPECT_EQ(checked("1 ms")["levels"].size(), 1u) << "level 0 alone is set up";
-  EXPECT_NE(checked("1 ms")["cycle_auto"].get<std::string>().find("takes single: the run is short"), std::string::npos);
-  EXPECT_NE(checked("1e9 s")["cycle_auto"].get<std::string>().find("it tries him at 8 critical steps"),
-            std::string::npos)
+  EXPECT_NE(checked("1 ms")["cycle_auto"].get<std::string>().find("takes single: the run is short"),
+            std::string::npos);
+  EXPECT_NE(
+      checked("1e9 s")["cycle_auto"].get<std::string>().find("it tries him at 8 critical steps"),
+      std::string::npos)
       << "of a run that would take years";
   const Child text = plica({"check", scene});
   EXPECT_NE(text.output.find("cycle auto: a run takes single"), std::string::npos) << text.output;
@@ -68,7 +73,8 @@ TEST_F(CycleAuto, CheckSaysWhatWouldBeTried) {
   EXPECT_TRUE(Json::parse(named.output)["cycle_auto"].is_null());
   const Child refused = plica({"check", scene, "--set", "integration.macro_step=1 ms"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.errors.find("cycle auto chooses the macro step; leave it out"), std::string::npos)
+  EXPECT_NE(refused.errors.find("cycle auto chooses the macro step; leave it out"),
+            std::string::npos)
       << refused.errors;
 }
 
@@ -82,7 +88,8 @@ TEST_F(CycleAuto, IsRepeatedByItsKeys) {
   for (const char* file : {"history.csv", "frames/surface_0001.vtu", "frames/surface_0040.vtu"}) {
     const std::string path = file;
     ASSERT_NE(content_of(folder / ("chosen/" + path)), "") << path;
-    EXPECT_TRUE(content_of(folder / ("chosen/" + path)) == content_of(folder / ("named/" + path))) << path << keys;
+    EXPECT_TRUE(content_of(folder / ("chosen/" + path)) == content_of(folder / ("named/" + path)))
+        << path << keys;
   }
 }
 
@@ -92,7 +99,8 @@ TEST_F(CycleAuto, IsNotAskedAgainByARunThatGoesOn) {
   const Json before = choice_of("run");
   ASSERT_GT(before["single_time"].get<double>(), 0) << before;
   for (const char* duration : {"2 s", "2.5 s"}) {
-    const Child rest = plica({"run", "--resume", folder / "run", "--quiet", "--threads", "1", "--duration", duration});
+    const Child rest = plica(
+        {"run", "--resume", folder / "run", "--quiet", "--threads", "1", "--duration", duration});
     ASSERT_EQ(rest.status, 0) << rest.errors;
     EXPECT_EQ(choice_of("run"), before);
   }

@@ -15,7 +15,8 @@ TEST(DoctorCommand, MeasuresTheMachineAndFindsTheStoredAnswer) {
   const TemporaryFolder folder;
   const Child run = run_child({PLICA_EXECUTABLE, "doctor", "--json", "--threads", "1"}, folder);
   EXPECT_EQ(run.status, 0) << run.output << run.errors;
-  const Json found = Json::parse(run.output), limits = found.at("limits"), test = found.at("self_test");
+  const Json found = Json::parse(run.output), limits = found.at("limits"),
+             test = found.at("self_test");
   EXPECT_EQ(found["machine"]["threads"], 1);
   EXPECT_EQ(found["vector_bytes"], PLICA_VECTOR_BYTES);
   for (const char* name : {"memory_bandwidth", "cache_bandwidth", "flops_double", "flops_float"})
@@ -25,7 +26,8 @@ TEST(DoctorCommand, MeasuresTheMachineAndFindsTheStoredAnswer) {
   for (const Json& answer : test["answers"]) {
     const double miss = std::abs(answer["got"].get<double>() - answer["stored"].get<double>());
     EXPECT_LE(miss, answer["tolerance"].get<double>()) << answer;
-    EXPECT_LT(answer["tolerance"].get<double>(), 0.02 * std::abs(answer["stored"].get<double>())) << answer;
+    EXPECT_LT(answer["tolerance"].get<double>(), 0.02 * std::abs(answer["stored"].get<double>()))
+        << answer;
   }
 }
 

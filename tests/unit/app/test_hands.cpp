@@ -21,7 +21,8 @@ body:
 )";
 
 /// Least volume ratio of an element of level 0 at any time of a pull.
-double least_ratio(const std::string& integration, const std::string& element, const Point& at, const Point& way) {
+double least_ratio(const std::string& integration, const std::string& element, const Point& at,
+                   const Point& way) {
   const Scene scene = scene_of(pulled_block + integration, {"body.element=" + element});
   Simulation<HandBackend> simulation(scene.problem);
   Hands<HandBackend> hands(scene, simulation, 0.1 * std::sqrt(3.0));
@@ -46,9 +47,10 @@ double least_ratio(const std::string& integration, const std::string& element, c
   return least;
 }
 
-const std::string explicit_steps = "integration: {cycle: single, macro_step: 1 ms}\n",
-                  him_steps = "integration: {cycle: him, macro_step: 4 ms}\n",
-                  implicit_steps = "integration: {cycle: single, integrator: implicit_euler, macro_step: 2 ms}\n";
+const std::string
+    explicit_steps = "integration: {cycle: single, macro_step: 1 ms}\n",
+    him_steps = "integration: {cycle: him, macro_step: 4 ms}\n",
+    implicit_steps = "integration: {cycle: single, integrator: implicit_euler, macro_step: 2 ms}\n";
 
 // By hands that do not look they come to 0.2
 TEST(Hands, PullLessWhereElementsAreCrushed) {
@@ -62,7 +64,8 @@ TEST(Hands, PullLessWhereElementsAreCrushed) {
 TEST(Hands, GiveWayWhereAStepFails) {
   for (const char* element : {"nodal", "linear"})
     for (const double x : {0.05, 0.1})
-      for (const double z : {0.05, 0.1}) least_ratio(implicit_steps, element, {0.1, x, z}, {-0.2, -0.2, -0.2});
+      for (const double z : {0.05, 0.1})
+        least_ratio(implicit_steps, element, {0.1, x, z}, {-0.2, -0.2, -0.2});
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ TEST(Inputs, Selections) {
   const Scene scene =
       with({"body.fixed=[{box: {min: [0, 0, 0], max: [0, 1, 1]}}, {sphere: {radius: 2 cm}},"
             " {plane: {point: [0, 0, 1 cm]}}, {nearest: [1, 2, 3 mm]}, {region: stiff}]",
-            "body.regions.stiff={where: {plane: {point: [5 cm, 0, 0], normal: [1, 0, 0]}}, density: 3}"});
+            "body.regions.stiff={where: {plane: {point: [5 cm, 0, 0], normal: [1, 0, 0]}}, "
+            "density: 3}"});
   const auto& fixed = scene.problem.body.fixed;
   ASSERT_EQ(fixed.size(), 5u);
   EXPECT_EQ(std::get<Box>(fixed[0]).max, Point(0, 1, 1));
@@ -41,7 +42,8 @@ TEST(Inputs, Selections) {
 
 TEST(Inputs, Motions) {
   const Scene scene =
-      with({"body.prescribed=[{nearest: [0, 0, 0], velocity: [1 cm/s, 0, 0]}, {nearest: [1, 0, 0], path: "
+      with({"body.prescribed=[{nearest: [0, 0, 0], velocity: [1 cm/s, 0, 0]}, {nearest: [1, 0, 0], "
+            "path: "
             "[{time: 0, displacement: [0, 0, 0]}, {time: 20 ms, displacement: [0, 0, 3 mm]}]}]",
             "contact.obstacles.0.sine={amplitude: [0, 0, 1 mm], frequency: 3 Hz, phase: -90 deg}"});
   const auto& given = scene.problem.body.prescribed;
@@ -59,8 +61,9 @@ TEST(Inputs, Turns) {
   const auto turn = [](const std::string& keys) {
     return with({"contact.obstacles.0.turn={" + keys + "}"}).problem.contact.obstacles[0].turn;
   };
-  const auto steady =
-      turn("axis: [0, 2, 0], about: [1 cm, 0, 0], rotation: [180 deg, 0, 0], angular_velocity: 90 deg/s");
+  const auto steady = turn(
+      "axis: [0, 2, 0], about: [1 cm, 0, 0], rotation: [180 deg, 0, 0], angular_velocity: 90 "
+      "deg/s");
   EXPECT_EQ(steady->axis, Point(0, 2, 0));
   EXPECT_EQ(*steady->about, Point(0.01, 0, 0));
   EXPECT_DOUBLE_EQ(steady->rotation[0], pi);
@@ -70,16 +73,21 @@ TEST(Inputs, Turns) {
   EXPECT_DOUBLE_EQ(std::get<PathTurn>(path->angle).knots.at(1).angle, -pi / 6);
   const auto sine = turn("sine: {amplitude: 10 deg, frequency: 2 Hz}");
   EXPECT_DOUBLE_EQ(std::get<SineTurn>(sine->angle).amplitude, pi / 18);
-  const auto refused = [&](const std::string& keys) { return plica::test::refusal([&] { turn(keys); }); };
-  EXPECT_NE(refused("axs: [0, 0, 1]").find("turn: unknown key 'axs'; did you mean 'axis'?"), std::string::npos);
+  const auto refused = [&](const std::string& keys) {
+    return plica::test::refusal([&] { turn(keys); });
+  };
+  EXPECT_NE(refused("axs: [0, 0, 1]").find("turn: unknown key 'axs'; did you mean 'axis'?"),
+            std::string::npos);
   EXPECT_NE(refused("axis: [0, 0, 0]").find("turn.axis"), std::string::npos);
   EXPECT_NE(refused("angular_velocity: 3 Hz").find("turn.angular_velocity"), std::string::npos);
-  EXPECT_NE(refused("angular_velocity: 3 rad/s, path: [{time: 0, angle: 0}]").find("path"), std::string::npos);
+  EXPECT_NE(refused("angular_velocity: 3 rad/s, path: [{time: 0, angle: 0}]").find("path"),
+            std::string::npos);
 }
 
 TEST(Inputs, Loads) {
   const Scene scene =
-      with({"body.loads=[{plane: {}, traction: [0, 0, -2 kPa]}, {nearest: [0, 0, 0], force: [1 mN, 0, 0],"
+      with({"body.loads=[{plane: {}, traction: [0, 0, -2 kPa]}, {nearest: [0, 0, 0], force: [1 mN, "
+            "0, 0],"
             " ramp: 50 ms}, {group: side, force: [0, 0, 0], course: [{time: 1, factor: 2}]},"
             " {region: side, force: [0, 0, 0], sine: {frequency: 4}}]",
             "body.regions.side={where: {sphere: {radius: 5 cm}}}"});
@@ -94,9 +102,10 @@ TEST(Inputs, Loads) {
 }
 
 TEST(Inputs, Shapes) {
-  const Scene scene =
-      with({"contact.obstacles=[{capsule: {from: [0, 0, 0], to: [0, 0, 1], radius: 1 cm}}, {box: {size: "
-            "[1, 2, 3], rotation: [0, 0, 90 deg]}}, {cylinder: {from: [0, 0, 0], to: [1, 0, 0], radius: 2}}]"});
+  const Scene scene = with(
+      {"contact.obstacles=[{capsule: {from: [0, 0, 0], to: [0, 0, 1], radius: 1 cm}}, {box: {size: "
+       "[1, 2, 3], rotation: [0, 0, 90 deg]}}, {cylinder: {from: [0, 0, 0], to: [1, 0, 0], radius: "
+       "2}}]"});
   const auto& obstacles = scene.problem.contact.obstacles;
   ASSERT_EQ(obstacles.size(), 3u);
   EXPECT_DOUBLE_EQ(std::any_cast<const CapsuleOptions&>(obstacles[0].shape).radius, 0.01);
@@ -106,8 +115,10 @@ TEST(Inputs, Shapes) {
 
 std::string obj_of(const TriangleSurface& surface) {
   std::ostringstream text;
-  for (const Point& p : surface.vertices) text << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
-  for (const auto& t : surface.triangles) text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  for (const Point& p : surface.vertices)
+    text << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for (const auto& t : surface.triangles)
+    text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
   return text.str();
 }
 
@@ -116,9 +127,9 @@ TEST(Inputs, ToolsAreScaledTurnedAndMoved) {
   TriangleSurface block = boundary_surface(box_mesh({{0, 0, 0}, {10, 20, 30}}, {1, 1, 1})).surface;
   std::ofstream(folder / "tool.obj") << obj_of(block);
   const std::string file = (folder / "tool.obj").string();
-  const Scene scene =
-      with({"contact.obstacles.0={surface: {file: " + file +
-            ", scale: 0.001, rotation: [0, 0, 90 deg], position: [1, 2, 3], cells: 20}, friction: 0.1}"});
+  const Scene scene = with({"contact.obstacles.0={surface: {file: " + file +
+                            ", scale: 0.001, rotation: [0, 0, 90 deg], position: [1, 2, 3], cells: "
+                            "20}, friction: 0.1}"});
   const auto& tool = std::any_cast<const SurfaceOptions&>(scene.problem.contact.obstacles[0].shape);
   const Box box = bounding_box(tool.surface.vertices);
   EXPECT_LE((box.min - Point(0.98, 2, 3)).norm(), 1e-12);
@@ -128,10 +139,13 @@ TEST(Inputs, ToolsAreScaledTurnedAndMoved) {
   block.triangles.pop_back();
   std::ofstream(folder / "open.obj") << obj_of(block);
   const std::string open =
-      error_of(sound_scene, {"contact.obstacles.0={surface: {file: " + (folder / "open.obj").string() + "}}"});
+      error_of(sound_scene,
+               {"contact.obstacles.0={surface: {file: " + (folder / "open.obj").string() + "}}"});
   EXPECT_NE(open.find("has no inside: 3 open edges, 0 edges of more"), std::string::npos) << open;
-  const std::string missing = error_of(damaged("{plane: {point: [0, 0, -0.1]}", "{surface: {file: spoon.stl}"));
-  EXPECT_EQ(missing, "a.yaml:14: there is no surface file 'spoon.stl' (its name is relative to the scene)");
+  const std::string missing =
+      error_of(damaged("{plane: {point: [0, 0, -0.1]}", "{surface: {file: spoon.stl}"));
+  EXPECT_EQ(missing,
+            "a.yaml:14: there is no surface file 'spoon.stl' (its name is relative to the scene)");
 }
 
 struct Wrong {
@@ -145,25 +159,33 @@ TEST(Inputs, ErrorsHaveTheirPlace) {
       {"  material:", "  prescribed: [{nearest: [0, 0, 0]}]\n  material:",
        "a.yaml:7: body.prescribed.0: expected one of velocity, path, sine, got a map (nearest)"},
       {"  material:", "  prescribed: [{velocity: [0, 0, 0]}]\n  material:",
-       "a.yaml:7: body.prescribed.0: expected one of box, sphere, plane, group, region, nearest, got a map (velocity)"},
+       "a.yaml:7: body.prescribed.0: expected one of box, sphere, plane, group, region, nearest, "
+       "got a map (velocity)"},
       {"  material:",
-       "  prescribed: [{nearest: [0, 0, 0], velocity: [0, 0, 0], sine: {amplitude: [0, 0, 0], frequency: 1}}]\n  "
+       "  prescribed: [{nearest: [0, 0, 0], velocity: [0, 0, 0], sine: {amplitude: [0, 0, 0], "
+       "frequency: 1}}]\n  "
        "material:",
-       "a.yaml:7: body.prescribed.0: expected only one of velocity, path, sine, got a map (nearest, velocity, sine)"},
+       "a.yaml:7: body.prescribed.0: expected only one of velocity, path, sine, got a map "
+       "(nearest, velocity, sine)"},
       {"  material:", "  prescribed: [{nearest: [0, 0, 0], pth: []}]\n  material:",
        "a.yaml:7: body.prescribed.0: unknown key 'pth'; did you mean 'path'?"},
       {"  material:", "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3 Pa]}]\n  material:",
        "a.yaml:7: body.loads.0.force.2: expected a force (N), got '3 Pa', a pressure"},
-      {"  material:", "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3], ramp: 1, sine: {frequency: 1}}]\n  material:",
-       "a.yaml:7: body.loads.0: expected only one of ramp, course, sine, got a map (nearest, force, ramp, sine)"},
+      {"  material:",
+       "  loads: [{nearest: [0, 0, 0], force: [0, 0, 3], ramp: 1, sine: {frequency: 1}}]\n  "
+       "material:",
+       "a.yaml:7: body.loads.0: expected only one of ramp, course, sine, got a map (nearest, "
+       "force, ramp, sine)"},
       {"  material:", "  loads: [{region: tip, force: [0, 0, 3]}]\n  material:",
        "a.yaml:7: body.loads.0.region: there is no region 'tip': the meshes name none"},
       {"friction: 0.2", "path: [{time: 1, displacement: [0, 0, 0, 0]}]",
-       "a.yaml:14: contact.obstacles.0.path.0.displacement: expected a list of 3 lengths (m), got a list of 4"},
+       "a.yaml:14: contact.obstacles.0.path.0.displacement: expected a list of 3 lengths (m), got "
+       "a list of 4"},
       {"friction: 0.2", "grasp: {form: 0.1 s}",
        "a.yaml:14: contact.obstacles.0.grasp: unknown key 'form'; did you mean 'from'?"},
       {"friction: 0.2", "grasp: {from: [0.1 s, 2 m]}",
-       "a.yaml:14: contact.obstacles.0.grasp.from.1: expected a time (s) >= 0, got '2 m', a length"},
+       "a.yaml:14: contact.obstacles.0.grasp.from.1: expected a time (s) >= 0, got '2 m', a "
+       "length"},
       {"friction: 0.2", "grasp: {reach: -1 mm}",
        "a.yaml:14: contact.obstacles.0.grasp.reach: expected a length (m) >= 0"},
   };
@@ -188,12 +210,14 @@ TEST(Inputs, TheLibrarysErrorsHaveTheirPlaceToo) {
   EXPECT_EQ(refusal(damaged("friction: 0.2",
                             "path: [{time: 1, displacement: [0, 0, 0]},\n"
                             "        {time: 1, displacement: [0, 0, 0]}]")),
-            "a.yaml:15: contact.obstacles.0.path.1.time is 1 s; expected a time after that of the entry before, 1 s");
-  EXPECT_EQ(
-      refusal(damaged("friction: 0.2", "grasp: {from: 0.3 s,\n        until: 0.2 s}")),
-      "a.yaml:15: contact.obstacles.0.grasp.until is 0.2 s; expected a time after 0.3 s: it closes and opens in turns");
+            "a.yaml:15: contact.obstacles.0.path.1.time is 1 s; expected a time after that of the "
+            "entry before, 1 s");
+  EXPECT_EQ(refusal(damaged("friction: 0.2", "grasp: {from: 0.3 s,\n        until: 0.2 s}")),
+            "a.yaml:15: contact.obstacles.0.grasp.until is 0.2 s; expected a time after 0.3 s: it "
+            "closes and opens in turns");
   const Tree tree = parse_tree(sound_scene, "a.yaml");
-  EXPECT_STREQ(located(InputError("body.levels.1: too small"), tree).what(), "a.yaml:6: body.levels.1: too small");
+  EXPECT_STREQ(located(InputError("body.levels.1: too small"), tree).what(),
+               "a.yaml:6: body.levels.1: too small");
   EXPECT_STREQ(located(InputError("level 0: a step"), tree).what(), "a.yaml: level 0: a step");
 }
 
@@ -234,15 +258,16 @@ TEST(Units, ReadsNumbersWithUnits) {
 }
 
 TEST(Units, ReadsPlainNumbers) {
-  for (const auto& [text, value] : {std::pair{"3", 3.0}, {"-3.5", -3.5}, {"+2", 2.0}, {"1e3", 1e3}, {" .5 ", 0.5}}) {
+  for (const auto& [text, value] :
+       {std::pair{"3", 3.0}, {"-3.5", -3.5}, {"+2", 2.0}, {"1e3", 1e3}, {" .5 ", 0.5}}) {
     EXPECT_EQ(measure(text).value, value);
     EXPECT_FALSE(measure(text).dimension.has_value()) << text;
   }
 }
 
 TEST(Units, RefusesWhatIsNone) {
-  for (const char* text : {"", "kPa", "nan", "inf", "1e999", "4 cmm", "4 m^x", "4 m^", "4 m//s", "4 m/", "4 *", "--3",
-                           "+-3", "3 4", "0x10", "1,5"})
+  for (const char* text : {"", "kPa", "nan", "inf", "1e999", "4 cmm", "4 m^x", "4 m^", "4 m//s",
+                           "4 m/", "4 *", "--3", "+-3", "3 4", "0x10", "1,5"})
     EXPECT_THROW(measure(text), std::invalid_argument) << text;
 }
 
@@ -283,7 +308,8 @@ TEST(Interval, ReadsTimesAndSteps) {
   EXPECT_EQ(parse_interval("0.5"), (Interval{0.5, 0}));
   EXPECT_EQ(parse_interval("10 steps"), (Interval{0, 10}));
   EXPECT_EQ(parse_interval("1step"), (Interval{0, 1}));
-  for (const char* bad : {"", "steps", "0 steps", "-2 steps", "1.5 steps", "3 cm", "0 s", "-1", "10 stepps"})
+  for (const char* bad :
+       {"", "steps", "0 steps", "-2 steps", "1.5 steps", "3 cm", "0 s", "-1", "10 stepps"})
     EXPECT_THROW(parse_interval(bad), std::invalid_argument) << bad;
 }
 
@@ -291,8 +317,8 @@ TEST(Interval, OfCheckpoints) {
   EXPECT_EQ(checkpoint_interval("every=100"), (Interval{0, 100}));
   EXPECT_EQ(checkpoint_interval("every=100 steps"), (Interval{0, 100}));
   EXPECT_EQ(checkpoint_interval("every=0.1s"), (Interval{0.1, 0}));
-  for (const char* bad :
-       {"", "100", "every=", "every=0", "every=-1", "evry=1", "every=1 m", "every=99999999999999999999"})
+  for (const char* bad : {"", "100", "every=", "every=0", "every=-1", "evry=1", "every=1 m",
+                          "every=99999999999999999999"})
     EXPECT_THROW(checkpoint_interval(bad), InputError) << bad;
 }
 
@@ -308,7 +334,8 @@ TEST(Schedule, RoundingLosesNoStep) {
   for (const double step : {0.1, 0.03, 1e-3, 1.0 / 3, 3.7e-5}) {
     const auto due = due_steps({7 * step, 0}, step, 70000);
     ASSERT_EQ(due.size(), 10001) << step;
-    for (std::size_t i = 0; i < due.size(); ++i) ASSERT_EQ(due[i], static_cast<long>(7 * i)) << step;
+    for (std::size_t i = 0; i < due.size(); ++i)
+      ASSERT_EQ(due[i], static_cast<long>(7 * i)) << step;
   }
 }
 

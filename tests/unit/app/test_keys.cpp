@@ -24,9 +24,9 @@ TEST(KeyList, EveryKeyIsDescribed) {
     EXPECT_FALSE(key.help.empty()) << key.path;
     EXPECT_TRUE(paths.insert(key.path).second) << key.path << " twice";
   }
-  for (const char* path :
-       {"duration", "body.levels[].box.cells", "body.material.young_modulus", "body.regions.<name>.density",
-        "integration.implicit.relative_residual", "contact.obstacles[].bowl.rim", "output.every"})
+  for (const char* path : {"duration", "body.levels[].box.cells", "body.material.young_modulus",
+                           "body.regions.<name>.density", "integration.implicit.relative_residual",
+                           "contact.obstacles[].bowl.rim", "output.every"})
     EXPECT_TRUE(paths.contains(path)) << path;
 }
 
@@ -42,7 +42,9 @@ TEST(KeyList, HasEveryObstacleShape) {
   for (const Choice& shape : obstacle_shapes()) {
     const std::string path = "contact.obstacles[]." + shape.name;
     const auto& keys = scene_keys();
-    EXPECT_TRUE(std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& key) { return key.path == path; })) << path;
+    EXPECT_TRUE(std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& key) {
+      return key.path == path;
+    })) << path;
   }
 }
 
@@ -52,7 +54,8 @@ Json typed(const Json& words) {
     const std::string text = words.get<std::string>();
     if (text == "true" || text == "false") return text == "true";
     const auto number = parse_number(text);
-    if (number && *number == std::floor(*number) && std::abs(*number) < 1e9) return static_cast<long>(*number);
+    if (number && *number == std::floor(*number) && std::abs(*number) < 1e9)
+      return static_cast<long>(*number);
     return number ? Json(*number) : words;
   }
   Json result = words;
@@ -108,7 +111,8 @@ TEST(Schema, UnitsOfADimension) {
   for (const char* unit : {"m/s^2", "mm/ms2"}) EXPECT_TRUE(fits(acceleration, unit)) << unit;
   for (const char* unit : {"rad/s", "deg/s"}) EXPECT_TRUE(fits(angular_velocity, unit)) << unit;
   EXPECT_TRUE(fits(plain, "%"));
-  for (const char* unit : {"s", "m/s", "metre", "m^2", "cPa", "%"}) EXPECT_FALSE(fits(length, unit)) << unit;
+  for (const char* unit : {"s", "m/s", "metre", "m^2", "cPa", "%"})
+    EXPECT_FALSE(fits(length, unit)) << unit;
   for (const char* unit : {"m", "m/s", "kg", "Hz/m"}) EXPECT_FALSE(fits(density, unit)) << unit;
 }
 
@@ -117,7 +121,8 @@ class SchemaByPython : public testing::Test {
   SchemaByPython() { std::ofstream(folder / "schema.json") << scene_schema().dump(); }
   // One line per scene: whether it fits; nothing where nobody can tell
   std::vector<std::string> verdicts(const std::vector<Tree>& scenes) {
-    std::vector<std::string> words = {python(), PLICA_SOURCE_DIR "/tests/unit/app/validate.py", folder / "schema.json"};
+    std::vector<std::string> words = {python(), PLICA_SOURCE_DIR "/tests/unit/app/validate.py",
+                                      folder / "schema.json"};
     for (const Tree& scene : scenes) {
       words.push_back(folder / (std::to_string(words.size()) + ".json"));
       std::ofstream(words.back()) << typed(json_of(scene)).dump();
@@ -125,7 +130,8 @@ class SchemaByPython : public testing::Test {
     const Child child = run_child(words, folder);
     constexpr int no_jsonschema = 77, no_python = 127;
     std::vector<std::string> lines;
-    if (child.status == no_jsonschema || child.status == no_python || child.status < 0) return lines;
+    if (child.status == no_jsonschema || child.status == no_python || child.status < 0)
+      return lines;
     EXPECT_EQ(child.status, 0) << child.errors;
     std::istringstream text(child.output);
     for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -137,7 +143,8 @@ class SchemaByPython : public testing::Test {
 
 TEST_F(SchemaByPython, TakesSoundScenes) {
   std::vector<Tree> scenes = {parse_tree(sound_scene, "sound")};
-  for (const auto& file : std::filesystem::recursive_directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes"))
+  for (const auto& file :
+       std::filesystem::recursive_directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes"))
     if (file.path().extension() == ".yaml") scenes.push_back(read_tree(file.path()));
   ASSERT_GT(scenes.size(), 15);
   const auto say = verdicts(scenes);
@@ -148,11 +155,14 @@ TEST_F(SchemaByPython, TakesSoundScenes) {
 TEST_F(SchemaByPython, TakesWhatTheReaderTakes) {
   std::vector<Tree> scenes;
   for (const char* set :
-       {"integration.substeps=[3, auto]", "integration.distribution=[0.25, 75 %]", "integration.macro_step=auto",
-        "integration.integrator=[symplectic_euler, implicit_euler]", "body.surface={boundary: true}",
-        "output={every: 10 steps, volume: [0, 1], probes: {tip: [0.1, 2 cm, 20 mm]}, probe_every: 1 ms}",
-        "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]", "study.truth=true",
-        "study.truth={refinements: 1}", "body.jitter=0.2", "contact.obstacles=[]"}) {
+       {"integration.substeps=[3, auto]", "integration.distribution=[0.25, 75 %]",
+        "integration.macro_step=auto", "integration.integrator=[symplectic_euler, implicit_euler]",
+        "body.surface={boundary: true}",
+        "output={every: 10 steps, volume: [0, 1], probes: {tip: [0.1, 2 cm, 20 mm]}, probe_every: "
+        "1 ms}",
+        "output.volume=all", "body.damping.mass=0.5 1/s", "gravity=[0, 0, -981 cm/s^2]",
+        "study.truth=true", "study.truth={refinements: 1}", "body.jitter=0.2",
+        "contact.obstacles=[]"}) {
     scenes.push_back(parse_tree(sound_scene, set));
     override_value(scenes.back(), set, set);
     EXPECT_NO_THROW(check_scene(read_scene(scenes.back()), scenes.back())) << set;
@@ -191,7 +201,8 @@ TEST_F(SchemaByPython, RefusesBadScenes) {
   }
   const auto say = verdicts(scenes);
   if (say.empty()) GTEST_SKIP() << "no Python with jsonschema here";
-  for (std::size_t i = 0; i < say.size(); ++i) EXPECT_TRUE(say[i].starts_with("no:")) << scenes[i].where.file;
+  for (std::size_t i = 0; i < say.size(); ++i)
+    EXPECT_TRUE(say[i].starts_with("no:")) << scenes[i].where.file;
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ class MeshCommands : public testing::Test {
     return run_child(words, folder);
   }
   std::string at(const std::string& name) const { return folder / name; }
-  static std::string sample(const std::string& name) { return PLICA_SOURCE_DIR "/meshes/data/formats/" + name; }
+  static std::string sample(const std::string& name) {
+    return PLICA_SOURCE_DIR "/meshes/data/formats/" + name;
+  }
   Json info(std::vector<std::string> words) {
     words.insert(words.begin(), "info");
     words.emplace_back("--json");
@@ -38,7 +40,8 @@ class MeshCommands : public testing::Test {
 };
 
 TEST_F(MeshCommands, InfoOfAMesh) {
-  const Json json = info({sample("blocks_41.msh"), "--young-modulus", "80 kPa", "--model", "linear"});
+  const Json json =
+      info({sample("blocks_41.msh"), "--young-modulus", "80 kPa", "--model", "linear"});
   EXPECT_EQ(json["vertices"], 23);
   EXPECT_EQ(json["tets"], 48);
   EXPECT_EQ(json["parts"], 1);
@@ -55,7 +58,8 @@ TEST_F(MeshCommands, InfoOfAMesh) {
     EXPECT_GT(tet["number"], 0);
     least = std::min(least, tet["critical_step"].get<double>());
   }
-  EXPECT_NEAR(least, json["element_bound"], 1e-12) << "the flattest one is the stiffest of this mesh";
+  EXPECT_NEAR(least, json["element_bound"], 1e-12)
+      << "the flattest one is the stiffest of this mesh";
   EXPECT_GT(json["critical_step"], json["element_bound"]);
   const Json softer = info({sample("blocks_41.msh"), "--young-modulus", "20kPa"});
   EXPECT_NEAR(softer["critical_step"], 2 * json["critical_step"].get<double>(),
@@ -69,10 +73,10 @@ TEST_F(MeshCommands, InfoOfAMesh) {
 TEST_F(MeshCommands, InfoForPeople) {
   const Child child = plica({"info", sample("blocks_41.msh")});
   ASSERT_EQ(child.status, 0) << child.errors;
-  for (const char* piece :
-       {"Gmsh MSH 4.1 ASCII", "1.6e-05 m^3 in 1 connected part", "large tumour", "critical step", "best: 70.5", "####",
-        "20 mm x 20 mm x 40 mm", "young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3",
-        "by their numbers in the file"})
+  for (const char* piece : {"Gmsh MSH 4.1 ASCII", "1.6e-05 m^3 in 1 connected part", "large tumour",
+                            "critical step", "best: 70.5", "####", "20 mm x 20 mm x 40 mm",
+                            "young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3",
+                            "by their numbers in the file"})
     EXPECT_NE(child.output.find(piece), std::string::npos) << piece << "\n" << child.output;
 }
 
@@ -91,13 +95,17 @@ TEST_F(MeshCommands, InfoOfASurface) {
 }
 
 TEST_F(MeshCommands, ConvertKeepsTheMesh) {
-  ASSERT_EQ(plica({"convert", sample("blocks_41.msh"), at("a.msh"), "--format", "msh22", "--binary"}).status, 0);
+  ASSERT_EQ(
+      plica({"convert", sample("blocks_41.msh"), at("a.msh"), "--format", "msh22", "--binary"})
+          .status,
+      0);
   const TetMesh input = read_mesh(sample("blocks_41.msh")), binary = read_mesh(at("a.msh"));
   EXPECT_EQ(binary.vertices, input.vertices);
   EXPECT_EQ(binary.vertex_sets, input.vertex_sets);
   const Child onward = plica({"convert", at("a.msh"), at("b.ele")});
   EXPECT_EQ(onward.status, 0);
-  EXPECT_NE(onward.errors.find("the region 'tissue' is now 'attribute_1'"), std::string::npos) << onward.errors;
+  EXPECT_NE(onward.errors.find("the region 'tissue' is now 'attribute_1'"), std::string::npos)
+      << onward.errors;
   EXPECT_TRUE(std::filesystem::exists(at("b.node")));
   ASSERT_EQ(plica({"convert", at("b.node"), at("c.vtu")}).status, 0);
   EXPECT_EQ(read_mesh(at("c.vtu")).tets, input.tets);
@@ -111,7 +119,8 @@ TEST_F(MeshCommands, ConvertInPlace) {
   const TriangleSurface once = read_surface(sample("blocks.obj")), half = read_surface(at("s.obj"));
   ASSERT_EQ(half.triangles, once.triangles);
   EXPECT_EQ(half.vertices.back(), once.vertices.back() / 2);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3) << "nothing but s.obj is left";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3)
+      << "nothing but s.obj is left";
 }
 
 TEST_F(MeshCommands, ConvertLeavesTheOldFileWhereItFails) {
@@ -129,29 +138,33 @@ TEST_F(MeshCommands, RepairSaysWhatChanged) {
   std::ofstream(at("flat.mesh"))
       << "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
          "1 1 1 0\n0.5 0.5 0 0\nTetrahedra 3\n1 2 3 4 1\n2 3 4 5 1\n1 2 3 6 1\nEnd\n";
-  expect_refused({"info", at("flat.mesh")}, "flat.mesh:13: tetrahedron 3 (nodes 1 2 3 6) has no volume");
+  expect_refused({"info", at("flat.mesh")},
+                 "flat.mesh:13: tetrahedron 3 (nodes 1 2 3 6) has no volume");
   const Child child = plica({"repair", at("flat.mesh"), "-o", at("sound.msh")});
   EXPECT_EQ(child.status, 0) << child.errors;
-  for (const char* piece :
-       {"1 tetrahedron without volume dropped", "without volume before", "5 vertices, 2 tetrahedra"})
+  for (const char* piece : {"1 tetrahedron without volume dropped", "without volume before",
+                            "5 vertices, 2 tetrahedra"})
     EXPECT_NE(child.output.find(piece), std::string::npos) << child.output;
   EXPECT_EQ(read_mesh(at("sound.msh")).tets.size(), 2u);
-  EXPECT_NE(plica({"repair", sample("blocks_41.msh"), "-o", at("same.msh")}).output.find("nothing to repair"),
+  EXPECT_NE(plica({"repair", sample("blocks_41.msh"), "-o", at("same.msh")})
+                .output.find("nothing to repair"),
             std::string::npos);
   EXPECT_EQ(read_mesh(at("same.msh")).tets, read_mesh(sample("blocks_41.msh")).tets);
 }
 
 TEST_F(MeshCommands, LatticesOverSurfacesAndMeshes) {
-  const Child filled =
-      plica({"fill", sample("blocks.ply"), "-o", at("blocks.vtu"), "--size", "5 mm", "--with", "lattice"});
+  const Child filled = plica({"fill", sample("blocks.ply"), "-o", at("blocks.vtu"), "--size",
+                              "5 mm", "--with", "lattice"});
   EXPECT_EQ(filled.status, 0) << filled.errors;
   EXPECT_NE(filled.output.find("225 vertices, 768 tetrahedra"), std::string::npos) << filled.output;
-  EXPECT_EQ(plica({"coarsen", sample("blocks_41.msh"), "-o", at("c.msh"), "--vertices", "23"}).status, 2);
+  EXPECT_EQ(
+      plica({"coarsen", sample("blocks_41.msh"), "-o", at("c.msh"), "--vertices", "23"}).status, 2);
   ASSERT_EQ(plica({"coarsen", at("blocks.vtu"), "-o", at("c.msh"), "--vertices", "100"}).status, 0);
   EXPECT_LE(read_mesh(at("c.msh")).vertices.size(), 100u);
   std::ofstream(at("open.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   expect_refused({"fill", at("open.obj"), "-o", at("a.msh"), "--size", "1mm"}, "3 open edges");
-  expect_refused({"fill", at("open.obj"), "-o", at("a.msh"), "--size", "1mm"}, "the first is at [0.5, 0, 0]");
+  expect_refused({"fill", at("open.obj"), "-o", at("a.msh"), "--size", "1mm"},
+                 "the first is at [0.5, 0, 0]");
   expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "5 cm"},
                  "larger than the body, 0.02 x 0.02 x 0.04 m");
   expect_refused({"fill", sample("blocks.ply"), "-o", at("a.msh"), "--size", "-1"}, "--size");
@@ -173,10 +186,13 @@ class FillsWithGmsh : public MeshCommands {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-  std::vector<std::string> asked(const std::string& with) const { return fill_and({"--with", with}); }
+  std::vector<std::string> asked(const std::string& with) const {
+    return fill_and({"--with", with});
+  }
 
   const std::string path = getenv("PATH");
-  const std::vector<std::string> fill = {"fill", sample("blocks.ply"), "-o", at("a.vtu"), "--size", "5 mm"};
+  const std::vector<std::string> fill = {"fill", sample("blocks.ply"), "-o", at("a.vtu"), "--size",
+                                         "5 mm"};
 };
 
 TEST_F(FillsWithGmsh, WhereThereIsOne) {
@@ -188,21 +204,25 @@ TEST_F(FillsWithGmsh, WhereThereIsOne) {
   with_gmsh("echo 'Info : starts'; echo 'Error : the surface meets itself' >&2; exit 1\n");
   const Child instead = plica(fill);
   EXPECT_EQ(instead.status, 0) << instead.errors;
-  EXPECT_NE(instead.output.find("Error : the surface meets itself\na lattice of cubes instead"), std::string::npos)
+  EXPECT_NE(instead.output.find("Error : the surface meets itself\na lattice of cubes instead"),
+            std::string::npos)
       << instead.output;
   EXPECT_NE(instead.output.find("225 vertices"), std::string::npos) << instead.output;
-  expect_refused(asked("gmsh"),
-                 "--with gmsh: Gmsh made no mesh that fits; it says:\n  Error : the surface meets itself");
+  expect_refused(
+      asked("gmsh"),
+      "--with gmsh: Gmsh made no mesh that fits; it says:\n  Error : the surface meets itself");
 
   with_gmsh("exec yes 'Info : once more'\n");
-  expect_refused(asked("gmsh"), "Gmsh was stopped, since its messages did not end; its last words:\n");
+  expect_refused(asked("gmsh"),
+                 "Gmsh was stopped, since its messages did not end; its last words:\n");
 
   with_gmsh("cp '" + sample("../ball.msh") + "' \"$6\"\n");
   expect_refused(asked("gmsh"), "of a surface that encloses");
   setenv("PATH", at("").c_str(), 1);
   std::filesystem::remove(at("gmsh"));
   expect_refused(asked("gmsh"), "there is no gmsh on PATH");
-  EXPECT_NE(plica(fill).output.find("there is no gmsh on PATH\na lattice of cubes instead"), std::string::npos);
+  EXPECT_NE(plica(fill).output.find("there is no gmsh on PATH\na lattice of cubes instead"),
+            std::string::npos);
   setenv("PATH", path.c_str(), 1);
   expect_refused(asked("tetgen"), "--with");
 }
@@ -213,8 +233,10 @@ TEST_F(FillsWithGmsh, WhichIsStoppedWhereItHangs) {
   setenv("TMPDIR", temporary.c_str(), 1);
   with_gmsh("echo 'Info : Meshing surface 3' && touch \"$6\" && exec sleep 1000\n");
   expect_refused(fill_and({"--with", "gmsh", "--time-limit", "0.3 s"}),
-                 "blocks.ply: --with gmsh: Gmsh was stopped, since it had made no mesh after 0.3 s: give it longer "
-                 "(--time-limit), choose a larger --size, or mend the surface (it may meet itself); its last words:\n"
+                 "blocks.ply: --with gmsh: Gmsh was stopped, since it had made no mesh after 0.3 "
+                 "s: give it longer "
+                 "(--time-limit), choose a larger --size, or mend the surface (it may meet "
+                 "itself); its last words:\n"
                  "  Info : Meshing surface 3");
   EXPECT_FALSE(std::filesystem::exists(at("a.vtu")));
   EXPECT_TRUE(std::filesystem::is_empty(temporary));
@@ -229,24 +251,35 @@ TEST_F(FillsWithGmsh, WhichIsStoppedWhereItHangs) {
 TEST_F(MeshCommands, PipesAndHugeNamesAreRefused) {
   ASSERT_EQ(mkfifo(at("pipe.msh").c_str(), 0600), 0);
   expect_refused({"info", at("pipe.msh")}, "is a pipe or a device");
-  expect_refused({"info", std::string(100000, 'x') + ".msh"}, "cannot be opened: File name too long");
+  expect_refused({"info", std::string(100000, 'x') + ".msh"},
+                 "cannot be opened: File name too long");
 }
 
 TEST_F(MeshCommands, WrongArgumentsAreRefused) {
   const std::string mesh = sample("blocks_41.msh");
-  expect_refused({"convert", mesh, at("a.msch")},
-                 "did you mean 'msh'? (choices: msh, mesh, vtk, vtu, ele, node, obj, ply, off, stl)");
-  expect_refused({"convert", mesh, at("a.msh"), "--format", "msh40"}, "unknown format 'msh40'; did you mean 'msh41'?");
+  expect_refused(
+      {"convert", mesh, at("a.msch")},
+      "did you mean 'msh'? (choices: msh, mesh, vtk, vtu, ele, node, obj, ply, off, stl)");
+  expect_refused({"convert", mesh, at("a.msh"), "--format", "msh40"},
+                 "unknown format 'msh40'; did you mean 'msh41'?");
   expect_refused({"convert", mesh, at("a.ele"), "--binary"}, "no binary form");
-  expect_refused({"convert", sample("blocks.obj"), at("a.vtk")}, "unknown surface file extension 'vtk'");
-  expect_refused({"convert", at("none.msh"), at("a.msh")}, "none.msh: cannot be opened: No such file or directory");
-  expect_refused({"convert", mesh, at("a.msh"), "--scale", "0"}, "--scale: expected a number > 0, got '0'");
-  expect_refused({"convert", mesh, at("a.msh"), "--merge-duplicates", "1 m"}, "at most 1 m apart cannot be merged");
-  expect_refused({"convert", sample("blocks.obj"), at("a.obj"), "--merge-duplicates", "1 mm"}, "for meshes");
-  expect_refused({"info", mesh, "--young-modulus", "20kpa"}, "unknown unit 'kpa'; did you mean 'kPa'?");
+  expect_refused({"convert", sample("blocks.obj"), at("a.vtk")},
+                 "unknown surface file extension 'vtk'");
+  expect_refused({"convert", at("none.msh"), at("a.msh")},
+                 "none.msh: cannot be opened: No such file or directory");
+  expect_refused({"convert", mesh, at("a.msh"), "--scale", "0"},
+                 "--scale: expected a number > 0, got '0'");
+  expect_refused({"convert", mesh, at("a.msh"), "--merge-duplicates", "1 m"},
+                 "at most 1 m apart cannot be merged");
+  expect_refused({"convert", sample("blocks.obj"), at("a.obj"), "--merge-duplicates", "1 mm"},
+                 "for meshes");
+  expect_refused({"info", mesh, "--young-modulus", "20kpa"},
+                 "unknown unit 'kpa'; did you mean 'kPa'?");
   expect_refused({"info", mesh, "--model", "neohookean"}, "did you mean 'neo_hookean'?");
-  expect_refused({"info", sample("blocks.obj"), "--density", "1"}, "--density: this file holds a surface");
-  expect_refused({"conver", mesh, at("a.msh")}, "unknown command 'conver'; did you mean 'convert'?");
+  expect_refused({"info", sample("blocks.obj"), "--density", "1"},
+                 "--density: this file holds a surface");
+  expect_refused({"conver", mesh, at("a.msh")},
+                 "unknown command 'conver'; did you mean 'convert'?");
   EXPECT_FALSE(std::filesystem::exists(at("a.msh")));
 }
 

@@ -37,8 +37,10 @@ Snapshot moved(const Scene& scene, double time, const Point& by) {
   }
   const std::size_t tets = scene.problem.body.levels[0].tets.size();
   if (!scene.output.volume.levels.empty())
-    snapshot.volumes = {
-        {0, snapshot.positions, snapshot.velocities, {false, std::vector(tets, 7.0), std::vector(tets, 0.9)}}};
+    snapshot.volumes = {{0,
+                         snapshot.positions,
+                         snapshot.velocities,
+                         {false, std::vector(tets, 7.0), std::vector(tets, 0.9)}}};
   snapshot.energies = {.kinetic = 1, .elastic = 2, .potential = -4, .contact = 0.5};
   return snapshot;
 }
@@ -62,9 +64,9 @@ TEST(WriteFile, FailsWithTheName) {
 // a region that the scene selects weighs what it says, in every file
 TEST(RunFiles, KnowTheSelectedRegions) {
   const TemporaryFolder folder;
-  const Scene scene =
-      scene_of(std::string(block) + "  # the upper half\n",
-               {"body.regions={heavy: {where: {box: {min: [0, 0, 0.5], max: [1, 1, 1]}}, density: 3000}}"});
+  const Scene scene = scene_of(
+      std::string(block) + "  # the upper half\n",
+      {"body.regions={heavy: {where: {box: {min: [0, 0, 0.5], max: [1, 1, 1]}}, density: 3000}}"});
   RunFiles files(scene, folder.path());
   files.write(moved(scene, 0, Point::Zero()));
   EXPECT_NE(content_of(folder / "frames/volume_0000.vtu").find("\"region\""), std::string::npos);
@@ -89,9 +91,11 @@ TEST(MaterialText, HasTheParametersThatTheMaterialDeclares) {
   MaterialOptions material;
   material.parameters = {{"c1", 5e3}};
   const MaterialInfo info = plica::test::three_constants();
-  EXPECT_EQ(material_text(info, material), "three_constants, c1 5 kPa, c2 700 Pa, bulk 30 kPa, density 1000 kg/m^3");
-  EXPECT_EQ(material_json(info, material).dump(),
-            R"({"model":"three_constants","c1":5000.0,"c2":700.0,"bulk":30000.0,"density":1000.0})");
+  EXPECT_EQ(material_text(info, material),
+            "three_constants, c1 5 kPa, c2 700 Pa, bulk 30 kPa, density 1000 kg/m^3");
+  EXPECT_EQ(
+      material_json(info, material).dump(),
+      R"({"model":"three_constants","c1":5000.0,"c2":700.0,"bulk":30000.0,"density":1000.0})");
   EXPECT_EQ(material_text(*find_material("neo_hookean"), {}),
             "neo_hookean, young_modulus 20 kPa, poisson_ratio 0.4, density 1000 kg/m^3");
 }
@@ -99,7 +103,8 @@ TEST(MaterialText, HasTheParametersThatTheMaterialDeclares) {
 TEST(RunFiles, KeepOnlyThisRun) {
   const TemporaryFolder folder;
   make_folder(folder / "frames");
-  for (const char* stale : {"summary.json", "frames/surface_0007.vtu", "frames/volume_0000.vtu", "frames/mine.vtu"})
+  for (const char* stale :
+       {"summary.json", "frames/surface_0007.vtu", "frames/volume_0000.vtu", "frames/mine.vtu"})
     write_file(folder / stale, "old");
   const Scene scene = scene_of(block, {"output.volume=false"});
   RunFiles files(scene, folder.path());
@@ -112,7 +117,8 @@ TEST(RunFiles, KeepOnlyThisRun) {
   EXPECT_FALSE(std::filesystem::exists(folder / "frames/surface_0007.vtu"));
   EXPECT_FALSE(std::filesystem::exists(folder / "frames/volume_0000.vtu"));
   EXPECT_TRUE(std::filesystem::exists(folder / "frames/mine.vtu"));
-  EXPECT_NE(content_of(folder / "frames.pvd").find("timestep=\"0.5\" part=\"0\" file=\"frames/surface_0001.vtu\""),
+  EXPECT_NE(content_of(folder / "frames.pvd")
+                .find("timestep=\"0.5\" part=\"0\" file=\"frames/surface_0001.vtu\""),
             std::string::npos);
 }
 
@@ -135,7 +141,8 @@ TEST(RunFiles, HistoryHasItsColumns) {
   files.write(moved(scene, 0.25, {0, 0, 0.5}));
   EXPECT_EQ(content_of(folder / "history.csv").substr(0, 71),
             "time,kinetic_energy,elastic_energy,potential_energy,contact_energy,tota");
-  const std::string text = content_of(folder / "history.csv"), row = text.substr(text.find('\n') + 1);
+  const std::string text = content_of(folder / "history.csv"),
+                    row = text.substr(text.find('\n') + 1);
   std::vector<double> numbers;
   std::istringstream fields(row);
   for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::stod(field));
@@ -153,7 +160,8 @@ TEST(RunFiles, HistoryHasTheObstaclesWrenches) {
   now.wrenches.assign(scene.problem.contact.obstacles.size(), {"", {1, 2, 3}, {4, 5, 6}});
   files.write(now);
   const std::string text = content_of(folder / "history.csv");
-  EXPECT_NE(text.find(",floor.force_x,floor.force_y,floor.force_z,floor.torque_x,floor.torque_y,floor.torque_z\n"),
+  EXPECT_NE(text.find(",floor.force_x,floor.force_y,floor.force_z,floor.torque_x,floor.torque_y,"
+                      "floor.torque_z\n"),
             std::string::npos)
       << text;
   EXPECT_TRUE(text.ends_with(",1,2,3,4,5,6\n")) << text;
@@ -198,7 +206,8 @@ TEST(RunFiles, HistoryCountsHalvings) {
 
 // A field of a .vtu file that is appended in doubles
 std::vector<double> field_of(const std::string& vtu, const std::string& name) {
-  const std::size_t entry = vtu.find("Name=\"" + name + "\""), offset = vtu.find("offset=\"", entry) + 8;
+  const std::size_t entry = vtu.find("Name=\"" + name + "\""),
+                    offset = vtu.find("offset=\"", entry) + 8;
   if (entry == std::string::npos) return {};
   const std::size_t start = vtu.find("\n_") + 2 + std::stoul(vtu.substr(offset));
   std::uint64_t size = 0;
@@ -233,12 +242,14 @@ TEST(RunFiles, GoOnFromTheirMark) {
     files.write(moved(scene, 0, Point::Zero()));
     files.write(moved(scene, 0.25, Point::Zero()));
     mark = files.mark();
-    kept = content_of(folder / "history.csv") + content_of(folder / "frames.pvd") + content_of(folder / "volume.pvd");
+    kept = content_of(folder / "history.csv") + content_of(folder / "frames.pvd") +
+           content_of(folder / "volume.pvd");
     for (const double time : {0.5, 0.75}) files.write(moved(scene, time, {0, 0, 1}));
   }
   write_file(folder / "frames/surface_0004.vtu.part", "half a frame");
   const RunFiles files(scene, folder.path(), mark);
-  EXPECT_EQ(content_of(folder / "history.csv") + content_of(folder / "frames.pvd") + content_of(folder / "volume.pvd"),
+  EXPECT_EQ(content_of(folder / "history.csv") + content_of(folder / "frames.pvd") +
+                content_of(folder / "volume.pvd"),
             kept);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "frames"), {}), 4);
   EXPECT_EQ(files.last_time(), 0.25);
@@ -269,8 +280,9 @@ TEST(Summary, IsJsonWithItsFields) {
   diagnosis.element = 7;
   const auto json = nlohmann::json::parse(summary_json(scene, summary, {"plica", "run", "a.yaml"}));
   for (const char* key :
-       {"status", "simulated_time", "macro_step", "macro_steps", "wall_time", "setup_time", "peak_memory", "precision",
-        "backend", "threads", "cycle", "levels", "stages", "counters", "last_good_time", "diagnosis", "wrenches"})
+       {"status", "simulated_time", "macro_step", "macro_steps", "wall_time", "setup_time",
+        "peak_memory", "precision", "backend", "threads", "cycle", "levels", "stages", "counters",
+        "last_good_time", "diagnosis", "wrenches"})
     EXPECT_TRUE(json.contains(key)) << key;
   for (const char* key : {"vertices", "tets", "critical_step", "share", "substeps", "integrator"})
     EXPECT_TRUE(json["levels"][0].contains(key)) << key;
@@ -281,10 +293,11 @@ TEST(Summary, IsJsonWithItsFields) {
   EXPECT_TRUE(nlohmann::json::parse(summary_json(scene, summary, {}))["diagnosis"].is_null());
 }
 
-// What VTK reads from a file: points, cells, type of the cells, time, sums of the displacements and velocities; nothing
-// where there is no VTK
+// What VTK reads from a file: points, cells, type of the cells, time, sums of the displacements and
+// velocities; nothing where there is no VTK
 std::vector<double> read_by_vtk(const std::filesystem::path& file, const TemporaryFolder& folder) {
-  const Child child = run_child({python(), PLICA_SOURCE_DIR "/tests/unit/app/read_vtu.py", file.string()}, folder);
+  const Child child =
+      run_child({python(), PLICA_SOURCE_DIR "/tests/unit/app/read_vtu.py", file.string()}, folder);
   std::vector<double> numbers;
   constexpr int no_vtk = 77, no_python = 127;
   if (child.status == no_vtk || child.status == no_python || child.status < 0) return numbers;
@@ -332,8 +345,11 @@ TEST(ManySteps, AreToldWithWhatTheSceneDoesNotHave) {
   Summary summary;
   summary.macro_step = 1e-7, summary.cycle = "single", summary.levels = {level_with(1e-6)};
   Scene scene = scene_of(block);
-  const std::string begin = "integration.macro_step: the run takes 1e+07 macro steps of 100 ns; expected ",
-                    end = ", or a mesh without slivers (plica explain names them), or a poisson_ratio further from 0.5";
+  const std::string
+      begin = "integration.macro_step: the run takes 1e+07 macro steps of 100 ns; expected ",
+      end =
+          ", or a mesh without slivers (plica explain names them), or a poisson_ratio further from "
+          "0.5";
   EXPECT_EQ(many_steps_text(scene, summary), begin + "an implicit integrator, or cycle: him" + end);
   summary.cycle = "him";
   EXPECT_EQ(many_steps_text(scene, summary), begin + "an implicit integrator" + end);
@@ -348,18 +364,21 @@ TEST(LevelsJson, HaveTheStiffestElements) {
   EXPECT_EQ(levels[0]["typical_element"], 1e-3);
   ASSERT_EQ(levels[0]["stiffest"].size(), 2u);
   EXPECT_EQ(levels[0]["stiffest"][0],
-            (nlohmann::ordered_json{{"element", 71}, {"region", "bone"}, {"height_ratio", 25}, {"step", 0.04e-3}}));
+            (nlohmann::ordered_json{
+                {"element", 71}, {"region", "bone"}, {"height_ratio", 25}, {"step", 0.04e-3}}));
 }
 
 TEST(Keys, OfBadStatesAndSteps) {
-  const Scene scene = scene_of(sound_scene, {"body.initial.stretch=[1, 0, -1]", "body.material.allow_inversion=true",
-                                             "integration.on_failure.halvings=3"});
+  const Scene scene = scene_of(
+      sound_scene, {"body.initial.stretch=[1, 0, -1]", "body.material.allow_inversion=true",
+                    "integration.on_failure.halvings=3"});
   EXPECT_EQ(scene.problem.body.initial.stretch, Point(1, 0, -1));
   EXPECT_EQ(scene.problem.body.material.allow_inversion, true);
   EXPECT_EQ(scene.problem.integration.on_failure.halvings, 3);
   EXPECT_EQ(scene_of(sound_scene, {"body.initial.random=7"}).problem.body.initial.random, 7);
   EXPECT_FALSE(scene_of(sound_scene).problem.body.material.allow_inversion);
-  EXPECT_NE(error_of(sound_scene, {"body.initial.random=seven"}).find("body.initial.random"), std::string::npos);
+  EXPECT_NE(error_of(sound_scene, {"body.initial.random=seven"}).find("body.initial.random"),
+            std::string::npos);
 }
 
 TEST(Text, NumbersInUnits) {
@@ -378,20 +397,25 @@ TEST(Text, NumbersInUnits) {
 
 TEST(Text, TablesAlign) {
   EXPECT_EQ(text_table({{"a", "bb", "c"}, {"aaa", "b", ""}}, "<>>", ""), "a    bb  c\naaa   b\n");
-  EXPECT_EQ(text_table({{"\xC3\xA4\xC3\xA4", "b"}, {"a", "b"}}, ">>", ""), "\xC3\xA4\xC3\xA4  b\n a  b\n")
+  EXPECT_EQ(text_table({{"\xC3\xA4\xC3\xA4", "b"}, {"a", "b"}}, ">>", ""),
+            "\xC3\xA4\xC3\xA4  b\n a  b\n")
       << "letters, not bytes";
 }
 
-TEST(Text, WordsOfAShell) { EXPECT_EQ(shell_word("o/p_1") + shell_word("my b's"), "o/p_1'my b'\\''s'"); }
+TEST(Text, WordsOfAShell) {
+  EXPECT_EQ(shell_word("o/p_1") + shell_word("my b's"), "o/p_1'my b'\\''s'");
+}
 
 TEST(Text, LinesWrap) { EXPECT_EQ(wrapped("one two three", 10, "  "), "  one two\n  three\n"); }
 
 TEST(Text, ProgressFitsItsTerminal) {
   const std::string line = progress_line(0.62, 3, 500, 0.5, 100);
   EXPECT_EQ(line,
-            "0.62 / 3.00 s [#####........................]  21 %   1000 steps/s   1.24 x real time    1.9 s left");
+            "0.62 / 3.00 s [#####........................]  21 %   1000 steps/s   1.24 x real time "
+            "   1.9 s left");
   for (int width = 1; width < 140; ++width)
-    EXPECT_LT(progress_line(0.62, 3, 500, 0.5, width).size(), static_cast<std::size_t>(width)) << width;
+    EXPECT_LT(progress_line(0.62, 3, 500, 0.5, width).size(), static_cast<std::size_t>(width))
+        << width;
 }
 
 }  // namespace

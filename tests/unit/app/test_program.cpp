@@ -26,7 +26,8 @@ TEST_F(Program, WritesTheVolumesOfAllLevelsThatHaveAState) {
   const std::string levels =
       "body.levels=[{box: {size: [0.1, 0.1, 0.1], cells: [2, 2, 2]}}, {box: {size: [0.1, 0.1, "
       "0.1], cells: [1, 1, 1]}}]";
-  for (const auto& [cycle, volumes] : {std::pair{"single", 1}, {"rsv", 2}, {"him", 1}, {"auto", 1}}) {
+  for (const auto& [cycle, volumes] :
+       {std::pair{"single", 1}, {"rsv", 2}, {"him", 1}, {"auto", 1}}) {
     std::vector<std::string> words = {"run",
                                       scene,
                                       "-o",
@@ -38,7 +39,8 @@ TEST_F(Program, WritesTheVolumesOfAllLevelsThatHaveAState) {
                                       "output.volume=all",
                                       "--set",
                                       std::string("integration.cycle=") + cycle};
-    if (cycle == std::string("auto")) words.insert(words.end(), {"--set", "integration.macro_step=auto"});
+    if (cycle == std::string("auto"))
+      words.insert(words.end(), {"--set", "integration.macro_step=auto"});
     const Child run = plica(words);
     EXPECT_EQ(run.status, 0) << cycle << ": " << run.errors;
     EXPECT_TRUE(std::filesystem::exists(out + cycle + "/volume.pvd")) << cycle;
@@ -47,7 +49,8 @@ TEST_F(Program, WritesTheVolumesOfAllLevelsThatHaveAState) {
 }
 
 TEST_F(Program, QuietSaysNothing) {
-  const Child run = plica({"run", scene, "-o", out, "--quiet", "--duration", "2ms", "--precision", "float"});
+  const Child run =
+      plica({"run", scene, "-o", out, "--quiet", "--duration", "2ms", "--precision", "float"});
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(run.output + run.errors, "");
   EXPECT_EQ(summary()["precision"], "float");
@@ -61,8 +64,9 @@ TEST_F(Program, DurationIsCoveredByWholeSteps) {
 
 TEST_F(Program, AutomaticStepsEndAtTheDuration) {
   for (const char* duration : {"0.1 ms", "20 ms"}) {  // the first is less than one step
-    const Child run = plica({"run", scene, "-o", out, "--force", "--set", "integration.macro_step=auto", "--duration",
-                             duration, "--set", "output.every=1 s"});
+    const Child run =
+        plica({"run", scene, "-o", out, "--force", "--set", "integration.macro_step=auto",
+               "--duration", duration, "--set", "output.every=1 s"});
     ASSERT_EQ(run.status, 0) << run.errors;
     const double end = std::stod(duration) / 1e3;
     EXPECT_EQ(summary()["simulated_time"], end);
@@ -90,22 +94,25 @@ TEST_F(Program, BadInputIs2) {
 
 TEST_F(Program, ErrorsNameTheNearest) {
   EXPECT_NE(plica({"rnu"}).errors.find("did you mean 'run'?"), std::string::npos);
-  EXPECT_NE(plica({"list", "material"}).errors.find("did you mean 'materials'?"), std::string::npos);
+  EXPECT_NE(plica({"list", "material"}).errors.find("did you mean 'materials'?"),
+            std::string::npos);
   const Child check = plica({"check", scene, "--set", "durtion=1"});
-  EXPECT_NE(check.errors.find("error: --set durtion=1: unknown key 'durtion'; did you mean 'duration'?"),
-            std::string::npos)
+  EXPECT_NE(
+      check.errors.find("error: --set durtion=1: unknown key 'durtion'; did you mean 'duration'?"),
+      std::string::npos)
       << check.errors;
   EXPECT_EQ(check.output, "");
+  EXPECT_EQ(plica({"run", scene, "--thread", "2"})
+                .errors.find("error: unknown option '--thread'; did you mean '--threads'?"),
+            0);
   EXPECT_EQ(
-      plica({"run", scene, "--thread", "2"}).errors.find("error: unknown option '--thread'; did you mean '--threads'?"),
-      0);
-  EXPECT_EQ(plica({"mesh"}).errors,
-            "error: expected a command: info, convert, repair, fill, coarsen\nsee plica mesh --help\n");
+      plica({"mesh"}).errors,
+      "error: expected a command: info, convert, repair, fill, coarsen\nsee plica mesh --help\n");
 }
 
 TEST_F(Program, RefusedStepIs2) {
-  const Child run = plica({"run", scene, "-o", out, "--duration", "2 s", "--set", "integration.macro_step=1 s", "--set",
-                           "integration.substeps=1"});
+  const Child run = plica({"run", scene, "-o", out, "--duration", "2 s", "--set",
+                           "integration.macro_step=1 s", "--set", "integration.substeps=1"});
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.errors.find("block.yaml"), std::string::npos) << run.errors;
   EXPECT_FALSE(std::filesystem::exists(out)) << "files of a run that was refused";
@@ -122,16 +129,18 @@ TEST_F(Program, FolderInTheWrongPlaceIs2) {
   const Child nowhere = plica({"run", scene, "-o", "/proc/x"});
   EXPECT_EQ(nowhere.status, 2);
   EXPECT_NE(
-      nowhere.errors.find("cannot make the folder /proc/x: the system lets none be made in /proc (No such file or "
-                          "directory); expected a place to write to"),
+      nowhere.errors.find(
+          "cannot make the folder /proc/x: the system lets none be made in /proc (No such file or "
+          "directory); expected a place to write to"),
       std::string::npos)
       << nowhere.errors;
 }
 
 TEST_F(Program, DivergedIs3) {
-  const Child run = plica({"run", scene, "-o", out, "--duration", "1 s", "--set", "integration.allow_unstable=true",
-                           "--set", "integration.macro_step=20 ms", "--set", "integration.substeps=1", "--set",
-                           "body.initial.angular_velocity=[0, 3, 0]"});
+  const Child run =
+      plica({"run", scene, "-o", out, "--duration", "1 s", "--set",
+             "integration.allow_unstable=true", "--set", "integration.macro_step=20 ms", "--set",
+             "integration.substeps=1", "--set", "body.initial.angular_velocity=[0, 3, 0]"});
   EXPECT_EQ(run.status, 3) << run.errors;
   EXPECT_NE(run.errors.find("diverged: "), std::string::npos);
   const Json json = summary();
@@ -150,14 +159,17 @@ TEST_F(Program, WarnsOfUnsolvedStepsWhereTheRunWentOn) {
         "{newton_iterations: 2, newton_tolerance: 1e-12}, on_failure: {halvings: 0, unsolved: ";
     const Child run =
         plica({"run", scene, "-o", out, "--force", "--set",
-               "integration={integrator: implicit_euler, macro_step: 20 ms, implicit: " + implicit + unsolved + "}}",
+               "integration={integrator: implicit_euler, macro_step: 20 ms, implicit: " + implicit +
+                   unsolved + "}}",
                "--set", "body.initial.angular_velocity=[0, 0, 10]"});
     EXPECT_EQ(run.status, stops ? 3 : 0) << run.errors;
-    EXPECT_EQ(summary()["warnings"].dump().find("the run went on") == std::string::npos, stops) << summary();
+    EXPECT_EQ(summary()["warnings"].dump().find("the run went on") == std::string::npos, stops)
+        << summary();
   }
 }
 
-// A law that does not stop there must not end without a word; what a resumed run says is what the whole one says.
+// A law that does not stop there must not end without a word; what a resumed run says is what the
+// whole one says.
 TEST_F(Program, WarnsOfElementsThatTurnInsideOut) {
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"run",
@@ -175,19 +187,24 @@ TEST_F(Program, WarnsOfElementsThatTurnInsideOut) {
     return child.errors;
   };
   const std::string said = run({});
-  EXPECT_NE(said.find("warning: body.material: elements turned inside out, first at "), std::string::npos) << said;
+  EXPECT_NE(said.find("warning: body.material: elements turned inside out, first at "),
+            std::string::npos)
+      << said;
   const Json warnings = summary()["warnings"];
   ASSERT_FALSE(warnings.empty());
   EXPECT_NE(warnings.back().get<std::string>().find("turned inside out"), std::string::npos);
   run({"--checkpoint", "every=100", "--duration", "0.6 s"});
   ASSERT_EQ(plica({"run", "--resume", out, "--duration", "1 s"}).status, 0);
   EXPECT_EQ(summary()["warnings"], warnings);
-  EXPECT_EQ(run({"--set", "body.material.allow_inversion=true"}).find("inside out"), std::string::npos);
-  EXPECT_EQ(run({"--set", "body.material.young_modulus=200 kPa"}).find("inside out"), std::string::npos);
+  EXPECT_EQ(run({"--set", "body.material.allow_inversion=true"}).find("inside out"),
+            std::string::npos);
+  EXPECT_EQ(run({"--set", "body.material.young_modulus=200 kPa"}).find("inside out"),
+            std::string::npos);
 }
 
 TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
-  const std::vector<std::string> again = {"run", scene, "-o", out, "--set", "output.probes={tip: [0, 0, 0]}"};
+  const std::vector<std::string> again = {"run", scene,   "-o",
+                                          out,   "--set", "output.probes={tip: [0, 0, 0]}"};
   const auto with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = again;
     words.insert(words.end(), more.begin(), more.end());
@@ -198,15 +215,17 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
                     probes = content_of(folder / "out/probes.csv");
   const Child refused = with({});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_EQ(refused.errors, "error: the folder " + out +
-                                " holds a run already (checkpoint.bin, summary.json, history.csv, probes.csv, "
-                                "frames.pvd); expected --force to replace it, --resume " +
-                                out + " to go on with it, or another folder with -o\n");
+  EXPECT_EQ(refused.errors,
+            "error: the folder " + out +
+                " holds a run already (checkpoint.bin, summary.json, history.csv, probes.csv, "
+                "frames.pvd); expected --force to replace it, --resume " +
+                out + " to go on with it, or another folder with -o\n");
   EXPECT_EQ(content_of(folder / "out/checkpoint.bin"), checkpoint);
   EXPECT_EQ(content_of(folder / "out/probes.csv"), probes);
   EXPECT_EQ(plica({"run", "--resume", out, "--force"}).status, 2);
   EXPECT_EQ(plica({"run", "--resume", out}).status, 0);
-  EXPECT_NE(with({"--duration", "5 kg"}).errors.find("duration: expected a time"), std::string::npos)
+  EXPECT_NE(with({"--duration", "5 kg"}).errors.find("duration: expected a time"),
+            std::string::npos)
       << "what the scene says wrong comes first";
   ASSERT_EQ(plica({"report", out}).status, 0);
   EXPECT_TRUE(std::filesystem::exists(folder / "out/report.html"));
@@ -214,16 +233,19 @@ TEST_F(Program, ReplacesARunOnlyWhereToldTo) {
     const FolderLock other(out);
     const Child second = with({"--force"});
     EXPECT_EQ(second.status, 2);
-    EXPECT_NE(second.errors.find("another run is writing to the folder"), std::string::npos) << second.errors;
+    EXPECT_NE(second.errors.find("another run is writing to the folder"), std::string::npos)
+        << second.errors;
   }
   EXPECT_EQ(with({"--force"}).status, 0);
   for (const char* file : {"checkpoint.bin", "report.html"})
     EXPECT_FALSE(std::filesystem::exists(folder / "out" / file)) << file;
-  EXPECT_EQ(with({}).errors.find("--resume"), std::string::npos) << "there is no checkpoint to go on from";
+  EXPECT_EQ(with({}).errors.find("--resume"), std::string::npos)
+      << "there is no checkpoint to go on from";
 }
 
 TEST_F(Program, HelpAndVersionAreResults) {
-  for (const char* command : {"run", "explain", "check", "report", "mesh", "list", "schema", "completion"}) {
+  for (const char* command :
+       {"run", "explain", "check", "report", "mesh", "list", "schema", "completion"}) {
     const Child help = plica({command, "--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_NE(help.output.find("Usage"), std::string::npos);
@@ -254,12 +276,14 @@ TEST_F(Program, ExplainsForPeopleAndPrograms) {
 
 // A space for slivers lies between the meshes: tables and files number it like them
 TEST_F(Program, ExplainsTheSpaceForSliversAboveAGivenMesh) {
-  const std::string organ = PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk", coarse = folder / "coarse.vtk";
+  const std::string organ = PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk",
+                    coarse = folder / "coarse.vtk";
   ASSERT_EQ(plica({"mesh", "coarsen", organ, "-o", coarse, "--vertices", "300"}).status, 0);
   const auto explain = [&](std::vector<std::string> more) {
-    std::vector<std::string> words = {"explain", scene,
-                                      "--set",   "integration={cycle: him}",
-                                      "--set",   "body.levels=[{file: " + organ + "}, {file: " + coarse + "}]"};
+    std::vector<std::string> words = {
+        "explain", scene,
+        "--set",   "integration={cycle: him}",
+        "--set",   "body.levels=[{file: " + organ + "}, {file: " + coarse + "}]"};
     words.insert(words.end(), more.begin(), more.end());
     const Child child = plica(words);
     EXPECT_EQ(child.status, 0) << child.errors;
@@ -295,20 +319,23 @@ TEST_F(Program, ListsFamilies) {
     EXPECT_NE(plica({"list", family}).output, "") << family;
     const Json members = Json::parse(plica({"list", family, "--json"}).output);
     EXPECT_FALSE(members.empty()) << family;
-    for (const Json& member : members) EXPECT_FALSE(member[family == "keys" ? "help" : "summary"].empty()) << family;
+    for (const Json& member : members)
+      EXPECT_FALSE(member[family == "keys" ? "help" : "summary"].empty()) << family;
   }
 }
 
 TEST_F(Program, PrintsTheSchema) {
-  EXPECT_EQ(Json::parse(plica({"schema"}).output)["properties"]["body"]["required"], Json({"levels"}));
+  EXPECT_EQ(Json::parse(plica({"schema"}).output)["properties"]["body"]["required"],
+            Json({"levels"}));
 }
 
 TEST_F(Program, CompletesCommandLines) {
   if (run_child({"bash", "-c", "true"}, folder).status != 0) GTEST_SKIP() << "no bash";
   std::ofstream(folder / "completion") << plica({"completion", "bash"}).output;
   const auto completed = [&](const std::string& line) {
-    const std::string body = "source " + std::string(folder / "completion") + "; COMP_WORDS=(" + line +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _plica; echo \"${COMPREPLY[*]}\"";
+    const std::string body =
+        "source " + std::string(folder / "completion") + "; COMP_WORDS=(" + line +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _plica; echo \"${COMPREPLY[*]}\"";
     return run_child({"bash", "-c", body}, folder).output;
   };
   EXPECT_EQ(completed("plica ru"), "run\n");
@@ -326,35 +353,42 @@ TEST_F(Program, CompletesCommandLines) {
 }
 
 TEST_F(Program, ProbesFollowTheBody) {
-  ASSERT_EQ(
-      plica({"run", scene, "-o", out, "--set", "output.probes={low: [0, 0, 0], out: [0.101, 0.05, 0.05]}"}).status, 0);
+  ASSERT_EQ(plica({"run", scene, "-o", out, "--set",
+                   "output.probes={low: [0, 0, 0], out: [0.101, 0.05, 0.05]}"})
+                .status,
+            0);
   EXPECT_EQ(lines("out/probes.csv"), 22);
   const std::string text = content_of(folder / "out/probes.csv");
-  EXPECT_TRUE(text.starts_with("time,low_x,low_y,low_z,low_vx,low_vy,low_vz,out_x,")) << text.substr(0, 80);
+  EXPECT_TRUE(text.starts_with("time,low_x,low_y,low_z,low_vx,low_vy,low_vz,out_x,"))
+      << text.substr(0, 80);
   std::istringstream last(text.substr(text.rfind('\n', text.size() - 2) + 1));
   std::vector<double> row;
   for (std::string field; std::getline(last, field, ',');) row.push_back(std::stod(field));
   const double fallen = -9.81 * 1e-6 * 20 * 21 / 2;  // symplectic Euler in free fall
-  const std::vector<double> expected = {0.02, 0, 0, fallen, 0, 0, -0.1962, 0.1, 0.05, 0.05 + fallen, 0, 0, -0.1962};
+  const std::vector<double> expected = {0.02,          0, 0, fallen, 0, 0, -0.1962, 0.1, 0.05,
+                                        0.05 + fallen, 0, 0, -0.1962};
   ASSERT_EQ(row.size(), expected.size());
   for (std::size_t i = 0; i < row.size(); ++i) EXPECT_NEAR(row[i], expected[i], 1e-9) << i;
 }
 
 TEST_F(Program, WatchesWhatIsThere) {
-  EXPECT_NE(
-      plica({"check", scene, "--set", "output.probes.tip=[0.101, 0.05, 0.05]"})
-          .errors.find("output.probes.tip: [0.101, 0.05, 0.05] is 0.001 m outside level 0 at rest; the nearest point"),
-      std::string::npos);
+  EXPECT_NE(plica({"check", scene, "--set", "output.probes.tip=[0.101, 0.05, 0.05]"})
+                .errors.find("output.probes.tip: [0.101, 0.05, 0.05] is 0.001 m outside level 0 at "
+                             "rest; the nearest point"),
+            std::string::npos);
   const Child far = plica({"check", scene, "--set", "output.probes.tip=[10, 2, 2]"});
   EXPECT_EQ(far.status, 2);
-  EXPECT_NE(far.errors.find("outside level 0 at rest, which lies in [0, 0, 0] to [0.1, 0.1, 0.1] m"), std::string::npos)
+  EXPECT_NE(
+      far.errors.find("outside level 0 at rest, which lies in [0, 0, 0] to [0.1, 0.1, 0.1] m"),
+      std::string::npos)
       << far.errors;
   EXPECT_EQ(plica({"check", scene, "--set", "output.volume=[1]"}).status, 2);
   EXPECT_EQ(plica({"check", scene, "--set", "output.probe_every=2 steps"}).status, 2);
 }
 
 TEST_F(Program, RunsCanBeDrawn) {
-  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0)
+    GTEST_SKIP() << "no Python with Matplotlib";
   ASSERT_EQ(plica({"run", scene, "-o", out}).status, 0);
   const Child plot = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/run.py", out}, folder);
   EXPECT_EQ(plot.status, 0) << plot.errors;

@@ -10,7 +10,8 @@ class ReportCommand : public Program {
  protected:
   // The data of a page
   Json data() const {
-    const std::string page = content_of(folder / "out/report.html"), start = "type=\"application/json\">";
+    const std::string page = content_of(folder / "out/report.html"),
+                      start = "type=\"application/json\">";
     const std::size_t from = page.find(start) + start.size();
     return Json::parse(page.substr(from, page.find("</script>", from) - from));
   }
@@ -21,7 +22,8 @@ class ReportCommand : public Program {
   }
   // What a page without a browser cannot tell
   void use(const std::string& where) const {
-    const Child used = run_child({python(), PLICA_SOURCE_DIR "/tests/unit/app/show_report.py", where}, folder);
+    const Child used =
+        run_child({python(), PLICA_SOURCE_DIR "/tests/unit/app/show_report.py", where}, folder);
     if (used.status == 77) GTEST_SKIP() << used.output;
     EXPECT_EQ(used.status, 0) << used.errors;
   }
@@ -55,7 +57,8 @@ TEST_F(ReportCommand, ShowsWhereTheBodyWas) {
   for (const float x : rest) EXPECT_NEAR(x, x < 0.02 ? 0 : x < 0.07 ? 0.05 : 0.1, 1e-7);
   const double low = film["low"][2], high = film["high"][2];
   for (std::size_t frame = 0; frame < 5; ++frame) {
-    const double n = 5.0 * static_cast<double>(frame), fallen = -9.81 * 1e-6 * n * (n + 1) / 2;  // symplectic Euler
+    // symplectic Euler
+    const double n = 5.0 * static_cast<double>(frame), fallen = -9.81 * 1e-6 * n * (n + 1) / 2;
     const double shown = low + (high - low) * steps[frame * rest.size() + 2] / 65535.0;
     EXPECT_NEAR(shown, fallen, 2e-5 * (high - low)) << frame;
     EXPECT_NEAR(page["times"][frame], 1e-3 * n, 1e-12);
@@ -66,7 +69,8 @@ TEST_F(ReportCommand, ShowsWhereTheBodyWas) {
 
 TEST_F(ReportCommand, ThinsFramesEvenly) {
   ASSERT_EQ(run({"output.every=1 ms"}).status, 0);
-  EXPECT_NE(plica({"report", out, "--frames", "3"}).output.find("(3 of 21 frames, "), std::string::npos);
+  EXPECT_NE(plica({"report", out, "--frames", "3"}).output.find("(3 of 21 frames, "),
+            std::string::npos);
   EXPECT_EQ(data()["times"], Json({0, 0.01, 0.02}));
   EXPECT_EQ(plica({"report", out, "--frames", "1"}).status, 2);
 }
@@ -82,11 +86,12 @@ TEST_F(ReportCommand, UpIsAgainstGravity) {
 }
 
 TEST_F(ReportCommand, DrawsObstaclesAsTheyTurn) {
-  ASSERT_EQ(run({"body.surface.boundary=true",
-                 "contact.obstacles=[{name: quarter, box: {centre: [0.3, 0, 0], size: [0.2, "
-                 "0.02, 0.05]}, turn: {path: [{time: 0, angle: 0}, {time: 20 ms, angle: 90 deg}]}}]"})
-                .status,
-            0);
+  ASSERT_EQ(
+      run({"body.surface.boundary=true",
+           "contact.obstacles=[{name: quarter, box: {centre: [0.3, 0, 0], size: [0.2, "
+           "0.02, 0.05]}, turn: {path: [{time: 0, angle: 0}, {time: 20 ms, angle: 90 deg}]}}]"})
+          .status,
+      0);
   ASSERT_EQ(plica({"report", out, "--quiet"}).status, 0);
   const Json turn = data()["summary"]["obstacles"][0]["turn"];
   EXPECT_EQ(turn["about"], Json({0.3, 0, 0}));
@@ -96,7 +101,8 @@ TEST_F(ReportCommand, DrawsObstaclesAsTheyTurn) {
 
 TEST_F(ReportCommand, MarksTheElementOfTheDiagnosis) {
   ASSERT_EQ(run({"duration=1 s", "integration.allow_unstable=true", "integration.macro_step=20 ms",
-                 "integration.substeps=1", "body.initial.angular_velocity=[0, 3, 0]", "output.every=20 ms"})
+                 "integration.substeps=1", "body.initial.angular_velocity=[0, 3, 0]",
+                 "output.every=20 ms"})
                 .status,
             3);
   ASSERT_EQ(plica({"report", out}).status, 0);
@@ -108,7 +114,8 @@ TEST_F(ReportCommand, MarksTheElementOfTheDiagnosis) {
 }
 
 TEST_F(ReportCommand, ShowsAStudy) {
-  ASSERT_EQ(plica({"study", scene, "-o", out, "--quiet", "--set", "study.methods=[single/symplectic_euler]", "--set",
+  ASSERT_EQ(plica({"study", scene, "-o", out, "--quiet", "--set",
+                   "study.methods=[single/symplectic_euler]", "--set",
                    "study.macro_steps=[0.5 ms, 1 ms]"})
                 .status,
             0);
@@ -124,9 +131,11 @@ TEST_F(ReportCommand, ShowsWhatAKilledRunLeft) {
   std::ofstream(folder / "out/frames/surface_0002.vtu") << "cut";
   const Child report = plica({"report", out});
   EXPECT_EQ(report.status, 0);
-  EXPECT_NE(report.errors.find("warning: There is no summary.json: the run goes on, or was killed."),
-            std::string::npos);
-  EXPECT_NE(report.errors.find("warning: The frame at 0.01 s is left out: "), std::string::npos) << report.errors;
+  EXPECT_NE(
+      report.errors.find("warning: There is no summary.json: the run goes on, or was killed."),
+      std::string::npos);
+  EXPECT_NE(report.errors.find("warning: The frame at 0.01 s is left out: "), std::string::npos)
+      << report.errors;
   EXPECT_EQ(data()["times"].size(), 4);
   EXPECT_EQ(data()["warnings"].size(), 2);
   use(out);
@@ -137,7 +146,8 @@ TEST_F(ReportCommand, ShowsARunWithoutFrames) {
   std::filesystem::remove(folder / "out/frames.pvd");
   const Child report = plica({"report", out});
   EXPECT_EQ(report.status, 0);
-  EXPECT_NE(report.errors.find("There are no frames: the body is not shown."), std::string::npos) << report.errors;
+  EXPECT_NE(report.errors.find("There are no frames: the body is not shown."), std::string::npos)
+      << report.errors;
 }
 
 TEST_F(ReportCommand, SaysWhatIsNoRun) {
@@ -147,7 +157,8 @@ TEST_F(ReportCommand, SaysWhatIsNoRun) {
     EXPECT_NE(report.errors.find(words), std::string::npos) << report.errors;
   };
   ASSERT_EQ(run().status, 0);
-  says(folder / "ouf", "there is no folder " + std::string(folder / "ouf") + "; did you mean 'out'?");
+  says(folder / "ouf",
+       "there is no folder " + std::string(folder / "ouf") + "; did you mean 'out'?");
   says(scene, "is a file; expected the folder of a run or a study");
   says(folder.path().string(), "(folders in it that do: out)");
   std::ofstream(folder / "out/history.csv") << "time,kinetic_energy\n0,1\n0.1\n";

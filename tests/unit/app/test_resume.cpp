@@ -43,9 +43,11 @@ class Resume : public ProgramTest {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / into))
       if (entry.is_regular_file() && entry.path().filename() != "checkpoint.bin")
-        files[std::filesystem::relative(entry.path(), folder / into).string()] = content_of(entry.path());
+        files[std::filesystem::relative(entry.path(), folder / into).string()] =
+            content_of(entry.path());
     Json summary = Json::parse(files.at("summary.json"));
-    for (const char* changing : {"arguments", "wall_time", "setup_time", "peak_memory", "stages", "wait_share"})
+    for (const char* changing :
+         {"arguments", "wall_time", "setup_time", "peak_memory", "stages", "wait_share"})
       summary.erase(changing);
     files["summary.json"] = summary.dump();
     return files;
@@ -54,7 +56,8 @@ class Resume : public ProgramTest {
     const auto first = results(a), second = results(b);
     for (const auto& [file, content] : first) {
       ASSERT_TRUE(second.contains(file)) << file;
-      EXPECT_TRUE(second.at(file) == content) << file << (file == "summary.json" ? content + second.at(file) : "");
+      EXPECT_TRUE(second.at(file) == content)
+          << file << (file == "summary.json" ? content + second.at(file) : "");
     }
     EXPECT_EQ(first.size(), second.size());
   }
@@ -62,19 +65,21 @@ class Resume : public ProgramTest {
 
 TEST_F(Resume, SurvivesFiftyKills) {
   ASSERT_EQ(begin("whole").status, 0);
-  std::mt19937 moments(20240117);  // the same in every run of this test; what mt19937 gives is fixed by the standard
+  // the same in every run of this test; what mt19937 gives is fixed by the standard
+  std::mt19937 moments(20240117);
   constexpr unsigned latest = 40000;
   int kills = 0;
   for (int lives = 0; kills < 50 && lives < 500; ++lives) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(moments() % latest);
+    const auto end =
+        std::chrono::steady_clock::now() + std::chrono::microseconds(moments() % latest);
     const auto strike = [&](pid_t id) {
       std::this_thread::sleep_until(end);
       return kill(id, SIGKILL) == 0;
     };
     const bool anew = !std::filesystem::exists(folder / "killed/checkpoint.bin") ||
                       std::filesystem::exists(folder / "killed/summary.json");
-    const Child life =
-        anew ? begin("killed", {"--checkpoint", "every=17", "--force"}, strike) : go_on("killed", {}, strike);
+    const Child life = anew ? begin("killed", {"--checkpoint", "every=17", "--force"}, strike)
+                            : go_on("killed", {}, strike);
     ASSERT_TRUE(life.status == 128 + SIGKILL || life.status == 0) << life.errors;
     kills += life.status == 0 ? 0 : 1;
   }
@@ -89,9 +94,12 @@ TEST_F(Resume, SurvivesFiftyKills) {
 
 TEST_F(Resume, InterruptedRunGoesOn) {
   ASSERT_EQ(begin("whole", {"--precision", "float"}).status, 0);
-  const auto has_frames = [&] { return std::filesystem::exists(folder / "stopped/frames/surface_0003.vtu"); };
-  const Child stopped = begin("stopped", {"--precision", "float", "--checkpoint", "every=100 s", "--duration", "40 s"},
-                              [&](pid_t id) { return has_frames() && kill(id, SIGINT) == 0; });
+  const auto has_frames = [&] {
+    return std::filesystem::exists(folder / "stopped/frames/surface_0003.vtu");
+  };
+  const Child stopped = begin(
+      "stopped", {"--precision", "float", "--checkpoint", "every=100 s", "--duration", "40 s"},
+      [&](pid_t id) { return has_frames() && kill(id, SIGINT) == 0; });
   ASSERT_EQ(stopped.status, 130);
   const long done = Json::parse(content_of(folder / "stopped/summary.json"))["macro_steps"];
   if (done >= 1000) GTEST_SKIP() << "it was past the end before it could be stopped";
@@ -101,12 +109,13 @@ TEST_F(Resume, InterruptedRunGoesOn) {
 }
 
 TEST_F(Resume, FromTheVeryStart) {
-  const std::vector<std::string> diverging = {"--set", "integration.integrator=symplectic_euler", "--set",
-                                              "body.element=linear"};
+  const std::vector<std::string> diverging = {"--set", "integration.integrator=symplectic_euler",
+                                              "--set", "body.element=linear"};
   ASSERT_EQ(begin("whole", diverging).status, 3);
-  ASSERT_EQ(
-      begin("again", {diverging[0], diverging[1], diverging[2], diverging[3], "--checkpoint", "every=100 s"}).status,
-      3);
+  ASSERT_EQ(begin("again", {diverging[0], diverging[1], diverging[2], diverging[3], "--checkpoint",
+                            "every=100 s"})
+                .status,
+            3);
   EXPECT_EQ(go_on("again").status, 3) << "nothing is saved after it went wrong";
   expect_same_results("whole", "again");
 }
@@ -114,14 +123,16 @@ TEST_F(Resume, FromTheVeryStart) {
 TEST_F(Resume, LongerThanItWas) {
   ASSERT_EQ(begin("whole").status, 0);
   ASSERT_EQ(begin("longer", {"--duration", "0.33 s", "--checkpoint", "every=0.1 s"}).status, 0);
-  ASSERT_EQ(plica({"run", scene, "--resume", folder / "longer", "--quiet", "--threads", "1"}).status, 0);
+  ASSERT_EQ(
+      plica({"run", scene, "--resume", folder / "longer", "--quiet", "--threads", "1"}).status, 0);
   expect_same_results("whole", "longer");
 }
 
 // The shorter step that ended the first run is no part of the longer one
 TEST_F(Resume, LongerThanItWasInAutomaticSteps) {
   const std::vector<std::string> automatic = {"--set", "integration.macro_step=auto", "--set",
-                                              "integration.integrator=symplectic_euler", "--duration"};
+                                              "integration.integrator=symplectic_euler",
+                                              "--duration"};
   const auto lasting = [&](const std::string& duration, std::vector<std::string> more) {
     more.insert(more.begin(), automatic.begin(), automatic.end());
     more.insert(more.begin() + 5, duration);
@@ -141,11 +152,14 @@ TEST_F(Resume, RefusesWhatIsNotTheRun) {
     EXPECT_EQ(child.status, 2);
     return child.errors;
   };
-  EXPECT_EQ(refusal({"--precision", "float"}), "error: cannot resume in float: the run is in double\n");
-  EXPECT_EQ(refusal({"--set", "body.material.density=900"}),
-            "error: cannot resume another scene: body.material: is new; only the duration may change\n");
+  EXPECT_EQ(refusal({"--precision", "float"}),
+            "error: cannot resume in float: the run is in double\n");
+  EXPECT_EQ(
+      refusal({"--set", "body.material.density=900"}),
+      "error: cannot resume another scene: body.material: is new; only the duration may change\n");
   EXPECT_EQ(refusal({"--set", "body.levels.1.box.cells.2=1"}),
-            "error: cannot resume another scene: body.levels.1.box.cells.2: '2' became '1'; only the duration may "
+            "error: cannot resume another scene: body.levels.1.box.cells.2: '2' became '1'; only "
+            "the duration may "
             "change\n");
   std::ofstream(scene) << std::string(bouncing_block).replace(0, 13, "duration: 1 s\nname: other");
   EXPECT_EQ(plica({"run", scene, "--resume", folder / "run"}).status, 2);
@@ -175,9 +189,11 @@ TEST_F(Resume, RefusesDamage) {
     EXPECT_EQ(child.status, 2);
     EXPECT_NE(child.errors.find("checkpoint.bin: "), std::string::npos) << child.errors;
   };
-  for (const std::size_t size : {std::size_t(0), std::size_t(5), std::size_t(20), std::size_t(300), sound.size() - 1})
+  for (const std::size_t size :
+       {std::size_t(0), std::size_t(5), std::size_t(20), std::size_t(300), sound.size() - 1})
     expect_refused(sound.substr(0, size));
-  for (const std::size_t at : {std::size_t(3), std::size_t(18), std::size_t(25), std::size_t(200), sound.size() - 9}) {
+  for (const std::size_t at :
+       {std::size_t(3), std::size_t(18), std::size_t(25), std::size_t(200), sound.size() - 9}) {
     std::string damaged = sound;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
     expect_refused(damaged);
@@ -190,7 +206,8 @@ TEST_F(Resume, RefusesDamage) {
 TEST_F(Resume, RefusesFilesThatWereCut) {
   ASSERT_EQ(begin("run", {"--duration", "0.2 s", "--checkpoint", "every=10"}).status, 0);
   std::filesystem::resize_file(folder / "run/probes.csv", 60);
-  EXPECT_NE(go_on("run").errors.find("probes.csv was changed since the checkpoint"), std::string::npos);
+  EXPECT_NE(go_on("run").errors.find("probes.csv was changed since the checkpoint"),
+            std::string::npos);
 }
 
 // Runs that a signal, a full disk or a kill ends.
@@ -198,7 +215,8 @@ TEST_F(Resume, RefusesFilesThatWereCut) {
 TEST_F(Program, CtrlCEndsWithWholeFiles) {
   for (const int signal : {SIGINT, SIGTERM}) {
     std::filesystem::remove_all(out);
-    const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, signal) == 0; });
+    const Child run =
+        plica(endless(), [&](pid_t id) { return has_frames() && kill(id, signal) == 0; });
     EXPECT_EQ(run.status, 130) << run.errors;
     EXPECT_EQ(summary()["status"], "interrupted");
     EXPECT_EQ(summary()["frames"], lines("out/frames.pvd") - 5);
@@ -209,16 +227,21 @@ TEST_F(Program, CtrlCEndsWithWholeFiles) {
 
 // Set-up that takes long: the inertia of a large mesh
 TEST_F(Program, SetUpSaysWhatItDoesAndCanBeInterrupted) {
-  const std::vector<std::string> slow = {"run",   scene,
-                                         "-o",    out,
-                                         "--set", "body.levels=[{box: {size: [1, 1, 1], cells: [60, 60, 60]}}]",
-                                         "--set", "integration={cycle: him}"};
-  const auto spoken = [&] { return content_of(folder / "stderr.txt").find("set-up, ") != std::string::npos; };
+  const std::vector<std::string> slow = {
+      "run",   scene,
+      "-o",    out,
+      "--set", "body.levels=[{box: {size: [1, 1, 1], cells: [60, 60, 60]}}]",
+      "--set", "integration={cycle: him}"};
+  const auto spoken = [&] {
+    return content_of(folder / "stderr.txt").find("set-up, ") != std::string::npos;
+  };
   for (const int signal : {SIGINT, SIGTERM}) {
     const Child run = plica(slow, [&](pid_t id) { return spoken() && kill(id, signal) == 0; });
     EXPECT_EQ(run.status, 130) << run.errors;
     EXPECT_NE(run.errors.find(" s: "), std::string::npos) << run.errors;
-    EXPECT_NE(run.errors.find("interrupted during the set-up; nothing was written"), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find("interrupted during the set-up; nothing was written"),
+              std::string::npos)
+        << run.errors;
     EXPECT_FALSE(std::filesystem::exists(out));
   }
 }
@@ -234,7 +257,9 @@ std::vector<std::string> one_long_step(const std::string& scene, const std::stri
 }
 
 TEST_F(Program, CtrlCEndsWithinAMacroStep) {
-  const auto begun = [&] { return content_of(folder / "out/history.csv").find("\n0,") != std::string::npos; };
+  const auto begun = [&] {
+    return content_of(folder / "out/history.csv").find("\n0,") != std::string::npos;
+  };
   for (const int signal : {SIGINT, SIGTERM}) {
     std::filesystem::remove_all(out);
     const Child run = plica(one_long_step(scene, out), [&](pid_t id) {
@@ -253,7 +278,8 @@ TEST_F(Program, CtrlCEndsWithinAMacroStep) {
 
 TEST_F(Program, SecondCtrlCEndsAtOnce) {
   const Child run = plica(one_long_step(scene, out), [&](pid_t id) {
-    return std::filesystem::exists(folder / "out/frames.pvd") && kill(id, SIGINT) == 0 && kill(id, SIGTERM) == 0;
+    return std::filesystem::exists(folder / "out/frames.pvd") && kill(id, SIGINT) == 0 &&
+           kill(id, SIGTERM) == 0;
   });
   EXPECT_EQ(run.status, 130);
   EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
@@ -261,8 +287,9 @@ TEST_F(Program, SecondCtrlCEndsAtOnce) {
 
 // A file may not grow beyond some kB, as on a disk that is full
 TEST_F(Program, FullDiskIs1) {
-  const std::string words = std::string("trap '' XFSZ; ulimit -f 8; exec ") + PLICA_EXECUTABLE + " run " + scene +
-                            " -o " + out + " --duration 10s --set output.every='1 step' --checkpoint every=1";
+  const std::string words = std::string("trap '' XFSZ; ulimit -f 8; exec ") + PLICA_EXECUTABLE +
+                            " run " + scene + " -o " + out +
+                            " --duration 10s --set output.every='1 step' --checkpoint every=1";
   const Child run = run_child({"bash", "-c", words}, folder);
   if (run.status == 127 || run.status < 0) GTEST_SKIP() << "no bash";
   EXPECT_EQ(run.status, 1) << run.errors;
@@ -275,16 +302,19 @@ TEST_F(Program, FullDiskIs1) {
 }
 
 TEST_F(Program, NoMemoryIs1) {
-  const std::string words = std::string("ulimit -v 400000; exec ") + PLICA_EXECUTABLE + " check " + scene +
-                            " --set 'body.levels=[{box: {size: [0.1, 0.1, 0.1], cells: [100, 100, 100]}}]'";
+  const std::string words =
+      std::string("ulimit -v 400000; exec ") + PLICA_EXECUTABLE + " check " + scene +
+      " --set 'body.levels=[{box: {size: [0.1, 0.1, 0.1], cells: [100, 100, 100]}}]'";
   const Child check = run_child({"bash", "-c", words}, folder);
   if (check.status == 127 || check.status < 0) GTEST_SKIP() << "no bash";
   EXPECT_EQ(check.status, 1) << check.errors;
-  EXPECT_TRUE(check.errors.starts_with("error: memory ran out, of which the process had ")) << check.errors;
+  EXPECT_TRUE(check.errors.starts_with("error: memory ran out, of which the process had "))
+      << check.errors;
 }
 
 TEST_F(Program, KilledRunLeavesWholeFiles) {
-  const Child run = plica(endless(), [&](pid_t id) { return has_frames() && kill(id, SIGKILL) == 0; });
+  const Child run =
+      plica(endless(), [&](pid_t id) { return has_frames() && kill(id, SIGKILL) == 0; });
   EXPECT_EQ(run.status, 128 + SIGKILL);
   EXPECT_FALSE(std::filesystem::exists(folder / "out/summary.json"));
   const std::string collection = content_of(folder / "out/frames.pvd");

@@ -33,24 +33,28 @@ TEST(Scene, KeepsWhatItSays) {
   const Box box = bounding_box(scene.problem.body.surface->vertices);
   EXPECT_LT(((box.min + box.max) / 2 - Point(0.05, 0.05, 0.05)).norm(), 1e-12);
   ASSERT_EQ(scene.problem.contact.obstacles.size(), 1);
-  EXPECT_EQ(std::any_cast<const PlaneOptions&>(scene.problem.contact.obstacles[0].shape).point.z(), -0.1);
+  EXPECT_EQ(std::any_cast<const PlaneOptions&>(scene.problem.contact.obstacles[0].shape).point.z(),
+            -0.1);
   EXPECT_EQ(scene.problem.contact.obstacles[0].friction, 0.2);
 }
 
 TEST(Scene, ListsPerLevel) {
-  const Scene scene = scene_of(sound_scene, {"integration.substeps=[3, auto]", "integration.distribution=[0.25, 0.75]",
-                                             "integration.integrator=[symplectic_euler, implicit_euler]"});
+  const Scene scene = scene_of(
+      sound_scene, {"integration.substeps=[3, auto]", "integration.distribution=[0.25, 0.75]",
+                    "integration.integrator=[symplectic_euler, implicit_euler]"});
   const IntegrationOptions& integration = scene.problem.integration;
   EXPECT_EQ(integration.substeps, (std::vector<int>{3, 0}));
   EXPECT_EQ(integration.distribution, "custom");
   EXPECT_EQ(integration.shares, (std::vector<double>{0.25, 0.75}));
-  EXPECT_EQ(integration.integrator, (std::vector<std::string>{"symplectic_euler", "implicit_euler"}));
+  EXPECT_EQ(integration.integrator,
+            (std::vector<std::string>{"symplectic_euler", "implicit_euler"}));
 }
 
 TEST(Scene, GeneratorsAndSurfaces) {
-  const Scene scene = scene_of(sound_scene, {"body.levels.0={ball: {radius: 1 cm, cells: 4, centre: [1, 2, 3]}}",
-                                             "body.levels.1={cylinder: {radius: 1, length: 2, across: 2, along: 3}}",
-                                             "body.surface={boundary: true}"});
+  const Scene scene = scene_of(
+      sound_scene, {"body.levels.0={ball: {radius: 1 cm, cells: 4, centre: [1, 2, 3]}}",
+                    "body.levels.1={cylinder: {radius: 1, length: 2, across: 2, along: 3}}",
+                    "body.surface={boundary: true}"});
   EXPECT_EQ(scene.problem.body.levels[0].tets.size(), 6 * 64);
   EXPECT_EQ(scene.problem.body.levels[1].tets.size(), 6 * 2 * 2 * 3);
   EXPECT_EQ(scene.problem.body.surface->triangles.size(), 6 * 16 * 2);
@@ -58,14 +62,16 @@ TEST(Scene, GeneratorsAndSurfaces) {
 
 TEST(Scene, CoarseSpacesAreNoMeshes) {
   const auto coarsened = [](const std::string& spaces) {
-    return scene_of(sound_scene, {"integration={cycle: him}",
-                                  "body.levels=[{box: {size: [1, 1, 1], cells: [4, 4, 4]}}, " + spaces + "]"});
+    return scene_of(sound_scene,
+                    {"integration={cycle: him}",
+                     "body.levels=[{box: {size: [1, 1, 1], cells: [4, 4, 4]}}, " + spaces + "]"});
   };
   const Scene automatic = coarsened("{coarsen: auto}");
   EXPECT_EQ(automatic.problem.body.levels.size(), 1);
   ASSERT_TRUE(automatic.problem.body.coarsen);
   EXPECT_TRUE(automatic.problem.body.coarsen->empty());
-  EXPECT_EQ(*coarsened("{coarsen: 100}, {coarsen: 40}").problem.body.coarsen, (std::vector<int>{100, 40}));
+  EXPECT_EQ(*coarsened("{coarsen: 100}, {coarsen: 40}").problem.body.coarsen,
+            (std::vector<int>{100, 40}));
   const Scene below = coarsened("{box: {size: [1, 1, 1], cells: [3, 3, 3]}}, {coarsen: 40}");
   EXPECT_EQ(below.problem.body.levels.size(), 2);
   EXPECT_EQ(*below.problem.body.coarsen, std::vector<int>{40});
@@ -76,12 +82,15 @@ TEST(Scene, LatticesOverASurface) {
   const auto levels = [](const std::string& rest) {
     return std::vector<std::string>{"integration={cycle: rsv}", "body.levels={" + rest + "}"};
   };
-  const std::string data = PLICA_SOURCE_DIR "/meshes/data/", ball = "surface: " + data + "ball.msh, ";
+  const std::string data = PLICA_SOURCE_DIR "/meshes/data/",
+                    ball = "surface: " + data + "ball.msh, ";
   const Scene scene = scene_of(sound_scene, levels(ball + "sizes: [15 mm, 40 mm]"));
   ASSERT_EQ(scene.problem.body.levels.size(), 2);
-  for (const TetMesh& mesh : scene.problem.body.levels) EXPECT_EQ(mesh.filled.size(), mesh.tets.size());
+  for (const TetMesh& mesh : scene.problem.body.levels)
+    EXPECT_EQ(mesh.filled.size(), mesh.tets.size());
   EXPECT_EQ(scene.problem.body.surface->vertices.size(), 42);  // the scene's own
-  Tree without = parse_tree(damaged("  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", ""), "a.yaml");
+  Tree without =
+      parse_tree(damaged("  surface: {sphere: {radius: 4 cm, subdivisions: 1}}\n", ""), "a.yaml");
   for (const std::string& set : levels(ball + "sizes: 20 mm")) override_value(without, set, set);
   EXPECT_GT(load_scene(without).problem.body.surface->vertices.size(), 100);  // the ball's
 
@@ -89,20 +98,24 @@ TEST(Scene, LatticesOverASurface) {
   const auto expect_said = [&](const std::string& rest, const std::string& words) {
     EXPECT_NE(said(rest).find(words), std::string::npos) << said(rest);
   };
-  expect_said(ball + "sizes: [2 mm, 2 mm]", "body.levels.sizes.1 is 0.002 m after 0.002 m; expected larger cells");
+  expect_said(ball + "sizes: [2 mm, 2 mm]",
+              "body.levels.sizes.1 is 0.002 m after 0.002 m; expected larger cells");
   expect_said(ball + "sizes: [9 m]", "the size of cells, 9 m, is larger than the body");
   expect_said(ball + "size: 9 mm", "body.levels: unknown key 'size'");
   expect_said("sizes: 9 mm", "body.levels: the key 'surface' is missing");
   expect_said("surface: no.stl, sizes: 9 mm", "there is no surface file");
-  expect_said("surface: " + data + "formats/blocks.stl, sizes: 9 mm", "has no inside: 4 open edges");
-  EXPECT_NE(error_of(sound_scene, {"body.jitter=0.1", levels(ball + "sizes: 9 mm")[1]}).find("body.jitter"),
+  expect_said("surface: " + data + "formats/blocks.stl, sizes: 9 mm",
+              "has no inside: 4 open edges");
+  EXPECT_NE(error_of(sound_scene, {"body.jitter=0.1", levels(ball + "sizes: 9 mm")[1]})
+                .find("body.jitter"),
             std::string::npos);
 }
 
 TEST(Override, ReplacesAndAdds) {
-  const Scene scene = scene_of(
-      sound_scene, {"duration=20 ms", "body.levels.0.box.cells=[3, 3, 3]", "name=a=b",
-                    "body.initial.angular_velocity=[90 deg/s, 0, 0]", "duration=30 ms", "integration.macro_step=auto"});
+  const Scene scene =
+      scene_of(sound_scene, {"duration=20 ms", "body.levels.0.box.cells=[3, 3, 3]", "name=a=b",
+                             "body.initial.angular_velocity=[90 deg/s, 0, 0]", "duration=30 ms",
+                             "integration.macro_step=auto"});
   EXPECT_DOUBLE_EQ(scene.duration, 0.03);
   EXPECT_EQ(scene.problem.body.levels[0].tets.size(), 6 * 27);
   EXPECT_EQ(scene.name, "a=b");
@@ -112,11 +125,15 @@ TEST(Override, ReplacesAndAdds) {
 
 TEST(Override, ErrorsNameIt) {
   const auto error = [](const std::string& set) { return error_of(sound_scene, {set}); };
-  EXPECT_EQ(error("duration=4 cm"), "--set duration=4 cm: duration: expected a time (s) > 0, got '4 cm', a length");
-  EXPECT_EQ(error("durtion=4").substr(0, 64), "--set durtion=4: unknown key 'durtion'; did you mean 'duration'?");
-  EXPECT_EQ(error("body.levels.2.box.cells=3"),
-            "--set body.levels.2.box.cells=3: '2' is no entry of this list, which has 2, counted from 0");
-  EXPECT_EQ(error("duration.x=3"), "--set duration.x=3: cannot set 'x' inside '1 s', which is a single value");
+  EXPECT_EQ(error("duration=4 cm"),
+            "--set duration=4 cm: duration: expected a time (s) > 0, got '4 cm', a length");
+  EXPECT_EQ(error("durtion=4").substr(0, 64),
+            "--set durtion=4: unknown key 'durtion'; did you mean 'duration'?");
+  EXPECT_EQ(
+      error("body.levels.2.box.cells=3"),
+      "--set body.levels.2.box.cells=3: '2' is no entry of this list, which has 2, counted from 0");
+  EXPECT_EQ(error("duration.x=3"),
+            "--set duration.x=3: cannot set 'x' inside '1 s', which is a single value");
   EXPECT_EQ(error("duration"), "--set duration: expected key.path=value");
   EXPECT_EQ(error("=3"), "--set =3: expected key.path=value");
   EXPECT_EQ(error("duration=[").substr(0, 28), "--set duration=[: not YAML: ");
@@ -137,26 +154,28 @@ class ShippedScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(ShippedScene, IsSound) {
   const Scene scene = load_scene(scenes / (GetParam() + ".yaml"));
-  for (const std::string& warning : scene.warnings)  // the paper's meshes and elements are what they are
+  // the paper's meshes and elements are what they are
+  for (const std::string& warning : scene.warnings)
     EXPECT_TRUE(warning.find("has linear elements") != std::string::npos &&
                 GetParam().find("ball_in_bowl") != std::string::npos)
         << warning;
   EXPECT_NO_THROW(Simulation<plica::test::Host>{scene.problem});
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()), [](const auto& one) {
-  std::string name = one.param;
-  std::ranges::replace(name, '/', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
+                         [](const auto& one) {
+                           std::string name = one.param;
+                           std::ranges::replace(name, '/', '_');
+                           return name;
+                         });
 
 // The scene in README.md is drivers/scenes/press.yaml but for its comments at the top.
 TEST(Readme, ShowsAShippedScene) {
   const std::string readme = content_of(PLICA_SOURCE_DIR "/README.md"), start = "```yaml\n";
   const std::size_t from = readme.find(start);
   if (from == std::string::npos) GTEST_SKIP() << "README.md shows no scene";
-  const std::string shown =
-      readme.substr(from + start.size(), readme.find("```", from + start.size()) - from - start.size());
+  const std::string shown = readme.substr(
+      from + start.size(), readme.find("```", from + start.size()) - from - start.size());
   const std::string shipped = content_of(PLICA_SOURCE_DIR "/drivers/scenes/press.yaml");
   EXPECT_EQ(shown, shipped.substr(shipped.find("name: ")));
 }
@@ -176,19 +195,21 @@ TEST(StudyScenes, AreSoundOnAllTheirLevels) {
 }
 
 TEST(Scene, BallStartsWhereTheyAgreed) {
-  const Scene scene = load_scene(std::string(PLICA_SOURCE_DIR) + "/drivers/scenes/ball_in_bowl.yaml");
+  const Scene scene =
+      load_scene(std::string(PLICA_SOURCE_DIR) + "/drivers/scenes/ball_in_bowl.yaml");
   EXPECT_EQ(scene.problem.body.surface->vertices.size(), 642);
   const auto& bowl = std::any_cast<const BowlOptions&>(scene.problem.contact.obstacles[0].shape);
   const Point start = *scene.problem.body.initial.position;
-  const double below = bowl.centre.z() - std::sqrt(bowl.radius * bowl.radius - start.x() * start.x());
+  const double below =
+      bowl.centre.z() - std::sqrt(bowl.radius * bowl.radius - start.x() * start.x());
   EXPECT_NEAR(start.x(), 0.01, 1e-12);
   EXPECT_NEAR(start.z() - 0.05 - below, 0.025, 1e-4);
 }
 
 TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
-  const Scene scene =
-      scene_of(damaged("{model: neo_hookean, young_modulus: 50 kPa}",
-                       "{a: 3 kPa, tissue: heart_muscle, volume: logarithmic}\n  fibres: {axis: [0, 0, 2]}"));
+  const Scene scene = scene_of(damaged(
+      "{model: neo_hookean, young_modulus: 50 kPa}",
+      "{a: 3 kPa, tissue: heart_muscle, volume: logarithmic}\n  fibres: {axis: [0, 0, 2]}"));
   const MaterialOptions& m = scene.problem.body.material;
   EXPECT_EQ(m.model, "costa");
   EXPECT_EQ(m.tissue, "heart_muscle");
@@ -200,9 +221,9 @@ TEST(Scene, TissuesGiveValuesThatOtherKeysOverride) {
 }
 
 TEST(Scene, FibresRunFromOneSetToAnother) {
-  const Scene scene =
-      scene_of(damaged("{model: neo_hookean, young_modulus: 50 kPa}",
-                       "{tissue: heart_muscle}\n  fibres: {from: {plane: {}}, to: {nearest: [0, 0, 1]}}"));
+  const Scene scene = scene_of(
+      damaged("{model: neo_hookean, young_modulus: 50 kPa}",
+              "{tissue: heart_muscle}\n  fibres: {from: {plane: {}}, to: {nearest: [0, 0, 1]}}"));
   const FibreOptions& fibres = *scene.problem.body.material.fibres;
   ASSERT_TRUE(fibres.from && fibres.to);
   EXPECT_EQ(std::get<HalfSpaceSelection>(*fibres.from).normal, Point(0, 0, 1));
@@ -226,7 +247,8 @@ TEST(Scene, EmptyIsAnError) {
 TEST(Scene, MayTouchNothing) {
   const std::string obstacle = "- {plane: {point: [0, 0, -0.1]}, friction: 0.2}";
   EXPECT_TRUE(scene_of(damaged(obstacle, "[]")).problem.contact.obstacles.empty());
-  EXPECT_EQ(error_of(sound_scene, {"contact.obstacles=[]", "body.fixed=[]", "body.loads=[]"}), "no error");
+  EXPECT_EQ(error_of(sound_scene, {"contact.obstacles=[]", "body.fixed=[]", "body.loads=[]"}),
+            "no error");
 }
 
 TEST(Scene, MissingFileIsAnError) {
@@ -261,12 +283,14 @@ TEST_F(Levels, RefusesWhatMakesNoSense) {
                  "integration.macro_step is 10 s; expected at most the duration, 0.05 s");
   expect_refusal({"integration.substeps=0"}, "expected a whole number >= 1, got '0'");
   expect_refusal({"integration.cycle=fas", "integration.outside=extrapolate"}, "expected clamp");
-  expect_refusal({"integration.distribution=[1]"}, "expected one for each level (2 in body.levels), got a list of 1");
+  expect_refusal({"integration.distribution=[1]"},
+                 "expected one for each level (2 in body.levels), got a list of 1");
   expect_refusal({"body.levels.1.box.origin=[1, 0, 0]"}, "do not overlap, they are 0.9 m apart");
   expect_refusal({"body.initial={twist: {from: [0, 0, 0], to: [0, 0, 0], angular_velocity: 3}}"},
                  "body.initial.twist.to, as a distance from .from, is 0");
-  expect_refusal({"body.initial={parts: [{sphere: {centre: [9, 9, 9], radius: 1}, velocity: [0, 0, 1]}]}"},
-                 "body.initial.parts.0");
+  expect_refusal(
+      {"body.initial={parts: [{sphere: {centre: [9, 9, 9], radius: 1}, velocity: [0, 0, 1]}]}"},
+      "body.initial.parts.0");
   expect_refusal({"body.initial={parts: [{group: tip, velocity: [0, 0, 1]}]}"},
                  "body.initial.parts.0.group: there is no group 'tip': the meshes name none");
 }
@@ -275,7 +299,8 @@ TEST_F(Levels, WarnsWhereTheyDoNotCoarsen) {
   for (const char* command : {"run", "explain", "check"}) {
     const Child child = plica(command, {"body.levels.1.box.cells=[4, 4, 4]", "duration=1 ms"});
     EXPECT_EQ(child.status, 0) << child.errors;
-    EXPECT_NE(child.errors.find("level 1 is not coarser than level 0: 384 tetrahedra after 384"), std::string::npos)
+    EXPECT_NE(child.errors.find("level 1 is not coarser than level 0: 384 tetrahedra after 384"),
+              std::string::npos)
         << child.errors;
     EXPECT_EQ(plica(command, {"duration=1 ms"}).errors.find("coarser"), std::string::npos);
   }
@@ -284,7 +309,8 @@ TEST_F(Levels, WarnsWhereTheyDoNotCoarsen) {
 // What the fuzzer of scenes starts from, and what it once found, without libFuzzer
 
 TEST(FuzzScenes, AreRefusedOrSound) {
-  for (const plica::fuzz::Target& target : plica::fuzz::scene_targets) EXPECT_GE(plica::fuzz::replay(target), 3);
+  for (const plica::fuzz::Target& target : plica::fuzz::scene_targets)
+    EXPECT_GE(plica::fuzz::replay(target), 3);
 }
 
 }  // namespace

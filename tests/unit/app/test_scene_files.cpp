@@ -13,21 +13,25 @@
 namespace plica::app::test {
 namespace {
 
-const std::filesystem::path samples = std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "formats";
+const std::filesystem::path samples =
+    std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "formats";
 
 std::string of_files(const std::string& level, const std::string& surface = "") {
   return "duration: 1\nbody:\n  levels: [{file: " + level + "}]\n" +
-         (surface.empty() ? "" : "  surface: {file: " + surface + "}\n") + "output: {volume: true}\n";
+         (surface.empty() ? "" : "  surface: {file: " + surface + "}\n") +
+         "output: {volume: true}\n";
 }
 
 std::string sample(const char* name) { return (samples / name).string(); }
 
 bool mentions(const std::vector<std::string>& sentences, const std::string& piece) {
-  return std::ranges::any_of(sentences, [&](const std::string& s) { return s.find(piece) != std::string::npos; });
+  return std::ranges::any_of(
+      sentences, [&](const std::string& s) { return s.find(piece) != std::string::npos; });
 }
 
 TEST(SceneFiles, KeepTheNumbersOfTheFile) {
-  for (const char* name : {"blocks_41.msh", "blocks.ele", "blocks_51_binary.vtk", "../liver_coarse.msh"}) {
+  for (const char* name :
+       {"blocks_41.msh", "blocks.ele", "blocks_51_binary.vtk", "../liver_coarse.msh"}) {
     MeshReport report;
     const TetMesh input = read_mesh(samples / name, &report);
     const Scene scene = scene_of(of_files(sample(name)));
@@ -38,8 +42,10 @@ TEST(SceneFiles, KeepTheNumbersOfTheFile) {
       EXPECT_LT(mean_vertex_span(mesh), 0.8 * mean_vertex_span(input));
     }
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const auto at = std::ranges::find(report.vertex_tags, input_number(numbering.vertex_ids, static_cast<int>(v)));
-      EXPECT_EQ(mesh.vertices[v], input.vertices[static_cast<std::size_t>(at - report.vertex_tags.begin())]);
+      const auto at = std::ranges::find(report.vertex_tags,
+                                        input_number(numbering.vertex_ids, static_cast<int>(v)));
+      EXPECT_EQ(mesh.vertices[v],
+                input.vertices[static_cast<std::size_t>(at - report.vertex_tags.begin())]);
     }
     const TetMesh back = in_input_order(mesh, numbering);
     EXPECT_EQ(back.vertices, input.vertices);
@@ -72,9 +78,11 @@ TEST(SceneFiles, FramesAreInTheOrderOfTheFile) {
 }
 
 TEST(SceneFiles, TheBoundaryIsInTheOrderOfTheFile) {
-  const Scene scene = scene_of("duration: 1\nbody: {levels: [{file: " + sample("../liver_coarse.msh") +
-                               "}], surface: {boundary: true}}\n");
-  const TriangleSurface expected = boundary_surface(read_mesh(samples / "../liver_coarse.msh")).surface;
+  const Scene scene =
+      scene_of("duration: 1\nbody: {levels: [{file: " + sample("../liver_coarse.msh") +
+               "}], surface: {boundary: true}}\n");
+  const TriangleSurface expected =
+      boundary_surface(read_mesh(samples / "../liver_coarse.msh")).surface;
   EXPECT_EQ(scene.problem.body.surface->vertices, expected.vertices);
   EXPECT_EQ(scene.problem.body.surface->triangles, expected.triangles);
 }
@@ -82,10 +90,12 @@ TEST(SceneFiles, TheBoundaryIsInTheOrderOfTheFile) {
 TEST(SceneFiles, SurfaceIsScaled) {
   const TriangleSurface metres =
       *scene_of(of_files(sample("blocks_41.msh"), sample("blocks.obj"))).problem.body.surface;
-  const Scene scene = scene_of(of_files(sample("blocks_41.msh"), sample("blocks.obj") + ", scale: 0.5"));
+  const Scene scene =
+      scene_of(of_files(sample("blocks_41.msh"), sample("blocks.obj") + ", scale: 0.5"));
   const TriangleSurface& half = *scene.problem.body.surface;
   ASSERT_EQ(half.triangles, metres.triangles);
-  for (std::size_t v = 0; v < half.vertices.size(); ++v) EXPECT_EQ(half.vertices[v], metres.vertices[v] / 2);
+  for (std::size_t v = 0; v < half.vertices.size(); ++v)
+    EXPECT_EQ(half.vertices[v], metres.vertices[v] / 2);
 }
 
 TEST(SceneFiles, SurfacesSayWhatIsWrong) {
@@ -97,14 +107,17 @@ TEST(SceneFiles, SurfacesSayWhatIsWrong) {
   EXPECT_TRUE(mentions(scene.warnings, "open.obj: 1 unused point dropped"));
   EXPECT_EQ(error_of(of_files(mesh, "none.obj")),
             "a.yaml:4: there is no surface file 'none.obj' (its name is relative to the scene)");
-  EXPECT_NE(error_of(of_files(mesh, mesh + "2")).find("there is no surface file"), std::string::npos);
-  EXPECT_NE(error_of(of_files(mesh, sample("README.md"))).find("unknown surface file extension 'md'"),
+  EXPECT_NE(error_of(of_files(mesh, mesh + "2")).find("there is no surface file"),
             std::string::npos);
+  EXPECT_NE(
+      error_of(of_files(mesh, sample("README.md"))).find("unknown surface file extension 'md'"),
+      std::string::npos);
   EXPECT_EQ(error_of(of_files(mesh, sample("blocks.obj") + ", sphere: {radius: 1}")).substr(0, 47),
             "a.yaml:4: body.surface: expected only one of sp");
 }
 
-// Two tetrahedra side by side that share no vertex, a millimetre apart, one inside out; a vertex too many
+// Two tetrahedra side by side that share no vertex, a millimetre apart, one inside out; a vertex
+// too many
 constexpr const char* torn = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -142,12 +155,17 @@ TEST(SceneFiles, DuplicatesAreMergedOnRequest) {
   EXPECT_FALSE(mentions(glued.warnings, "parts"));
   EXPECT_EQ(in_input_order(glued.numbering[0].vertex_ids, glued.numbering[0].input.vertices),
             (std::vector<int>{10, 20, 30, 40, 80}));
-  EXPECT_EQ(in_input_order(glued.numbering[0].tet_ids, glued.numbering[0].input.tets), (std::vector<int>{5, 6}));
-  EXPECT_EQ(scene_of(of_files(file + ", scale: 10, merge_duplicates: 2 mm")).problem.body.levels[0].vertices.size(), 8)
+  EXPECT_EQ(in_input_order(glued.numbering[0].tet_ids, glued.numbering[0].input.tets),
+            (std::vector<int>{5, 6}));
+  EXPECT_EQ(scene_of(of_files(file + ", scale: 10, merge_duplicates: 2 mm"))
+                .problem.body.levels[0]
+                .vertices.size(),
+            8)
       << "the distance is one after scaling";
   EXPECT_EQ(error_of(of_files(file + ", merge_duplicates: -1")),
             "a.yaml:3: body.levels.0.merge_duplicates: expected a length (m) >= 0, got '-1'");
-  EXPECT_NE(error_of(of_files(file + ", merge_duplicates: 2 m")).find("names a node twice"), std::string::npos);
+  EXPECT_NE(error_of(of_files(file + ", merge_duplicates: 2 m")).find("names a node twice"),
+            std::string::npos);
 }
 
 TEST(SceneFiles, MeshesAreRepairedOnRequest) {
@@ -157,22 +175,28 @@ TEST(SceneFiles, MeshesAreRepairedOnRequest) {
       .insert(text.find("$EndElements"), "7 4 2 0 1 10 20 30 40\n8 4 2 0 1 10 20 30 10\n");
   std::ofstream(folder / "torn.msh") << text;
   const std::string file = folder / "torn.msh";
-  EXPECT_EQ(error_of(of_files(file)).substr(0, 10 + file.size()), "a.yaml:3: " + file) << "the scene, then the file";
+  EXPECT_EQ(error_of(of_files(file)).substr(0, 10 + file.size()), "a.yaml:3: " + file)
+      << "the scene, then the file";
   const Scene scene = scene_of(of_files(file + ", repair: true"));
   EXPECT_TRUE(mentions(scene.warnings, "repaired: 1 tetrahedron that repeated another dropped"));
-  EXPECT_TRUE(mentions(scene.warnings, "repaired: 1 tetrahedron that named a vertex twice dropped"));
+  EXPECT_TRUE(
+      mentions(scene.warnings, "repaired: 1 tetrahedron that named a vertex twice dropped"));
   EXPECT_EQ(scene.problem.body.levels[0].tets.size(), 2);
-  EXPECT_EQ(in_input_order(scene.numbering[0].tet_ids, scene.numbering[0].input.tets), (std::vector<int>{5, 6}));
-  EXPECT_NE(error_of("duration: 1\nbody: {levels: [{ball: {radius: 1, cells: 2}, repair: true}]}\n").find("repair"),
+  EXPECT_EQ(in_input_order(scene.numbering[0].tet_ids, scene.numbering[0].input.tets),
+            (std::vector<int>{5, 6}));
+  EXPECT_NE(error_of("duration: 1\nbody: {levels: [{ball: {radius: 1, cells: 2}, repair: true}]}\n")
+                .find("repair"),
             std::string::npos);
 }
 
 TEST(SceneFiles, SizesNoBodyHasAreWarnedOf) {
   const Scene scene = scene_of(of_files(sample("blocks_41.msh") + ", scale: 1000"));
-  EXPECT_TRUE(mentions(scene.warnings, "the body is 40 m long; is the file in mm? Then its scale is 0.001"));
+  EXPECT_TRUE(mentions(scene.warnings,
+                       "the body is 40 m long; is the file in mm? Then its scale is 0.001"));
   EXPECT_FALSE(mentions(scene_of(of_files(sample("blocks_41.msh"))).warnings, "long"));
   const auto box = [](const std::string& size) {
-    return scene_of("duration: 1\nbody: {levels: [{box: {size: [" + size + ", 1 m, 1 m], cells: [2, 2, 2]}}]}\n")
+    return scene_of("duration: 1\nbody: {levels: [{box: {size: [" + size +
+                    ", 1 m, 1 m], cells: [2, 2, 2]}}]}\n")
         .warnings;
   };
   EXPECT_TRUE(mentions(box("100"), "the body is 100 m long; are its numbers in mm?"));
@@ -182,17 +206,20 @@ TEST(SceneFiles, SizesNoBodyHasAreWarnedOf) {
 TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {
   const TemporaryFolder folder;
   std::ofstream(folder / "torn.msh") << torn;
-  std::ofstream(folder / "s.yaml") << of_files("torn.msh")
-                                   << "integration: {macro_step: 1 s, allow_unstable: true, substeps: 1}\n";
-  const Child run =
-      run_child({PLICA_EXECUTABLE, "run", folder / "s.yaml", "-o", folder / "out", "--duration", "20 s", "--set",
-                 "body.material.model=neo_hookean", "--set", "body.initial={angular_velocity: [9, 0, 0]}"},
-                folder);
+  std::ofstream(folder / "s.yaml")
+      << of_files("torn.msh")
+      << "integration: {macro_step: 1 s, allow_unstable: true, substeps: 1}\n";
+  const Child run = run_child({PLICA_EXECUTABLE, "run", folder / "s.yaml", "-o", folder / "out",
+                               "--duration", "20 s", "--set", "body.material.model=neo_hookean",
+                               "--set", "body.initial={angular_velocity: [9, 0, 0]}"},
+                              folder);
   ASSERT_EQ(run.status, 3) << run.errors;
-  EXPECT_NE(run.errors.find("warning: " + (folder / "torn.msh").string() + ": 1 element inside out in the file"),
+  EXPECT_NE(run.errors.find("warning: " + (folder / "torn.msh").string() +
+                            ": 1 element inside out in the file"),
             std::string::npos)
       << run.errors;
-  const auto diagnosis = nlohmann::json::parse(content_of(folder / "out/summary.json"))["diagnosis"];
+  const auto diagnosis =
+      nlohmann::json::parse(content_of(folder / "out/summary.json"))["diagnosis"];
   const TetMesh volume = read_mesh(folder / "out/frames/volume_0000.vtu");
   EXPECT_EQ(volume.tets.size(), 2);
   EXPECT_TRUE(volume.region_names.empty()) << "the elements' numbers are no regions";
@@ -200,7 +227,8 @@ TEST(SceneFiles, TheProgramSpeaksInTheirNumbers) {
   EXPECT_TRUE(element == 5 || element == 6) << diagnosis;
 }
 
-// Names and files that are not in UTF-8, as older programs write them: the program runs, and what it writes is UTF-8.
+// Names and files that are not in UTF-8, as older programs write them: the program runs, and what
+// it writes is UTF-8.
 
 const std::string latin =
                       "L\xE9"
@@ -211,9 +239,10 @@ const std::string latin =
 
 // Two tetrahedra in two regions, a name of which ends in this
 std::string mesh_with(const std::string& one, const std::string& other) {
-  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"" + one + "\"\n3 2 \"" + other + "\"\n2 3 \"" +
-         one +
-         "\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n"
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n3 1 \"" + one + "\"\n3 2 \"" +
+         other + "\"\n2 3 \"" + one +
+         "\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 "
+         "1\n$EndNodes\n"
          "$Elements\n3\n1 2 2 3 3 1 2 3\n2 4 2 1 1 1 2 3 4\n3 4 2 2 2 2 3 4 5\n$EndElements\n";
 }
 
@@ -225,26 +254,33 @@ class ForeignText : public ProgramTest {
                                                                    "ber");
   }
 
-  std::string scene_file(const std::string& file, const std::string& body, const std::string& more = {}) const {
+  std::string scene_file(const std::string& file, const std::string& body,
+                         const std::string& more = {}) const {
     std::ofstream(folder / file, std::ios::binary)
-        << "duration: 2 ms\nbody: {levels: [{file: a.msh}]" << body << "}\nintegration: {macro_step: 1 ms}\n"
+        << "duration: 2 ms\nbody: {levels: [{file: a.msh}]" << body
+        << "}\nintegration: {macro_step: 1 ms}\n"
         << more;
     return folder / file;
   }
-  Json summary(const std::string& of = "out") const { return Json::parse(content_of(folder / of / "summary.json")); }
+  Json summary(const std::string& of = "out") const {
+    return Json::parse(content_of(folder / of / "summary.json"));
+  }
 };
 
 TEST_F(ForeignText, RegionsOfAMeshFile) {
-  const std::string file =
-      scene_file("a.yaml", ", regions: {" + valid + ": {density: 900}, " + valid + " (2): {density: 950}}",
-                 "output: {volume: all}\n");
+  const std::string file = scene_file(
+      "a.yaml", ", regions: {" + valid + ": {density: 900}, " + valid + " (2): {density: 950}}",
+      "output: {volume: all}\n");
   const Child run = plica({"run", file, "-o", folder / "out"});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(summary()["status"], "completed");
-  EXPECT_EQ(summary()["levels"][0]["stiffest"][0]["region"].get<std::string>().substr(0, 8), valid.substr(0, 8));
-  const Child unknown = plica({"check", file, "--json", "--set", "body.regions={" + latin + "x: {density: 1}}"});
+  EXPECT_EQ(summary()["levels"][0]["stiffest"][0]["region"].get<std::string>().substr(0, 8),
+            valid.substr(0, 8));
+  const Child unknown =
+      plica({"check", file, "--json", "--set", "body.regions={" + latin + "x: {density: 1}}"});
   EXPECT_EQ(unknown.status, 2);
-  EXPECT_NE(Json::parse(unknown.output)["error"].get<std::string>().find(valid + "x"), std::string::npos);
+  EXPECT_NE(Json::parse(unknown.output)["error"].get<std::string>().find(valid + "x"),
+            std::string::npos);
 }
 
 TEST_F(ForeignText, NamesOfAMeshFileStayDistinct) {
@@ -260,7 +296,8 @@ TEST_F(ForeignText, NamesOfAMeshFileStayDistinct) {
 
 TEST_F(ForeignText, SceneInLatin1) {
   const std::string file = scene_file(
-      "a.yaml", "", "name: " + latin + "\noutput: {probes: {" + latin + ": [0.1, 0.1, 0.1]}}  # " + latin + "\n");
+      "a.yaml", "",
+      "name: " + latin + "\noutput: {probes: {" + latin + ": [0.1, 0.1, 0.1]}}  # " + latin + "\n");
   const Child run = plica({"run", file, "-o", folder / "out", "--checkpoint", "every=1"});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(summary()["name"], valid);
@@ -272,14 +309,16 @@ TEST_F(ForeignText, SceneInLatin1) {
                                  ": [0, 0, 0], L\xE8"
                                  "ber: [0, 0, 0]}"});
   EXPECT_EQ(twice.status, 2) << "two keys that read the same";
-  EXPECT_NE(twice.errors.find("stands here for the second time"), std::string::npos) << twice.errors;
+  EXPECT_NE(twice.errors.find("stands here for the second time"), std::string::npos)
+      << twice.errors;
 }
 
 TEST_F(ForeignText, FilesWithLatin1Names) {
   const std::string inside = "d\xE9pot";
   std::filesystem::create_directory(folder / inside);
   std::filesystem::copy(folder / "a.msh", folder / inside / "a.msh");
-  const std::string file = scene_file(inside + "/sc\xE8ne.yaml", ""), result = inside + "/r\xE9sultat";
+  const std::string file = scene_file(inside + "/sc\xE8ne.yaml", ""),
+                    result = inside + "/r\xE9sultat";
   const Child run = plica({"run", file, "-o", folder / result, "--checkpoint", "every=1"});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(summary(result)["name"], "sc\xEF\xBF\xBDne");

@@ -16,10 +16,12 @@ namespace {
 class StabilityCommand : public ProgramTest {
  protected:
   StabilityCommand()
-      : ProgramTest(small_beam("linear",
-                               "study: {methods: [single/symplectic_euler, single/implicit_euler, coarse/1, "
-                               "cycle/rs/equal, cycle/rv/equal, cycle/him]}\n")) {}
-  Child stability(const std::vector<std::string>& more = {}, const std::function<bool(pid_t)>& meanwhile = {}) {
+      : ProgramTest(small_beam(
+            "linear",
+            "study: {methods: [single/symplectic_euler, single/implicit_euler, coarse/1, "
+            "cycle/rs/equal, cycle/rv/equal, cycle/him]}\n")) {}
+  Child stability(const std::vector<std::string>& more = {},
+                  const std::function<bool(pid_t)>& meanwhile = {}) {
     return plica({"stability", scene, "-o", out}, more, meanwhile);
   }
   Json json() const { return json_of("out/stability.json"); }
@@ -40,7 +42,8 @@ TEST_F(StabilityCommand, SaysWhatItPredictedAndMeasured) {
   for (const char* method : {"single/symplectic_euler", "coarse/1", "cycle/rs", "cycle/him"}) {
     const Json one = row(method);
     EXPECT_EQ(one["status"], "limited") << method;
-    EXPECT_NEAR(one["ratio"].get<double>(), 1, one["integrator"].is_string() ? 0.02 : 0.1) << method;
+    EXPECT_NEAR(one["ratio"].get<double>(), 1, one["integrator"].is_string() ? 0.02 : 0.1)
+        << method;
     EXPECT_DOUBLE_EQ(one["ratio"], one["measured"].get<double>() / one["predicted"].get<double>());
     EXPECT_NE(run.output.find(method), std::string::npos);
   }
@@ -55,10 +58,11 @@ TEST_F(StabilityCommand, SaysWhatItPredictedAndMeasured) {
 }
 
 TEST_F(StabilityCommand, RowsOfJsonAndCsvHaveTheSameFields) {
-  ASSERT_EQ(stability({"--quiet", "--set", "study.methods=[single/symplectic_euler, cycle/rv/equal]", "--set",
-                       "body.material.model=st_venant_kirchhoff"})
-                .status,
-            0);
+  ASSERT_EQ(
+      stability({"--quiet", "--set", "study.methods=[single/symplectic_euler, cycle/rv/equal]",
+                 "--set", "body.material.model=st_venant_kirchhoff"})
+          .status,
+      0);
   std::istringstream csv(content_of(folder / "out/stability.csv"));
   std::string names, line;
   std::getline(csv, names);
@@ -109,7 +113,8 @@ TEST_F(StabilityCommand, BadInputIs2) {
     EXPECT_NE(run.errors.find(text), std::string::npos) << run.errors;
   };
   refuses({scene, "-o", out, "--set", "study.methods=cycle/rvs"}, "did you mean 'cycle/rsv'");
-  refuses({scene, "-o", out, "--set", "study.methods=single/euller"}, "did you mean 'single/euler'");
+  refuses({scene, "-o", out, "--set", "study.methods=single/euller"},
+          "did you mean 'single/euler'");
   refuses({scene, "-o", out, "--budget", "soon"}, "--budget");
   refuses({scene, "-o", out, "--budgte", "1s"}, "--budgte");
   refuses({}, "SCENE, or --matrix");
@@ -133,7 +138,8 @@ TEST_F(StabilityCommand, StopsWithItsBudgetAndAtCtrlCWithWholeFiles) {
   const Json all = json();
   for (const Json& one : all["rows"]) {
     EXPECT_TRUE(one["ok"]) << one;
-    for (const char* name : {"case", "method", "expected", "outcome"}) EXPECT_TRUE(one[name].is_string()) << name;
+    for (const char* name : {"case", "method", "expected", "outcome"})
+      EXPECT_TRUE(one[name].is_string()) << name;
   }
   std::filesystem::remove_all(out);
   const Child run = plica({"stability", "--matrix", "-o", out}, [&](pid_t id) {
@@ -147,7 +153,8 @@ TEST(StabilityMatrix, AWrongRowIsSaidAndFails) {
   MatrixResult result;
   result.rows = {{"a", "single/rk4", "completed", "completed", true, ""}};
   EXPECT_EQ(status_of(result), ExitStatus::done);
-  result.rows.push_back({"b", "cycle/him", "completed", "stopped: energy", false, "too much \"of\" it"});
+  result.rows.push_back(
+      {"b", "cycle/him", "completed", "stopped: energy", false, "too much \"of\" it"});
   EXPECT_EQ(status_of(result), ExitStatus::failed);
   const std::string text = stability_text(result, "out");
   EXPECT_NE(text.find("Wrong, 1"), std::string::npos);
@@ -158,9 +165,11 @@ TEST(StabilityMatrix, AWrongRowIsSaidAndFails) {
 }
 
 TEST_F(StabilityCommand, CanBeDrawn) {
-  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0)
+    GTEST_SKIP() << "no Python with Matplotlib";
   ASSERT_EQ(stability({"--quiet", "--set", "study.methods=[single, cycle/rv/equal]"}).status, 0);
-  const Child draw = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/stability.py", out}, folder);
+  const Child draw =
+      run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/stability.py", out}, folder);
   EXPECT_EQ(draw.status, 0) << draw.errors;
   EXPECT_GT(std::filesystem::file_size(folder / "out/stability.png"), 10000U);
 }
@@ -168,7 +177,8 @@ TEST_F(StabilityCommand, CanBeDrawn) {
 class VerifyCommand : public ProgramTest {
  protected:
   VerifyCommand() : ProgramTest("") {}
-  Child verify(const std::vector<std::string>& more, const std::function<bool(pid_t)>& meanwhile = {}) {
+  Child verify(const std::vector<std::string>& more,
+               const std::function<bool(pid_t)>& meanwhile = {}) {
     return plica({"verify", "-o", out}, more, meanwhile);
   }
 };
@@ -190,14 +200,17 @@ TEST_F(VerifyCommand, WritesTheTable) {
       EXPECT_TRUE(row.contains(name)) << name;
     EXPECT_FALSE(row["ours"].empty());
     for (const Json& value : row["ours"])
-      EXPECT_TRUE(value["mesh"].is_string() && value["size"].is_number() && value["value"].is_number());
+      EXPECT_TRUE(value["mesh"].is_string() && value["size"].is_number() &&
+                  value["value"].is_number());
   }
   EXPECT_EQ(json["rows"][2]["problem"], "uniaxial_tension");
   EXPECT_NEAR(double(json["rows"][2]["ours"][0]["value"]), 1e-3, 1e-12);
-  const std::string csv = content_of(folder / "out/verify.csv"), table = content_of(folder / "out/verify.md");
+  const std::string csv = content_of(folder / "out/verify.csv"),
+                    table = content_of(folder / "out/verify.md");
   EXPECT_EQ(csv.find("problem,quantity,unit,element,mesh,accepted,"), 0U);
-  EXPECT_NE(table.find("| uniaxial_tension | strain along | linear | regular | 0.001 | p/E (Hooke) |"),
-            std::string::npos)
+  EXPECT_NE(
+      table.find("| uniaxial_tension | strain along | linear | regular | 0.001 | p/E (Hooke) |"),
+      std::string::npos)
       << table;
   for (const char* words : {"uniaxial_tension", "strain along", "4 rows, 0 not ok", "verify.md"})
     EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
@@ -206,7 +219,8 @@ TEST_F(VerifyCommand, WritesTheTable) {
 TEST_F(VerifyCommand, RefusesWhatItDoesNotKnow) {
   const Child wrong = verify({"uniaxial_tensoin"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_NE(wrong.errors.find("did you mean 'uniaxial_tension'?"), std::string::npos) << wrong.errors;
+  EXPECT_NE(wrong.errors.find("did you mean 'uniaxial_tension'?"), std::string::npos)
+      << wrong.errors;
   EXPECT_FALSE(std::filesystem::exists(out));
   EXPECT_EQ(verify({"--budget", "1s"}).status, 2);
   EXPECT_EQ(verify({"--threads", "0"}).status, 2);
@@ -234,7 +248,8 @@ TEST_F(VerifyCommand, HelpNamesEveryProblem) {
 
 TEST(VerifyTable, SaysWhatIsWrong) {
   VerifyRow row;
-  row.problem = "p", row.quantity = "q", row.unit = "m", row.judged = Judged::finest, row.accepted = 1;
+  row.problem = "p", row.quantity = "q", row.unit = "m", row.judged = Judged::finest,
+  row.accepted = 1;
   row.tolerance = 0.01, row.source = "s", row.note = "n", row.add("2x2x2", 1, 1.5);
   judge(row);
   VerifyResult result;
@@ -242,7 +257,8 @@ TEST(VerifyTable, SaysWhatIsWrong) {
   VerifyHead head;
   head.status = "completed";
   EXPECT_NE(verify_markdown(head, result)
-                .find("| p | q [m] | linear | regular | 1 m | s | 2x2x2: 1.5 |  |  | finest within 1 % | not ok | n |"),
+                .find("| p | q [m] | linear | regular | 1 m | s | 2x2x2: 1.5 |  |  | finest within "
+                      "1 % | not ok | n |"),
             std::string::npos)
       << verify_markdown(head, result);
   EXPECT_NE(verify_text(result, "out").find("1 row, 1 not ok"), std::string::npos);

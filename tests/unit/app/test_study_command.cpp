@@ -13,11 +13,13 @@ namespace {
 class StudyCommand : public ProgramTest {
  protected:
   StudyCommand()
-      : ProgramTest(small_beam("neo_hookean",
-                               "study:\n  methods: [single/symplectic_euler, coarse, cycle/rs/equal]\n"
-                               "  macro_steps: [auto, 40 ms]\n  samples: 10\n")) {}
+      : ProgramTest(
+            small_beam("neo_hookean",
+                       "study:\n  methods: [single/symplectic_euler, coarse, cycle/rs/equal]\n"
+                       "  macro_steps: [auto, 40 ms]\n  samples: 10\n")) {}
 
-  Child study(const std::vector<std::string>& more = {}, const std::function<bool(pid_t)>& meanwhile = {}) {
+  Child study(const std::vector<std::string>& more = {},
+              const std::function<bool(pid_t)>& meanwhile = {}) {
     return plica({"study", scene, "-o", out}, more, meanwhile);
   }
   Json json() const { return json_of("out/study.json"); }
@@ -30,12 +32,15 @@ void expect_number_or_null(const Json& row, const char* name, bool number) {
 
 void expect_row(const Json& row) {
   const std::string status = row.at("status");
-  EXPECT_TRUE(std::set<std::string>({"completed", "diverged", "refused"}).contains(status)) << status;
+  EXPECT_TRUE(std::set<std::string>({"completed", "diverged", "refused"}).contains(status))
+      << status;
   const bool completed = status == "completed";
-  for (const char* name : {"error", "error_velocity", "error_worst_vertex", "wall_time", "wall_time_spread"})
+  for (const char* name :
+       {"error", "error_velocity", "error_worst_vertex", "wall_time", "wall_time_spread"})
     expect_number_or_null(row, name, completed);
   EXPECT_TRUE(row.contains("energy_drift"));
-  EXPECT_TRUE(row.at("method").is_string() && row.at("precision") == "double" && row.at("threads").is_number_integer());
+  EXPECT_TRUE(row.at("method").is_string() && row.at("precision") == "double" &&
+              row.at("threads").is_number_integer());
   EXPECT_TRUE(row.at("pareto").is_boolean() && (completed || !row.at("pareto")));
   EXPECT_EQ(row.at("reason").is_string(), !completed);
   expect_number_or_null(row, "macro_step", true);
@@ -49,7 +54,8 @@ TEST_F(StudyCommand, WritesWhatTheInterfaceSays) {
   const Child run = study();
   ASSERT_EQ(run.status, 0) << run.errors;
   const Json study = json();
-  for (const char* name : {"scene", "machine", "reference", "rows"}) EXPECT_TRUE(study.contains(name)) << name;
+  for (const char* name : {"scene", "machine", "reference", "rows"})
+    EXPECT_TRUE(study.contains(name)) << name;
   for (const char* name : {"cpu", "backend", "threads", "compiler", "git_revision"})
     EXPECT_TRUE(study["machine"].contains(name)) << name;
   EXPECT_GT(study["reference"].at("own_error"), 0);
@@ -60,55 +66,60 @@ TEST_F(StudyCommand, WritesWhatTheInterfaceSays) {
     expect_row(row);
     methods.push_back(row["method"]);
   }
-  EXPECT_EQ(methods, (std::vector<std::string>{"single/symplectic_euler", "single/symplectic_euler", "coarse/1",
-                                               "cycle/rs", "cycle/rs"}));
+  EXPECT_EQ(methods, (std::vector<std::string>{"single/symplectic_euler", "single/symplectic_euler",
+                                               "coarse/1", "cycle/rs", "cycle/rs"}));
   EXPECT_EQ(study["rows"][0]["work"], 1.0);
   EXPECT_EQ(study["rows"][4]["distribution"], "equal");
-  for (const char* words : {"Reference: single/rk4", "Under 5 % error (interactive): ", "coarse/1", "plica report "})
+  for (const char* words :
+       {"Reference: single/rk4", "Under 5 % error (interactive): ", "coarse/1", "plica report "})
     EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
   const std::string csv = content_of(folder / "out/study.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6);
   EXPECT_EQ(csv.find("method,distribution,variant,macro_step,"), 0U);
 }
 
-// Every field of a row, and what it is in a completed one: s text, n number, b boolean, m map, ? may be null
-const std::vector<std::pair<std::string, std::string>> row_fields = {{"method", "s"},
-                                                                     {"distribution", "s?"},
-                                                                     {"variant", "s?"},
-                                                                     {"macro_step", "n"},
-                                                                     {"macro_step_over_critical", "n"},
-                                                                     {"automatic", "b"},
-                                                                     {"element", "s"},
-                                                                     {"precision", "s"},
-                                                                     {"threads", "n"},
-                                                                     {"status", "s"},
-                                                                     {"reason", "s?"},
-                                                                     {"reached", "n?"},
-                                                                     {"error", "n"},
-                                                                     {"error_velocity", "n"},
-                                                                     {"error_worst_vertex", "n"},
-                                                                     {"total_error", "n?"},
-                                                                     {"space_error", "n?"},
-                                                                     {"error_finer", "n?"},
-                                                                     {"error_probes", "m?"},
-                                                                     {"energy_drift", "n?"},
-                                                                     {"phase", "n?"},
-                                                                     {"wall_time", "n"},
-                                                                     {"wall_time_spread", "n"},
-                                                                     {"timed_runs", "n"},
-                                                                     {"setup_time", "n"},
-                                                                     {"work", "n"},
-                                                                     {"spectral_radius", "n?"},
-                                                                     {"spectral_radius_uncertainty", "n?"},
-                                                                     {"growth_per_second", "n?"},
-                                                                     {"pareto", "b"},
-                                                                     {"case", "s"}};
+// Every field of a row, and what it is in a completed one: s text, n number, b boolean, m map, ?
+// may be null
+const std::vector<std::pair<std::string, std::string>> row_fields = {
+    {"method", "s"},
+    {"distribution", "s?"},
+    {"variant", "s?"},
+    {"macro_step", "n"},
+    {"macro_step_over_critical", "n"},
+    {"automatic", "b"},
+    {"element", "s"},
+    {"precision", "s"},
+    {"threads", "n"},
+    {"status", "s"},
+    {"reason", "s?"},
+    {"reached", "n?"},
+    {"error", "n"},
+    {"error_velocity", "n"},
+    {"error_worst_vertex", "n"},
+    {"total_error", "n?"},
+    {"space_error", "n?"},
+    {"error_finer", "n?"},
+    {"error_probes", "m?"},
+    {"energy_drift", "n?"},
+    {"phase", "n?"},
+    {"wall_time", "n"},
+    {"wall_time_spread", "n"},
+    {"timed_runs", "n"},
+    {"setup_time", "n"},
+    {"work", "n"},
+    {"spectral_radius", "n?"},
+    {"spectral_radius_uncertainty", "n?"},
+    {"growth_per_second", "n?"},
+    {"pareto", "b"},
+    {"case", "s"}};
 
 TEST_F(StudyCommand, RowsHaveTheDocumentedFieldsAndNoOthers) {
-  const Child run =
-      study({"--set", "study.methods=[single/symplectic_euler, coarse, cycle/rsv/equal, cycle/rsv/equal+bold]", "--set",
-             "study.variants={bold: {allow_unstable: true, substeps: 1, switch_threshold: 1}}", "--set",
-             "study.macro_steps=[auto, 5 ms]", "--set", "output.probes={tip: [0.4, 0.05, 0.05]}", "--growth"});
+  const Child run = study(
+      {"--set",
+       "study.methods=[single/symplectic_euler, coarse, cycle/rsv/equal, cycle/rsv/equal+bold]",
+       "--set", "study.variants={bold: {allow_unstable: true, substeps: 1, switch_threshold: 1}}",
+       "--set", "study.macro_steps=[auto, 5 ms]", "--set", "output.probes={tip: [0.4, 0.05, 0.05]}",
+       "--growth"});
   ASSERT_EQ(run.status, 0) << run.errors;
   const Json study_json = json();
   std::set<std::string> statuses, variants;
@@ -125,10 +136,11 @@ TEST_F(StudyCommand, RowsHaveTheDocumentedFieldsAndNoOthers) {
                         : value.is_boolean() ? 'b'
                         : value.is_object()  ? 'm'
                                              : '?';
-      EXPECT_TRUE(kind.starts_with(type) || kind.ends_with(type) || (!completed && type == '?')) << name << row;
+      EXPECT_TRUE(kind.starts_with(type) || kind.ends_with(type) || (!completed && type == '?'))
+          << name << row;
     }
-    for (const char* name : {"error", "error_velocity", "error_worst_vertex", "error_probes", "energy_drift", "phase",
-                             "wall_time", "wall_time_spread"})
+    for (const char* name : {"error", "error_velocity", "error_worst_vertex", "error_probes",
+                             "energy_drift", "phase", "wall_time", "wall_time_spread"})
       EXPECT_EQ(row[name].is_null(), !completed) << name << row;
     for (const char* name : {"spectral_radius", "growth_per_second"})
       EXPECT_EQ(row[name].is_number(), cycle) << name << row;
@@ -137,14 +149,16 @@ TEST_F(StudyCommand, RowsHaveTheDocumentedFieldsAndNoOthers) {
   EXPECT_EQ(statuses, (std::set<std::string>{"completed", "diverged"}));
   EXPECT_EQ(variants, std::set<std::string>{"bold"});
   EXPECT_NE(run.output.find("Small motions about rest"), std::string::npos) << run.output;
-  const std::string csv = content_of(folder / "out/study.csv"), head = csv.substr(0, csv.find('\n'));
+  const std::string csv = content_of(folder / "out/study.csv"),
+                    head = csv.substr(0, csv.find('\n'));
   std::string expected;
   for (const auto& [name, kind] : row_fields)
     expected += (expected.empty() ? "" : ",") + (name == "error_probes" ? name + ".tip" : name);
   EXPECT_EQ(head, expected);
-  const Child again = study({"--set", "study.variants={bold: {allow_unstable: true, substeps: 2}}", "--set",
-                             "study.methods=[cycle/rsv/equal+bold]"});
-  EXPECT_EQ(again.errors.find("going on"), std::string::npos) << "with rows of another variant of that name";
+  const Child again = study({"--set", "study.variants={bold: {allow_unstable: true, substeps: 2}}",
+                             "--set", "study.methods=[cycle/rsv/equal+bold]"});
+  EXPECT_EQ(again.errors.find("going on"), std::string::npos)
+      << "with rows of another variant of that name";
 }
 
 TEST_F(StudyCommand, GoesOnWithWhatIsThere) {
@@ -173,7 +187,8 @@ TEST_F(StudyCommand, CtrlCEndsWithWholeFiles) {
   const auto stop = [&](pid_t id) {
     return std::filesystem::exists(folder / "out/study.csv") && kill(id, SIGINT) == 0;
   };
-  const Child run = study({"--set", "study.methods=[single, coarse, cycle]", "--duration", "1 s"}, stop);
+  const Child run =
+      study({"--set", "study.methods=[single, coarse, cycle]", "--duration", "1 s"}, stop);
   EXPECT_EQ(run.status, 130) << run.errors;
   EXPECT_EQ(json()["status"], "interrupted");
   EXPECT_FALSE(json()["left_out"].empty());
@@ -190,24 +205,29 @@ TEST_F(StudyCommand, TheBudgetLeavesOutAndSaysSo) {
   EXPECT_NE(run.output.find("Left out, 4 runs"), std::string::npos) << run.output;
 }
 
-// A thousandth of a second, so that the finer meshes are affordable; a file of a mesh cannot be made finer
+// A thousandth of a second, so that the finer meshes are affordable; a file of a mesh cannot be
+// made finer
 TEST_F(StudyCommand, TheErrorInSpaceIsFoundForEverySceneWithoutFiles) {
   int made = 0, files = 0;
-  for (const auto& file : std::filesystem::directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes/study")) {
+  for (const auto& file :
+       std::filesystem::directory_iterator(PLICA_SOURCE_DIR "/drivers/scenes/study")) {
     const bool generated = content_of(file.path()).find("{file: ") == std::string::npos;
     ++(generated ? made : files);
     const std::string results = folder / file.path().stem();
     const Child run =
-        run_child({PLICA_EXECUTABLE, "study", file.path(), "-o", results, "--space", "--duration", "1ms", "--set",
-                   "study.samples=1", "--set", "study.timed_runs=0", "--set", "study.methods=single/symplectic_euler"},
+        run_child({PLICA_EXECUTABLE, "study", file.path(), "-o", results, "--space", "--duration",
+                   "1ms", "--set", "study.samples=1", "--set", "study.timed_runs=0", "--set",
+                   "study.methods=single/symplectic_euler"},
                   folder);
     EXPECT_EQ(run.status, generated ? 0 : 2) << file.path() << run.errors;
     if (generated) {
       const Json study = Json::parse(content_of(results + "/study.json"));
       EXPECT_TRUE(study["reference"]["space_error"].is_number()) << file.path();
-      for (const Json& row : study["rows"]) EXPECT_TRUE(row["error_finer"].is_number()) << file.path();
+      for (const Json& row : study["rows"])
+        EXPECT_TRUE(row["error_finer"].is_number()) << file.path();
     } else {
-      EXPECT_NE(run.errors.find("--space needs a finest level that can be made finer"), std::string::npos)
+      EXPECT_NE(run.errors.find("--space needs a finest level that can be made finer"),
+                std::string::npos)
           << run.errors;
     }
   }
@@ -240,17 +260,22 @@ TEST_F(StudyCommand, BadInputIs2) {
 }
 
 TEST_F(StudyCommand, CanBeDrawn) {
-  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0)
+    GTEST_SKIP() << "no Python with Matplotlib";
   ASSERT_EQ(study({"--quiet"}).status, 0);
   const Child draw = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", out}, folder);
   EXPECT_EQ(draw.status, 0) << draw.errors;
   EXPECT_GT(std::filesystem::file_size(folder / "out/study.png"), 10000U);
-  EXPECT_EQ(run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", folder / "none"}, folder).status, 1);
+  EXPECT_EQ(
+      run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", folder / "none"}, folder)
+          .status,
+      1);
 }
 
 TEST(ReferenceFile, ReadsBackWhatItWroteAndNothingElse) {
   StudyReference r;
-  r.method = "single/rk4", r.macro_step = 1e-3, r.own_error = 0.1 / 3, r.seconds_per_evaluation = 1e-8;
+  r.method = "single/rk4", r.macro_step = 1e-3, r.own_error = 0.1 / 3,
+  r.seconds_per_evaluation = 1e-8;
   r.trajectory = {{0.5, 1}, {{{1, 2, 3}}, {{4, 5, 6}}}, {{{7, 8, 9}}, {{1, 0, 1}}}};
   const std::string bytes = reference_bytes(r, 7);
   const auto back = parse_reference(bytes, 7);

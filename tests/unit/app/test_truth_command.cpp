@@ -65,7 +65,8 @@ TEST_F(TruthCommand, WritesTheTruthAndEachRowsParts) {
       EXPECT_TRUE(!same || space == mesh["error_space"]) << row;
     }
   }
-  for (const char* words : {"Reference: the truth", "in space", "uncertain by 0.", "Explicit alone, nodal meshes"})
+  for (const char* words :
+       {"Reference: the truth", "in space", "uncertain by 0.", "Explicit alone, nodal meshes"})
     EXPECT_NE(run.output.find(words), std::string::npos) << run.output;
   const std::string csv = content_of(folder / "out/study.csv");
   EXPECT_NE(csv.find(",total_error,space_error,"), std::string::npos);
@@ -75,9 +76,11 @@ TEST_F(TruthCommand, WritesTheTruthAndEachRowsParts) {
 }
 
 TEST_F(TruthCommand, IsAKeyOfTheScene) {
-  const Child run = study({"--set", "study.truth={refinements: 1, jitter: 0.1}", "--set", "body.jitter=0.2"});
+  const Child run =
+      study({"--set", "study.truth={refinements: 1, jitter: 0.1}", "--set", "body.jitter=0.2"});
   ASSERT_EQ(run.status, 0) << run.errors;
-  EXPECT_TRUE(json()["reference"]["truth"]["family"]["order"].is_null()) << "jittered levels are not nested";
+  EXPECT_TRUE(json()["reference"]["truth"]["family"]["order"].is_null())
+      << "jittered levels are not nested";
   EXPECT_EQ(json()["reference"]["truth"]["check"]["name"], "nodal, jittered");
   EXPECT_NE(run.output.find("two meshes show no order"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("not good enough"), std::string::npos) << run.output;
@@ -86,12 +89,15 @@ TEST_F(TruthCommand, IsAKeyOfTheScene) {
   EXPECT_FALSE(json()["reference"].contains("truth"));
   ASSERT_EQ(json()["rows"].size(), 4u);
   for (const Json& row : json()["rows"])
-    EXPECT_TRUE(row["element"] == "nodal" && row["space_error"].is_null() && row["total_error"].is_null());
+    EXPECT_TRUE(row["element"] == "nodal" && row["space_error"].is_null() &&
+                row["total_error"].is_null());
 }
 
 // Level 1 alone is the fastest row within 5 %, and none is within 0.1 %
 TEST_F(TruthCommand, ARunTakesWhatTheStudyChose) {
-  ASSERT_EQ(study({"--truth", "--set", "body.levels.1.box.cells=[9, 2, 2]", "--set", "study.methods=coarse"}).status,
+  ASSERT_EQ(study({"--truth", "--set", "body.levels.1.box.cells=[9, 2, 2]", "--set",
+                   "study.methods=coarse"})
+                .status,
             0);
   const Json chosen = json()["choices"][0];
   EXPECT_EQ(chosen["error_class"], "interactive");
@@ -99,8 +105,8 @@ TEST_F(TruthCommand, ARunTakesWhatTheStudyChose) {
   EXPECT_LT(chosen["error"].get<double>() + json()["reference"]["own_error"].get<double>(), 0.05);
   EXPECT_TRUE(json()["choices"][2]["case"].is_null());
   const auto chosen_run = [&](const std::string& error_class, const std::string& of) {
-    return run_child({PLICA_EXECUTABLE, "run", of, "--study", out, "--set", "integration.error_class=" + error_class,
-                      "-o", folder / "run"},
+    return run_child({PLICA_EXECUTABLE, "run", of, "--study", out, "--set",
+                      "integration.error_class=" + error_class, "-o", folder / "run"},
                      folder);
   };
   const Child run = chosen_run("interactive", scene);
@@ -139,7 +145,8 @@ TEST_F(TruthCommand, BadInputIs2) {
 }
 
 TEST_F(TruthCommand, CanBeDrawn) {
-  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0) GTEST_SKIP() << "no Python with Matplotlib";
+  if (run_child({python(), "-c", "import matplotlib"}, folder).status != 0)
+    GTEST_SKIP() << "no Python with Matplotlib";
   ASSERT_EQ(study({"--truth", "--quiet", "--set", "study.truth.refinements=1"}).status, 0);
   const Child draw = run_child({python(), PLICA_SOURCE_DIR "/drivers/plots/study.py", out}, folder);
   EXPECT_EQ(draw.status, 0) << draw.errors;

@@ -26,8 +26,8 @@ class ViewCommand : public ProgramTest {
 };
 
 TEST_F(ViewCommand, AMousePullsTheBodyAndABallPushesIt) {
-  const Child used =
-      run_child({python(), PLICA_SOURCE_DIR "/tests/unit/app/use_view.py", PLICA_EXECUTABLE, scene}, folder);
+  const Child used = run_child(
+      {python(), PLICA_SOURCE_DIR "/tests/unit/app/use_view.py", PLICA_EXECUTABLE, scene}, folder);
   if (used.status == 77) GTEST_SKIP() << used.output;
   EXPECT_EQ(used.status, 0) << used.errors;
 }
@@ -42,11 +42,13 @@ TEST_F(ViewCommand, APortInUseIsNamedAtOnce) {
   ASSERT_EQ(getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size), 0);
   const std::string port = std::to_string(ntohs(address.sin_port));
   // The scene is bad as well: it is not read, and nothing is set up
-  const Child child = plica({"view", scene, "--set", "body.fixed=3", "--no-browser", "--port", port});
+  const Child child =
+      plica({"view", scene, "--set", "body.fixed=3", "--no-browser", "--port", port});
   close(socket);
   EXPECT_EQ(child.status, 2);
   EXPECT_NE(child.errors.find("port " + port + " is in use"), std::string::npos) << child.errors;
-  EXPECT_NE(child.errors.find("choose another port (0: any free one)"), std::string::npos) << child.errors;
+  EXPECT_NE(child.errors.find("choose another port (0: any free one)"), std::string::npos)
+      << child.errors;
   EXPECT_EQ(child.errors.find("body.fixed"), std::string::npos) << child.errors;
 }
 

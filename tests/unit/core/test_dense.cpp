@@ -11,8 +11,9 @@ using Eigen::MatrixXd, Eigen::VectorXd;
 
 /// Symmetric, with eigenvalues of at least `least`.
 MatrixXd symmetric(int n, double least) {
-  const MatrixXd A = MatrixXd::NullaryExpr(
-      n, n, [](Eigen::Index i, Eigen::Index j) { return std::sin(static_cast<double>(7 * i + 3 * j * j + 1)); });
+  const MatrixXd A = MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) {
+    return std::sin(static_cast<double>(7 * i + 3 * j * j + 1));
+  });
   return A * A.transpose() + least * MatrixXd::Identity(n, n);
 }
 
@@ -36,7 +37,8 @@ TEST(Dense, ToldOfMatricesThatAreNotPositiveDefinite) {
 MatrixXd on_vectors(const MatrixXd& M) {
   MatrixXd full = MatrixXd::Zero(3 * M.rows(), 3 * M.cols());
   for (Eigen::Index i = 0; i < M.rows(); ++i)
-    for (Eigen::Index j = 0; j < M.cols(); ++j) full.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(M(i, j));
+    for (Eigen::Index j = 0; j < M.cols(); ++j)
+      full.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(M(i, j));
   return full;
 }
 
@@ -66,7 +68,8 @@ TEST(Dense, ModesLeaveOutWhatHasNoMassOfItsOwn) {
   VectorXd s(3 * n), more_s(3 * n + 6);
   MatrixXd phi(3 * n, 3 * n), more_phi(3 * n + 6, 3 * n + 6);
   ASSERT_EQ(dense::modes(n, K.data(), M.data(), s.data(), phi.data()), 3 * n);
-  ASSERT_EQ(dense::modes(n + 2, more_K.data(), more_M.data(), more_s.data(), more_phi.data()), 3 * n);
+  ASSERT_EQ(dense::modes(n + 2, more_K.data(), more_M.data(), more_s.data(), more_phi.data()),
+            3 * n);
   EXPECT_LT((more_s.head(3 * n) - s).norm(), 1e-7 * s.norm());
 }
 

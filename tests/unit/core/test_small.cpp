@@ -47,25 +47,30 @@ TEST(Small, AgreesWithEigen) {
     EXPECT_NEAR(determinant(A), a.determinant(), round_off<double>(16));
     EXPECT_NEAR(inner(A, B), (a.array() * b.array()).sum(), round_off<double>(16));
     EXPECT_NEAR(trace(A), a.trace(), round_off<double>(8));
-    EXPECT_NEAR((eigen(cofactor(A)).transpose() * a - a.determinant() * Eigen::Matrix3d::Identity()).norm(), 0,
-                round_off<double>(64));
+    EXPECT_NEAR(
+        (eigen(cofactor(A)).transpose() * a - a.determinant() * Eigen::Matrix3d::Identity()).norm(),
+        0, round_off<double>(64));
   }
 }
 
 TEST(Small, CofactorChangeIsItsDerivative) {
   const Mat3<double> A = random_matrix(1), D = random_matrix(2);
-  const double h = 1e-4;  // the cofactor is quadratic: central differences are exact but for rounding
+  // the cofactor is quadratic: central differences are exact but for rounding
+  const double h = 1e-4;
   const Mat3<double> difference = (1 / (2 * h)) * (cofactor(A + h * D) - cofactor(A - h * D));
-  EXPECT_NEAR((eigen(difference) - eigen(cofactor_change(A, D))).norm(), 0, round_off<double>(64, 1 / h));
+  EXPECT_NEAR((eigen(difference) - eigen(cofactor_change(A, D))).norm(), 0,
+              round_off<double>(64, 1 / h));
 }
 
 template <class Real>
 void expect_cube_roots() {
   for (double x : {1e-30, 1e-12, 1e-3, 0.3, 0.999, 1.0, 1.7, 8.0, 12345.0, 1e12, 1e30}) {
-    const double got = static_cast<double>(inverse_cube_root(static_cast<Real>(x))), want = 1 / std::cbrt(x);
+    const double got = static_cast<double>(inverse_cube_root(static_cast<Real>(x))),
+                 want = 1 / std::cbrt(x);
     EXPECT_NEAR(got, want, round_off<Real>(8, want)) << x;
   }
-  for (Real x : {Real(0), Real(-1), Real(-1e-20)}) EXPECT_TRUE(std::isnan(inverse_cube_root(x))) << x;
+  for (Real x : {Real(0), Real(-1), Real(-1e-20)})
+    EXPECT_TRUE(std::isnan(inverse_cube_root(x))) << x;
 }
 
 TEST(Functions, InverseCubeRootToRounding) {
@@ -107,7 +112,8 @@ TEST(Functions, AllPositiveLooksAtEveryLane) {
     }
 }
 
-// Vectors scattered in memory, taken into the lanes of packs and back. Packs may be wider than the registers of the processor.
+// Vectors scattered in memory, taken into the lanes of packs and back. Packs may be wider than the
+// registers of the processor.
 
 template <class T, int N>
 struct Rows {
@@ -124,7 +130,8 @@ void expect_rows_in_lanes() {
   Vec3<Lanes> v;
   load_vectors(row, v);
   for (int l = 0; l < N; ++l)
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(lane(v[k], l), row(l)[k]) << N << " lanes, lane " << l << ", component " << k;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(lane(v[k], l), row(l)[k]) << N << " lanes, lane " << l << ", component " << k;
 }
 
 template <class T, int N>
@@ -137,7 +144,8 @@ void expect_lanes_in_rows() {
   store_fours(four, [&](int l) { return rows(l); });
   T sum = 0;
   for (const T& x : rows.memory) sum += x;
-  EXPECT_EQ(sum, T(4 * N * (4 * N + 1) / 2)) << N << " lanes: numbers that are no row's have changed";
+  EXPECT_EQ(sum, T(4 * N * (4 * N + 1) / 2))
+      << N << " lanes: numbers that are no row's have changed";
   for (int l = 0; l < N; ++l)
     for (int k = 0; k < 4; ++k)
       EXPECT_EQ(rows(l)[k], T(1 + 4 * l + k)) << N << " lanes, lane " << l << ", number " << k;

@@ -12,15 +12,18 @@ using namespace plica;
 
 TEST(Text, IsAsLongAsItsParts) {
   const std::string name(6000, 'a');
-  EXPECT_EQ(text("level ", 2, ": ", name, std::string_view(" of "), std::size_t{3}), "level 2: " + name + " of 3");
+  EXPECT_EQ(text("level ", 2, ": ", name, std::string_view(" of "), std::size_t{3}),
+            "level 2: " + name + " of 3");
   EXPECT_EQ(text(), "");
 }
 
 TEST(Text, WritesNumbersAsPrintfDoes) {
-  const double largest = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
-  const double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double value : {0.0, 1.0, -2.5, 1e-3, 1e-5, 123456.0, 1234567.0, 1.0 / 3, 1e21, largest, least, -least,
-                             infinite, -infinite, nan})
+  const double largest = std::numeric_limits<double>::max(),
+               least = std::numeric_limits<double>::denorm_min();
+  const double infinite = std::numeric_limits<double>::infinity(),
+               nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : {0.0, 1.0, -2.5, 1e-3, 1e-5, 123456.0, 1234567.0, 1.0 / 3, 1e21,
+                             largest, least, -least, infinite, -infinite, nan})
     for (const int digits : {1, 2, 3, 4, 6, 9, 15, 17}) {
       char expected[64];
       std::snprintf(expected, sizeof expected, "%.*g", digits, value);
@@ -54,8 +57,8 @@ TEST(UnknownName, NamesTheNearestAndAll) {
 const std::string bad = "\xEF\xBF\xBD";  // U+FFFD
 
 TEST(ValidUtf8, KeepsWhatIsValid) {
-  for (const char* text :
-       {"", "liver", "L\xC3\xA4nge \xE2\x82\xAC \xF0\x9F\xAB\x80", "\xEF\xBF\xBD", "\xF4\x8F\xBF\xBF"})
+  for (const char* text : {"", "liver", "L\xC3\xA4nge \xE2\x82\xAC \xF0\x9F\xAB\x80",
+                           "\xEF\xBF\xBD", "\xF4\x8F\xBF\xBF"})
     EXPECT_EQ(valid_utf8(text), text);
   EXPECT_EQ(valid_utf8(std::string("a\0b", 3)), std::string("a\0b", 3));
 }
@@ -63,14 +66,16 @@ TEST(ValidUtf8, KeepsWhatIsValid) {
 TEST(ValidUtf8, ReplacesWhatIsNot) {
   EXPECT_EQ(valid_utf8("L\xE9"
                        "ber"),
-            "L" + bad + "ber");                                      // Latin-1
-  EXPECT_EQ(valid_utf8("L\xE9"), "L" + bad);                         // ... at the end
-  EXPECT_EQ(valid_utf8("\x80\xBF"), bad + bad);                      // nothing to follow
-  EXPECT_EQ(valid_utf8("\xE2\x82x"), bad + "x");                     // cut off: one for all that might have been
+            "L" + bad + "ber");                  // Latin-1
+  EXPECT_EQ(valid_utf8("L\xE9"), "L" + bad);     // ... at the end
+  EXPECT_EQ(valid_utf8("\x80\xBF"), bad + bad);  // nothing to follow
+  // cut off: one for all that might have been
+  EXPECT_EQ(valid_utf8("\xE2\x82x"), bad + "x");
   EXPECT_EQ(valid_utf8("\xC0\xAF"), bad + bad);                      // overlong
   EXPECT_EQ(valid_utf8("\xED\xA0\x80"), bad + bad + bad);            // half of a surrogate pair
   EXPECT_EQ(valid_utf8("\xF4\x90\x80\x80"), bad + bad + bad + bad);  // beyond U+10FFFF
-  EXPECT_EQ(valid_utf8("\xF0\x80\x80\x41"), bad + bad + bad + "A");  // the example of the Unicode standard
+  // the example of the Unicode standard
+  EXPECT_EQ(valid_utf8("\xF0\x80\x80\x41"), bad + bad + bad + "A");
   EXPECT_EQ(valid_utf8("\xFF\xC3\xA4"), bad + "\xC3\xA4");
 }
 

@@ -22,7 +22,8 @@ TEST(ContactLaw, IsASpringAndADamperThatNeverPulls) {
   EXPECT_EQ(of.normal_force(-0.01, -0.001), 0);
 }
 
-// A damper by itself would jump where a site touches: the force is continuous in the depth at the end, from 0.
+// A damper by itself would jump where a site touches: the force is continuous in the depth at the
+// end, from 0.
 TEST(ContactLaw, SetsInWithoutAJump) {
   const LawOfStep<double> of(law, h);
   EXPECT_EQ(of.normal_force(-0.5, 0), 0);
@@ -40,7 +41,8 @@ TEST(ContactLaw, GivesBackNoMoreThanTheSpringHad) {
     ContactLaw<double> one = law;
     one.stiffness *= std::pow(10, power(random)), one.damping *= std::pow(10, power(random));
     const LawOfStep<double> of(one, h);
-    const double start = depth(random), end = depth(random), taken = of.normal_force(start, end) * (end - start);
+    const double start = depth(random), end = depth(random),
+                 taken = of.normal_force(start, end) * (end - start);
     ASSERT_GE(taken - (stored(one.stiffness, end) - stored(one.stiffness, start)), -1e-15);
   }
 }

@@ -31,10 +31,15 @@ TEST(ElasticMesh, ForceIsMinusTheGradientOfTheEnergy) {
   for_each_material_name([](const std::string& material) {
     const Problem problem = small_cube(material);
     LevelProbe<Host> probe(problem);
-    const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
+    const auto u = random_field(probe.vertices(), 0.003, 1),
+               p = random_field(probe.vertices(), 0.003, 2);
     const double h = 1e-3,
-                 slope = (probe.elastic_energy(along(u, h, p)) - probe.elastic_energy(along(u, -h, p))) / (2 * h),
-                 half = (probe.elastic_energy(along(u, h / 2, p)) - probe.elastic_energy(along(u, -h / 2, p))) / h;
+                 slope = (probe.elastic_energy(along(u, h, p)) -
+                          probe.elastic_energy(along(u, -h, p))) /
+                         (2 * h),
+                 half = (probe.elastic_energy(along(u, h / 2, p)) -
+                         probe.elastic_energy(along(u, -h / 2, p))) /
+                        h;
     const double work = -dot(probe.force(u), p);
     EXPECT_NEAR(work, (4 * half - slope) / 3, 1e-6 * std::abs(work));
   });
@@ -43,7 +48,8 @@ TEST(ElasticMesh, ForceIsMinusTheGradientOfTheEnergy) {
 TEST(ElasticMesh, TangentIsMinusTheDerivativeOfTheForce) {
   for_each_material_name([](const std::string& material) {
     LevelProbe<Host> probe(small_cube(material));
-    const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
+    const auto u = random_field(probe.vertices(), 0.003, 1),
+               p = random_field(probe.vertices(), 0.003, 2);
     const auto slope = [&](double h) {
       auto d = minus(probe.force(along(u, -h, p)), probe.force(along(u, h, p)));
       for (Point& x : d) x /= 2 * h;
@@ -63,7 +69,8 @@ TEST(ElasticMesh, StiffnessIsSymmetricAndItsBlocksAreTheDiagonals) {
     LevelProbe<Host> probe(problem);
     const auto u = random_field(probe.vertices(), 0.002, 1);
     const Eigen::MatrixXd K = probe.stiffness_matrix(u);
-    EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(), round_off<Host::Real>(1e3, K.cwiseAbs().maxCoeff()));
+    EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(),
+              round_off<Host::Real>(1e3, K.cwiseAbs().maxCoeff()));
 
     State<Host> state;
     state.u = device_field<Host>(u), state.v = device_field<Host>(probe.zero());
@@ -72,10 +79,12 @@ TEST(ElasticMesh, StiffnessIsSymmetricAndItsBlocksAreTheDiagonals) {
     probe.at(0).diagonal(state, {h * h, h}, false, blocks);
     const auto m = probe.mass();
     for (Eigen::Index a = 0; a < static_cast<Eigen::Index>(m.size()); ++a) {
-      const Eigen::Matrix3d A =
-          h * h * K.block<3, 3>(3 * a, 3 * a) + m[static_cast<std::size_t>(a)] * Eigen::Matrix3d::Identity();
+      const Eigen::Matrix3d A = h * h * K.block<3, 3>(3 * a, 3 * a) +
+                                m[static_cast<std::size_t>(a)] * Eigen::Matrix3d::Identity();
       Eigen::Matrix3d D;
-      const auto d = [&](int k) { return blocks(static_cast<std::size_t>(a), static_cast<std::size_t>(k)); };
+      const auto d = [&](int k) {
+        return blocks(static_cast<std::size_t>(a), static_cast<std::size_t>(k));
+      };
       D << d(0), d(3), d(4), d(3), d(1), d(5), d(4), d(5), d(2);
       EXPECT_LE((D - A).norm(), 1e-12 * A.norm());
     }
@@ -89,7 +98,8 @@ TYPED_TEST_SUITE(ElasticMeshOn, EachBackend);
 /// P of one material at F, with a body's constants.
 template <class M>
 Eigen::Matrix3d stress_of(const Eigen::Matrix3d& F, const Body& body) {
-  const auto c = M::kernel_constants(parameter_values(*find_material(M::name), body.material, {}).data());
+  const auto c =
+      M::kernel_constants(parameter_values(*find_material(M::name), body.material, {}).data());
   return eigen(M::stress(mat3<double>(F), c));
 }
 
@@ -116,8 +126,8 @@ void expect_forces_of(const Eigen::Matrix3d& P, const Eigen::Matrix3d& F, const 
 
 TYPED_TEST(ElasticMeshOn, PatchTest) {
   std::mt19937 random(9);
-  const Eigen::Matrix3d F =
-      random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() * random_rotation(random);
+  const Eigen::Matrix3d F = random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() *
+                            random_rotation(random);
   for_each_material([&](auto material) {
     const Problem problem = small_cube(material.name, 4);
     expect_forces_of<TypeParam>(stress_of<decltype(material)>(F, problem.body), F, problem);
@@ -138,7 +148,8 @@ TYPED_TEST(ElasticMeshOn, RigidMotionHasNoForce) {
   std::mt19937 random(11);
   for_each_material([&](auto material) {
     const bool turns = decltype(material)::rotation_invariant;
-    expect_no_force<TypeParam>(material.name, turns ? random_rotation(random) : Eigen::Matrix3d::Identity());
+    expect_no_force<TypeParam>(material.name,
+                               turns ? random_rotation(random) : Eigen::Matrix3d::Identity());
   });
 }
 
@@ -146,13 +157,15 @@ TEST(ElasticMesh, SmallStrainFeelsARotation) {
   const Problem problem = small_cube("linear");
   const TetMesh& mesh = problem.body.levels[0];
   LevelProbe<Host> probe(problem);
-  const auto c = lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
+  const auto c =
+      lame_constants(problem.body.material.young_modulus, problem.body.material.poisson_ratio);
   const double angle = 0.4;
   const Eigen::Matrix3d R = Eigen::AngleAxisd(angle, Point::UnitZ()).toRotationMatrix();
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   const auto f = probe.force(affine(mesh, R, Point::Zero()));
   for (std::size_t a = 0; a < f.size(); ++a) moment -= f[a] * mesh.vertices[a].transpose() / 1e-3;
-  EXPECT_NEAR(moment(0, 0), 2 * (c.mu + c.lambda) * (std::cos(angle) - 1), round_off<double>(100, c.lambda));
+  EXPECT_NEAR(moment(0, 0), 2 * (c.mu + c.lambda) * (std::cos(angle) - 1),
+              round_off<double>(100, c.lambda));
   EXPECT_NEAR(moment(2, 2), 2 * c.lambda * (std::cos(angle) - 1), round_off<double>(100, c.lambda));
   EXPECT_NEAR(moment(0, 1), 0, round_off<double>(100, c.lambda));
 }
@@ -164,7 +177,8 @@ TYPED_TEST(ElasticMeshOn, AgreesWithDouble) {
     LevelProbe<TypeParam> probe(problem);
     LevelProbe<Host> reference(problem);
     EXPECT_GT(probe.at(0).model.patches.count, 1);
-    const auto u = random_field(probe.vertices(), 0.001, 1), p = random_field(probe.vertices(), 0.001, 2);
+    const auto u = random_field(probe.vertices(), 0.001, 1),
+               p = random_field(probe.vertices(), 0.001, 2);
     const auto f = reference.force(u), q = reference.stiffness(u, p);
     EXPECT_LE(largest_difference(probe.force(u), f), round_off<Real>(100, largest(f)));
     EXPECT_LE(largest_difference(probe.stiffness(u, p), q), round_off<Real>(100, largest(q)));
@@ -180,7 +194,9 @@ TEST(ElasticMesh, LumpedMassesAddUpAndGravityIsTheirWeight) {
   double want = 0, sum = 0;
   const TetMesh& mesh = problem.body.levels[0];
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
-    const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(mesh.tets[e][k])]; };
+    const auto x = [&](std::size_t k) {
+      return mesh.vertices[static_cast<std::size_t>(mesh.tets[e][k])];
+    };
     want += tet_volume(x(0), x(1), x(2), x(3)) * (mesh.region[e] == 1 ? 4000 : 1000);
   }
   const auto m = probe.mass();
@@ -248,7 +264,8 @@ TEST(Tangents, BlocksAreTheirContractions) {
     SCOPED_TRACE(M::name);
     for (const Gradient& g : gradients(M::survives_inversion)) {
       const Mat3<double> F = mat3<double>(g.F);
-      expect_blocks_of(typename M::template Tangent<double>(F, sample_constants<M>()), change_matrix<M>(F));
+      expect_blocks_of(typename M::template Tangent<double>(F, sample_constants<M>()),
+                       change_matrix<M>(F));
       const typename PositiveTangent<M>::template Of<double> projected(F, sample_constants<M>());
       expect_blocks_of(projected, matrix_of(projected.C));
       const DampingTangent<M, double> damping{F, sample_constants<M>()};
@@ -261,7 +278,8 @@ TEST(Tangents, BlocksAreTheirContractions) {
 Matrix9 positive_part(const Matrix9& C, double& least) {
   const Eigen::SelfAdjointEigenSolver<Matrix9> exact(C);
   least = exact.eigenvalues().minCoeff();
-  return exact.eigenvectors() * exact.eigenvalues().cwiseMax(0).asDiagonal() * exact.eigenvectors().transpose();
+  return exact.eigenvectors() * exact.eigenvalues().cwiseMax(0).asDiagonal() *
+         exact.eigenvectors().transpose();
 }
 
 TEST(Tangents, ProjectedOnesHaveNoNegativeEigenvalueAndKeepTheOthers) {
@@ -274,7 +292,8 @@ TEST(Tangents, ProjectedOnesHaveNoNegativeEigenvalueAndKeepTheOthers) {
       const Matrix9 C = change_matrix<M>(F);
       double least = 0;
       const Matrix9 want = positive_part(C, least);
-      const Matrix9 got = matrix_of(typename PositiveTangent<M>::template Of<double>(F, sample_constants<M>()).C);
+      const Matrix9 got =
+          matrix_of(typename PositiveTangent<M>::template Of<double>(F, sample_constants<M>()).C);
       EXPECT_LE((got - want).norm(), round_off<double>(1e3, C.norm())) << g.F;
       (least < -1e-9 * C.norm() ? projected : kept) += 1;
     }
@@ -289,14 +308,16 @@ TEST(Tangents, PacksAreProjectedLaneByLane) {
   for (std::size_t first = 0; first + 4 <= list.size(); first += 4) {
     Mat3<T> F;
     for (int l = 0; l < 4; ++l)
-      for (int k = 0; k < 9; ++k) F[k / 3][k % 3].set(l, list[first + static_cast<std::size_t>(l)].F(k / 3, k % 3));
+      for (int k = 0; k < 9; ++k)
+        F[k / 3][k % 3].set(l, list[first + static_cast<std::size_t>(l)].F(k / 3, k % 3));
     const PositiveTangent<StVenantKirchhoff>::Of<T> packed(F, {T(soft.lambda), T(soft.mu)});
     for (int l = 0; l < 4; ++l) {
       const PositiveTangent<StVenantKirchhoff>::Of<double> single(
           mat3<double>(list[first + static_cast<std::size_t>(l)].F), soft);
       const Matrix9 want = matrix_of(single.C);
       for (int k = 0; k < 81; ++k)
-        EXPECT_NEAR(packed.C.a[k / 9][k % 9][l], want(k / 9, k % 9), round_off<double>(1e3, want.norm()));
+        EXPECT_NEAR(packed.C.a[k / 9][k % 9][l], want(k / 9, k % 9),
+                    round_off<double>(1e3, want.norm()));
     }
   }
 }

@@ -61,10 +61,10 @@ void expect_lanes() {
     for (int l = 0; l < N; ++l) {
       const Gradient& g = list[static_cast<std::size_t>(l) % list.size()];
       const Mat3<Real> F = mat3<Real>(g.F);
-      expect_close(
-          {static_cast<double>(E[l]), in_double(lane(P, l)), in_double(lane(dP, l))},
-          {static_cast<double>(M::energy(F, c)), in_double(M::stress(F, c)), in_double(M::stress_change(F, D, c))},
-          round_off<Real>(500, 1 / g.smallest), round_off<Real>(100, soft.lambda));
+      expect_close({static_cast<double>(E[l]), in_double(lane(P, l)), in_double(lane(dP, l))},
+                   {static_cast<double>(M::energy(F, c)), in_double(M::stress(F, c)),
+                    in_double(M::stress_change(F, D, c))},
+                   round_off<Real>(500, 1 / g.smallest), round_off<Real>(100, soft.lambda));
     }
   });
 }

@@ -33,7 +33,9 @@ void expect_stress_of_energy() {
       const Mat3<double> F = mat3<double>(g.F);
       const double h = 1e-4 * g.smallest;
       const auto slope = [&](double t) {
-        return (M::energy(F + t * D, sample_constants<M>()) - M::energy(F - t * D, sample_constants<M>())) / (2 * t);
+        return (M::energy(F + t * D, sample_constants<M>()) -
+                M::energy(F - t * D, sample_constants<M>())) /
+               (2 * t);
       };
       const double fourth_order = (4 * slope(h / 2) - slope(h)) / 3;
       const Mat3<double> P = M::stress(F, sample_constants<M>());
@@ -53,7 +55,8 @@ void expect_change_of_stress() {
       const Mat3<double> F = mat3<double>(g.F);
       const double h = 1e-4 * g.smallest;
       const auto slope = [&](double t) -> Eigen::Matrix3d {
-        return eigen(M::stress(F + t * D, sample_constants<M>()) - M::stress(F - t * D, sample_constants<M>())) /
+        return eigen(M::stress(F + t * D, sample_constants<M>()) -
+                     M::stress(F - t * D, sample_constants<M>())) /
                (2 * t);
       };
       const Eigen::Matrix3d fourth_order = (4 * slope(h / 2) - slope(h)) / 3;
@@ -72,7 +75,8 @@ TEST(Materials, TangentIsSymmetric) {
     using M = decltype(material);
     const auto d = directions();
     for (const Gradient& g : gradients(M::survives_inversion)) {
-      const Mat3<double> F = mat3<double>(g.F), A = M::stress_change(F, d[0], sample_constants<M>()),
+      const Mat3<double> F = mat3<double>(g.F),
+                         A = M::stress_change(F, d[0], sample_constants<M>()),
                          B = M::stress_change(F, d[1], sample_constants<M>());
       EXPECT_NEAR(inner(A, d[1]), inner(B, d[0]),
                   round_off<double>(1e5, (eigen(A).norm() + eigen(B).norm()) * eigen(d[0]).norm()))
@@ -86,7 +90,8 @@ void expect_rest() {
   for_each_material([](auto material) {
     using M = decltype(material);
     const auto c = sample_constants_as<M, Real>();
-    EXPECT_NEAR(static_cast<double>(M::energy(Mat3<Real>::identity(), c)), 0, round_off<Real>(16, soft.lambda));
+    EXPECT_NEAR(static_cast<double>(M::energy(Mat3<Real>::identity(), c)), 0,
+                round_off<Real>(16, soft.lambda));
     const Mat3<Real> P = M::stress(Mat3<Real>::identity(), c);
     for (int r = 0; r < 3; ++r)
       for (int k = 0; k < 3; ++k)
@@ -110,8 +115,10 @@ void expect_hookes_law() {
   const Lame<double> small = M::small_strains(sample_constants<M>());
   for (const Mat3<double>& D : directions()) {
     const Eigen::Matrix3d e = 0.5 * eigen(D + transpose(D));
-    const Eigen::Matrix3d want = 2 * small.mu * e + small.lambda * e.trace() * Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d dP = eigen(M::stress_change(Mat3<double>::identity(), D, sample_constants<M>()));
+    const Eigen::Matrix3d want =
+        2 * small.mu * e + small.lambda * e.trace() * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d dP =
+        eigen(M::stress_change(Mat3<double>::identity(), D, sample_constants<M>()));
     if constexpr (isotropic<M>) {
       EXPECT_LE((dP - want).norm(), round_off<double>(1e3, want.norm()));
     } else {
@@ -133,12 +140,15 @@ TEST(Materials, StressAtRestIsTheirTangentThere) {
     using M = decltype(material);
     const auto c = sample_constants<M>();
     Mat3<double> F = Mat3<double>::identity();
-    if constexpr (requires { c.axis; }) F = F + 1e-8 * (outer(c.axis[0], c.axis[0]) + outer(c.axis[1], c.axis[1]));
+    if constexpr (requires { c.axis; })
+      F = F + 1e-8 * (outer(c.axis[0], c.axis[0]) + outer(c.axis[1], c.axis[1]));
     for (const Mat3<double>& D : directions()) {
-      const Eigen::Matrix3d S = eigen(M::stress_at_rest(D, c)), dP = eigen(M::stress_change(F, D, c));
+      const Eigen::Matrix3d S = eigen(M::stress_at_rest(D, c)),
+                            dP = eigen(M::stress_change(F, D, c));
       EXPECT_LE((S - dP).norm(), 1e-6 * dP.norm());
       EXPECT_EQ(S, S.transpose());
-      EXPECT_LE(eigen(M::stress_at_rest(D - transpose(D), c)).norm(), round_off<double>(10, dP.norm()));
+      EXPECT_LE(eigen(M::stress_at_rest(D - transpose(D), c)).norm(),
+                round_off<double>(10, dP.norm()));
     }
   });
 }
@@ -170,11 +180,13 @@ TEST(Materials, OneThatIsNotRotationInvariantIsNot) {
   EXPECT_NEAR(P[0][1], 0, round_off<double>(16, soft.lambda));
 }
 
-// In a plane, in a line, in a point; reflected, and by as much as a rotation is no longer the one nearest
+// In a plane, in a line, in a point; reflected, and by as much as a rotation is no longer the one
+// nearest
 std::vector<Eigen::Matrix3d> degenerate() {
   std::vector<Eigen::Matrix3d> cases = {Eigen::Matrix3d::Zero(), -Eigen::Matrix3d::Identity()};
-  const std::vector<Eigen::Vector3d> stretches = {{1, 1, 0},      {1, 0, 0},     {1, 1, -1},        {2, 0.5, -0.5},
-                                                  {1e-160, 0, 0}, {1e5, 1e5, 0}, {1, 0.5, -0.4999}, {1, 1e-6, -1e-5}};
+  const std::vector<Eigen::Vector3d> stretches = {{1, 1, 0},         {1, 0, 0},       {1, 1, -1},
+                                                  {2, 0.5, -0.5},    {1e-160, 0, 0},  {1e5, 1e5, 0},
+                                                  {1, 0.5, -0.4999}, {1, 1e-6, -1e-5}};
   std::mt19937 random(11);
   for (const Eigen::Vector3d& s : stretches) {
     cases.emplace_back(s.asDiagonal());
@@ -190,25 +202,33 @@ TEST(Materials, InvertedOnesThatSurviveStayFinite) {
     for (const Eigen::Matrix3d& F : degenerate()) {
       EXPECT_TRUE(std::isfinite(M::energy(mat3<double>(F), sample_constants<M>()))) << F;
       EXPECT_TRUE(eigen(M::stress(mat3<double>(F), sample_constants<M>())).allFinite()) << F;
-      EXPECT_TRUE(eigen(M::stress_change(mat3<double>(F), directions()[0], sample_constants<M>())).allFinite()) << F;
+      EXPECT_TRUE(eigen(M::stress_change(mat3<double>(F), directions()[0], sample_constants<M>()))
+                      .allFinite())
+          << F;
     }
   });
 }
 
 // Above its threshold the extended energy is the law itself, and on the way to it nothing jumps
 TEST(NeoHookeanMaterial, IsTheLawAboveItsThresholdAndSmoothAcrossIt) {
-  const double kappa = soft.lambda + 2 * soft.mu / 3, edge = std::cbrt(VolumeRatio<double>::smallest);
+  const double kappa = soft.lambda + 2 * soft.mu / 3,
+               edge = std::cbrt(VolumeRatio<double>::smallest);
   for (const Gradient& g : gradients(false)) {
     const double J = g.F.determinant(), I = g.F.squaredNorm();
     if (J < VolumeRatio<double>::smallest) continue;
-    const double law = kappa / 4 * (J * J - 1 - 2 * std::log(J)) + soft.mu / 2 * (std::pow(J, -2.0 / 3) * I - 3);
-    EXPECT_NEAR(NeoHookean::energy(mat3<double>(g.F), soft), law, round_off<double>(100, kappa)) << g.F;
+    const double law =
+        kappa / 4 * (J * J - 1 - 2 * std::log(J)) + soft.mu / 2 * (std::pow(J, -2.0 / 3) * I - 3);
+    EXPECT_NEAR(NeoHookean::energy(mat3<double>(g.F), soft), law, round_off<double>(100, kappa))
+        << g.F;
   }
-  for (const Eigen::Vector3d& s : {Eigen::Vector3d(edge, edge, edge), Eigen::Vector3d(1.2, 0.5, 0.1 / 0.6)}) {
+  for (const Eigen::Vector3d& s :
+       {Eigen::Vector3d(edge, edge, edge), Eigen::Vector3d(1.2, 0.5, 0.1 / 0.6)}) {
     const Eigen::Matrix3d above = (1 + 1e-9) * Eigen::Matrix3d(s.asDiagonal()),
                           below = (1 - 1e-9) * Eigen::Matrix3d(s.asDiagonal());
     for (const Mat3<double>& D : directions()) {
-      const auto P = [](const Eigen::Matrix3d& F) { return eigen(NeoHookean::stress(mat3<double>(F), soft)); };
+      const auto P = [](const Eigen::Matrix3d& F) {
+        return eigen(NeoHookean::stress(mat3<double>(F), soft));
+      };
       const auto dP = [&](const Eigen::Matrix3d& F) {
         return eigen(NeoHookean::stress_change(mat3<double>(F), D, soft));
       };
@@ -228,7 +248,8 @@ double downhill(Mat3<double>& F) {
     if (size < 1e-6 * soft.mu) break;
     step = std::min(step, 0.1 / size);
     Mat3<double> next = F - step * P;
-    for (; step * size > 1e-15 && M::energy(next, sample_constants<M>()) > energy - 1e-4 * step * size * size;
+    for (; step * size > 1e-15 &&
+           M::energy(next, sample_constants<M>()) > energy - 1e-4 * step * size * size;
          next = F - step * P)
       step /= 2;
     F = next, energy = M::energy(F, sample_constants<M>()), step *= 2;
@@ -236,8 +257,9 @@ double downhill(Mat3<double>& F) {
   return energy;
 }
 
-// Where a material says that it recovers, no inverted or flattened element is at rest but one that rests: the way downhill
-// ends in a rotation. One that says it does not has a start from which it does not.
+// Where a material says that it recovers, no inverted or flattened element is at rest but one that
+// rests: the way downhill ends in a rotation. One that says it does not has a start from which it
+// does not.
 TEST(Materials, RecoverWhereTheySaySo) {
   std::vector<Eigen::Matrix3d> starts;
   std::mt19937 random(23);
@@ -246,9 +268,11 @@ TEST(Materials, RecoverWhereTheySaySo) {
     Eigen::Matrix3d F = Eigen::Matrix3d::NullaryExpr([&] { return within(random); });
     starts.push_back(i % 4 == 0 ? Eigen::Matrix3d(0.05 * F) : F);
   }
-  for (const Eigen::Vector3d& s : {Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(1, 1, 0)})
-    starts.push_back(starts.front() * 1e-3 +
-                     Eigen::Matrix3d(s.asDiagonal()));  // not just on the ridge between two ways out
+  for (const Eigen::Vector3d& s :
+       {Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(1, 1, 0)})
+    starts.push_back(
+        starts.front() * 1e-3 +
+        Eigen::Matrix3d(s.asDiagonal()));  // not just on the ridge between two ways out
   for_each_material([&](auto material) {
     using M = decltype(material);
     int stuck = 0;
@@ -265,7 +289,8 @@ TEST(Materials, RecoverWhereTheySaySo) {
 TEST(PolarRotation, IsARotationWhereSeveralAreNearest) {
   for (const Eigen::Matrix3d& F : degenerate()) {
     const Eigen::Matrix3d R = eigen(polar_rotation(mat3<double>(F)));
-    EXPECT_LE((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), round_off<double>(1e3)) << F;
+    EXPECT_LE((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), round_off<double>(1e3))
+        << F;
     EXPECT_GT(R.determinant(), 0) << F;
     const Eigen::Vector3d s = Eigen::JacobiSVD<Eigen::Matrix3d>(F).singularValues();
     const double most = s[0] + s[1] + (F.determinant() < 0 ? -s[2] : s[2]);
@@ -276,11 +301,14 @@ TEST(PolarRotation, IsARotationWhereSeveralAreNearest) {
 TEST(PolarRotation, IsTheNearestRotation) {
   for (const Gradient& g : gradients(true)) {
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(g.F, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+    Eigen::Vector3d sign(1, 1,
+                         (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
     const Eigen::Matrix3d want = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
     const Eigen::Vector3d s = svd.singularValues();
     const double gap = (s[1] + sign[2] * s[2]) / s[0];  // how well defined it is
-    EXPECT_LE((eigen(polar_rotation(mat3<double>(g.F))) - want).norm(), round_off<double>(200) / (gap * gap)) << g.F;
+    EXPECT_LE((eigen(polar_rotation(mat3<double>(g.F))) - want).norm(),
+              round_off<double>(200) / (gap * gap))
+        << g.F;
   }
 }
 
@@ -306,7 +334,9 @@ TEST(TissueLaws, AreEachLaw) {
                       dPs = TissueLaws::stress_change(Fs, mat3<T>(eigen(D)), four),
                       Ss = TissueLaws::stress_at_rest(Fs, four);
         const double E = M::energy(F, one);
-        EXPECT_NEAR(TissueLaws::energy(Fs, four)[3], E, round_off<double>(5900, std::abs(E))) << g.F;  // 2916 of ogden
+        // 2916 of ogden
+        EXPECT_NEAR(TissueLaws::energy(Fs, four)[3], E, round_off<double>(5900, std::abs(E)))
+            << g.F;
         for (int r = 0; r < 3; ++r)
           for (int k = 0; k < 3; ++k) {
             EXPECT_NEAR(Ps[r][k][3], P(r, k), round_off<double>(1e4, P.norm())) << g.F;
@@ -338,14 +368,18 @@ TEST(OgdenMaterial, IsSmoothWhereStretchesMeet) {
     const Eigen::Matrix3d F = Eigen::Vector3d(1.2, 1.2 * (1 + gap), 0.8).asDiagonal();
     for (const Mat3<double>& D : directions()) {
       const double h = 1e-5;
-      const auto P = [&](double t) { return eigen(Ogden::stress(mat3<double>(Eigen::Matrix3d(F + t * eigen(D))), c)); };
-      const Eigen::Matrix3d dP = eigen(Ogden::stress_change(mat3<double>(F), D, c)), slope = (P(h) - P(-h)) / (2 * h);
+      const auto P = [&](double t) {
+        return eigen(Ogden::stress(mat3<double>(Eigen::Matrix3d(F + t * eigen(D))), c));
+      };
+      const Eigen::Matrix3d dP = eigen(Ogden::stress_change(mat3<double>(F), D, c)),
+                            slope = (P(h) - P(-h)) / (2 * h);
       EXPECT_LE((dP - slope).norm(), 1e-8 * dP.norm()) << gap;
     }
   }
 }
 
-// Along a stretch l that keeps the volume: 2 W' (l^2 - 1/l) with W' = mu/2 / (1 - x/J_m), x = I1 - 3, on its tangent from x = 15/16 J_m
+// Along a stretch l that keeps the volume: 2 W' (l^2 - 1/l) with W' = mu/2 / (1 - x/J_m), x = I1 -
+// 3, on its tangent from x = 15/16 J_m
 TEST(GentMaterial, GoesOnBeyondItsLock) {
   const auto c = sample_constants<Gent>();  // mu 5 kPa, J_m 2
   const auto slope = [&](double l) {

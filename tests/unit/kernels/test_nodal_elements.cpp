@@ -13,7 +13,8 @@
 #include "support/gradients.hpp"
 #include "support/tolerance.hpp"
 
-// Nodal elements: an independent sum over tetrahedra, derivatives, what must vanish, regions, smoothed pressures.
+// Nodal elements: an independent sum over tetrahedra, derivatives, what must vanish, regions,
+// smoothed pressures.
 namespace {
 
 using namespace plica;
@@ -44,10 +45,12 @@ struct QuadraticNeoHookean : TwoConstants {
   static KOKKOS_INLINE_FUNCTION Mat3<T> stress(const Mat3<T>& F, const Lame<T>& c) {
     const Mat3<T> H = cofactor(F);
     const T J = dot(F[0], H[0]), r = inverse_cube_root(J), kappa = c.lambda + T(2.0 / 3) * c.mu;
-    return (c.mu * r * r) * F + (kappa * (J - T(1)) - T(1.0 / 3) * c.mu * r * r / J * inner(F, F)) * H;
+    return (c.mu * r * r) * F +
+           (kappa * (J - T(1)) - T(1.0 / 3) * c.mu * r * r / J * inner(F, F)) * H;
   }
   template <class T>
-  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>&, const Lame<T>&) {
+  static KOKKOS_INLINE_FUNCTION Mat3<T> stress_change(const Mat3<T>& F, const Mat3<T>&,
+                                                      const Lame<T>&) {
     return F;  // not asked for
   }
 };
@@ -57,7 +60,8 @@ TEST(NodalElements, HaveTheEnergyAndForceOfOneCell) {
   const TetMesh mesh = box_mesh(unit_box, {1, 1, 1});
   const double beta = 0.4;
   Level<Host> level;
-  level.model.vertices = 8, level.model.rows = build_nodal_rows<Host>(mesh, {{{10 - 2.0 / 3, 1}}, {beta * 1}, {}, {}});
+  level.model.vertices = 8,
+  level.model.rows = build_nodal_rows<Host>(mesh, {{{10 - 2.0 / 3, 1}}, {beta * 1}, {}, {}});
   level.model.shares = level.model.rows.shares;
   level.model.mass = Scalars<Host>("test.mass", 8);
   level.nodal = make_nodal_work<Host>(level.model.rows);
@@ -76,7 +80,8 @@ TEST(NodalElements, HaveTheEnergyAndForceOfOneCell) {
   EXPECT_LE((force - Point(-0.636416, -0.809517, -0.982141)).norm(), 2e-6);
 }
 
-/// The energy by its definition, over tetrahedra: domain means of F, Psi of these, the spread about them.
+/// The energy by its definition, over tetrahedra: domain means of F, Psi of these, the spread about
+/// them.
 double energy_by_tets(const Problem& p, const std::vector<Point>& u) {
   const TetMesh& mesh = p.body.levels[0];
   const MaterialInfo& info = *find_material(p.body.material.model);
@@ -86,7 +91,8 @@ double energy_by_tets(const Problem& p, const std::vector<Point>& u) {
   for (const auto& t : mesh.tets) {
     Eigen::Matrix3d X, x;
     for (int c = 0; c < 3; ++c) {
-      const auto v = static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)]), o = static_cast<std::size_t>(t[0]);
+      const auto v = static_cast<std::size_t>(t[static_cast<std::size_t>(c + 1)]),
+                 o = static_cast<std::size_t>(t[0]);
       X.col(c) = mesh.vertices[v] - mesh.vertices[o], x.col(c) = X.col(c) + u[v] - u[o];
     }
     F.push_back(x * X.inverse()), V.push_back(X.determinant() / 6);
@@ -94,19 +100,23 @@ double energy_by_tets(const Problem& p, const std::vector<Point>& u) {
   const auto region = [&](std::size_t e) { return mesh.region.empty() ? 0 : mesh.region[e]; };
   for (std::size_t e = 0; e < F.size(); ++e)
     for (int v : mesh.tets[e]) {
-      auto& [volume, mean] = domains.try_emplace({v, region(e)}, 0, Eigen::Matrix3d::Zero()).first->second;
+      auto& [volume, mean] =
+          domains.try_emplace({v, region(e)}, 0, Eigen::Matrix3d::Zero()).first->second;
       volume += V[e] / 4, mean += V[e] / 4 * F[e];
     }
   const auto values = [&](int r) {
-    const auto own = p.body.regions.find(mesh.region_names.empty() ? "" : mesh.region_names[std::size_t(r)]);
-    return parameter_values(info, p.body.material, own == p.body.regions.end() ? RegionOptions{} : own->second);
+    const auto own =
+        p.body.regions.find(mesh.region_names.empty() ? "" : mesh.region_names[std::size_t(r)]);
+    return parameter_values(info, p.body.material,
+                            own == p.body.regions.end() ? RegionOptions{} : own->second);
   };
   double energy = 0;
   for (auto& [key, domain] : domains) {
     domain.second /= domain.first;
     Materials::visit(info.name, [&](auto m) {
       using M = decltype(m);
-      energy += domain.first * M::energy(mat3<double>(domain.second), M::kernel_constants(values(key.second).data()));
+      energy += domain.first * M::energy(mat3<double>(domain.second),
+                                         M::kernel_constants(values(key.second).data()));
     });
   }
   for (std::size_t e = 0; e < F.size(); ++e)
@@ -135,10 +145,12 @@ TEST(NodalElements, ForceIsMinusTheGradientOfTheEnergy) {
       Problem problem = layered_cube(material);
       problem.body.pressure = pressure, problem.body.material.poisson_ratio = 0.45;
       LevelProbe<Host> probe(problem);
-      const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
+      const auto u = random_field(probe.vertices(), 0.003, 1),
+                 p = random_field(probe.vertices(), 0.003, 2);
       const double h = 1e-3;
       const auto slope = [&](double t) {
-        return (probe.elastic_energy(along(u, t, p)) - probe.elastic_energy(along(u, -t, p))) / (2 * t);
+        return (probe.elastic_energy(along(u, t, p)) - probe.elastic_energy(along(u, -t, p))) /
+               (2 * t);
       };
       const double work = -dot(probe.force(u), p);
       EXPECT_NEAR(work, (4 * slope(h / 2) - slope(h)) / 3, 1e-6 * std::abs(work));
@@ -154,7 +166,8 @@ TEST(NodalElements, TangentIsMinusTheDerivativeOfTheForceAndSymmetric) {
       Problem problem = layered_cube(material, 2);
       problem.body.pressure = pressure, problem.body.material.poisson_ratio = 0.45;
       LevelProbe<Host> probe(problem);
-      const auto u = random_field(probe.vertices(), 0.003, 1), p = random_field(probe.vertices(), 0.003, 2);
+      const auto u = random_field(probe.vertices(), 0.003, 1),
+                 p = random_field(probe.vertices(), 0.003, 2);
       const auto slope = [&](double h) {
         auto d = minus(probe.force(along(u, -h, p)), probe.force(along(u, h, p)));
         for (Point& x : d) x /= 2 * h;
@@ -165,7 +178,8 @@ TEST(NodalElements, TangentIsMinusTheDerivativeOfTheForceAndSymmetric) {
       for (std::size_t a = 0; a < want.size(); ++a) want[a] = (4 * half[a] - want[a]) / 3;
       EXPECT_LE(largest_difference(Kp, want), 1e-6 * largest(Kp));
       const Eigen::MatrixXd K = probe.stiffness_matrix(u);
-      EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(), round_off<double>(1e3, K.cwiseAbs().maxCoeff()));
+      EXPECT_LE((K - K.transpose()).cwiseAbs().maxCoeff(),
+                round_off<double>(1e3, K.cwiseAbs().maxCoeff()));
     }
   });
 }
@@ -191,7 +205,8 @@ TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
           level.product(state, device_field<Host>(p), weights, positive, q);
           for (int i = 0; i < 3; ++i) {
             const int number = i == k ? i : i + k + 2;
-            EXPECT_NEAR(blocks(a, static_cast<std::size_t>(number)), q(a, static_cast<std::size_t>(i)),
+            EXPECT_NEAR(blocks(a, static_cast<std::size_t>(number)),
+                        q(a, static_cast<std::size_t>(i)),
                         1e-11 * std::abs(q(a, static_cast<std::size_t>(k))))
                 << a << ' ' << i << ' ' << k;
           }
@@ -200,8 +215,8 @@ TEST(NodalElements, OwnBlocksAreThoseOfTheTangent) {
   });
 }
 
-// Kept for a state, projected tangents are those that every product projects anew, and no direction has less than no stiffness in them but
-// for what stabilises; squeezed elements have less.
+// Kept for a state, projected tangents are those that every product projects anew, and no direction
+// has less than no stiffness in them but for what stabilises; squeezed elements have less.
 TEST(NodalElements, KeepProjectedTangents) {
   for_each_material_name([](const std::string& material) {
     Problem problem = nodal(layered_cube(material, 2), "plain");
@@ -209,10 +224,12 @@ TEST(NodalElements, KeepProjectedTangents) {
     LevelProbe<Host> probe(problem);
     SolverLevel<Host>& level = probe.at(0);
     auto squeezed = random_field(probe.vertices(), 0.004, 1);
-    for (std::size_t a = 0; a < probe.vertices(); ++a) squeezed[a][2] -= 0.3 * problem.body.levels[0].vertices[a][2];
+    for (std::size_t a = 0; a < probe.vertices(); ++a)
+      squeezed[a][2] -= 0.3 * problem.body.levels[0].vertices[a][2];
     const State<Host> state(device_field<Host>(squeezed), device_field<Host>(probe.zero()));
     const auto tangent = [&](unsigned seed) {
-      level.tangent(state, device_field<Host>(random_field(probe.vertices(), 0.003, seed)), 0, true);
+      level.tangent(state, device_field<Host>(random_field(probe.vertices(), 0.003, seed)), 0,
+                    true);
       return to_host<Host>({}, level.partial);
     };
     const auto own_blocks = [&] {
@@ -228,7 +245,8 @@ TEST(NodalElements, KeepProjectedTangents) {
     EXPECT_LE(largest_difference(tangent(3), anew), 1e-11 * largest(anew));
     EXPECT_LE(largest_difference(tangent(4), other), 1e-11 * largest(other));
     const auto kept = own_blocks();
-    for (std::size_t i = 0; i < blocks.size(); ++i) EXPECT_NEAR(kept[i], blocks[i], 1e-11 * std::abs(blocks[0]));
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      EXPECT_NEAR(kept[i], blocks[i], 1e-11 * std::abs(blocks[0]));
   });
 }
 
@@ -279,8 +297,8 @@ TYPED_TEST_SUITE(NodalElementsOn, EachBackend);
 TYPED_TEST(NodalElementsOn, PatchTest) {
   using Real = typename TypeParam::Real;
   std::mt19937 random(9);
-  const Eigen::Matrix3d F =
-      random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() * random_rotation(random);
+  const Eigen::Matrix3d F = random_rotation(random) * Eigen::Vector3d(1.2, 0.9, 1.05).asDiagonal() *
+                            random_rotation(random);
   Materials::for_each([&](auto material) {
     using M = decltype(material);
     SCOPED_TRACE(M::name);
@@ -288,7 +306,8 @@ TYPED_TEST(NodalElementsOn, PatchTest) {
     const TetMesh& mesh = problem.body.levels[0];
     LevelProbe<TypeParam> probe(problem);
     const auto f = probe.force(affine_field(mesh, F, {0.01, 0.02, -0.03}));
-    const auto c = M::kernel_constants(parameter_values(*find_material(M::name), problem.body.material, {}).data());
+    const auto c = M::kernel_constants(
+        parameter_values(*find_material(M::name), problem.body.material, {}).data());
     const Eigen::Matrix3d P = eigen(M::stress(mat3<double>(F), c));
     for (std::size_t a = 0; a < f.size(); ++a) {
       if (on_boundary(decimetre, mesh.vertices[a])) continue;
@@ -334,14 +353,16 @@ TYPED_TEST(NodalElementsOn, AgreesWithDouble) {
     const Problem problem = nodal(small_cube(material, 5));
     LevelProbe<TypeParam> probe(problem);
     LevelProbe<Host> reference(problem);
-    const auto u = random_field(probe.vertices(), 0.001, 1), p = random_field(probe.vertices(), 0.001, 2);
+    const auto u = random_field(probe.vertices(), 0.001, 1),
+               p = random_field(probe.vertices(), 0.001, 2);
     const auto f = reference.force(u), q = reference.stiffness(u, p);
     EXPECT_LE(largest_difference(probe.force(u), f), round_off<Real>(100, largest(f)));
     EXPECT_LE(largest_difference(probe.stiffness(u, p), q), round_off<Real>(100, largest(q)));
   });
 }
 
-// At rest, of a region its own part of what is stiff but for the stabiliser, which a uniform strain rate does not know
+// At rest, of a region its own part of what is stiff but for the stabiliser, which a uniform strain
+// rate does not know
 TEST(NodalElements, DampingByStiffnessOfUniformRatesIsItsPartOfTheStiffness) {
   for (const char* pressure : {"plain", "smoothed"}) {
     Problem problem = layered_cube("neo_hookean");
@@ -352,7 +373,8 @@ TEST(NodalElements, DampingByStiffnessOfUniformRatesIsItsPartOfTheStiffness) {
     A << 1.1, 0.2, -0.3, 0.5, 0.9, 0.1, 0.4, -0.2, 1.3;
     const auto v = affine_field(problem.body.levels[0], A, Point::Zero()), zero = probe.zero();
     const auto Kv = probe.stiffness(zero, v), Dv = probe.damping(zero, v);
-    for (std::size_t a = 0; a < v.size(); ++a) EXPECT_LE((Dv[a] - 0.01 * Kv[a]).norm(), 1e-10 * largest(Dv));
+    for (std::size_t a = 0; a < v.size(); ++a)
+      EXPECT_LE((Dv[a] - 0.01 * Kv[a]).norm(), 1e-10 * largest(Dv));
   }
 }
 
@@ -362,12 +384,14 @@ TEST(NodalElements, RegionsShareNoStrain) {
   LevelProbe<Host> probe(problem);
   std::size_t between = 0;
   const auto first = on_host(probe.at(0).model.rows.shares.first);
-  for (std::size_t a = 0; a < probe.vertices(); ++a) between += first(a + 1) - first(a) == 2 ? 1 : 0;
+  for (std::size_t a = 0; a < probe.vertices(); ++a)
+    between += first(a + 1) - first(a) == 2 ? 1 : 0;
   EXPECT_GT(between, 0u);
   EXPECT_EQ(static_cast<std::size_t>(probe.at(0).model.rows.domains), probe.vertices() + between);
 }
 
-// The stress and volume ratio per vertex are those of an affine motion, also between regions of one material.
+// The stress and volume ratio per vertex are those of an affine motion, also between regions of one
+// material.
 TEST(NodalElements, StressOfAnAffineMotionIsTheSameEverywhere) {
   Problem problem = nodal(small_cube("neo_hookean"));
   problem.body.levels[0] = with_regions(problem.body.levels[0], 0.05, "one", "other");
@@ -375,8 +399,9 @@ TEST(NodalElements, StressOfAnAffineMotionIsTheSameEverywhere) {
   const Eigen::Matrix3d F = Eigen::Vector3d(1.2, 0.95, 1).asDiagonal();
   const SolverLevel<Host>& level = probe.at(0);
   const Scalars<Host> stress("test.stress", probe.vertices()), J("test.J", probe.vertices());
-  level.elasticity().stress(level.exec(), level,
-                            device_field<Host>(affine_field(problem.body.levels[0], F, Point::Zero())), stress, J);
+  level.elasticity().stress(
+      level.exec(), level,
+      device_field<Host>(affine_field(problem.body.levels[0], F, Point::Zero())), stress, J);
   const auto c = lame_constants(20e3, 0.35);
   const double want = von_mises(cauchy_stress<NeoHookean>(mat3<double>(F), c));
   for (std::size_t a = 0; a < probe.vertices(); ++a) {

@@ -8,7 +8,8 @@
 #include "support/bodies.hpp"
 #include "support/tolerance.hpp"
 
-// The obstacles' distance functions: their normals are unit and their gradients, and they are what they say.
+// The obstacles' distance functions: their normals are unit and their gradients, and they are what
+// they say.
 namespace {
 
 using namespace plica;
@@ -20,7 +21,8 @@ const Plane::Shape<double> plane{V{0.1, 0.2, -0.3}, V{0.6, 0, 0.8}};
 const Sphere::Shape<double> sphere{V{0.1, -0.1, 0.2}, 0.7};
 const Bowl::Shape<double> shallow{V{0.1, 0, 0.2}, 1.0, -0.6}, full{V{0, 0, 0}, 1.0, 0.0};
 const Capsule::Shape<double> capsule{V{-0.5, 0.1, -0.2}, V{0.6, 0, 0.8}, 1.0, 0.3};
-const Block::Shape<double> block{V{0.1, -0.2, 0.1}, {V{0.6, 0, 0.8}, V{0, 1, 0}, V{-0.8, 0, 0.6}}, V{0.7, 0.4, 0.2}};
+const Block::Shape<double> block{
+    V{0.1, -0.2, 0.1}, {V{0.6, 0, 0.8}, V{0, 1, 0}, V{-0.8, 0, 0.6}}, V{0.7, 0.4, 0.2}};
 const Cylinder::Shape<double> cylinder{V{0.1, 0.1, -0.1}, V{0, 0.6, 0.8}, 0.5, 0.4};
 Cone::Shape<double> cone(double radius, double to_radius) {
   return Cone::shape<double>({{-0.5, 0.1, -0.4}, {0.1, 0.1, 0.4}, radius, to_radius});
@@ -54,13 +56,15 @@ std::vector<Cone::Shape<double>> examples(Cone) {
 }
 std::vector<SampledSurface::Shape<double>> examples(SampledSurface) { return {sampled().shape()}; }
 
-// How far the slope of the distance may be from the normal: the sampled one's is that of its interpolation.
+// How far the slope of the distance may be from the normal: the sampled one's is that of its
+// interpolation.
 template <class Family>
 constexpr double slope_error = 1e-6;
 template <>
 constexpr double slope_error<SampledSurface> = 0.05;
 
-// The distances in which it is one: the sampled one's is a lower bound outside its grid, and rough around its middle.
+// The distances in which it is one: the sampled one's is a lower bound outside its grid, and rough
+// around its middle.
 template <class Family>
 constexpr double lowest = -1e9;
 template <class Family>
@@ -91,7 +95,8 @@ void expect_gradient(const Shape& shape) {
       slope[k] = (at(h).distance - at(-h).distance) / (2 * h);
       const double turn = std::max((point(at(away_from_edges).normal) - point(gap.normal)).norm(),
                                    (point(at(-away_from_edges).normal) - point(gap.normal)).norm());
-      smooth = smooth && turn < 0.1;  // else a ridge of the distance runs between: it has no gradient there
+      // else a ridge of the distance runs between: it has no gradient there
+      smooth = smooth && turn < 0.1;
     }
     if (!smooth || (gap.distance < 0 && !within<Family>(gap.distance))) continue;
     ++tested;
@@ -113,7 +118,8 @@ void expect_continuous(const Shape& shape) {  // a distance never changes by mor
   const auto points = random_field(20000, 1.3, 5);
   int tested = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double before = shape(vec(points[i])).distance, after = shape(vec(points[i] + steps[i])).distance;
+    const double before = shape(vec(points[i])).distance,
+                 after = shape(vec(points[i] + steps[i])).distance;
     if (!within<Family>(before) || !within<Family>(after)) continue;
     ++tested;
     const double slack = slope_error<Family> > 0.01 ? slope_error<Family> : 1e-9;
@@ -129,7 +135,8 @@ TEST(ObstacleShapes, DistanceIsContinuous) {
   });
 }
 
-// Back along the normal by the distance lies the surface: with the two tests above the distance is the true one.
+// Back along the normal by the distance lies the surface: with the two tests above the distance is
+// the true one.
 template <class Family, class Shape>
 void expect_surface(const Shape& shape, double tolerance) {
   int outside = 0, inside = 0;
@@ -149,7 +156,8 @@ TEST(ObstacleShapes, TheSurfaceIsADistanceAway) {
   ObstacleShapes::for_each([](auto family) {
     SCOPED_TRACE(family.name);
     const bool sampled_one = std::is_same_v<decltype(family), SampledSurface>;
-    for (const auto& shape : examples(family)) expect_surface<decltype(family)>(shape, sampled_one ? 2e-3 : 1e-9);
+    for (const auto& shape : examples(family))
+      expect_surface<decltype(family)>(shape, sampled_one ? 2e-3 : 1e-9);
   });
 }
 
@@ -171,7 +179,8 @@ TEST(ObstacleShapes, DistancesThatOneCanSee) {
   EXPECT_DOUBLE_EQ(disc(V{5, 0, -5}).distance, 5);
   EXPECT_DOUBLE_EQ(disc(V{0, 0, -0.75}).distance, -0.25);
   EXPECT_NEAR(disc(V{1.9, 0, 0}).distance, -0.1, 1e-15);
-  const auto needle = Cone::shape<double>({{0, 0, 0}, {0, 0, 4}, 3, 0});  // its side: 4 across to 3 along, 5 long
+  // its side: 4 across to 3 along, 5 long
+  const auto needle = Cone::shape<double>({{0, 0, 0}, {0, 0, 4}, 3, 0});
   EXPECT_DOUBLE_EQ(needle(V{0, 0, 6}).distance, 2);
   EXPECT_DOUBLE_EQ(needle(V{0, -3, 4}).distance, 2.4);
   EXPECT_DOUBLE_EQ(needle(V{0, 0, 2}).distance, -1.2);
@@ -192,7 +201,8 @@ TEST(ObstacleShapes, SampledSurfaceIsNearTheSphereItSamples) {
     const bool in_grid =
         ((p - ball.grid.origin).array() >= 0).all() &&
         ((p - ball.grid.origin).array() <=
-         ball.grid.cell * Eigen::Array3d(ball.grid.nodes[0] - 1, ball.grid.nodes[1] - 1, ball.grid.nodes[2] - 1))
+         ball.grid.cell *
+             Eigen::Array3d(ball.grid.nodes[0] - 1, ball.grid.nodes[1] - 1, ball.grid.nodes[2] - 1))
             .all();
     if (in_grid && want > -0.5) worst = std::max(worst, std::abs(got - want));
     if (in_grid) continue;
@@ -200,11 +210,13 @@ TEST(ObstacleShapes, SampledSurfaceIsNearTheSphereItSamples) {
     EXPECT_LE(got, want + 0.01) << p.transpose();
     EXPECT_GT(got, 0) << p.transpose();
   }
-  EXPECT_LT(worst, 0.002);  // of 0.7: the interpolation is off by up to an eighth of cell^2 times the curvature
+  // of 0.7: the interpolation is off by up to an eighth of cell^2 times the curvature
+  EXPECT_LT(worst, 0.002);
   EXPECT_GT(beyond, 1000);
 }
 
-// Outside the solid, against a search over the bowl's boundary: shell below the rim and flat top beside it.
+// Outside the solid, against a search over the bowl's boundary: shell below the rim and flat top
+// beside it.
 TEST(ObstacleShapes, BowlsDistanceIsTheNearestPointOfItsBoundary) {
   const Point centre{0.1, 0, 0.2};
   const double opening = 0.8, top = -0.6;

@@ -8,7 +8,8 @@
 #include <plica/meshes/generators.hpp>
 #include <set>
 
-// Symmetric matrices of blocks; the same in 16 bits a number, by slots, and the polynomial that smooths with them.
+// Symmetric matrices of blocks; the same in 16 bits a number, by slots, and the polynomial that
+// smooths with them.
 namespace {
 
 using namespace plica;
@@ -20,11 +21,13 @@ Eigen::MatrixXd dense(const BlockMatrix<B>& A) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * A.rows, 3 * A.rows);
   for (int a = 0; a < A.rows; ++a)
     for (int s = A.first(a); s < A.first(a + 1); ++s)
-      for (int k = 0; k < 9; ++k) all(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.number(a, s, k));
+      for (int k = 0; k < 9; ++k)
+        all(3 * a + k % 3, 3 * A.column(s) + k / 3) = static_cast<double>(A.number(a, s, k));
   return all;
 }
 
-/// A positive definite matrix of the neighbours in a box of cells; some vertices have a given motion, and no row.
+/// A positive definite matrix of the neighbours in a box of cells; some vertices have a given
+/// motion, and no row.
 struct Sample {
   HostPattern pattern;
   BlockMatrix<B> A;
@@ -48,8 +51,8 @@ struct Sample {
     for (int a = 0; a < n; ++a)
       for (int s = A.first(a); s < A.first(a + 1); ++s)
         for (int k = 0; k < 9 && A.is_stored(a, s); ++k)
-          A.value(A.place(s), k) =
-              s < A.diagonal(a) ? block(A.column(s), a, k % 3, k / 3) : block(a, A.column(s), k % 3, k / 3);
+          A.value(A.place(s), k) = s < A.diagonal(a) ? block(A.column(s), a, k % 3, k / 3)
+                                                     : block(a, A.column(s), k % 3, k / 3);
   }
 
   static bool is_given(int a) { return a % 11 == 3; }
@@ -73,7 +76,8 @@ TEST(BlockMatrix, StoresOneOfTwoBlocks) {
       } else {
         EXPECT_FALSE(Sample::is_given(b));
       }
-      for (int k = 0; k < 9; ++k) EXPECT_EQ(m.A.number(a, s, k), Sample::block(a, b, k % 3, k / 3)) << a << ' ' << b;
+      for (int k = 0; k < 9; ++k)
+        EXPECT_EQ(m.A.number(a, s, k), Sample::block(a, b, k % 3, k / 3)) << a << ' ' << b;
     }
   EXPECT_EQ(static_cast<int>(places.size()), m.A.stored());
   EXPECT_LT(m.A.stored(), 0.6 * m.A.blocks());
@@ -85,8 +89,10 @@ TEST(BlockMatrix, ProductsAreThoseOfTheDenseOne) {
   const Eigen::MatrixXd A = dense(m.A);
   SolutionSpace<B> space;
   for (int i = 0; i < SolutionSpace<B>::size; ++i) {
-    space.w[i] = zeros<Vectors<B>>("test.w", at(m.A.rows)), space.q[i] = zeros<Vectors<B>>("test.q", at(m.A.rows));
-    for (int a = 0; a < 3 * m.A.rows; ++a) space.w[i](a / 3, a % 3) = std::sin(static_cast<float>(2 * a + 5 * i));
+    space.w[i] = zeros<Vectors<B>>("test.w", at(m.A.rows)),
+    space.q[i] = zeros<Vectors<B>>("test.q", at(m.A.rows));
+    for (int a = 0; a < 3 * m.A.rows; ++a)
+      space.w[i](a / 3, a % 3) = std::sin(static_cast<float>(2 * a + 5 * i));
   }
   const auto y = zeros<Vectors<B>>("test.y", at(m.A.rows));
   update_vertices<B>({}, "test", m.A.rows, BlockProduct<B>{m.A, space.w[1], y});
@@ -134,11 +140,12 @@ TEST(PackedRows, HaveEveryVertexInOneSlot) {
 TEST(PackedRows, AreTheMatrixTo16Bits) {
   const Packed m;
   const Eigen::MatrixXd A = dense(m.A);
-  const Eigen::VectorXd x =
-      Eigen::VectorXd::NullaryExpr(A.rows(), [](Eigen::Index i) { return std::cos(3 * static_cast<double>(i)); });
+  const Eigen::VectorXd x = Eigen::VectorXd::NullaryExpr(
+      A.rows(), [](Eigen::Index i) { return std::cos(3 * static_cast<double>(i)); });
   const auto scaled = zeros<Fours<B>>("test.scaled", m.order.vertex.size());
   for (int b = 0; b < m.A.rows; ++b)
-    for (int k = 0; k < 3; ++k) scaled(m.order.slot[at(b)], k) = static_cast<float>(m.scale(b) * x[3 * b + k]);
+    for (int k = 0; k < 3; ++k)
+      scaled(m.order.slot[at(b)], k) = static_cast<float>(m.scale(b) * x[3 * b + k]);
   const Eigen::VectorXd want = A * x;
   for (int a = 0; a < m.A.rows; ++a) {
     const int slot = m.order.slot[at(a)];
@@ -151,17 +158,21 @@ TEST(PackedRows, AreTheMatrixTo16Bits) {
           bound += 0.51 * 0x1p16 * m.scale(a) * m.scale(b) * std::abs(x[3 * b + k]);
           bound += 1e-6 * std::abs(A(3 * a + i, 3 * b + k) * x[3 * b + k]);
         }
-      EXPECT_NEAR(m.scale(a) * static_cast<double>(lane(got[i], slot % B::lanes)), want[3 * a + i], bound) << a;
+      EXPECT_NEAR(m.scale(a) * static_cast<double>(lane(got[i], slot % B::lanes)), want[3 * a + i],
+                  bound)
+          << a;
     }
   }
 }
 
-// Start and two steps, the last of which leaves what is asked for, against Lottes' recurrence in double.
+// Start and two steps, the last of which leaves what is asked for, against Lottes' recurrence in
+// double.
 TEST(Chebyshev, IsThePolynomial) {
   const Packed m;
   const Eigen::MatrixXd A = dense(m.A);
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(A.rows(), A.rows());
-  Chebyshev<B> on{m.rows, zeros<SlotBlocks<B>>("test.D", at(m.rows.slices)), zeros<Doubles<B>>("test.largest", 1),
+  Chebyshev<B> on{m.rows, zeros<SlotBlocks<B>>("test.D", at(m.rows.slices)),
+                  zeros<Doubles<B>>("test.largest", 1),
                   zeros<SlotVectors<B>>("test.r", at(m.rows.slices)),
                   zeros<SlotVectors<B>>("test.x", at(m.rows.slices))};
   constexpr double largest = 2.5;
@@ -172,20 +183,24 @@ TEST(Chebyshev, IsThePolynomial) {
   for (int a = 0; a < m.A.rows; ++a) {
     const Eigen::Matrix3d inverse = A.block<3, 3>(3 * a, 3 * a).inverse();
     D.block<3, 3>(3 * a, 3 * a) = inverse;
-    set_block<B>(
-        blocks, a,
-        {{static_cast<float>(inverse(0, 0)), static_cast<float>(inverse(1, 1)), static_cast<float>(inverse(2, 2)),
-          static_cast<float>(inverse(0, 1)), static_cast<float>(inverse(0, 2)), static_cast<float>(inverse(1, 2))}});
+    set_block<B>(blocks, a,
+                 {{static_cast<float>(inverse(0, 0)), static_cast<float>(inverse(1, 1)),
+                   static_cast<float>(inverse(2, 2)), static_cast<float>(inverse(0, 1)),
+                   static_cast<float>(inverse(0, 2)), static_cast<float>(inverse(1, 2))}});
     for (int k = 0; k < 3; ++k)
       r[3 * a + k] = std::sin(1.0 + 2 * a + k), right(a, k) = static_cast<float>(r[3 * a + k]);
   }
   update_vertices<B>(m.exec, "test", m.rows.slots(),
                      TakeSlotBlocks<B, Blocks<B>>{m.rows.vertex, blocks, on.inverse_diagonal});
-  update_vertices<B>(m.exec, "test", m.rows.slots(), TakeSlots<B, Vectors<B>>{m.rows.vertex, right, on.r});
-  const auto d = zeros<Fours<B>>("test.d", at(m.rows.slots())), e = zeros<Fours<B>>("test.e", at(m.rows.slots()));
+  update_vertices<B>(m.exec, "test", m.rows.slots(),
+                     TakeSlots<B, Vectors<B>>{m.rows.vertex, right, on.r});
+  const auto d = zeros<Fours<B>>("test.d", at(m.rows.slots())),
+             e = zeros<Fours<B>>("test.e", at(m.rows.slots()));
   update_vertices<B>(m.exec, "test", m.rows.items(), ChebyshevStart<B>{on, d});
-  update_vertices<B>(m.exec, "test", m.rows.items(), ChebyshevStep<B>{on, d, e, 0.2F, 2.4F, Leaves::direction});
-  update_vertices<B>(m.exec, "test", m.rows.items(), ChebyshevStep<B>{on, e, d, 0.4F, 2.8F, Leaves::residual});
+  update_vertices<B>(m.exec, "test", m.rows.items(),
+                     ChebyshevStep<B>{on, d, e, 0.2F, 2.4F, Leaves::direction});
+  update_vertices<B>(m.exec, "test", m.rows.items(),
+                     ChebyshevStep<B>{on, e, d, 0.4F, 2.8F, Leaves::residual});
 
   Eigen::VectorXd x = Eigen::VectorXd::Zero(r.size()), direction = 4 / (3 * largest) * (D * r);
   const auto step = [&](double keep, double gain) {
@@ -195,18 +210,22 @@ TEST(Chebyshev, IsThePolynomial) {
   step(0.2, 2.4), step(0.4, 2.8);
   const auto expect_same = [&](const Fours<B>& got, const Eigen::VectorXd& want) {
     const auto back = zeros<Vectors<B>>("test.back", at(m.A.rows));
-    update_vertices<B>(m.exec, "test", m.rows.slots(), PutSlots<B, Vectors<B>>{m.rows.vertex, got, back});
+    update_vertices<B>(m.exec, "test", m.rows.slots(),
+                       PutSlots<B, Vectors<B>>{m.rows.vertex, got, back});
     m.exec.fence();
     for (int a = 0; a < m.A.rows; ++a)
       for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(static_cast<double>(back(a, k)), want[3 * a + k], 1e-3 * want.cwiseAbs().maxCoeff()) << a;
+        EXPECT_NEAR(static_cast<double>(back(a, k)), want[3 * a + k],
+                    1e-3 * want.cwiseAbs().maxCoeff())
+            << a;
   };
   expect_same(d, r);
   // another direction, from a coarser level; the last step leaves x with the next direction added
   for (int s = 0; s < m.rows.slots(); ++s)
     for (int k = 0; k < 3; ++k) d(s, k) = m.order.vertex[at(s)] < 0 ? 0 : m.rows.scale(s) * 0.01F;
   direction.setConstant(0.01);
-  update_vertices<B>(m.exec, "test", m.rows.items(), ChebyshevStep<B>{on, d, e, 0.3F, 2.0F, Leaves::answer});
+  update_vertices<B>(m.exec, "test", m.rows.items(),
+                     ChebyshevStep<B>{on, d, e, 0.3F, 2.0F, Leaves::answer});
   step(0.3, 2.0);
   expect_same(e, x + direction);
 }

@@ -10,8 +10,8 @@
 #include "support/three_constants.hpp"
 #include "support/tolerance.hpp"
 
-// The patch kernel and the transfers against sums written out element by element in double: with few parts of the library, so
-// that they can be compiled for any width of vectors.
+// The patch kernel and the transfers against sums written out element by element in double: with
+// few parts of the library, so that they can be compiled for any width of vectors.
 namespace {
 
 using namespace plica;
@@ -33,7 +33,9 @@ TYPED_TEST(PatchKernelOn, IsTheSumOverTheElements) {
   Materials::for_each([&](auto material) { expect_its_force<TypeParam, decltype(material)>(on); });
 }
 
-TYPED_TEST(PatchKernelOn, TakesAMaterialOfThreeConstants) { expect_its_force<TypeParam, ThreeConstants>({}); }
+TYPED_TEST(PatchKernelOn, TakesAMaterialOfThreeConstants) {
+  expect_its_force<TypeParam, ThreeConstants>({});
+}
 
 // Each region's patches have its constants
 TYPED_TEST(PatchKernelOn, KnowsTheConstantsOfEveryRegion) {
@@ -42,7 +44,9 @@ TYPED_TEST(PatchKernelOn, KnowsTheConstantsOfEveryRegion) {
   mesh.region_names = {"left", "right"};
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) mesh.region.push_back(e % 3 == 0 ? 1 : 0);
   const Patches<B> patches = build_patches<B>(mesh, {{1, 2, 3, 4}, {5, 6, 7, 8}});
-  const auto host_of = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+  const auto host_of = [](const auto& view) {
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+  };
   const auto constants = host_of(patches.constants);
   const auto element = host_of(patches.element), first = host_of(patches.first_pack);
   ASSERT_EQ(constants.extent(0), static_cast<std::size_t>(4 * patches.count));
@@ -56,7 +60,8 @@ TYPED_TEST(PatchKernelOn, KnowsTheConstantsOfEveryRegion) {
   }
 }
 
-// Every vertex of a patch once, by the number of its elements; every corner of its elements once, and nothing else but `nothing`
+// Every vertex of a patch once, by the number of its elements; every corner of its elements once,
+// and nothing else but `nothing`
 TYPED_TEST(PatchKernelOn, SumsUpByLength) {
   using P = Patches<TypeParam>;
   const P patches = build_patches<TypeParam>(irregular_box(), {as_list(soft)});
@@ -99,9 +104,11 @@ TYPED_TEST(PatchKernelOn, WatchesEveryLaneForInversion) {
     Field u(mesh.vertices.size(), Point::Zero());
     const auto& t = mesh.tets[static_cast<std::size_t>(turned)];
     const auto x = [&](std::size_t c) { return mesh.vertices[static_cast<std::size_t>(t[c])]; };
-    u[static_cast<std::size_t>(t[0])] = 2.2 * ((x(1) + x(2) + x(3)) / 3 - x(0));  // through the opposite face
+    // through the opposite face
+    u[static_cast<std::size_t>(t[0])] = 2.2 * ((x(1) + x(2) + x(3)) / 3 - x(0));
     const auto flags = make_element_flags<B>(patches.count);
-    through_patches(mesh, patches, ElasticForce<B, NeoHookean, true>{{device<B>(u)}, patches.constants, flags, 1});
+    through_patches(mesh, patches,
+                    ElasticForce<B, NeoHookean, true>{{device<B>(u)}, patches.constants, flags, 1});
     const auto found = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flags.evaluation);
     const auto word = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), flags.word);
     std::vector<int> inverted;
@@ -126,7 +133,8 @@ TYPED_TEST(PatchKernelOn, TransfersAreWeightedSums) {
   const auto transfer = build_transfer<B>("test", embedding, {});
   const auto source = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), transfer.source);
   for (int row = 0; row < 3; ++row)
-    for (int c = 0; c < 3; ++c) EXPECT_LE(source(row, c), source(row, 3)) << "what is last is read by itself";
+    for (int c = 0; c < 3; ++c)
+      EXPECT_LE(source(row, c), source(row, 3)) << "what is last is read by itself";
   const Field u = disorder(5, 1, 1), v = disorder(5, 1, 2);
   const State<B> from(device<B>(u), device<B>(v)), to("test.to", 3);
   map_fields<B, MapState>({}, "test", transfer, from, {}, {}, to, {});

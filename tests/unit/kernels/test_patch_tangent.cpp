@@ -29,6 +29,8 @@ TYPED_TEST(PatchTangentOn, IsTheSumOverTheElements) {
   Materials::for_each([&](auto material) { expect_its_change<TypeParam, decltype(material)>(on); });
 }
 
-TYPED_TEST(PatchTangentOn, TakesAMaterialOfThreeConstants) { expect_its_change<TypeParam, ThreeConstants>({}); }
+TYPED_TEST(PatchTangentOn, TakesAMaterialOfThreeConstants) {
+  expect_its_change<TypeParam, ThreeConstants>({});
+}
 
 }  // namespace

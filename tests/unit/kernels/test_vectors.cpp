@@ -38,7 +38,8 @@ Model<B> masses() {
   using Real = typename B::Real;
   Model<B> model;
   std::vector<Real> m(n), inverse(n);
-  for (std::size_t a = 0; a < n; ++a) m[a] = static_cast<Real>(1 + a % 3), inverse[a] = a % 5 == 0 ? 0 : 1 / m[a];
+  for (std::size_t a = 0; a < n; ++a)
+    m[a] = static_cast<Real>(1 + a % 3), inverse[a] = a % 5 == 0 ? 0 : 1 / m[a];
   model.vertices = n;
   model.mass = to_device<Scalars<B>>("test.mass", m);
   model.inverse_mass = to_device<Scalars<B>>("test.inverse_mass", inverse);
@@ -50,7 +51,9 @@ void expect_values(const Vectors<B>& x, const Want& want) {
   const auto got = host_values(typename B::Exec(), x);
   ASSERT_EQ(got.size(), 3U * n);
   for (int i = 0; i < 3 * n; ++i)
-    ASSERT_NEAR(static_cast<double>(got[static_cast<std::size_t>(i)]), want(i), 2e-5 * (1 + std::abs(want(i)))) << i;
+    ASSERT_NEAR(static_cast<double>(got[static_cast<std::size_t>(i)]), want(i),
+                2e-5 * (1 + std::abs(want(i))))
+        << i;
 }
 
 template <class B>
@@ -81,7 +84,8 @@ TYPED_TEST(Vocabulary, Updates) {
   expect_values<B>(out, [](int i) { return 2 * ramp(i, 0); });
   scale<B>(exec, "test", 0.25, out);
   expect_values<B>(out, [](int i) { return 0.5 * ramp(i, 0); });
-  using Other = Backend<std::conditional_t<sizeof(typename B::Real) == 8, float, double>, typename B::Exec>;
+  using Other =
+      Backend<std::conditional_t<sizeof(typename B::Real) == 8, float, double>, typename B::Exec>;
   const auto other = zeros<Vectors<Other>>("test.other", n);
   convert(exec, "test", y, other);
   expect_values<Other>(other, [](int i) { return ramp(i, 5); });
@@ -93,9 +97,11 @@ TYPED_TEST(Vocabulary, UpdatesByMassLeaveHeldVertices) {
   const Model<B> model = masses<B>();
   const auto x = ramp<B>(0), y = ramp<B>(5), out = ramp<B>(7);
   combine_free<B>(exec, "test", model.inverse_mass, 2, x, 1, y, out);
-  expect_values<B>(out, [](int i) { return i / 3 % 5 == 0 ? ramp(i, 7) : 2 * ramp(i, 0) + ramp(i, 5); });
+  expect_values<B>(out,
+                   [](int i) { return i / 3 % 5 == 0 ? ramp(i, 7) : 2 * ramp(i, 0) + ramp(i, 5); });
   weigh<B>(exec, "test", model, -1, x, 1, y, out);
-  expect_values<B>(out, [](int i) { return i / 3 % 5 == 0 ? 0.0 : ramp(i, 5) - (1 + i / 3 % 3) * ramp(i, 0); });
+  expect_values<B>(
+      out, [](int i) { return i / 3 % 5 == 0 ? 0.0 : ramp(i, 5) - (1 + i / 3 % 3) * ramp(i, 0); });
 }
 
 TYPED_TEST(Vocabulary, Sums) {
@@ -106,7 +112,8 @@ TYPED_TEST(Vocabulary, Sums) {
   const auto x = ramp<B>(0), y = ramp<B>(-70);
   dot<B>(exec, "test", x, y, blocks, result);
   double want = 0, first = 0;
-  for (int i = 0; i < 3 * n; ++i) want += ramp(i, 0) * ramp(i, -70), first += i % 3 == 0 ? ramp(i, -70) : 0;
+  for (int i = 0; i < 3 * n; ++i)
+    want += ramp(i, 0) * ramp(i, -70), first += i % 3 == 0 ? ramp(i, -70) : 0;
   EXPECT_NEAR(host_values(exec, result)[0], want, 1e-4 * std::abs(want));
   sum_first<B>(exec, "test", y, blocks, result);  // below 0
   EXPECT_NEAR(host_values(exec, result)[0], first, 1e-4 * std::abs(first));
@@ -134,7 +141,8 @@ struct Made {
   Point speed(double t) const { return point(path_at(path, knots.data(), t).velocity); }
 };
 
-const PathMotion polygon{{{0.1, {0, 0, 0}}, {0.3, {1, 0, -2}}, {0.4, {1, 5, -2}}, {1.0, {0, 0, 0}}}};
+const PathMotion polygon{
+    {{0.1, {0, 0, 0}}, {0.3, {1, 0, -2}}, {0.4, {1, 5, -2}}, {1.0, {0, 0, 0}}}};
 const SineMotion sine{{0.1, 0, -0.2}, 2.5, 0.7};
 
 TEST(Path, SteadyMotionIsSpeedTimesTime) {
@@ -172,7 +180,8 @@ TEST(Path, SineBeginsAtRestsPlaceAndComesBack) {
 }
 
 TEST(Path, SpeedIsTheSlope) {
-  for (const Motion& motion : {Motion(SteadyMotion(Point(1, -2, 3))), Motion(polygon), Motion(sine)}) {
+  for (const Motion& motion :
+       {Motion(SteadyMotion(Point(1, -2, 3))), Motion(polygon), Motion(sine)}) {
     const Made made(motion);
     for (double t : {0.15, 0.27, 0.33, 0.55, 0.9, 2.0}) {
       const double h = 1e-6;
@@ -189,7 +198,8 @@ TEST(Path, AStepAheadEndsWhereThePathDoes) {
       for (double h : {1e-3, 0.1, 1.0}) {
         const PathPoint p = path_step(made.path, made.knots.data(), t, h);
         EXPECT_EQ(point(p.displacement), made.at(t));
-        EXPECT_LE((point(p.displacement) + h * point(p.velocity) - made.at(t + h)).norm(), round_off<double>(64));
+        EXPECT_LE((point(p.displacement) + h * point(p.velocity) - made.at(t + h)).norm(),
+                  round_off<double>(64));
       }
   }
 }
@@ -198,7 +208,8 @@ TEST(Path, SeveralShareOneListOfKnots) {
   std::vector<PathKnot> knots;
   make_path(PathMotion{{{0, {7, 7, 7}}, {1, {8, 8, 8}}}}, knots);
   const Path second = make_path(polygon, knots);
-  EXPECT_LE((point(path_at(second, knots.data(), 0.2).displacement) - Point(0.5, 0, -1)).norm(), round_off<double>(16));
+  EXPECT_LE((point(path_at(second, knots.data(), 0.2).displacement) - Point(0.5, 0, -1)).norm(),
+            round_off<double>(16));
 }
 
 TEST(Path, KnowsWhetherItMoves) {
@@ -215,13 +226,18 @@ TYPED_TEST(Vocabulary, RowsOfAMatrixAreSummedUp) {
   using B = TypeParam;
   using Real = typename B::Real;
   const typename B::Exec exec;
-  const auto entry = [](int row, int i) { return n - 1 - 3 * (row % 12 - 1 - i); };  // ascending, to n - 1
-  const auto weight = [](int row, int i) { return static_cast<float>(1 + row % 7) / static_cast<float>(2 + i); };
+  // ascending, to n - 1
+  const auto entry = [](int row, int i) { return n - 1 - 3 * (row % 12 - 1 - i); };
+  const auto weight = [](int row, int i) {
+    return static_cast<float>(1 + row % 7) / static_cast<float>(2 + i);
+  };
   RowMatrix A(n, n);
   for (int row = 0; row < n; ++row)
-    for (int i = 0; i < row % 12; ++i) A.insert(row, entry(row, i)) = static_cast<double>(weight(row, i));
+    for (int i = 0; i < row % 12; ++i)
+      A.insert(row, entry(row, i)) = static_cast<double>(weight(row, i));
   const Vectors<B> x = ramp<B>(1), y = zeros<Vectors<B>>("test.y", n);
-  update_vertices<B>(exec, "test", n, MultiplyRows<B, float>{sparse_rows<B, float>("test", A), x, y});
+  update_vertices<B>(exec, "test", n,
+                     MultiplyRows<B, float>{sparse_rows<B, float>("test", A), x, y});
   expect_values<B>(y, [&](int i) {
     double sum = 0;
     for (int s = 0; s < i / 3 % 12; ++s)
@@ -242,7 +258,8 @@ TYPED_TEST(Vocabulary, RowsReadNoFurtherThanTheLastVector) {
     fill(typename B::Exec(), x, typename B::Real(3));
     update_vertices<B>({}, "test", 1, MultiplyRows<B>{sparse_rows<B>("test", A), x, y});
     Kokkos::fence();
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(static_cast<double>(y(0, k)), vectors > 0 ? 6.0 : 0.0) << vectors;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(static_cast<double>(y(0, k)), vectors > 0 ? 6.0 : 0.0) << vectors;
   }
 }
 

@@ -33,7 +33,8 @@ inline void expect_same(const TetMesh& a, const TetMesh& b) {
   EXPECT_EQ(a.vertex_sets, b.vertex_sets);
 }
 
-/// `read` fails with "PLACE: ..." (like "m.msh:3" or "m.vtk: byte 40") and a message that has every one of `parts`.
+/// `read` fails with "PLACE: ..." (like "m.msh:3" or "m.vtk: byte 40") and a message that has every
+/// one of `parts`.
 inline void expect_refused(const std::function<void()>& read, const std::string& place,
                            const std::vector<std::string>& parts) {
   try {
@@ -42,11 +43,13 @@ inline void expect_refused(const std::function<void()>& read, const std::string&
   } catch (const InputError& error) {
     const std::string message = error.what();
     EXPECT_EQ(message.substr(0, place.size() + 2), place + ": ") << message;
-    for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
+    for (const std::string& part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << part << "\n" << message;
   }
 }
 
-inline void expect_refused(const MemoryFile& file, const std::string& place, const std::vector<std::string>& parts) {
+inline void expect_refused(const MemoryFile& file, const std::string& place,
+                           const std::vector<std::string>& parts) {
   expect_refused([&] { read_mesh(file); }, place, parts);
 }
 
@@ -62,10 +65,12 @@ void expect_whole(const MemoryFile& file, std::size_t optional, const Read& read
   }
 }
 
-/// Any byte may turn into any other: an error or a sound result, but no crash. `check` sees what was read.
+/// Any byte may turn into any other: an error or a sound result, but no crash. `check` sees what
+/// was read.
 template <typename Read, typename Check>
 void change_every_byte(const MemoryFile& file, const Read& read, const Check& check,
-                       const std::vector<char>& into = {' ', '\n', '9', '-', '$', '"', 'e', '\0', '\xff'}) {
+                       const std::vector<char>& into = {' ', '\n', '9', '-', '$', '"', 'e', '\0',
+                                                        '\xff'}) {
   for (std::size_t at = 0; at < file.bytes.size(); ++at)
     for (const char c : into) {
       MemoryFile changed = file;
@@ -77,7 +82,8 @@ void change_every_byte(const MemoryFile& file, const Read& read, const Check& ch
     }
 }
 
-/// Two tetrahedra on a common face, a region each, and a set of the three lower nodes. Line 13 is node 1, 22 element 7.
+/// Two tetrahedra on a common face, a region each, and a set of the three lower nodes. Line 13 is
+/// node 1, 22 element 7.
 inline const std::string two_tets =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
     "$PhysicalNames\n3\n2 4 \"base\"\n3 1 \"tissue\"\n3 2 \"large tumour\"\n$EndPhysicalNames\n"
@@ -88,17 +94,22 @@ inline const std::string two_tets =
 inline const std::string two_tets_4 =
     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
     "$PhysicalNames\n3\n2 4 \"base\"\n3 1 \"tissue\"\n3 2 \"large tumour\"\n$EndPhysicalNames\n"
-    "$Entities\n0 0 1 2\n3 0 0 0 1 1 0 1 4 0\n1 0 0 0 1 1 1 1 1 1 -3\n2 0 0 0 1 1 1 1 2 0\n$EndEntities\n"
-    "$Nodes\n2 5 1 11\n2 3 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n3 1 0 2\n10\n11\n0 0 1\n1 1 1\n$EndNodes\n"
-    "$Elements\n3 3 6 8\n2 3 2 1\n6 1 2 3\n3 1 4 1\n7 1 2 3 10\n3 2 4 1\n8 2 3 10 11\n$EndElements\n";
+    "$Entities\n0 0 1 2\n3 0 0 0 1 1 0 1 4 0\n1 0 0 0 1 1 1 1 1 1 -3\n2 0 0 0 1 1 1 1 2 "
+    "0\n$EndEntities\n"
+    "$Nodes\n2 5 1 11\n2 3 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n3 1 0 2\n10\n11\n0 0 1\n1 1 "
+    "1\n$EndNodes\n"
+    "$Elements\n3 3 6 8\n2 3 2 1\n6 1 2 3\n3 1 4 1\n7 1 2 3 10\n3 2 4 1\n8 2 3 10 "
+    "11\n$EndElements\n";
 
 inline TetMesh read_text(const std::string& content, MeshReport* report = nullptr) {
   return read_mesh(MemoryFile{"m.msh", content}, report);
 }
 
 /// Reading fails at `line` (0: the message has none), and the message has every one of `parts`.
-inline void expect_refused(const std::string& content, int line, const std::vector<std::string>& parts) {
-  expect_refused(MemoryFile{"m.msh", content}, "m.msh" + (line > 0 ? ":" + std::to_string(line) : ""), parts);
+inline void expect_refused(const std::string& content, int line,
+                           const std::vector<std::string>& parts) {
+  expect_refused(MemoryFile{"m.msh", content},
+                 "m.msh" + (line > 0 ? ":" + std::to_string(line) : ""), parts);
 }
 
 }  // namespace plica::test

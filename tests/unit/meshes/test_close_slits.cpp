@@ -15,14 +15,19 @@ bool is_closed(const TriangleSurface& surface) {
   return report.closed();
 }
 
-TriangleSurface block() { return boundary_surface(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.1}}, {4, 4, 4})).surface; }
+TriangleSurface block() {
+  return boundary_surface(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.1}}, {4, 4, 4})).surface;
+}
 
-/// Two neighbours along an edge are cut apart: a slit of four edges, which opens by `width` in its middle.
+/// Two neighbours along an edge are cut apart: a slit of four edges, which opens by `width` in its
+/// middle.
 TriangleSurface cut(double width) {
   TriangleSurface surface = block();
   const std::array<int, 3> t = surface.triangles.front();
   const int a = t[0], b = t[1], middle = static_cast<int>(surface.vertices.size());
-  const Point x = (surface.vertices[static_cast<std::size_t>(a)] + surface.vertices[static_cast<std::size_t>(b)]) / 2;
+  const Point x = (surface.vertices[static_cast<std::size_t>(a)] +
+                   surface.vertices[static_cast<std::size_t>(b)]) /
+                  2;
   const Point inward = surface.vertices[static_cast<std::size_t>(t[2])] - x;
   surface.vertices.push_back(x + width * inward.normalized());
   surface.triangles.front() = {a, middle, t[2]};

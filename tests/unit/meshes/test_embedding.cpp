@@ -49,7 +49,8 @@ std::vector<Point> random_points(int count, double reach, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(-reach, reach);
   std::vector<Point> points;
-  for (int i = 0; i < count; ++i) points.push_back({coordinate(random), coordinate(random), coordinate(random)});
+  for (int i = 0; i < count; ++i)
+    points.push_back({coordinate(random), coordinate(random), coordinate(random)});
   return points;
 }
 
@@ -91,7 +92,8 @@ TEST(TetLocator, OneTetrahedron) {
 }
 
 TEST(TetLocator, NearestPointOfATetrahedron) {
-  const std::array<Point, 4> corners = {Point(0.1, 0, 0), Point(1.3, 0.2, 0), Point(0.3, 0.9, 0.1), Point(0.4, 0.2, 1)};
+  const std::array<Point, 4> corners = {Point(0.1, 0, 0), Point(1.3, 0.2, 0), Point(0.3, 0.9, 0.1),
+                                        Point(0.4, 0.2, 1)};
   for (const Point& p : random_points(60, 2.0, 5)) {
     const Weights w = nearest_inside(p, corners);
     EXPECT_GE(*std::min_element(w.begin(), w.end()), -1e-15);
@@ -118,7 +120,8 @@ TEST(TetLocator, IsTheSameWhateverTheSizeAndPlace) {
     for (Point& p : other.vertices) p = scale * (p + Point(8, -4, 2));
     const TetLocator elsewhere(other);
     for (const Point& p : points) {
-      const double d = locator.locate(p).distance, e = elsewhere.locate(scale * (p + Point(8, -4, 2))).distance;
+      const double d = locator.locate(p).distance,
+                   e = elsewhere.locate(scale * (p + Point(8, -4, 2))).distance;
       EXPECT_NEAR(e / scale, d, 1e-12);
     }
   }
@@ -127,7 +130,8 @@ TEST(TetLocator, IsTheSameWhateverTheSizeAndPlace) {
 TEST(TetLocator, RefusesWhatItCannotLocate) {
   const TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1});
   const TetLocator locator(mesh);
-  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               inf = std::numeric_limits<double>::infinity();
   EXPECT_THROW(locator.locate({nan, 0, 0}), InputError);
   EXPECT_THROW(locator.locate({0, inf, 0}), InputError);
   EXPECT_THROW(locator.locate({0, 1e300, 0}), InputError);
@@ -141,7 +145,8 @@ std::vector<Point> random_points(int count, double low, double high, unsigned se
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(low, high);
   std::vector<Point> points;
-  for (int i = 0; i < count; ++i) points.push_back({coordinate(random), coordinate(random), coordinate(random)});
+  for (int i = 0; i < count; ++i)
+    points.push_back({coordinate(random), coordinate(random), coordinate(random)});
   return points;
 }
 
@@ -150,7 +155,8 @@ double sum(const Weights& w) { return w[0] + w[1] + w[2] + w[3]; }
 double row_value(const Embedding& e, std::size_t row, const TetMesh& mesh, const Point& gradient) {
   double value = 0.0;
   for (std::size_t k = 0; k < 4; ++k)
-    value += e.weights[row][k] * gradient.dot(mesh.vertices[static_cast<std::size_t>(e.vertices[row][k])]);
+    value += e.weights[row][k] *
+             gradient.dot(mesh.vertices[static_cast<std::size_t>(e.vertices[row][k])]);
   return value;
 }
 
@@ -178,8 +184,10 @@ TEST(Embedding, ReproducesLinearFieldsInside) {
 
 TEST(Embedding, ReproducesLinearFieldsBetweenLevels) {
   const TetMesh fine = box_mesh(unit_box, {9, 9, 9}), coarse = box_mesh(unit_box, {6, 6, 6});
-  EXPECT_LT(linear_error(embed(fine.vertices, coarse, Outside::clamp), fine.vertices, coarse), 1e-12);
-  EXPECT_LT(linear_error(embed(coarse.vertices, fine, Outside::clamp), coarse.vertices, fine), 1e-12);
+  EXPECT_LT(linear_error(embed(fine.vertices, coarse, Outside::clamp), fine.vertices, coarse),
+            1e-12);
+  EXPECT_LT(linear_error(embed(coarse.vertices, fine, Outside::clamp), coarse.vertices, fine),
+            1e-12);
 }
 
 TEST(Embedding, OfAMeshInItselfIsTheIdentity) {
@@ -188,7 +196,8 @@ TEST(Embedding, OfAMeshInItselfIsTheIdentity) {
   EXPECT_EQ(e.misses, 0);
   for (std::size_t v = 0; v < e.vertices.size(); ++v)
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_NEAR(e.weights[v][k], static_cast<std::size_t>(e.vertices[v][k]) == v ? 1.0 : 0.0, 1e-12);
+      EXPECT_NEAR(e.weights[v][k], static_cast<std::size_t>(e.vertices[v][k]) == v ? 1.0 : 0.0,
+                  1e-12);
 }
 
 TEST(Embedding, ClampMovesMissesToTheNearestPoint) {
@@ -198,7 +207,8 @@ TEST(Embedding, ClampMovesMissesToTheNearestPoint) {
   EXPECT_GT(e.misses, 100);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point nearest = points[i].cwiseMax(0.0).cwiseMin(1.0);
-    for (int a = 0; a < 3; ++a) EXPECT_NEAR(row_value(e, i, mesh, Point::Unit(a)), nearest[a], 1e-12);
+    for (int a = 0; a < 3; ++a)
+      EXPECT_NEAR(row_value(e, i, mesh, Point::Unit(a)), nearest[a], 1e-12);
     EXPECT_EQ(e.outside[i] != 0, (points[i] - nearest).norm() > 1e-10);
     EXPECT_GE(*std::min_element(e.weights[i].begin(), e.weights[i].end()), 0.0);
     EXPECT_NEAR(sum(e.weights[i]), 1.0, 1e-15);
@@ -207,7 +217,8 @@ TEST(Embedding, ClampMovesMissesToTheNearestPoint) {
 
 TEST(Embedding, ExtrapolateIsLinearUntilItIsHeld) {
   const TetMesh mesh = box_mesh(unit_box, {3, 3, 3});
-  const auto near = random_points(500, -0.04, 1.04, 3);  // a tenth of an edge: no weight gets near the bound
+  // a tenth of an edge: no weight gets near the bound
+  const auto near = random_points(500, -0.04, 1.04, 3);
   const Embedding e = embed(near, mesh, Outside::extrapolate);
   EXPECT_GT(e.misses, 50);
   EXPECT_EQ(e.held, 0);
@@ -268,12 +279,14 @@ TEST(SignedDistance, OfABoxIsExact) {
     const SignedDistance distance(surface);
     for (const Point& p : random_field(3000, 1, 3))
       EXPECT_NEAR(distance(p), to_box(p, half), round_off<double>(16)) << p.transpose();
-    for (const Point& p : {Point(0.9, 0, 0), Point(0.6, 0.4, 0.3), Point(0.6, 0.4, 0), Point(0.5, 0.5, 0.2), half})
+    for (const Point& p :
+         {Point(0.9, 0, 0), Point(0.6, 0.4, 0.3), Point(0.6, 0.4, 0), Point(0.5, 0.5, 0.2), half})
       EXPECT_NEAR(distance(p), to_box(p, half), round_off<double>(16)) << p.transpose();
   }
 }
 
-// The solid angle that the surface fills, seen from p, over that of a sphere (Van Oosterom & Strackee 1983)
+// The solid angle that the surface fills, seen from p, over that of a sphere (Van Oosterom &
+// Strackee 1983)
 double winding(const TriangleSurface& surface, const Point& p) {
   double sum = 0;
   for (const auto& t : surface.triangles) {
@@ -310,7 +323,8 @@ TEST(SignedDistance, OfTwoPartsIsThatOfTheNearer) {
   const TriangleSurface other = sphere_surface({1, 0, 0}, 0.2, 3);
   const int first = static_cast<int>(two.vertices.size());
   two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (auto t : other.triangles) two.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  for (auto t : other.triangles)
+    two.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   const SignedDistance distance(two);
   EXPECT_NEAR(distance({0.9, 0, 0}), -0.1, 0.004);
   EXPECT_NEAR(distance({0.6, 0, 0}), 0.2, 0.004);

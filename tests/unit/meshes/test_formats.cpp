@@ -27,8 +27,8 @@ void expect_blocks(const TetMesh& mesh) {
 }
 
 TEST(Formats, EveryFileHoldsTheSameBlocks) {
-  for (const char* name : {"blocks_10.msh", "blocks.mesh", "blocks_zlib.vtu", "blocks_lz4.vtu", "blocks_lz4_inline.vtu",
-                           "blocks_ascii_compressor.vtu"}) {
+  for (const char* name : {"blocks_10.msh", "blocks.mesh", "blocks_zlib.vtu", "blocks_lz4.vtu",
+                           "blocks_lz4_inline.vtu", "blocks_ascii_compressor.vtu"}) {
     SCOPED_TRACE(name);
     expect_blocks(read_mesh(sample(name)));
   }
@@ -56,7 +56,8 @@ TEST(Formats, HexahedraAreCutAlikeOnBothSides) {
 
 // One of each kind around common faces: a prism and a pyramid on a cube
 const std::string kinds =
-    "MeshVersionFormatted 2\nDimension\n3\nVertices\n11\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n1 1 1 "
+    "MeshVersionFormatted 2\nDimension\n3\nVertices\n11\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 "
+    "0\n1 0 1 0\n1 1 1 "
     "0\n"
     "0 1 1 0\n0.5 0.5 2 0\n2 0 0 0\n2 0 1 0\n"
     "Hexahedra 1\n1 2 3 4 5 6 7 8 4\nPyramids 1\n5 6 7 8 9 4\nPrisms 1\n2 10 3 6 11 7 9\n"
@@ -66,16 +67,20 @@ TEST(Formats, EveryKindOfCellIsCut) {
   MeshReport report;
   const TetMesh mesh = read_mesh(MemoryFile{"m.mesh", kinds}, &report);
   EXPECT_EQ(mesh.tets.size(), 6u + 2 + 3);
-  EXPECT_EQ(report.cut, (std::map<std::string, int>{{"hexahedron", 1}, {"prism", 1}, {"pyramid", 1}}));
+  EXPECT_EQ(report.cut,
+            (std::map<std::string, int>{{"hexahedron", 1}, {"prism", 1}, {"pyramid", 1}}));
   EXPECT_EQ(report.flipped, 0);
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_NEAR(quality.volume, 1 + 1.0 / 3 + 0.5, 1e-12);
-  EXPECT_EQ(quality.boundary_triangles, 2 * 4 + 4 + 2 + 2 * 2) << "no face between two cells is on the boundary";
+  EXPECT_EQ(quality.boundary_triangles, 2 * 4 + 4 + 2 + 2 * 2)
+      << "no face between two cells is on the boundary";
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"reference_4", "reference_9"}));
-  EXPECT_EQ(mesh.vertex_sets, (std::map<std::string, std::vector<int>>{{"reference_7", {0, 1, 2, 3}}}));
+  EXPECT_EQ(mesh.vertex_sets,
+            (std::map<std::string, std::vector<int>>{{"reference_7", {0, 1, 2, 3}}}));
   EXPECT_EQ(report.skipped_sections, (std::vector<std::string>{"Normals"}));
   ASSERT_EQ(report.groups.sets.size(), 1u);
-  EXPECT_EQ(report.groups.sets[0].elements, (std::vector<std::array<int, 3>>{{0, 3, 2}, {0, 2, 1}}));
+  EXPECT_EQ(report.groups.sets[0].elements,
+            (std::vector<std::array<int, 3>>{{0, 3, 2}, {0, 2, 1}}));
 }
 
 TEST(Formats, AFoldedCellIsRefused) {
@@ -84,7 +89,8 @@ TEST(Formats, AFoldedCellIsRefused) {
   const std::string collapsed = with(kinds, "2 10 3 6 11 7 9", "2 10 2 6 10 2 9");
   expect_refused(MemoryFile{"m.mesh", collapsed}, "m.mesh:22", {"prism 1", "too few"});
   // A cube written as a collapsed one is a prism
-  const TetMesh wedge = read_mesh(MemoryFile{"m.mesh", with(kinds, "1 2 3 4 5 6 7 8 4", "1 2 3 3 5 6 7 7 4")});
+  const TetMesh wedge =
+      read_mesh(MemoryFile{"m.mesh", with(kinds, "1 2 3 4 5 6 7 8 4", "1 2 3 3 5 6 7 7 4")});
   EXPECT_NEAR(mesh_quality(wedge).volume, 0.5 + 1.0 / 3 + 0.5, 1e-12);
 }
 
@@ -107,7 +113,8 @@ TEST(Formats, MshOfOtherVersions) {
 
 template <typename Number>
 void append(std::string& bytes, std::initializer_list<Number> numbers) {
-  for (const Number number : numbers) bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  for (const Number number : numbers)
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
 }
 
 // Sections end without a line feed before their mark, those of data too
@@ -131,9 +138,10 @@ TEST(Formats, BinaryMshAsFTetWildWritesIt) {
 }
 
 TEST(Formats, GroupsKeepTheirNumbersAndTriangles) {
-  const std::string tagged = with(with(with(with(two_tets, "3 1 \"tissue\"", "3 71 \"tissue\""), "7 4 2 1", "7 4 2 71"),
-                                       "2 4 \"base\"", "2 40 \"base\""),
-                                  "6 2 2 4", "6 2 2 40");
+  const std::string tagged =
+      with(with(with(with(two_tets, "3 1 \"tissue\"", "3 71 \"tissue\""), "7 4 2 1", "7 4 2 71"),
+                "2 4 \"base\"", "2 40 \"base\""),
+           "6 2 2 4", "6 2 2 40");
   MeshReport report;
   const TetMesh mesh = read_text(tagged, &report);
   ASSERT_EQ(report.groups.region_tags, (std::vector<std::int64_t>{2, 71}));
@@ -144,8 +152,9 @@ TEST(Formats, GroupsKeepTheirNumbersAndTriangles) {
         if (!is_msh && binary) continue;
         SCOPED_TRACE(name);
         MeshReport again;
-        const TetMesh same =
-            read_mesh(write_mesh(name, mesh, is_msh ? format : "", binary, report.groups).files.front(), &again);
+        const TetMesh same = read_mesh(
+            write_mesh(name, mesh, is_msh ? format : "", binary, report.groups).files.front(),
+            &again);
         EXPECT_EQ(same.tets, mesh.tets);
         EXPECT_EQ(again.groups.region_tags, report.groups.region_tags);
         ASSERT_EQ(again.groups.sets.size(), 1u);
@@ -161,7 +170,8 @@ TEST(Formats, GroupsKeepTheirNumbersAndTriangles) {
 TEST(Formats, VectorsOfCellsAndPointsAreKept) {
   TetMesh mesh = read_mesh(sample("blocks_zlib.vtu"));
   auto& vectors = mesh.tet_vectors["the fibres"];
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) vectors.push_back(Point(1, static_cast<double>(t), -0.1));
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    vectors.push_back(Point(1, static_cast<double>(t), -0.1));
   for (const char* name : {"m.vtk", "m.vtu"})
     for (const bool binary : {false, true}) {
       if (binary && name == std::string("m.vtu")) continue;
@@ -177,28 +187,38 @@ TEST(Formats, VectorsOfCellsAndPointsAreKept) {
       EXPECT_EQ(again.tet_vectors.at("the fibres"), vectors) << format;
     }
   const std::string points =
-      "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n9 9 9 0 0 0 1 0 0 0 1 0 0 0 "
+      "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n9 9 9 0 0 "
+      "0 1 0 0 0 1 0 0 0 "
       "1\n"
-      "CELLS 1 5\n4 1 2 3 4\nCELL_TYPES 1\n10\nPOINT_DATA 5\nVECTORS a double\n9 9 9 4 0 0 0 4 0 0 0 4 0 0 8\n";
+      "CELLS 1 5\n4 1 2 3 4\nCELL_TYPES 1\n10\nPOINT_DATA 5\nVECTORS a double\n9 9 9 4 0 0 0 4 0 0 "
+      "0 4 0 0 8\n";
   const TetMesh one = read_mesh(MemoryFile{"m.vtk", points});
-  EXPECT_EQ(one.tet_vectors.at("a"), std::vector<Point>{Point(1, 1, 3)}) << "the mean of its corners";
+  EXPECT_EQ(one.tet_vectors.at("a"), std::vector<Point>{Point(1, 1, 3)})
+      << "the mean of its corners";
 }
 
 TEST(Formats, VectorsOfMshNodesAndElements) {
   const std::string mesh =
-      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n7 0 0 0\n8 1 0 0\n9 0 1 0\n10 0 0 1\n11 1 1 1\n$EndNodes\n"
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n7 0 0 0\n8 1 0 0\n9 0 1 0\n10 0 0 1\n11 1 "
+      "1 1\n$EndNodes\n"
       "$Elements\n2\n1000000000 4 2 0 1 7 8 9 10\n30 4 2 0 1 8 9 10 11\n$EndElements\n";
-  const auto data = [](const std::string& section, const std::string& name, const std::string& rest) {
+  const auto data = [](const std::string& section, const std::string& name,
+                       const std::string& rest) {
     return "$" + section + "\n1\n\"" + name + "\"\n1\n0\n" + rest + "$End" + section + "\n";
   };
-  const std::string of_cells = data("ElementData", "f", "3\n0\n3\n2\n30 0 2 0\n1000000000 1 0 -1\n"),
-                    of_nodes = data("NodeData", "g", "4\n0\n3\n4\n0\n7 4 0 0\n8 0 4 0\n9 0 0 4\n10 4 4 4\n"),
+  const std::string of_cells =
+                        data("ElementData", "f", "3\n0\n3\n2\n30 0 2 0\n1000000000 1 0 -1\n"),
+                    of_nodes = data("NodeData", "g",
+                                    "4\n0\n3\n4\n0\n7 4 0 0\n8 0 4 0\n9 0 0 4\n10 4 4 4\n"),
                     scalars = data("NodeData", "p", "3\n0\n1\n1\n7 3.5\n");
-  const auto read = [&](const std::string& more) { return read_mesh(MemoryFile{"m.msh", mesh + more}); };
+  const auto read = [&](const std::string& more) {
+    return read_mesh(MemoryFile{"m.msh", mesh + more});
+  };
   const TetMesh both = read(of_cells + scalars + of_nodes);
   EXPECT_EQ(both.tet_vectors.size(), 2u) << "scalars are left out";
   EXPECT_EQ(both.tet_vectors.at("f"), (std::vector<Point>{{1, 0, -1}, {0, 2, 0}}));
-  EXPECT_EQ(both.tet_vectors.at("g"), (std::vector<Point>{{2, 2, 2}, {1, 2, 2}})) << "means; node 11 has none";
+  EXPECT_EQ(both.tet_vectors.at("g"), (std::vector<Point>{{2, 2, 2}, {1, 2, 2}}))
+      << "means; node 11 has none";
   const auto refused = [&](const std::string& more, const char* line, const char* part) {
     expect_refused(MemoryFile{"m.msh", mesh + data("NodeData", "f", more)}, line, {part});
   };
@@ -209,8 +229,8 @@ TEST(Formats, VectorsOfMshNodesAndElements) {
 }
 
 TEST(Formats, EverySurfaceOfTheBlocksIsTheSame) {
-  for (const char* name : {"blocks.ply", "blocks_binary.ply", "blocks.off", "blocks.vtp", "blocks_polydata_51.vtk",
-                           "blocks_polydata_42.vtk"}) {
+  for (const char* name : {"blocks.ply", "blocks_binary.ply", "blocks.off", "blocks.vtp",
+                           "blocks_polydata_51.vtk", "blocks_polydata_42.vtk"}) {
     SCOPED_TRACE(name);
     SurfaceReport report;
     const TriangleSurface surface = read_surface(sample(name), &report);
@@ -225,11 +245,14 @@ TEST(Formats, EverySurfaceOfTheBlocksIsTheSame) {
 
 TEST(Formats, LooseOnesAreReadToo) {
   const std::string off =
-      "COFF\n# c\n4 2 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n1 1 0 1 0 0 1\n0 1 0 1 0 0 1\n4 0\n1 2\n3\n\n3 0 2 1 9 9\n";
+      "COFF\n# c\n4 2 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n1 1 0 1 0 0 1\n0 1 0 1 0 0 1\n4 0\n1 "
+      "2\n3\n\n3 0 2 1 9 9\n";
   EXPECT_EQ(read_surface(MemoryFile{"m.off", off}).triangles,
             (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 2}, {0, 2, 3}}));
   const MemoryFile stl = sample("blocks.stl");
-  EXPECT_EQ(read_surface(MemoryFile{"m.stl", with(stl.bytes, "endsolid", "end solid")}).triangles.size(), 20u);
+  EXPECT_EQ(
+      read_surface(MemoryFile{"m.stl", with(stl.bytes, "endsolid", "end solid")}).triangles.size(),
+      20u);
 }
 
 TEST(Formats, WrittenSurfacesAreTheSame) {
@@ -243,19 +266,22 @@ TEST(Formats, WrittenSurfacesAreTheSame) {
 
 TEST(Formats, StripsAndPolygons) {
   const std::string strip =
-      "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n0 0 0 1 0 0 0 1 0 1 1 0 0 2 0\n"
+      "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n0 0 0 1 0 0 0 1 0 1 "
+      "1 0 0 2 0\n"
       "LINES 1 3\n2 0 1\nTRIANGLE_STRIPS 1 6\n5 0 1 2 3 4\nPOLYGONS 1 5\n4 0 2 3 1\n";
   const TriangleSurface surface = read_surface(MemoryFile{"m.vtk", strip});
-  EXPECT_EQ(surface.triangles,
-            (std::vector<std::array<int, 3>>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {0, 2, 3}, {0, 3, 1}}));
+  EXPECT_EQ(surface.triangles, (std::vector<std::array<int, 3>>{
+                                   {0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {0, 2, 3}, {0, 3, 1}}));
 }
 
 // A fan of `faces` triangles around a point
 std::string fan(int faces, const std::string& more) {
   std::string text = "v 0 0 0\n";
   for (int k = 0; k <= faces; ++k)
-    text += "v " + std::to_string(std::cos(0.001 * k)) + " " + std::to_string(std::sin(0.001 * k)) + " 0\n";
-  for (int k = 2; k <= faces + 1; ++k) text += "f 1 " + std::to_string(k) + " " + std::to_string(k + 1) + "\n";
+    text += "v " + std::to_string(std::cos(0.001 * k)) + " " + std::to_string(std::sin(0.001 * k)) +
+            " 0\n";
+  for (int k = 2; k <= faces + 1; ++k)
+    text += "f 1 " + std::to_string(k) + " " + std::to_string(k + 1) + "\n";
   return text + more;
 }
 
@@ -268,7 +294,8 @@ TEST(Formats, AFewBadFacesAreLeftOut) {
   EXPECT_EQ(left_out(fan(300, "f 1 2\nf 1 2 9999\nf 1 2 x\n")), 3);
   EXPECT_EQ(left_out(fan(300, std::string(5, '\0'))), 0);
   EXPECT_THROW(left_out(fan(90, "f 1 2\n")), InputError);
-  expect_refused([&] { left_out(fan(90, "f 1 2 x\nf 1 2\n")); }, "m.obj:183", {"'x'", "2 of 92 faces", "1 %"});
+  expect_refused([&] { left_out(fan(90, "f 1 2 x\nf 1 2\n")); }, "m.obj:183",
+                 {"'x'", "2 of 92 faces", "1 %"});
 }
 
 TEST(Formats, CompressedArraysAreChecked) {
@@ -280,14 +307,17 @@ TEST(Formats, CompressedArraysAreChecked) {
   EXPECT_THROW(read_mesh(changed("vtkZLibDataCompressor", "vtkLZ4DataCompressor")), InputError);
   const auto check = [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); };
   for (const char* name : {"blocks_zlib.vtu", "blocks_lz4.vtu", "blocks_lz4_inline.vtu"})
-    change_every_byte(sample(name), [](const MemoryFile& file) { return read_mesh(file); }, check, {'A', '\xff'});
+    change_every_byte(sample(name), [](const MemoryFile& file) { return read_mesh(file); }, check,
+                      {'A', '\xff'});
 }
 
 TEST(Formats, AnyByteChangedIsRefusedOrSound) {
   const auto of_mesh = [](const MemoryFile& file) { return read_mesh(file); };
   const auto of_surface = [](const MemoryFile& file) { return read_surface(file); };
-  change_every_byte({"m.mesh", kinds}, of_mesh, [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); });
-  for (const char* name : {"blocks.ply", "blocks_binary.ply", "blocks.off", "blocks_polydata_42.vtk"})
+  change_every_byte({"m.mesh", kinds}, of_mesh,
+                    [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); });
+  for (const char* name :
+       {"blocks.ply", "blocks_binary.ply", "blocks.off", "blocks_polydata_42.vtk"})
     change_every_byte(sample(name), of_surface,
                       [](const TriangleSurface& surface) { EXPECT_GT(surface_area(surface), 0.0); },
                       {' ', '9', '\xff'});

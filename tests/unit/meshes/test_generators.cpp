@@ -24,16 +24,19 @@ using namespace plica;
 using namespace plica::test;
 
 constexpr double pi = std::numbers::pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
 constexpr int huge = std::numeric_limits<int>::max();
 
-// What every generated mesh owes: positive volumes, all vertices used, one part, a boundary that encloses the volume
+// What every generated mesh owes: positive volumes, all vertices used, one part, a boundary that
+// encloses the volume
 MeshQuality expect_sound(const TetMesh& mesh) {
   std::vector<char> used(mesh.vertices.size(), 0);
   for (const auto& tet : mesh.tets)
     for (const int v : tet) used[static_cast<std::size_t>(v)] = 1;
   EXPECT_EQ(std::count(used.begin(), used.end(), 1), static_cast<std::ptrdiff_t>(used.size()));
-  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) EXPECT_GT(tet_shape(mesh, t).volume, 0.0);
+  for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t)
+    EXPECT_GT(tet_shape(mesh, t).volume, 0.0);
   MeshQuality quality = mesh_quality(mesh);
   EXPECT_EQ(quality.parts, 1);
   EXPECT_EQ(quality.duplicate_vertices, 0);
@@ -59,8 +62,9 @@ TEST(BoxMesh, EveryCellIsCutAroundTheSameDiagonal) {
     bool diagonal = false;
     for (const int a : tet)
       for (const int b : tet)
-        diagonal |=
-            mesh.vertices[static_cast<std::size_t>(b)] - mesh.vertices[static_cast<std::size_t>(a)] == Point(1, 1, 1);
+        diagonal |= mesh.vertices[static_cast<std::size_t>(b)] -
+                        mesh.vertices[static_cast<std::size_t>(a)] ==
+                    Point(1, 1, 1);
     EXPECT_TRUE(diagonal);
   }
   // The order is part of what runs are compared by
@@ -71,10 +75,13 @@ TEST(BoxMesh, EveryCellIsCutAroundTheSameDiagonal) {
   EXPECT_EQ(mesh.tets[1], (std::array<int, 4>{0, 1, 13, 10}));
 }
 
-TEST(BoxMesh, OneCell) { EXPECT_NEAR(expect_sound(box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1})).volume, 1.0, 1e-15); }
+TEST(BoxMesh, OneCell) {
+  EXPECT_NEAR(expect_sound(box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1})).volume, 1.0, 1e-15);
+}
 
 TEST(BoxMesh, RefusesBadSizes) {
-  const auto refused = [](const Box& box, const std::array<int, 3>& cells, const std::string& part) {
+  const auto refused = [](const Box& box, const std::array<int, 3>& cells,
+                          const std::string& part) {
     const std::string text = refusal([&] { box_mesh(box, cells); });
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
@@ -195,7 +202,8 @@ TEST(CommittedMeshes, BeamHasATumourAndABase) {
   EXPECT_NEAR(quality.volume, 0.16 * 0.04 * 0.04, 1e-15);
   EXPECT_NEAR(quality.regions[1].volume, 4.0 / 3.0 * 3.14159 * std::pow(0.012, 3), 2e-6);
   ASSERT_GT(mesh.vertex_sets.at("base").size(), 10u);
-  for (const int v : mesh.vertex_sets.at("base")) EXPECT_EQ(mesh.vertices[static_cast<std::size_t>(v)].x(), 0.0);
+  for (const int v : mesh.vertex_sets.at("base"))
+    EXPECT_EQ(mesh.vertices[static_cast<std::size_t>(v)].x(), 0.0);
 }
 
 TEST(CommittedMeshes, BallIsRound) {
@@ -205,7 +213,8 @@ TEST(CommittedMeshes, BallIsRound) {
 }
 
 TEST(CommittedMeshes, LiversFitEachOther) {
-  const TetMesh fine = read_mesh(folder / "liver_fine.msh"), medium = read_mesh(folder / "liver_medium.msh"),
+  const TetMesh fine = read_mesh(folder / "liver_fine.msh"),
+                medium = read_mesh(folder / "liver_medium.msh"),
                 coarse = read_mesh(folder / "liver_coarse.msh");
   EXPECT_GT(fine.tets.size(), 2 * medium.tets.size());
   EXPECT_GT(2 * medium.tets.size(), 3 * coarse.tets.size());
@@ -275,21 +284,24 @@ TEST(CompareLevels, RefusesAnotherScaleOrPlace) {
   EXPECT_EQ(same(fine, coarse(1, 0.02)), SameBody::doubtful);
   for (const double scale : {1e-3, 1e-2, 0.45, 2.1, 100.0, 1000.0})
     EXPECT_EQ(same(fine, coarse(scale, 0)), SameBody::no) << scale;
-  for (const double shift : {-0.1, 0.06, 0.1}) EXPECT_EQ(same(fine, coarse(1, shift)), SameBody::no) << shift;
+  for (const double shift : {-0.1, 0.06, 0.1})
+    EXPECT_EQ(same(fine, coarse(1, shift)), SameBody::no) << shift;
   const MeshSize light = mesh_size(fine, {200}), heavy = mesh_size(fine, {1000});
   EXPECT_EQ(compare_levels(heavy, light, 1).same, SameBody::no);
   const std::string said = compare_levels(heavy, mesh_size(coarse(1000, 0), {1000}), 2).sentence;
-  EXPECT_EQ(
-      said,
-      "level 2 is not the body of level 0: 200 x 100 x 100 m, 2e+06 m^3, 2e+09 kg, centroid [100, 50, 50] instead "
-      "of 0.2 x 0.1 x 0.1 m, 0.002 m^3, 2 kg, centroid [0.1, 0.05, 0.05]; is the file of level 2 in mm? Then its "
-      "scale is 0.001");
+  EXPECT_EQ(said,
+            "level 2 is not the body of level 0: 200 x 100 x 100 m, 2e+06 m^3, 2e+09 kg, centroid "
+            "[100, 50, 50] instead "
+            "of 0.2 x 0.1 x 0.1 m, 0.002 m^3, 2 kg, centroid [0.1, 0.05, 0.05]; is the file of "
+            "level 2 in mm? Then its "
+            "scale is 0.001");
 }
 
 // What the fuzzers start from, and what they once found, without libFuzzer
 
 TEST(FuzzCorpus, IsRefusedOrSound) {
-  for (const fuzz::Target& target : fuzz::mesh_targets) EXPECT_GE(fuzz::replay(target), 3) << target.name;
+  for (const fuzz::Target& target : fuzz::mesh_targets)
+    EXPECT_GE(fuzz::replay(target), 3) << target.name;
 }
 
 // Every seed is a whole file, so that the fuzzers start behind the first checks
@@ -298,13 +310,16 @@ TEST(FuzzCorpus, SeedsAreRead) {
     for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / name)) {
       const std::string seed = entry.path().filename().string();
       if (seed.starts_with("polydata") || seed == "surface") continue;  // holds no tetrahedra
-      EXPECT_NO_THROW(read_mesh(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes})) << entry.path();
+      EXPECT_NO_THROW(
+          read_mesh(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes}))
+          << entry.path();
     }
   for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / "medit"))
     EXPECT_NO_THROW(read_mesh(MemoryFile{"m.mesh", load_file(entry.path()).bytes})) << entry.path();
   for (const char* name : {"obj", "ply", "off", "stl"})
     for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / "corpus" / name))
-      EXPECT_NO_THROW(read_surface(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes}))
+      EXPECT_NO_THROW(
+          read_surface(MemoryFile{std::string("m.") + name, load_file(entry.path()).bytes}))
           << entry.path();
 }
 

@@ -30,7 +30,10 @@ const Change changes_2[] = {
     {"$Nodes", "$ParametricNodes", 11, {"$ParametricNodes", "parametric"}},
     {"$Nodes\n5", "$Nodes\n4", 17, {"$EndNodes after 4 nodes", "'11 1 1 1'"}},
     {"$Nodes\n5", "$Nodes\n6", 18, {"node 6 of 6", "'$EndNodes'"}},
-    {"$Elements\n3", "$Elements\n2", 23, {"$EndElements after 2 elements", "'8 4 2 2 2 2 3 10 11'"}},
+    {"$Elements\n3",
+     "$Elements\n2",
+     23,
+     {"$EndElements after 2 elements", "'8 4 2 2 2 2 3 10 11'"}},
     {"$Elements\n3", "$Elements\n4", 24, {"element 4 of 4", "'$EndElements'"}},
     {"$Nodes\n5", "$Nodes\n99999999999", 12, {"99999999999", "room for"}},
     {"$Elements\n3", "$Elements\n2147483648", 20, {"2147483648", "room for"}},
@@ -74,7 +77,10 @@ const Change changes_4[] = {
     {"0 0 1 2\n", "0 0 1 1\n", 14, {"expected $EndEntities"}},
     {"0 0 1 2\n", "0 0 1 99999999999\n", 11, {"99999999999", "room for"}},
     {"0 0 1 2\n", "0 0 1\n", 11, {"line ends", "number of entities"}},
-    {"2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 2 1 2 0", 14, {"volume 2", "groups 1 and 2", "one group"}},
+    {"2 0 0 0 1 1 1 1 2 0",
+     "2 0 0 0 1 1 1 2 1 2 0",
+     14,
+     {"volume 2", "groups 1 and 2", "one group"}},
     {"2 0 0 0 1 1 1 1 2 0", "1 0 0 0 1 1 1 1 2 0", 14, {"volume 1 is defined again"}},
     {"2 0 0 0 1 1 1 1 2 0", "2 0 0 0 1 1 1 1 2 5", 14, {"boundary", "the line ends"}},
     {"2 0 0 0 1 1 1 1 2 0", "2 0 0 nan 1 1 1 1 2 0", 14, {"'nan'", "finite"}},
@@ -82,7 +88,10 @@ const Change changes_4[] = {
     {"3 2 4 1\n", "3 9 4 1\n", 37, {"volume 9", "does not define"}},
     {"2 5 1 11", "2 6 1 11", 29, {"the blocks hold 5 nodes and not 6"}},
     {"2 5 1 11", "2 4 1 11", 25, {"of a block is 2", "0 to 1", "4 in all"}},
-    {"2 5 1 11", "9223372036854775807 5 1 11", 17, {"blocks of nodes is 9223372036854775807", "room"}},
+    {"2 5 1 11",
+     "9223372036854775807 5 1 11",
+     17,
+     {"blocks of nodes is 9223372036854775807", "room"}},
     {"2 5 1 11", "2 5 1", 17, {"line ends"}},
     {"3 1 0 2", "3 1 2 2", 25, {"parametric is 2"}},
     {"3 1 0 2", "4 1 0 2", 25, {"dimension of an entity is 4"}},
@@ -108,12 +117,14 @@ TEST(MalformedMsh, OtherFilesAndVersions) {
 
 TEST(MalformedMsh, Sections) {
   expect_refused(two_tets + "$Nodes\n1\n1 0 0 0\n$EndNodes\n", 25, {"second section $Nodes"});
-  expect_refused(two_tets.substr(0, two_tets.find("$Elements")), 18, {"a section $Elements", "the file ends"});
+  expect_refused(two_tets.substr(0, two_tets.find("$Elements")), 18,
+                 {"a section $Elements", "the file ends"});
 }
 
 TEST(MalformedMsh, Tetrahedra) {
-  const std::string triangle_only = with(with(with(two_tets, "7 4 2 1 1 1 2 3 10\n", ""), "8 4 2 2 2 2 3 10 11\n", ""),
-                                         "$Elements\n3", "$Elements\n1");
+  const std::string triangle_only =
+      with(with(with(two_tets, "7 4 2 1 1 1 2 3 10\n", ""), "8 4 2 2 2 2 3 10 11\n", ""),
+           "$Elements\n3", "$Elements\n1");
   expect_refused(triangle_only, 0, {"no tetrahedron"});
 }
 
@@ -123,7 +134,8 @@ TEST(MalformedMsh, LongAndUnprintableInputIsCut) {
 
 TEST(MalformedMsh4, EntitiesComeFirst) {
   const std::size_t begin = two_tets_4.find("$Entities"), end = two_tets_4.find("$Nodes");
-  const std::string late = two_tets_4.substr(0, begin) + two_tets_4.substr(end) + two_tets_4.substr(begin, end - begin);
+  const std::string late =
+      two_tets_4.substr(0, begin) + two_tets_4.substr(end) + two_tets_4.substr(begin, end - begin);
   expect_refused(late, 34, {"$Entities must come before $Elements"});
   const TetMesh mesh = read_text(two_tets_4.substr(0, begin) + two_tets_4.substr(end));
   EXPECT_TRUE(mesh.region_names.empty());  // no entities, no groups
@@ -132,7 +144,8 @@ TEST(MalformedMsh4, EntitiesComeFirst) {
 // Bytes are named where there are no lines
 TEST(MalformedMsh4, Binary) {
   const MemoryFile file = sample("blocks_41_binary.msh");
-  const std::size_t flag = file.bytes.find("\n4.1 1 8\n") + 9, nodes = file.bytes.find("$Nodes\n") + 7;
+  const std::size_t flag = file.bytes.find("\n4.1 1 8\n") + 9,
+                    nodes = file.bytes.find("$Nodes\n") + 7;
   const auto changed = [&](std::size_t at, auto value) {
     MemoryFile copy = file;
     std::memcpy(copy.bytes.data() + at, &value, sizeof(value));
@@ -140,18 +153,23 @@ TEST(MalformedMsh4, Binary) {
   };
   const auto place = [&](std::size_t at) { return file.name + ": byte " + std::to_string(at); };
   expect_refused(changed(flag, 2), place(flag), {"order of bytes", "is 2"});
-  expect_refused(changed(nodes, std::uint64_t{1} << 40), place(nodes), {"1099511627776", "room for"});
-  expect_refused(changed(nodes, ~std::uint64_t{0}), place(nodes), {"18446744073709551615", "below 2^63"});
+  expect_refused(changed(nodes, std::uint64_t{1} << 40), place(nodes),
+                 {"1099511627776", "room for"});
+  expect_refused(changed(nodes, ~std::uint64_t{0}), place(nodes),
+                 {"18446744073709551615", "below 2^63"});
   const std::size_t first = nodes + 32 + 20;  // the counts; the head of the first block
   expect_refused(changed(first, std::uint64_t{0}), place(first), {"tag of a node is 0"});
   expect_refused(changed(first + 16, std::numeric_limits<double>::quiet_NaN()), place(first + 16),
                  {"coordinate y is nan"});
-  MemoryFile cut = file;  // in the last element: 20 bytes for its last nodes and the end of the section
+  // in the last element: 20 bytes for its last nodes and the end of the section
+  MemoryFile cut = file;
   cut.bytes.resize(file.bytes.find("\n$EndElements") - 4);
-  expect_refused(cut, place(cut.bytes.size() - 4), {"expected a node of an element, but the data end"});
+  expect_refused(cut, place(cut.bytes.size() - 4),
+                 {"expected a node of an element, but the data end"});
 }
 
-// Every class of malformed mesh in every format that is written, text and binary: the same is said of all of them.
+// Every class of malformed mesh in every format that is written, text and binary: the same is said
+// of all of them.
 
 class Malformed : public testing::TestWithParam<MeshWriter> {
  protected:
@@ -164,7 +182,8 @@ class Malformed : public testing::TestWithParam<MeshWriter> {
   }();
 
   TetMesh read(MeshReport& report) const {
-    const std::vector<MemoryFile> files = GetParam().write(std::string("m.") + GetParam().extension, mesh, {}).files;
+    const std::vector<MemoryFile> files =
+        GetParam().write(std::string("m.") + GetParam().extension, mesh, {}).files;
     if (files.size() == 1) return read_mesh(files[0], &report);
     return sound_mesh(parse_tetgen(files[1], files[0], report), report);
   }
@@ -180,7 +199,8 @@ class Malformed : public testing::TestWithParam<MeshWriter> {
     } catch (const InputError& error) {
       const std::string message = error.what();
       EXPECT_EQ(message.substr(0, 2), "m.") << message;
-      for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+      for (const std::string& part : parts)
+        EXPECT_NE(message.find(part), std::string::npos) << message;
     }
   }
   // VTK's formats count from 0, the others from 1
@@ -204,7 +224,8 @@ TEST_P(Malformed, Empty) {
 }
 
 TEST_P(Malformed, NotFinite) {
-  for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double value :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     mesh.vertices[3].y() = value;
     refused({std::isnan(value) ? "nan" : "inf"});
   }
@@ -232,7 +253,8 @@ TEST_P(Malformed, RepeatedTetrahedron) {
 TEST_P(Malformed, ThreeTetrahedraOnAFace) {
   mesh.vertices.push_back({2, 2, 2});
   mesh.tets.push_back({1, 2, 3, 5});
-  refused({"tetrahedron " + number(2) + " shares a face with tetrahedra " + number(0) + " and " + number(1)});
+  refused({"tetrahedron " + number(2) + " shares a face with tetrahedra " + number(0) + " and " +
+           number(1)});
 }
 
 TEST_P(Malformed, NoVolume) {
@@ -263,7 +285,8 @@ TEST_P(Malformed, UnreferencedAreDroppedAndCounted) {
 }
 
 TEST_P(Malformed, DuplicatesAndPartsAreCounted) {
-  for (const int v : {1, 2, 3}) mesh.vertices.push_back(Point(mesh.vertices[static_cast<std::size_t>(v)]));
+  for (const int v : {1, 2, 3})
+    mesh.vertices.push_back(Point(mesh.vertices[static_cast<std::size_t>(v)]));
   mesh.tets[1] = {5, 6, 7, 4};
   const TetMesh torn = read();
   EXPECT_EQ(count_duplicate_vertices(torn, 1e-9), 3);
@@ -271,7 +294,8 @@ TEST_P(Malformed, DuplicatesAndPartsAreCounted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Malformed, testing::ValuesIn(mesh_writers), [](const auto& one) {
-  return std::string(one.param.extension) + "_" + one.param.name + (one.param.binary ? "_binary" : "");
+  return std::string(one.param.extension) + "_" + one.param.name +
+         (one.param.binary ? "_binary" : "");
 });
 
 }  // namespace

@@ -29,11 +29,13 @@ TetMesh joined(const TetMesh& a, const TetMesh& b) {
   TetMesh mesh = a;
   const int shift = static_cast<int>(a.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& [i, j, k, l] : b.tets) mesh.tets.push_back({i + shift, j + shift, k + shift, l + shift});
+  for (const auto& [i, j, k, l] : b.tets)
+    mesh.tets.push_back({i + shift, j + shift, k + shift, l + shift});
   return mesh;
 }
 
-const TetMesh regular = one_tet({Point(1, 1, 1), Point(-1, 1, -1), Point(1, -1, -1), Point(-1, -1, 1)});
+const TetMesh regular =
+    one_tet({Point(1, 1, 1), Point(-1, 1, -1), Point(1, -1, -1), Point(-1, -1, 1)});
 const TetMesh corner = one_tet({Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)});
 
 TEST(MeshQuality, OfTheRegularTetrahedron) {
@@ -54,7 +56,8 @@ TEST(MeshQuality, OfTheCornerOfACube) {
   const MeshQuality q = mesh_quality(corner);
   EXPECT_NEAR(q.height_ratios.max, std::sqrt(2.0) * std::sqrt(3.0), 1e-14);
   EXPECT_NEAR(q.dihedral_angles.max, 90.0, 1e-12);
-  EXPECT_NEAR(q.dihedral_angles.min, std::acos(1.0 / std::sqrt(3.0)) * 180.0 / std::numbers::pi, 1e-12);
+  EXPECT_NEAR(q.dihedral_angles.min, std::acos(1.0 / std::sqrt(3.0)) * 180.0 / std::numbers::pi,
+              1e-12);
   EXPECT_NEAR(q.edges.mean, (3.0 + 3.0 * std::sqrt(2.0)) / 6.0, 1e-14);
 }
 
@@ -103,7 +106,8 @@ TEST(MeshQuality, NamesTheWorstFirst) {
   const MeshQuality q = mesh_quality(mesh);
   ASSERT_EQ(q.worst.size(), 10u);
   EXPECT_EQ(q.worst[0].height_ratio, q.height_ratios.max);
-  for (std::size_t i = 1; i < 10; ++i) EXPECT_GE(q.worst[i - 1].height_ratio, q.worst[i].height_ratio);
+  for (std::size_t i = 1; i < 10; ++i)
+    EXPECT_GE(q.worst[i - 1].height_ratio, q.worst[i].height_ratio);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_LT(q.worst[i].tet, 6);  // the six of the first cell
   EXPECT_LT(q.worst[6].height_ratio, 2.5);
   EXPECT_NEAR(tet_shape(mesh, q.worst[0].tet).smallest_angle, q.worst[0].smallest_angle, 1e-15);
@@ -112,7 +116,9 @@ TEST(MeshQuality, NamesTheWorstFirst) {
 
 TEST(MeshQuality, HistogramsHoldEverything) {
   const MeshQuality q = mesh_quality(ball_mesh({0, 0, 0}, 1.0, 6));
-  const auto sum = [](const Histogram& h) { return std::accumulate(h.counts.begin(), h.counts.end(), 0); };
+  const auto sum = [](const Histogram& h) {
+    return std::accumulate(h.counts.begin(), h.counts.end(), 0);
+  };
   EXPECT_EQ(sum(q.height_ratio_counts), q.tets);
   EXPECT_EQ(sum(q.dihedral_angle_counts), 6 * q.tets);
   Histogram h({0, 1, 2});
@@ -142,7 +148,8 @@ TEST(BoundaryTriangles, LookOutwards) {
   EXPECT_EQ(boundary.surface.triangles.size(), 4u + 2u * 2u * (2 * 3 + 3 * 1 + 1 * 2));
   EXPECT_TRUE(std::is_sorted(boundary.mesh_vertex.begin(), boundary.mesh_vertex.end()));
   for (std::size_t v = 0; v < boundary.mesh_vertex.size(); ++v)
-    EXPECT_EQ(boundary.surface.vertices[v], mesh.vertices[static_cast<std::size_t>(boundary.mesh_vertex[v])]);
+    EXPECT_EQ(boundary.surface.vertices[v],
+              mesh.vertices[static_cast<std::size_t>(boundary.mesh_vertex[v])]);
 }
 
 TEST(BoundaryTriangles, LeaveOutInnerVertices) {
@@ -150,7 +157,9 @@ TEST(BoundaryTriangles, LeaveOutInnerVertices) {
   EXPECT_EQ(boundary_surface(mesh).surface.vertices.size(), 64u - 8u);
 }
 
-TetMesh beam() { return read_mesh(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "beam.msh"); }
+TetMesh beam() {
+  return read_mesh(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes" / "data" / "beam.msh");
+}
 
 // Whichever library sorts them
 TEST(OverlapAtAFace, NamesTheFirstOfACrowd) {
@@ -162,12 +171,13 @@ TEST(OverlapAtAFace, NamesTheFirstOfACrowd) {
   EXPECT_EQ(overlap_at_a_face(mesh), (std::vector<std::size_t>{0, 1, 2}));
 }
 
-// A vertex inside a box is moved through its top, and the tetrahedra that this turned inside out are turned back.
+// A vertex inside a box is moved through its top, and the tetrahedra that this turned inside out
+// are turned back.
 TEST(OverlapAtAFace, NamesTwoOnOneSide) {
   TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {4, 4, 4});
   EXPECT_TRUE(overlap_at_a_face(mesh).empty());
-  const auto middle =
-      std::ranges::find_if(mesh.vertices, [](const Point& x) { return (x - Point(.5, .5, .5)).norm() < 1e-9; });
+  const auto middle = std::ranges::find_if(
+      mesh.vertices, [](const Point& x) { return (x - Point(.5, .5, .5)).norm() < 1e-9; });
   (*middle)[2] = 1.2;
   int turned = 0;
   for (auto& t : mesh.tets) {
@@ -199,10 +209,12 @@ TEST(Reordering, KeepsTheMesh) {
   }
   EXPECT_EQ(after.vertices, permuted(before.vertices, order.vertices));
   std::vector<int> base;
-  for (const int v : after.vertex_sets.at("base")) base.push_back(order.vertices[static_cast<std::size_t>(v)]);
+  for (const int v : after.vertex_sets.at("base"))
+    base.push_back(order.vertices[static_cast<std::size_t>(v)]);
   std::sort(base.begin(), base.end());
   EXPECT_EQ(base, before.vertex_sets.at("base"));
-  EXPECT_TRUE(std::is_sorted(after.vertex_sets.at("base").begin(), after.vertex_sets.at("base").end()));
+  EXPECT_TRUE(
+      std::is_sorted(after.vertex_sets.at("base").begin(), after.vertex_sets.at("base").end()));
 }
 
 TEST(Reordering, BringsNeighboursTogether) {
@@ -224,7 +236,8 @@ TetMesh torn() {
     mesh.tets.push_back(tet);
   }
   mesh.vertex_sets["all"].resize(mesh.vertices.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertex_sets["all"][v] = static_cast<int>(v);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    mesh.vertex_sets["all"][v] = static_cast<int>(v);
   return mesh;
 }
 
@@ -238,7 +251,8 @@ TEST(MergeDuplicates, GluesATornMesh) {
   EXPECT_EQ(count_parts(glued.mesh), 1);
   EXPECT_NEAR(mesh_quality(glued.mesh).volume, 2.0, 1e-8);
   for (std::size_t v = 0; v < glued.original_vertex.size(); ++v)
-    EXPECT_EQ(glued.mesh.vertices[v], mesh.vertices[static_cast<std::size_t>(glued.original_vertex[v])]);
+    EXPECT_EQ(glued.mesh.vertices[v],
+              mesh.vertices[static_cast<std::size_t>(glued.original_vertex[v])]);
   EXPECT_EQ(merge_duplicates(mesh, 0.0).merged, 0);  // none is at exactly the same place
 }
 
@@ -246,12 +260,14 @@ TEST(MergeDuplicates, RefusesWhatItWouldBreak) {
   const TetMesh mesh = torn();
   EXPECT_THROW(merge_duplicates(mesh, -1.0), InputError);
   EXPECT_THROW(merge_duplicates(mesh, std::numeric_limits<double>::quiet_NaN()), InputError);
-  expect_refused([&] { merge_duplicates(mesh, 0.6); }, "vertices at most 0.6 m apart cannot be merged",
+  expect_refused([&] { merge_duplicates(mesh, 0.6); },
+                 "vertices at most 0.6 m apart cannot be merged",
                  {"tetrahedron 0 names a node twice"});
   TetMesh twice = box_mesh({Point(0, 0, 0), Point(1, 1, 1)}, {1, 1, 1});
   const std::size_t tets = twice.tets.size();
   const int first = static_cast<int>(twice.vertices.size());
-  for (std::size_t v = 0; v < static_cast<std::size_t>(first); ++v) twice.vertices.push_back(Point(twice.vertices[v]));
+  for (std::size_t v = 0; v < static_cast<std::size_t>(first); ++v)
+    twice.vertices.push_back(Point(twice.vertices[v]));
   for (std::size_t t = 0; t < tets; ++t) {
     auto tet = twice.tets[t];
     for (int& v : tet) v += first;

@@ -40,7 +40,8 @@ TEST(ReadMsh, CarriageReturnsTabsAndPlusSignsMakeNoDifference) {
 
 TEST(ReadMsh, SectionsMayComeInAnotherOrder) {
   const std::size_t names = two_tets.find("$PhysicalNames"), nodes = two_tets.find("$Nodes");
-  expect_same(read_text(two_tets.substr(0, names) + two_tets.substr(nodes) + two_tets.substr(names, nodes - names)),
+  expect_same(read_text(two_tets.substr(0, names) + two_tets.substr(nodes) +
+                        two_tets.substr(names, nodes - names)),
               read_text(two_tets));
 }
 
@@ -84,8 +85,9 @@ TEST(ReadMsh, WithoutGroupsThereIsOneNamelessRegion) {
 }
 
 TEST(ReadMsh, SetsOfOneNameAreOneSetAndMinusSignsAreOrientations) {
-  const std::string text = with(with(two_tets, "$PhysicalNames\n3", "$PhysicalNames\n4\n0 9 \"base\""), "$Elements\n3",
-                                "$Elements\n5\n1 15 2 9 1 11\n2 1 2 -9 1 10 11");
+  const std::string text =
+      with(with(two_tets, "$PhysicalNames\n3", "$PhysicalNames\n4\n0 9 \"base\""), "$Elements\n3",
+           "$Elements\n5\n1 15 2 9 1 11\n2 1 2 -9 1 10 11");
   const TetMesh mesh = read_text(text);
   EXPECT_EQ(mesh.vertex_sets.at("base"), (std::vector<int>{0, 1, 2, 4}));
   EXPECT_EQ(mesh.vertex_sets.at("physical_9"), (std::vector<int>{3, 4}));
@@ -94,15 +96,17 @@ TEST(ReadMsh, SetsOfOneNameAreOneSetAndMinusSignsAreOrientations) {
 TEST(ReadMsh, SkipsSectionsForOtherUses) {
   MeshReport report;
   const std::string comment = "$Comments\nfree text 1 2 nan\n$Nodes\n$EndComments\n";
-  const TetMesh mesh =
-      read_text(with(two_tets, "$Nodes", comment + "$Nodes") + "$ElementNodeData\n1\n$EndElementNodeData\n", &report);
+  const TetMesh mesh = read_text(
+      with(two_tets, "$Nodes", comment + "$Nodes") + "$ElementNodeData\n1\n$EndElementNodeData\n",
+      &report);
   expect_same(mesh, read_text(two_tets));
   EXPECT_EQ(report.skipped_sections, (std::vector<std::string>{"$Comments", "$ElementNodeData"}));
 }
 
 TEST(ReadMsh, CutAtAnyByteIsRefused) {
   for (const std::string& text : {two_tets, two_tets_4})
-    expect_whole({"m.msh", text}, 1, [](const MemoryFile& file) { expect_same(read_mesh(file), read_text(two_tets)); });
+    expect_whole({"m.msh", text}, 1,
+                 [](const MemoryFile& file) { expect_same(read_mesh(file), read_text(two_tets)); });
 }
 
 TEST(ReadMsh, AnyByteChangedIsRefusedOrSound) {
@@ -156,7 +160,8 @@ TEST(SampleMsh, EveryVariantHoldsTheSameBlocks) {
       EXPECT_LE(largest_difference(mesh.vertices, first.vertices), 1e-17);  // Gmsh writes 16 digits
       EXPECT_EQ(mesh.vertex_sets, first.vertex_sets);
     }
-    for (const auto& [name, set] : first.vertex_sets) EXPECT_EQ(mesh.vertex_sets.at(name).size(), set.size()) << name;
+    for (const auto& [name, set] : first.vertex_sets)
+      EXPECT_EQ(mesh.vertex_sets.at(name).size(), set.size()) << name;
     const MeshQuality quality = mesh_quality(mesh);
     EXPECT_NEAR(quality.volume, 2 * 8e-6, 1e-15);
     EXPECT_NEAR(quality.regions[1].volume, 8e-6, 1e-15);
@@ -170,10 +175,12 @@ TEST(SampleMsh, GroupsOfEveryDimensionAreSets) {
   for (const auto& [name, set] : mesh.vertex_sets) sizes[name] = set.size();
   EXPECT_EQ(sizes, (std::map<std::string, std::size_t>{
                        {"base", 5}, {"lower half of the side", 12}, {"edge", 3}, {"corner", 1}}));
-  for (const int v : mesh.vertex_sets.at("base")) EXPECT_EQ(mesh.vertices[static_cast<std::size_t>(v)].z(), 0.0);
+  for (const int v : mesh.vertex_sets.at("base"))
+    EXPECT_EQ(mesh.vertices[static_cast<std::size_t>(v)].z(), 0.0);
 }
 
-// The last line feed may be missing; where a section follows that is skipped, a cut there is still a whole mesh
+// The last line feed may be missing; where a section follows that is skipped, a cut there is still
+// a whole mesh
 TEST(SampleMsh, CutAtAnyByteIsRefused) {
   for (const Variant& variant : variants) {
     SCOPED_TRACE(variant.file);
@@ -184,7 +191,8 @@ TEST(SampleMsh, CutAtAnyByteIsRefused) {
 TEST(SampleMsh, AnyByteChangedIsRefusedOrSound) {
   for (const char* name : {"blocks_22_binary.msh", "blocks_41.msh", "blocks_41_binary.msh"}) {
     SCOPED_TRACE(name);
-    change_every_byte(sample(name), read, [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); },
+    change_every_byte(sample(name), read,
+                      [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); },
                       {'\0', '\x01', '9', '\xff'});
   }
 }
@@ -210,7 +218,9 @@ std::string other_order() {
     for (const double x : points[i]) put(x);
   }
   text += "\n$EndNodes\n$Elements\n3\n";
-  for (const int x : {2, 1, 2, 6, 4, 1, 1, 2, 3, 4, 2, 2, 7, 1, 1, 1, 2, 3, 10, 8, 2, 2, 2, 3, 10, 11}) put(x);
+  for (const int x :
+       {2, 1, 2, 6, 4, 1, 1, 2, 3, 4, 2, 2, 7, 1, 1, 1, 2, 3, 10, 8, 2, 2, 2, 3, 10, 11})
+    put(x);
   return text + "\n$EndElements\n";
 }
 
@@ -235,7 +245,9 @@ TetMesh awkward() {
 // A folder that lasts as long as this, one per test
 class Folder {
  public:
-  Folder() : path_(std::filesystem::path(testing::TempDir()) / unique()) { std::filesystem::create_directories(path_); }
+  Folder() : path_(std::filesystem::path(testing::TempDir()) / unique()) {
+    std::filesystem::create_directories(path_);
+  }
   ~Folder() { std::filesystem::remove_all(path_); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -251,22 +263,24 @@ class Folder {
 
 // Onto the disk; what was left out
 std::vector<std::string> store(const WrittenMesh& written) {
-  for (const MemoryFile& file : written.files) std::ofstream(file.name, std::ios::binary) << file.bytes;
+  for (const MemoryFile& file : written.files)
+    std::ofstream(file.name, std::ios::binary) << file.bytes;
   return written.left_out;
 }
 
 TEST(WriteMesh, MshKeepsEverything) {
   const Folder folder;
   for (const std::string format : {"", "msh22", "msh41"})
-    for (const auto& [named, binary] : {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
+    for (const auto& [named, binary] :
+         {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
       SCOPED_TRACE(format + (binary ? " binary" : " text"));
       TetMesh mesh = awkward();
       if (!named) mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();
       EXPECT_TRUE(store(write_mesh(folder / "m.msh", mesh, format, binary)).empty());
       MeshReport report;
       expect_same(read_mesh(folder / "m.msh", &report), mesh);
-      EXPECT_EQ(report.format,
-                std::string(format == "msh22" ? "Gmsh MSH 2.2 " : "Gmsh MSH 4.1 ") + (binary ? "binary" : "ASCII"));
+      EXPECT_EQ(report.format, std::string(format == "msh22" ? "Gmsh MSH 2.2 " : "Gmsh MSH 4.1 ") +
+                                   (binary ? "binary" : "ASCII"));
     }
 }
 
@@ -284,13 +298,15 @@ TEST(WriteMesh, OtherFormatsTellWhatTheyLeaveOut) {
   for (const auto& [name, prefix, binary] : forms) {
     SCOPED_TRACE(name);
     TetMesh mesh = awkward();
-    EXPECT_GE(store(write_mesh(folder / name, mesh, "", binary)).size(), 2u + mesh.vertex_sets.size());
+    EXPECT_GE(store(write_mesh(folder / name, mesh, "", binary)).size(),
+              2u + mesh.vertex_sets.size());
     const TetMesh read = read_mesh(folder / name);
     EXPECT_EQ(read.vertices, mesh.vertices);
     EXPECT_EQ(read.tets, mesh.tets);
     EXPECT_EQ(read.region, mesh.region);
     EXPECT_EQ(read.region_names, (std::vector<std::string>{prefix + "1", prefix + "2"}));
-    EXPECT_TRUE(store(write_mesh(folder / name, read, "", binary)).empty());  // nothing more is lost
+    // nothing more is lost
+    EXPECT_TRUE(store(write_mesh(folder / name, read, "", binary)).empty());
     expect_same(read_mesh(folder / name), read);
     mesh.region.clear(), mesh.region_names.clear(), mesh.vertex_sets.clear();
     EXPECT_TRUE(store(write_mesh(folder / name, mesh, "", binary)).empty());
@@ -303,9 +319,10 @@ TEST(WriteMesh, TetGenHasOneMarkerPerVertex) {
   TetMesh mesh = read_mesh(sample("blocks_22.msh"));
   mesh.vertex_sets = {{"marker_3", {0, 1}}, {"marker_7", {1, 2}}};
   mesh.region_names = {"attribute_4", "attribute_9"};
-  EXPECT_EQ(store(write_mesh(folder / "m.ele", mesh)),
-            (std::vector<std::string>{
-                "the vertex set 'marker_7' loses 1 vertices to others: this format has one per vertex"}));
+  EXPECT_EQ(
+      store(write_mesh(folder / "m.ele", mesh)),
+      (std::vector<std::string>{
+          "the vertex set 'marker_7' loses 1 vertices to others: this format has one per vertex"}));
   mesh.vertex_sets.at("marker_7") = {2};
   expect_same(read_mesh(folder / "m.ele"), mesh);
 }
@@ -320,7 +337,8 @@ TEST(WriteMesh, WrongNamesAreRefused) {
                  {"unknown surface file extension 'vtk'", "obj, ply, off, stl"});
   TetMesh lines = mesh;
   lines.region_names[0] = "two\nlines";
-  expect_refused([&] { write_mesh("m.msh", lines); }, "m.msh", {"'two?lines'", "cannot be written"});
+  expect_refused([&] { write_mesh("m.msh", lines); }, "m.msh",
+                 {"'two?lines'", "cannot be written"});
 }
 
 TEST(WriteSurface, IsReadAgain) {
@@ -351,11 +369,14 @@ TEST(ReadAny, TellsMeshesFromSurfaces) {
     return std::holds_alternative<ReadSurface>(
         read_any(std::filesystem::path(PLICA_SOURCE_DIR) / "meshes/data/formats" / name));
   };
-  for (const char* name : {"blocks.obj", "blocks.stl", "blocks_binary.stl"}) EXPECT_TRUE(holds_surface(name)) << name;
-  for (const char* name : {"blocks_22.msh", "blocks_51.vtk", "blocks.ele"}) EXPECT_FALSE(holds_surface(name)) << name;
+  for (const char* name : {"blocks.obj", "blocks.stl", "blocks_binary.stl"})
+    EXPECT_TRUE(holds_surface(name)) << name;
+  for (const char* name : {"blocks_22.msh", "blocks_51.vtk", "blocks.ele"})
+    EXPECT_FALSE(holds_surface(name)) << name;
   const Folder folder;
-  std::ofstream(folder / "s.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
-                                     "$EndNodes\n$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
+  std::ofstream(folder / "s.msh")
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+         "$EndNodes\n$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
   EXPECT_TRUE(std::holds_alternative<ReadSurface>(read_any(folder / "s.msh")));
   expect_refused([&] { read_any("m.mssh"); }, "m.mssh",
                  {"unknown mesh or surface file extension 'mssh'", "obj, stl, ply, off, vtp"});

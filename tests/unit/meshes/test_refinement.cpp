@@ -55,37 +55,43 @@ std::set<std::set<std::array<long, 3>>> tets_by_place(const TetMesh& mesh) {
 }
 
 TEST(Refinement, OfABoxIsTheBoxOfTwiceTheCells) {
-  EXPECT_EQ(tets_by_place(refined(box_mesh(brick, {4, 2, 3}))), tets_by_place(box_mesh(brick, {8, 4, 6})));
+  EXPECT_EQ(tets_by_place(refined(box_mesh(brick, {4, 2, 3}))),
+            tets_by_place(box_mesh(brick, {8, 4, 6})));
 }
 
 TEST(Refinement, CutsEachIntoEightOfTheSameVolume) {
-  for (const TetMesh& mesh : {jittered(box_mesh(brick, {4, 2, 2}), 0.2), ball_mesh({0, 0, 0}, 1, 4), tube_mesh(bent()),
-                              blob_mesh({0, 0, 0}, 0.12, 4), beam_with_a_tumour()}) {
+  for (const TetMesh& mesh :
+       {jittered(box_mesh(brick, {4, 2, 2}), 0.2), ball_mesh({0, 0, 0}, 1, 4), tube_mesh(bent()),
+        blob_mesh({0, 0, 0}, 0.12, 4), beam_with_a_tumour()}) {
     const TetMesh fine = refined(mesh);
     const MeshQuality before = expect_sound(mesh), after = expect_sound(fine);
     ASSERT_EQ(fine.tets.size(), 8 * mesh.tets.size());
     EXPECT_EQ(after.boundary_triangles, 4 * before.boundary_triangles);
     EXPECT_EQ(fine.vertices.size(), mesh.vertices.size() + mesh_edges(mesh).size());
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) EXPECT_EQ(fine.vertices[v], mesh.vertices[v]);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      EXPECT_EQ(fine.vertices[v], mesh.vertices[v]);
     for (int t = 0; t < after.tets; ++t)
       EXPECT_NEAR(8 * tet_shape(fine, t).volume / tet_shape(mesh, t / 8).volume, 1, 1e-9);
     ASSERT_EQ(after.regions.size(), before.regions.size());
     for (std::size_t r = 0; r < before.regions.size(); ++r)
       EXPECT_NEAR(after.regions[r].volume / before.regions[r].volume, 1, 1e-12);
     EXPECT_TRUE(is_refinement_of(fine, mesh));
-    EXPECT_LT(mesh_quality(refined(fine)).height_ratios.max, 2 * before.height_ratios.max) << "does not degenerate";
+    EXPECT_LT(mesh_quality(refined(fine)).height_ratios.max, 2 * before.height_ratios.max)
+        << "does not degenerate";
   }
 }
 
 TEST(Refinement, SetsOfTheBoundaryStayThere) {
   TetMesh mesh = box_mesh({{0, 0, 0}, {1, 1, 1}}, {1, 1, 1});
-  mesh.vertex_sets["all"] = {0, 1, 2, 3, 4, 5, 6, 7};  // all on the boundary; the cell's diagonal is not
+  // all on the boundary; the cell's diagonal is not
+  mesh.vertex_sets["all"] = {0, 1, 2, 3, 4, 5, 6, 7};
   mesh.vertex_sets["bottom"] = {0, 1, 2, 3};
   const TetMesh fine = refined(mesh);
   EXPECT_EQ(fine.vertices.size(), 27u);
   EXPECT_EQ(fine.vertex_sets.at("all").size(), 26u);
   ASSERT_EQ(fine.vertex_sets.at("bottom").size(), 9u);
-  for (const int v : fine.vertex_sets.at("bottom")) EXPECT_EQ(fine.vertices[static_cast<std::size_t>(v)].z(), 0);
+  for (const int v : fine.vertex_sets.at("bottom"))
+    EXPECT_EQ(fine.vertices[static_cast<std::size_t>(v)].z(), 0);
   for (const auto& [name, set] : fine.vertex_sets) EXPECT_TRUE(std::ranges::is_sorted(set)) << name;
 }
 
@@ -119,7 +125,8 @@ TEST(Jitter, MovesAllButTheShape) {
     still += way.norm() == 0 ? 1 : 0;
     EXPECT_LE(way.lpNorm<Eigen::Infinity>(), 0.2 * 0.025 * (1 + 1e-9));
     for (int a = 0; a < 3; ++a) {
-      const bool on_face = mesh.vertices[v][a] == brick.min[a] || mesh.vertices[v][a] == brick.max[a];
+      const bool on_face =
+          mesh.vertices[v][a] == brick.min[a] || mesh.vertices[v][a] == brick.max[a];
       EXPECT_TRUE(!on_face || std::abs(way[a]) < 1e-15);
     }
   }
@@ -130,7 +137,8 @@ TEST(Jitter, MovesAllButTheShape) {
 }
 
 TEST(Jitter, KeepsRegionsAndRoundBodies) {
-  for (const TetMesh& mesh : {blob_mesh({0, 0, 0}, 0.12, 8), tube_mesh(bent()), ball_mesh({0, 0, 0}, 1, 6)}) {
+  for (const TetMesh& mesh :
+       {blob_mesh({0, 0, 0}, 0.12, 8), tube_mesh(bent()), ball_mesh({0, 0, 0}, 1, 6)}) {
     const MeshQuality before = mesh_quality(mesh), after = expect_sound(jittered(mesh, 0.2));
     EXPECT_NEAR(after.volume / before.volume, 1, 1e-12);
     for (std::size_t r = 0; r < before.regions.size(); ++r)
@@ -155,7 +163,8 @@ TEST(BlobMesh, HasAnInclusionAndABase) {
     const double part = quality.regions[1].volume / quality.volume;
     EXPECT_GT(part, 0.05);
     EXPECT_LT(part, 0.15);
-    EXPECT_EQ(mesh.vertex_sets.at("base").size(), static_cast<std::size_t>((cells + 1) * (cells + 1)));
+    EXPECT_EQ(mesh.vertex_sets.at("base").size(),
+              static_cast<std::size_t>((cells + 1) * (cells + 1)));
     for (const int v : mesh.vertex_sets.at("base"))
       EXPECT_LT(mesh.vertices[static_cast<std::size_t>(v)].x(), 0.1 - 0.02);
     EXPECT_GT(quality.volume, before);  // from inside towards the round body
@@ -175,7 +184,8 @@ TEST(TubeMesh, HasItsWallAndItsEnds) {
   EXPECT_EQ(mesh.vertex_sets.at("lumen").size(), 132u);
   for (const int v : mesh.vertex_sets.at("inlet"))
     EXPECT_NEAR(mesh.vertices[static_cast<std::size_t>(v)].z(), 0.03, 1e-15);
-  const double end = 0.01 + tube.length / tube.bend;  // a quarter turn ends where the circle's centre is above
+  // a quarter turn ends where the circle's centre is above
+  const double end = 0.01 + tube.length / tube.bend;
   for (const int v : mesh.vertex_sets.at("outlet"))
     EXPECT_NEAR(mesh.vertices[static_cast<std::size_t>(v)].x(), end, 1e-15);
   Tube fine = tube;

@@ -71,8 +71,11 @@ TEST(RepairMesh, SliversOnTheBoundaryArePeeledOff) {
   for (int v = 0; v < 8; ++v)
     if (mesh.vertices[static_cast<std::size_t>(v)].z() > 0.5) top.push_back(v);
   const auto edges = mesh_edges(mesh);
-  const auto is_edge = [&](int a, int b) { return std::ranges::find(edges, std::array<int, 2>{a, b}) != edges.end(); };
-  const std::array<int, 2> a = {top[0], top[3]}, b = {top[1], top[2]};  // the diagonals of the square
+  const auto is_edge = [&](int a, int b) {
+    return std::ranges::find(edges, std::array<int, 2>{a, b}) != edges.end();
+  };
+  // the diagonals of the square
+  const std::array<int, 2> a = {top[0], top[3]}, b = {top[1], top[2]};
   const auto& raised = is_edge(a[0], a[1]) ? b : a;
   for (const int v : raised) mesh.vertices[static_cast<std::size_t>(v)].z() += 0.001;
   std::array<int, 4> sliver = {top[0], top[1], top[2], top[3]};
@@ -108,16 +111,19 @@ TEST(RepairMesh, DuplicatesAreMergedAndLoosePartsDropped) {
   EXPECT_EQ(count_parts(repair.mesh), 1);
   EXPECT_NEAR(volume_of(repair.mesh), 2, 1e-12);
   EXPECT_EQ(repair.mesh.vertices.size(), 45u);
-  EXPECT_EQ(repair.mesh.vertices[static_cast<std::size_t>(repair.mesh.vertex_sets.at("end")[0])], Point(2, 1, 1));
+  EXPECT_EQ(repair.mesh.vertices[static_cast<std::size_t>(repair.mesh.vertex_sets.at("end")[0])],
+            Point(2, 1, 1));
   for (std::size_t t = 0; t < repair.mesh.tets.size(); ++t)
     EXPECT_EQ(repair.mesh.region[t], mesh.region[static_cast<std::size_t>(repair.original_tet[t])]);
   for (std::size_t v = 0; v < repair.mesh.vertices.size(); ++v)
-    EXPECT_EQ(repair.vertex[static_cast<std::size_t>(repair.original_vertex[v])], static_cast<int>(v));
+    EXPECT_EQ(repair.vertex[static_cast<std::size_t>(repair.original_vertex[v])],
+              static_cast<int>(v));
 }
 
 TEST(RepairMesh, FlawsThatReadersRefuseAreRepaired) {
   const std::string text =
-      "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 0\n0.5 0.5 0 0\n"
+      "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 "
+      "0\n0.5 0.5 0 0\n"
       "Tetrahedra 5\n1 2 3 4 1\n2 3 4 5 1\n2 3 4 5 1\n1 2 3 6 1\n1 1 2 3 1\nEnd\n";
   const MemoryFile file{"m.mesh", text};
   EXPECT_THROW(read_mesh(file), InputError);

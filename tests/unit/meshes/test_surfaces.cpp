@@ -15,17 +15,20 @@ using namespace plica::test;
 
 // A tetrahedron; line 1 is the first vertex, 5 the first face
 const std::string obj =
-    "v 0 0 0\nv 1 0 0 # a corner\nv 0 1 0 1.0\nv 0 0 1 0.5 0.5 0.5\nf 1 3 2\nf 1/1 2/2 4/3\nf 2//1 3//1 4//1\nf -4 -1 "
+    "v 0 0 0\nv 1 0 0 # a corner\nv 0 1 0 1.0\nv 0 0 1 0.5 0.5 0.5\nf 1 3 2\nf 1/1 2/2 4/3\nf 2//1 "
+    "3//1 4//1\nf -4 -1 "
     "-2\n";
 // A triangle; line 4 is its first corner
 const std::string facet =
-    "solid one\n facet normal 0 0 nan\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 -0\n  endloop\n"
+    "solid one\n facet normal 0 0 nan\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 "
+    "1 -0\n  endloop\n"
     " endfacet\n";
 const std::string stl = facet + "endsolid one\n";
 
 TriangleSurface read(const MemoryFile& file) { return read_surface(file); }
 
-void expect_surface_refused(const MemoryFile& file, const std::string& place, const std::vector<std::string>& parts) {
+void expect_surface_refused(const MemoryFile& file, const std::string& place,
+                            const std::vector<std::string>& parts) {
   expect_refused([&] { read(file); }, place, parts);
 }
 
@@ -33,7 +36,8 @@ TEST(Surfaces, ObjWithEveryFormOfCorner) {
   SurfaceReport report;
   const TriangleSurface surface = read_surface(MemoryFile{"m.obj", obj}, &report);
   EXPECT_EQ(surface.vertices[3], Point(0, 0, 1));
-  EXPECT_EQ(surface.triangles, (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
+  EXPECT_EQ(surface.triangles,
+            (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}));
   EXPECT_TRUE(report.closed());
   EXPECT_EQ(report.parts, 1);
   EXPECT_FALSE(report.turned);
@@ -42,8 +46,10 @@ TEST(Surfaces, ObjWithEveryFormOfCorner) {
 
 TEST(Surfaces, ObjPolygonsAreCutOrRefused) {
   const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.8 0.8 0\nf 1 2 3 4\n";
-  EXPECT_EQ(read({"m.obj", square}).triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
-  expect_surface_refused({"m.obj", with(square, "f 1 2 3 4", "f 1 3 2 4")}, "m.obj:6", {"4 corners", "cut"});
+  EXPECT_EQ(read({"m.obj", square}).triangles,
+            (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  expect_surface_refused({"m.obj", with(square, "f 1 2 3 4", "f 1 3 2 4")}, "m.obj:6",
+                         {"4 corners", "cut"});
 }
 
 TEST(Surfaces, TurnsAClosedSurfaceThatIsInsideOut) {
@@ -96,7 +102,8 @@ TEST(Surfaces, StlCornersAtOnePlaceAreOneVertex) {
   const TriangleSurface surface = read(sample("blocks.stl"));
   EXPECT_EQ(surface.vertices.size(), 13u);
   EXPECT_EQ(read({"m.stl", stl}).vertices.size(), 3u);
-  const std::string below = with(with(facet, "vertex 1 0 0", "vertex 0 1 0"), "vertex 0 1 -0", "vertex 1 -0 0");
+  const std::string below =
+      with(with(facet, "vertex 1 0 0", "vertex 0 1 0"), "vertex 0 1 -0", "vertex 1 -0 0");
   const TriangleSurface both = read({"m.stl", stl + below + "endsolid\n"});
   EXPECT_EQ(both.vertices.size(), 3u);
   EXPECT_EQ(both.triangles.size(), 2u);
@@ -148,14 +155,16 @@ TEST(MalformedSurfaces, Stl) {
   const MemoryFile file = sample("blocks_binary.stl");
   MemoryFile changed = file;
   changed.bytes[82] = 1;
-  expect_surface_refused(changed, file.name + ": byte 80", {"triangles is 65556", "3277884 bytes", "has 1084"});
+  expect_surface_refused(changed, file.name + ": byte 80",
+                         {"triangles is 65556", "3277884 bytes", "has 1084"});
   changed = file;
   std::memcpy(changed.bytes.data() + 84 + 12 + 4, "\0\0\xc0\x7f", 4);
   expect_surface_refused(changed, file.name + ": byte 100", {"coordinate y is nan"});
 }
 
 const std::string nodes =
-    "# made by hand\n5 3 1 1\n0 0 0 0  7.5  0\n1 1 0 0 7.5 2 # on the base\n\n2 0 1 0 7.5 2\n3 0 0 1 0 0\n4 1 1 1 0 "
+    "# made by hand\n5 3 1 1\n0 0 0 0  7.5  0\n1 1 0 0 7.5 2 # on the base\n\n2 0 1 0 7.5 2\n3 0 0 "
+    "1 0 0\n4 1 1 1 0 "
     "-1\n";
 const std::string tets = "2 4 1\n0 0 1 2 3 5\n1 1 2 3 4 2\n";
 
@@ -168,11 +177,13 @@ TetMesh read_tetgen(const std::string& ele, const std::string& node, MeshReport*
 
 void expect_refused_ele(const std::string& from, const std::string& to, int line,
                         const std::vector<std::string>& parts) {
-  expect_refused([&] { read_tetgen(with(tets, from, to), nodes); }, "m.ele:" + std::to_string(line), parts);
+  expect_refused([&] { read_tetgen(with(tets, from, to), nodes); }, "m.ele:" + std::to_string(line),
+                 parts);
 }
 void expect_refused_node(const std::string& from, const std::string& to, int line,
                          const std::vector<std::string>& parts) {
-  expect_refused([&] { read_tetgen(tets, with(nodes, from, to)); }, "m.node:" + std::to_string(line), parts);
+  expect_refused([&] { read_tetgen(tets, with(nodes, from, to)); },
+                 "m.node:" + std::to_string(line), parts);
 }
 
 TEST(TetGen, TakesTetrahedraRegionsAndMarkers) {
@@ -181,7 +192,8 @@ TEST(TetGen, TakesTetrahedraRegionsAndMarkers) {
   EXPECT_EQ(mesh.vertices[3], Point(0, 0, 1));
   EXPECT_EQ(mesh.tets, (std::vector<std::array<int, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
   EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"attribute_2", "attribute_5"}));
-  EXPECT_EQ(mesh.vertex_sets, (std::map<std::string, std::vector<int>>{{"marker_-1", {4}}, {"marker_2", {1, 2}}}));
+  EXPECT_EQ(mesh.vertex_sets,
+            (std::map<std::string, std::vector<int>>{{"marker_-1", {4}}, {"marker_2", {1, 2}}}));
   EXPECT_EQ(report.format, "TetGen .node and .ele");
 }
 
@@ -192,7 +204,8 @@ TEST(TetGen, ReadsEitherFileOfThePairFromZeroAndFromOne) {
     const TetMesh mesh = read_mesh(std::filesystem::path(sample(name).name), &report);
     const MeshQuality quality = mesh_quality(mesh);
     EXPECT_EQ(mesh.vertices.size(), 12u);
-    EXPECT_EQ(report.vertex_tags.front(), std::string(name).find("_0") == std::string::npos ? 1 : 0);
+    EXPECT_EQ(report.vertex_tags.front(),
+              std::string(name).find("_0") == std::string::npos ? 1 : 0);
     EXPECT_NEAR(quality.volume, 1.6e-5, 1e-17);
     EXPECT_EQ(mesh.region_names, (std::vector<std::string>{"attribute_1", "attribute_2"}));
     EXPECT_NEAR(quality.regions[1].volume, 8e-6, 1e-17);
@@ -213,9 +226,11 @@ TEST(TetGen, CutAtAnyByteIsRefused) {
 TEST(TetGen, AnyByteChangedIsRefusedOrSound) {
   const auto check = [](const TetMesh& mesh) { EXPECT_GT(mesh_quality(mesh).volume, 0.0); };
   change_every_byte(
-      {"m.ele", tets}, [](const MemoryFile& file) { return read_tetgen(file.bytes, nodes); }, check);
+      {"m.ele", tets}, [](const MemoryFile& file) { return read_tetgen(file.bytes, nodes); },
+      check);
   change_every_byte(
-      {"m.node", nodes}, [](const MemoryFile& file) { return read_tetgen(tets, file.bytes); }, check);
+      {"m.node", nodes}, [](const MemoryFile& file) { return read_tetgen(tets, file.bytes); },
+      check);
 }
 
 TEST(MalformedTetGen, Nodes) {
@@ -229,7 +244,8 @@ TEST(MalformedTetGen, Nodes) {
   expect_refused_node("5 3 1 1", "99999999999 3 1 1", 2, {"99999999999", "room for"});
   expect_refused_node("5 3 1 1", "5 3 99999999999 1", 2, {"99999999999", "room for"});
   expect_refused_node("3 0 0 1 0 0", "3 0 nan 1 0 0", 7, {"coordinate y is 'nan'"});
-  expect_refused_node("3 0 0 1 0 0", "2 0 0 1 0 0", 7, {"node 2 is defined again (first on line 6)"});
+  expect_refused_node("3 0 0 1 0 0", "2 0 0 1 0 0", 7,
+                      {"node 2 is defined again (first on line 6)"});
 }
 
 TEST(MalformedTetGen, Tetrahedra) {
@@ -242,7 +258,8 @@ TEST(MalformedTetGen, Tetrahedra) {
   expect_refused_ele("3 5\n", "3 5.5\n", 2, {"'5.5'", "its region"});
   expect_refused_ele("1 1 2 3 4 2", "1 1 2 3 9 2", 3, {"tetrahedron 1 names node 9"});
   expect_refused_ele("1 1 2 3 4 2", "1 1 2 3 3 2", 3, {"names a node twice"});
-  expect_refused_ele("1 1 2 3 4 2", "1 0 2 3 1 2", 3, {"tetrahedron 1 repeats tetrahedron 0 on line 2"});
+  expect_refused_ele("1 1 2 3 4 2", "1 0 2 3 1 2", 3,
+                     {"tetrahedron 1 repeats tetrahedron 0 on line 2"});
 }
 
 }  // namespace

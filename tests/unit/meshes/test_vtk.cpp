@@ -12,10 +12,12 @@ using namespace plica::test;
 
 // Two tetrahedra on a common face and a triangle; line 6 is point 0, 11 cell 0, 15 its type
 const std::string two_tets =
-    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0\n1 0 0\n0 1 0 0 0 1\n1 1 "
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0\n1 0 "
+    "0\n0 1 0 0 0 1\n1 1 "
     "1\n"
     "CELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 1 2 3 4\nCELL_TYPES 3\n5\n10 10\n"
-    "CELL_DATA 3\nSCALARS quality int 1\nLOOKUP_TABLE default\n7 8 9\nFIELD FieldData 1\nregion 1 3 int\n0 5 2\n";
+    "CELL_DATA 3\nSCALARS quality int 1\nLOOKUP_TABLE default\n7 8 9\nFIELD FieldData 1\nregion 1 "
+    "3 int\n0 5 2\n";
 
 const std::string two_tets_5 =
     "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n"
@@ -23,14 +25,16 @@ const std::string two_tets_5 =
     "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\nMETADATA\nINFORMATION 0\n\n"
     "CELLS 4 11\nOFFSETS vtktypeint64\n0 3 7 11\nCONNECTIVITY vtktypeint64\n0 1 2 0 1 2 3 1 2 3 4\n"
     "CELL_TYPES 3\n5 10 10\nPOINT_DATA 5\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 nan 0\n"
-    "CELL_DATA 3\nFIELD FieldData 2\nregion 1 3 int\n0 5 2\nMETADATA\nINFORMATION 0\n\nother 2 3 double\n1 2 3 4 5 6\n";
+    "CELL_DATA 3\nFIELD FieldData 2\nregion 1 3 int\n0 5 2\nMETADATA\nINFORMATION 0\n\nother 2 3 "
+    "double\n1 2 3 4 5 6\n";
 
 TetMesh read(const MemoryFile& file) { return read_mesh(file); }
 TetMesh read_text(const std::string& text) { return read_mesh(MemoryFile{"m.vtk", text}); }
 
 void expect_refused_with(const std::string& from, const std::string& to, int line,
                          const std::vector<std::string>& parts) {
-  expect_refused(MemoryFile{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line), parts);
+  expect_refused(MemoryFile{"m.vtk", with(two_tets, from, to)}, "m.vtk:" + std::to_string(line),
+                 parts);
 }
 
 TEST(Vtk, TakesTetrahedraAndRegions) {
@@ -61,8 +65,8 @@ TEST(Vtk, EveryVariantHoldsTheSameBlocks) {
       SCOPED_TRACE(name + form);
       MeshReport report;
       const TetMesh mesh = read_mesh(sample("blocks_" + name + form + ".vtk"), &report);
-      EXPECT_EQ(report.format,
-                "VTK legacy " + name.substr(0, 1) + "." + name.substr(1) + (form.empty() ? " ASCII" : " binary"));
+      EXPECT_EQ(report.format, "VTK legacy " + name.substr(0, 1) + "." + name.substr(1) +
+                                   (form.empty() ? " ASCII" : " binary"));
       EXPECT_EQ(mesh.vertices.size(), 23u);
       EXPECT_EQ(mesh.tets, first.tets);
       EXPECT_EQ(mesh.region, first.region);
@@ -103,7 +107,8 @@ TEST(MalformedVtk, Headings) {
   expect_refused(MemoryFile{"m.vtk", ""}, "m.vtk", {"# vtk DataFile Version", "the file ends"});
   expect_refused_with("3.0", "6.0", 1, {"version is '6.0'", "1.0 to 5.1"});
   expect_refused_with("ASCII", "TEXT", 3, {"'TEXT'", "ASCII or BINARY"});
-  expect_refused_with("UNSTRUCTURED_GRID", "RECTILINEAR_GRID", 4, {"DATASET UNSTRUCTURED_GRID", "'DATASET RECT"});
+  expect_refused_with("UNSTRUCTURED_GRID", "RECTILINEAR_GRID", 4,
+                      {"DATASET UNSTRUCTURED_GRID", "'DATASET RECT"});
   expect_refused_with("UNSTRUCTURED_GRID", "POLYDATA", 10, {"POLYGONS", "'CELLS 3 14'"});
   expect_refused_with("DATASET UNSTRUCTURED_GRID\n", "", 4, {"DATASET UNSTRUCTURED_GRID"});
   expect_refused_with("CELL_TYPES 3", "CELL_KINDS 3", 14, {"keyword", "'CELL_KINDS 3'"});
@@ -125,18 +130,23 @@ TEST(MalformedVtk, Points) {
 TEST(MalformedVtk, Cells) {
   expect_refused_with("CELLS 3 14", "CELLS 3 15", 13, {"take 14 numbers and not 15"});
   expect_refused_with("CELLS 3 14", "CELLS 3 13", 13, {"points of cell 2 is 4", "4 of 13"});
-  expect_refused_with("CELLS 3 14", "CELLS 4 14", 14, {"number of points of a cell", "'CELL_TYPES'"});
+  expect_refused_with("CELLS 3 14", "CELLS 4 14", 14,
+                      {"number of points of a cell", "'CELL_TYPES'"});
   expect_refused_with("CELLS 3 14", "CELLS 3 99999999999", 10, {"99999999999", "room for"});
   expect_refused_with("CELLS 3 14\n3 0 1 2", "CELLS 3 15\n4 0 1 2 3", 11,
                       {"cell 0, a triangle, has 4 points", "expected 3"});
-  expect_refused_with("5\n10 10", "5\n10 12", 13, {"cell 2, a hexahedron, has 4 points", "expected 8"});
-  expect_refused_with("5\n10 10", "5\n10 42", 16, {"cell 2 has type 42, a polyhedron", "supported"});
+  expect_refused_with("5\n10 10", "5\n10 12", 13,
+                      {"cell 2, a hexahedron, has 4 points", "expected 8"});
+  expect_refused_with("5\n10 10", "5\n10 42", 16,
+                      {"cell 2 has type 42, a polyhedron", "supported"});
   expect_refused_with("5\n10 10", "5\n10 99", 16, {"cell 2 has type 99;"});
   expect_refused_with("CELL_TYPES 3\n5\n", "CELL_TYPES 2\n", 15, {"there are 2 types for 3 cells"});
-  expect_refused_with("4 1 2 3 4", "4 1 2 3 0", 13, {"tetrahedron 2 repeats tetrahedron 1 on line 12"});
+  expect_refused_with("4 1 2 3 4", "4 1 2 3 0", 13,
+                      {"tetrahedron 2 repeats tetrahedron 1 on line 12"});
   const auto refuse_5 = [](const std::string& from, const std::string& to, int line,
                            const std::vector<std::string>& parts) {
-    expect_refused(MemoryFile{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line), parts);
+    expect_refused(MemoryFile{"m.vtk", with(two_tets_5, from, to)}, "m.vtk:" + std::to_string(line),
+                   parts);
   };
   refuse_5("0 3 7 11\n", "1 3 7 11\n", 19, {"first offset is 1"});
   refuse_5("0 3 7 11\n", "0 3 7 10\n", 19, {"use 10 of 11"});
@@ -149,7 +159,8 @@ TEST(MalformedVtk, Cells) {
 TEST(MalformedVtk, Arrays) {
   expect_refused_with("CELL_DATA 3", "CELL_DATA 4", 17, {"4 for 3 cells"});
   expect_refused_with("LOOKUP_TABLE default\n", "", 19, {"LOOKUP_TABLE default", "'7 8 9'"});
-  expect_refused_with("region 1 3 int", "region 1 3 double", 22, {"'region'", "one integer per cell"});
+  expect_refused_with("region 1 3 int", "region 1 3 double", 22,
+                      {"'region'", "one integer per cell"});
   expect_refused_with("region 1 3 int", "region 1 2 int", 23, {"'2' is too much"});
   expect_refused_with("region 1 3 int", "region 1 3 string", 22, {"'string'", "choices"});
   expect_refused_with("region 1 3 int", "region 0 3 int", 22, {"components is 0"});
@@ -171,25 +182,31 @@ TEST(MalformedVtk, Binary) {
 
 // Line 4 is <Piece>, 7 and 8 are points, 13 the cells' points
 const std::string xml_tets =
-    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
+    "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"5\" NumberOfCells='2'>\n<Points>\n"
-    "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n0 0 0 1 0 0 0 1 0\n0 0 1 1 1 1\n"
+    "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n0 0 0 1 0 0 0 1 0\n0 "
+    "0 1 1 1 1\n"
     "</DataArray>\n</Points>\n<Cells>\n"
-    "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n0 1 2 3 1 2 3 4\n</DataArray>\n"
+    "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">\n0 1 2 3 1 2 3 "
+    "4\n</DataArray>\n"
     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4 8</DataArray>\n"
     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 10</DataArray>\n</Cells>\n"
-    "<CellData>\n<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">5 2</DataArray>\n</CellData>\n"
+    "<CellData>\n<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">5 "
+    "2</DataArray>\n</CellData>\n"
     "<!-- a > comment --></Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 
 TetMesh read_xml(const std::string& text) { return read_mesh(MemoryFile{"m.vtu", text}); }
 
 void expect_xml_refused(const std::string& from, const std::string& to, int line,
                         const std::vector<std::string>& parts) {
-  expect_refused(MemoryFile{"m.vtu", with(xml_tets, from, to)}, "m.vtu:" + std::to_string(line), parts);
+  expect_refused(MemoryFile{"m.vtu", with(xml_tets, from, to)}, "m.vtu:" + std::to_string(line),
+                 parts);
 }
 
-const char* const variants[] = {"blocks_ascii.vtu", "blocks_base64.vtu",     "blocks_base64_32_big.vtu",
-                                "blocks_raw.vtu",   "blocks_raw_32_big.vtu", "blocks_appended_base64.vtu"};
+const char* const variants[] = {"blocks_ascii.vtu",         "blocks_base64.vtu",
+                                "blocks_base64_32_big.vtu", "blocks_raw.vtu",
+                                "blocks_raw_32_big.vtu",    "blocks_appended_base64.vtu"};
 
 TEST(Vtu, TakesTetrahedraAndRegions) {
   const TetMesh mesh = read_xml(xml_tets);
@@ -213,11 +230,13 @@ TEST(Vtu, EveryVariantHoldsTheSameBlocks) {
 
 TEST(Vtu, LengthsMayBeEncodedApart) {
   const auto with_types = [](const std::string& text) {
-    return with(xml_tets, "\"types\" format=\"ascii\">10 10", "\"types\" format=\"binary\"> " + text + "\n");
+    return with(xml_tets, "\"types\" format=\"ascii\">10 10",
+                "\"types\" format=\"binary\"> " + text + "\n");
   };
   expect_same(read_xml(with_types("AgAAAAoK")), read_xml(xml_tets));      // together
   expect_same(read_xml(with_types("AgAAAA==Cgo=")), read_xml(xml_tets));  // apart
-  for (const char* bad : {"AgAAAAo", "AgAAAA==", "AgAAAAoKCgo=", "AwAAAAoK", "!gAAAAoK", "", "AgAA", "//////8="})
+  for (const char* bad :
+       {"AgAAAAo", "AgAAAA==", "AgAAAAoKCgo=", "AwAAAAoK", "!gAAAAoK", "", "AgAA", "//////8="})
     EXPECT_THROW(read_xml(with_types(bad)), InputError) << bad;
 }
 
@@ -238,9 +257,11 @@ TEST(Vtu, AnyByteChangedIsRefusedOrSound) {
 TEST(MalformedVtu, Files) {
   expect_refused(MemoryFile{"m.vtu", ""}, "m.vtu:1", {"XML tag", "the file ends"});
   expect_refused(MemoryFile{"m.vtu", "$MeshFormat\n"}, "m.vtu:1", {"XML tag", "'$MeshFormat?'"});
-  expect_xml_refused("\"UnstructuredGrid\"", "\"ImageData\"", 2, {"'ImageData'", "UnstructuredGrid"});
+  expect_xml_refused("\"UnstructuredGrid\"", "\"ImageData\"", 2,
+                     {"'ImageData'", "UnstructuredGrid"});
   expect_xml_refused("\"LittleEndian\"", "\"Middle\"", 2, {"byte_order is 'Middle'"});
-  expect_xml_refused(" byte_order=\"LittleEndian\"", " byte_order=\"LittleEndian\" header_type=\"Int8\"", 2,
+  expect_xml_refused(" byte_order=\"LittleEndian\"",
+                     " byte_order=\"LittleEndian\" header_type=\"Int8\"", 2,
                      {"header_type is 'Int8'"});
   expect_xml_refused("</Piece>", "</Piece><Piece/>", 21, {"second <Piece>"});
 }
@@ -262,11 +283,14 @@ TEST(MalformedVtu, Xml) {
 }
 
 TEST(MalformedVtu, Arrays) {
-  expect_xml_refused("NumberOfPoints=\"5\"", "NumberOfPoints=\"6\"", 6, {"NumberOfPoints is 6", "room for 5"});
+  expect_xml_refused("NumberOfPoints=\"5\"", "NumberOfPoints=\"6\"", 6,
+                     {"NumberOfPoints is 6", "room for 5"});
   expect_xml_refused("NumberOfPoints=\"5\"", "NumberOfPoints=\"4\"", 8, {"too much", "1 1 1"});
-  expect_xml_refused("NumberOfPoints=\"5\"", "NumberOfPoints=\"99999999999\"", 6, {"99999999999", "room for"});
+  expect_xml_refused("NumberOfPoints=\"5\"", "NumberOfPoints=\"99999999999\"", 6,
+                     {"99999999999", "room for"});
   expect_xml_refused("NumberOfPoints=\"5\"", "", 4, {"<Piece> has no NumberOfPoints"});
-  expect_xml_refused("NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", 6, {"'2'", "must be 3"});
+  expect_xml_refused("NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"", 6,
+                     {"'2'", "must be 3"});
   expect_xml_refused("0 0 1 1 1 1", "0 0 1 1 inf 1", 8, {"coordinate y is 'inf'"});
   expect_xml_refused("\"Float64\"", "\"Float46\"", 6, {"'Float46'", "did you mean 'Float64'"});
   expect_xml_refused("\"ascii\"", "\"hex\"", 6, {"'hex'", "ascii, binary or appended"});
@@ -288,10 +312,11 @@ TEST(MalformedVtu, Appended) {
   const std::string at = file.name + ": byte ";
   EXPECT_THROW(read(changed("\n   _", "\n   -")), InputError);
   EXPECT_THROW(read(changed("\"raw\"", "\"rot\"")), InputError);
-  expect_refused(changed("</AppendedData>", "</AppendedDate>"), at + std::to_string(file.bytes.size()),
-                 {"expected </AppendedData>"});
+  expect_refused(changed("</AppendedData>", "</AppendedDate>"),
+                 at + std::to_string(file.bytes.size()), {"expected </AppendedData>"});
   MemoryFile huge = file;
-  const std::size_t points = std::stoul(file.bytes.substr(file.bytes.find("offset=", file.bytes.find("<Points>")) + 8));
+  const std::size_t points =
+      std::stoul(file.bytes.substr(file.bytes.find("offset=", file.bytes.find("<Points>")) + 8));
   huge.bytes[begin + points + 6] = '\x7f';
   expect_refused(huge, at + std::to_string(begin + points), {"the array 'Points' has", "are left"});
 }
@@ -301,7 +326,8 @@ TEST(Base64, DecodesWhatRfc4648Encodes) {
   EXPECT_EQ(decode_base64("Zg=="), "f");
   EXPECT_EQ(decode_base64("Zm8="), "fo");
   EXPECT_EQ(decode_base64("Zm9vYmFy"), "foobar");
-  for (const char* bad : {"Z", "Zm9", "Zm9=v", "Z===", "====", "Zm9-", "=Zm9"}) EXPECT_FALSE(decode_base64(bad)) << bad;
+  for (const char* bad : {"Z", "Zm9", "Zm9=v", "Z===", "====", "Zm9-", "=Zm9"})
+    EXPECT_FALSE(decode_base64(bad)) << bad;
 }
 
 }  // namespace

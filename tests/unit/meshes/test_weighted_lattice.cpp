@@ -60,14 +60,17 @@ TEST(InsideLines, PartsThatOverlapAreOneAndHolesAreNone) {
   EXPECT_EQ(at(together(low, hole, true)), (std::vector<double>{0, 0.5, 1, 2}));
 }
 
-// A box of 2.5 cells along each edge in 3: the outer ones are filled by three quarters of each length
+// A box of 2.5 cells along each edge in 3: the outer ones are filled by three quarters of each
+// length
 TEST(WeightedLattice, OfABoxBetweenItsCells) {
-  const WeightedLattice lattice = weighted_lattice(box_surface(Point::Zero(), Point::Constant(0.025)), 0.01);
+  const WeightedLattice lattice =
+      weighted_lattice(box_surface(Point::Zero(), Point::Constant(0.025)), 0.01);
   ASSERT_EQ(lattice.mesh.tets.size(), 27u * 6);
   ASSERT_EQ(lattice.mesh.filled.size(), lattice.mesh.tets.size());
   for (std::size_t cell = 0; cell < 27; ++cell) {
     double expected = 1, filled = 0;
-    for (const std::size_t place : {cell % 3, cell / 3 % 3, cell / 9}) expected *= place == 1 ? 1 : 0.75;
+    for (const std::size_t place : {cell % 3, cell / 3 % 3, cell / 9})
+      expected *= place == 1 ? 1 : 0.75;
     for (std::size_t t = 0; t < 6; ++t) filled += lattice.mesh.filled[6 * cell + t] / 6;
     EXPECT_NEAR(filled, expected, 0.01) << cell;
   }
@@ -82,7 +85,8 @@ TEST(WeightedLattice, HasTheBodysVolumeAndCentroid) {
     for (const double size : {0.9, 0.3, 0.1}) {
       const WeightedLattice lattice = weighted_lattice(*surface, size);
       const MeshSize found = size_of(lattice.mesh);
-      EXPECT_NEAR(found.volume / enclosed_volume(*surface), 1, size > 0.5 ? 0.02 : 0.01) << size;  // by 8 lines a cell
+      // by 8 lines a cell
+      EXPECT_NEAR(found.volume / enclosed_volume(*surface), 1, size > 0.5 ? 0.02 : 0.01) << size;
       EXPECT_LT((found.centroid - centre).norm(), 0.004) << size;
       EXPECT_GE(std::ranges::min(lattice.mesh.filled), 0.0199);
       EXPECT_LE(std::ranges::max(lattice.mesh.filled), 1.0);
@@ -93,15 +97,18 @@ TEST(WeightedLattice, OfOneSurfaceAreOneBodyWhateverTheirCells) {
   const TriangleSurface plate = box_surface(Point::Zero(), Point(0.1, 0.1, 0.012));
   const MeshSize fine = size_of(weighted_lattice(plate, 0.005).mesh),
                  coarse = size_of(weighted_lattice(plate, 0.04).mesh);
-  EXPECT_EQ(compare_levels(fine, coarse, 1).same, SameBody::yes) << compare_levels(fine, coarse, 1).sentence;
+  EXPECT_EQ(compare_levels(fine, coarse, 1).same, SameBody::yes)
+      << compare_levels(fine, coarse, 1).sentence;
   EXPECT_NE(compare_levels(fine, size_of(lattice_mesh(plate, 0.04)), 1).same, SameBody::yes);
 }
 
 // Two prongs 4 mm apart, which hang together at one end
 TEST(WeightedLattice, CountsCellsThatConnectWhatIsApart) {
-  const TriangleSurface prongs = together(box_surface(Point(0, 0, 0), Point(0.1, 0.02, 0.01)),
-                                          box_surface(Point(0, 0, 0.014), Point(0.1, 0.02, 0.024)), false);
-  const TriangleSurface fork = together(prongs, box_surface(Point(-0.02, 0, 0), Point(0.001, 0.02, 0.024)), false);
+  const TriangleSurface prongs =
+      together(box_surface(Point(0, 0, 0), Point(0.1, 0.02, 0.01)),
+               box_surface(Point(0, 0, 0.014), Point(0.1, 0.02, 0.024)), false);
+  const TriangleSurface fork =
+      together(prongs, box_surface(Point(-0.02, 0, 0), Point(0.001, 0.02, 0.024)), false);
   EXPECT_EQ(weighted_lattice(fork, 0.002).shared_cells, 0);
   EXPECT_GE(weighted_lattice(fork, 0.008).shared_cells, 20);
   EXPECT_NEAR(size_of(weighted_lattice(fork, 0.008).mesh).volume, 4.968e-5, 2e-7);

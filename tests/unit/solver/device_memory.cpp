@@ -14,12 +14,14 @@
 #include <cstdlib>
 #include <new>
 
-// Kokkos takes the memory of views on hosts from the operator new below. While a DeviceMemory is there, that comes from one stretch
-// of pages of their own, which the processor can be told to guard.
+// Kokkos takes the memory of views on hosts from the operator new below. While a DeviceMemory is
+// there, that comes from one stretch of pages of their own, which the processor can be told to
+// guard.
 namespace plica::test {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 32;  // of addresses; only what is written to takes memory
+// of addresses; only what is written to takes memory
+constexpr std::size_t most_bytes = std::size_t{1} << 32;
 struct GuardedLabel {
   std::string name;
   const char* data;
@@ -39,7 +41,8 @@ bool in_guarded(const void* p) {
 }
 
 void* take_guarded(std::size_t size) {
-  const std::size_t page = static_cast<std::size_t>(getpagesize()), whole = (size + page - 1) / page * page;
+  const std::size_t page = static_cast<std::size_t>(getpagesize()),
+                    whole = (size + page - 1) / page * page;
   const std::size_t at = guarded_bytes.fetch_add(whole);
   return at + whole <= most_bytes ? guarded + at : nullptr;
 }
@@ -60,8 +63,8 @@ void on_fault(int signal, siginfo_t* info, void*) {
 
 void on_kernel_begin(const char*, std::uint32_t, std::uint64_t*) { guard(false); }
 void on_kernel_end(std::uint64_t) { guard(true); }
-void on_copy_begin(Kokkos_Profiling_SpaceHandle, const char*, const void*, Kokkos_Profiling_SpaceHandle, const char*,
-                   const void*, std::uint64_t) {
+void on_copy_begin(Kokkos_Profiling_SpaceHandle, const char*, const void*,
+                   Kokkos_Profiling_SpaceHandle, const char*, const void*, std::uint64_t) {
   guard(false);
 }
 void on_copy_end() { guard(true); }
@@ -74,7 +77,8 @@ void on_view(Kokkos_Profiling_SpaceHandle, const char* name, const void* data, s
 DeviceMemory::DeviceMemory() {
   namespace Tools = Kokkos::Tools::Experimental;
   if (guarded == nullptr) {  // it stays, since Kokkos may have taken some of it for itself
-    void* pages = mmap(nullptr, most_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void* pages = mmap(nullptr, most_bytes, PROT_READ | PROT_WRITE,
+                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (pages == MAP_FAILED) throw std::bad_alloc();
     guarded = static_cast<char*>(pages);
   }
@@ -96,10 +100,14 @@ void DeviceMemory::close() {
   struct sigaction action {};
   action.sa_sigaction = on_fault, action.sa_flags = SA_SIGINFO;
   sigaction(SIGSEGV, &action, &action_before);
-  Tools::set_begin_parallel_for_callback(on_kernel_begin), Tools::set_end_parallel_for_callback(on_kernel_end);
-  Tools::set_begin_parallel_reduce_callback(on_kernel_begin), Tools::set_end_parallel_reduce_callback(on_kernel_end);
-  Tools::set_begin_parallel_scan_callback(on_kernel_begin), Tools::set_end_parallel_scan_callback(on_kernel_end);
-  Tools::set_begin_deep_copy_callback(on_copy_begin), Tools::set_end_deep_copy_callback(on_copy_end);
+  Tools::set_begin_parallel_for_callback(on_kernel_begin),
+      Tools::set_end_parallel_for_callback(on_kernel_end);
+  Tools::set_begin_parallel_reduce_callback(on_kernel_begin),
+      Tools::set_end_parallel_reduce_callback(on_kernel_end);
+  Tools::set_begin_parallel_scan_callback(on_kernel_begin),
+      Tools::set_end_parallel_scan_callback(on_kernel_end);
+  Tools::set_begin_deep_copy_callback(on_copy_begin),
+      Tools::set_end_deep_copy_callback(on_copy_end);
   guard(true);
 }
 
@@ -111,8 +119,8 @@ std::vector<std::string> DeviceMemory::open() {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < std::min(guarded_fault_count.load(), guarded_faults.size()); ++i) {
     const char* at = guarded_faults[i];
-    const auto found =
-        std::ranges::upper_bound(*guarded_labels, at, {}, &GuardedLabel::data);  // they lie in this order
+    const auto found = std::ranges::upper_bound(*guarded_labels, at, {},
+                                                &GuardedLabel::data);  // they lie in this order
     names.push_back(found == guarded_labels->begin() ? "what no view has" : std::prev(found)->name);
   }
   return names;
@@ -129,7 +137,9 @@ void* operator new(std::size_t size, std::align_val_t alignment, const std::noth
 void operator delete(void* p, std::align_val_t) noexcept {
   if (!plica::test::in_guarded(p)) std::free(p);
 }
-void operator delete(void* p, std::size_t, std::align_val_t alignment) noexcept { operator delete(p, alignment); }
+void operator delete(void* p, std::size_t, std::align_val_t alignment) noexcept {
+  operator delete(p, alignment);
+}
 void operator delete(void* p, std::align_val_t alignment, const std::nothrow_t&) noexcept {
   operator delete(p, alignment);
 }

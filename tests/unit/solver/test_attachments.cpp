@@ -26,7 +26,8 @@ constexpr double side = 0.06;
 Body cube(const Point& at, int cells, int levels = 1) {
   std::vector<TetMesh> meshes;
   for (int i = 0; i < levels; ++i)
-    meshes.push_back(box_mesh({at, at + Point(side, side, side)}, {cells - i, cells - i, cells - i}));
+    meshes.push_back(
+        box_mesh({at, at + Point(side, side, side)}, {cells - i, cells - i, cells - i}));
   Body body = body_of(std::move(meshes), "neo_hookean").body;
   body.surface = boundary_surface(body.levels[0]).surface;
   return body;
@@ -35,12 +36,14 @@ Body cube(const Point& at, int cells, int levels = 1) {
 constexpr double gap = 1e-4;  // between two cubes
 
 /// A fixed cube, and under it one of other cells that is attached to it.
-Problem hanging(const std::optional<double>& stiffness, int levels = 1, const std::string& cycle = "single") {
+Problem hanging(const std::optional<double>& stiffness, int levels = 1,
+                const std::string& cycle = "single") {
   Body upper = cube({0, 0, side + gap}, 4, levels), lower = cube({0, 0, 0}, 3, levels);
   upper.fixed = {HalfSpaceSelection{{0, 0, 2 * side + gap}, {0, 0, -1}}};
   Problem p;
   p.body = join_bodies({{"upper", upper}, {"lower", lower}});
-  p.contact.attachments = {{.body = "lower", .to = "upper", .reach = 2 * gap, .stiffness = stiffness}};
+  p.contact.attachments = {
+      {.body = "lower", .to = "upper", .reach = 2 * gap, .stiffness = stiffness}};
   p.gravity = {0, 0, -9.81};
   p.integration.cycle = cycle;
   return p;
@@ -72,18 +75,19 @@ TEST(Attachments, CarryAWeightByTheirSprings) {
     ASSERT_EQ(wrenches.size(), 2u);
     EXPECT_NEAR(wrenches[1].force[2], weight, 0.002 * weight) << stiffness;
     EXPECT_NEAR(wrenches[0].force[2], -weight, 0.002 * weight) << stiffness;
-    const double even =
-        0.5 * weight * weight / (16 * stiffness);  // of springs that share it evenly: the least there is
+    const double even = 0.5 * weight * weight /
+                        (16 * stiffness);  // of springs that share it evenly: the least there is
     EXPECT_GE(s.energies().contact, even * (1 - 0.005)) << stiffness;
     EXPECT_LE(s.energies().contact, 1.5 * even) << stiffness;
   }
 }
 
-// 16 springs carry the weight, those at the corners more than the mean: eight times as strong as that they hold, half as strong they tear, and
-// the body falls.
+// 16 springs carry the weight, those at the corners more than the mean: eight times as strong as
+// that they hold, half as strong they tear, and the body falls.
 TEST(Attachments, TearAtTheirStrength) {
   const double weight = 9.81 * mass_of(cube({0, 0, 0}, 3));
-  for (const auto& [integrator, step] : {std::pair{"symplectic_euler", 0.0}, {"implicit_euler", 1e-3}})
+  for (const auto& [integrator, step] :
+       {std::pair{"symplectic_euler", 0.0}, {"implicit_euler", 1e-3}})
     for (const double part : {8.0, 0.5}) {
       SCOPED_TRACE(integrator + std::string(" ") + std::to_string(part));
       Problem p = hanging(3000);
@@ -107,7 +111,8 @@ TEST(Attachments, TearAtTheirStrength) {
 // One body in two parts bends as it does in one.
 TEST(Attachments, MakeOneBeamOfTwoHalves) {
   const auto half = [&](double at) {
-    Body body = body_of({box_mesh({{at, 0, 0}, {at + 0.2, 0.1, 0.1}}, {6, 3, 3})}, "neo_hookean").body;
+    Body body =
+        body_of({box_mesh({{at, 0, 0}, {at + 0.2, 0.1, 0.1}}, {6, 3, 3})}, "neo_hookean").body;
     body.surface = boundary_surface(body.levels[0]).surface;
     body.material.young_modulus = 200e3;
     return body;
@@ -120,7 +125,8 @@ TEST(Attachments, MakeOneBeamOfTwoHalves) {
   p.body = join_bodies({{"first", first}, {"second", second}});
   one.body = join_bodies({{"whole", whole}});
   p.contact.bodies = false;
-  p.contact.attachments = {{.body = "second", .to = "first", .where = Box{{0.2, 0, 0}, {0.2, 1, 1}}, .reach = 1e-6}};
+  p.contact.attachments = {
+      {.body = "second", .to = "first", .where = Box{{0.2, 0, 0}, {0.2, 1, 1}}, .reach = 1e-6}};
   for (Problem* each : {&p, &one}) {
     each->gravity = {0, 0, -9.81}, each->integration.macro_step = 2e-4;
     for (auto& [name, region] : each->body.regions) region.damping.mass = 20;
@@ -138,7 +144,8 @@ TEST(Attachments, MakeOneBeamOfTwoHalves) {
   EXPECT_NEAR(tip(parts, p.body) / tip(together, one.body), 1, 0.02) << tip(together, one.body);
 }
 
-// Two cubes fly and spin, attached: springs give each what they take from the other, along the line between two places.
+// Two cubes fly and spin, attached: springs give each what they take from the other, along the line
+// between two places.
 TEST(Attachments, KeepMomenta) {
   Body left = cube({0, 0, 0}, 3), right = cube({side + gap, 0, 0}, 4);
   left.initial.velocity = {0, 0.3, 0}, right.initial.velocity = {0.1, -0.3, 0.2};
@@ -146,11 +153,13 @@ TEST(Attachments, KeepMomenta) {
   p.body = join_bodies({{"left", left}, {"right", right}});
   p.contact.attachments = {{.body = "left", .to = "right", .reach = 2 * gap}};
   Simulation<Host> s(p);
-  const std::vector<double> mass = lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
+  const std::vector<double> mass =
+      lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
   const auto momenta = [&] {
     std::pair<Point, Point> all{Point::Zero(), Point::Zero()};
     const auto x = s.positions(), v = s.velocities();
-    for (std::size_t a = 0; a < mass.size(); ++a) all.first += mass[a] * v[a], all.second += mass[a] * x[a].cross(v[a]);
+    for (std::size_t a = 0; a < mass.size(); ++a)
+      all.first += mass[a] * v[a], all.second += mass[a] * x[a].cross(v[a]);
     return all;
   };
   const auto before = momenta();
@@ -196,8 +205,12 @@ TEST(Attachments, RefuseWhatTheyCannotHold) {
   has(said([](Problem&, AttachmentOptions& o) { o.to = "uper"; }), "upper");
   has(said([](Problem&, AttachmentOptions& o) { o.to = "lower"; }), "expected another one");
   has(said([](Problem&, AttachmentOptions& o) { o.reach = 1e-5; }), "the nearest is 0.0001 m away");
-  has(said([](Problem&, AttachmentOptions& o) { o.where = GroupSelection{"top"}; }), "expected box, sphere, plane");
-  has(said([](Problem&, AttachmentOptions& o) { o.where = Box{{5, 5, 5}, {6, 6, 6}}; }), "attachments.0.where");
+  has(said([](Problem&, AttachmentOptions& o) { o.where = GroupSelection{"top"}; }),
+      "expected box, sphere, plane");
+  has(said([](Problem&, AttachmentOptions& o) {
+        o.where = Box{{5, 5, 5}, {6, 6, 6}};
+      }),
+      "attachments.0.where");
   has(said([](Problem&, AttachmentOptions& o) { o.stiffness = -1; }), "attachments.0.stiffness");
   has(said([](Problem& p, AttachmentOptions& o) {
         const AttachmentOptions again = o;
@@ -208,7 +221,8 @@ TEST(Attachments, RefuseWhatTheyCannotHold) {
   alone.body = cube({0, 0, 0}, 2);
   alone.contact.attachments = {{.body = "a", .to = "b"}};
   has(refusal([&] { Simulation<Host> s(alone); }), "expected several");
-  alone.contact.obstacles.push_back({.shape = PlaneOptions{}, .friction = {}, .motion = {}, .name = "b"});
+  alone.contact.obstacles.push_back(
+      {.shape = PlaneOptions{}, .friction = {}, .motion = {}, .name = "b"});
   has(refusal([&] { Simulation<Host> s(alone); }),
       "b is an obstacle; expected a body, or in place of this contact.obstacles.0.grasp");
 }

@@ -22,7 +22,8 @@ template <class B>
 class BadStates : public testing::Test {};
 TYPED_TEST_SUITE(BadStates, EachBackend);
 
-Problem deformed(const std::string& material, const Point& stretch, std::optional<int> random = {}) {
+Problem deformed(const std::string& material, const Point& stretch,
+                 std::optional<int> random = {}) {
   Problem p = small_cube(material, 2);
   p.body.material.allow_inversion = true;
   p.body.initial.stretch = stretch, p.body.initial.random = random;
@@ -56,15 +57,18 @@ TEST(RandomStarts, LieInTheBoxAndRepeat) {
   const auto first = Simulation<Host>(deformed("corotational", Point::Ones(), 3)).positions();
   for (const Point& x : first)
     for (int k = 0; k < 3; ++k) EXPECT_TRUE(x[k] >= 0 && x[k] <= 0.1) << x;
-  EXPECT_TRUE(same_bits(Simulation<Host>(deformed("corotational", Point::Ones(), 3)).positions(), first));
-  EXPECT_GT(largest_difference(Simulation<Host>(deformed("corotational", Point::Ones(), 4)).positions(), first), 0.02);
+  EXPECT_TRUE(
+      same_bits(Simulation<Host>(deformed("corotational", Point::Ones(), 3)).positions(), first));
+  EXPECT_GT(largest_difference(
+                Simulation<Host>(deformed("corotational", Point::Ones(), 4)).positions(), first),
+            0.02);
   // limits are those of the body at rest
   EXPECT_EQ(Simulation<Host>(deformed("corotational", Point::Ones(), 3)).levels()[0].critical_step,
             Simulation<Host>(deformed("corotational", Point::Ones())).levels()[0].critical_step);
 }
 
-// neo_hookean's mirrored start is far stiffer: it takes Newton's method. From random starts it may come to rest in a tangle: that is
-// not asked for.
+// neo_hookean's mirrored start is far stiffer: it takes Newton's method. From random starts it may
+// come to rest in a tangle: that is not asked for.
 TEST(BadStates, NewtonTurnsAMirroredBodyBack) {
   Problem p = deformed("neo_hookean", {1, 1, -1});
   p.body.damping.mass = 20;
@@ -79,14 +83,16 @@ TEST(BadStates, NewtonTurnsAMirroredBodyBack) {
   EXPECT_LT(simulation.energies().elastic, 1e-9 * before);
 }
 
-// Materials that claim it find back to their shape, up to a rigid motion; steps that are linearised once are retried by halves.
+// Materials that claim it find back to their shape, up to a rigid motion; steps that are linearised
+// once are retried by halves.
 TYPED_TEST(BadStates, RecoverInMaterialsThatSaySo) {
   for (const char* material : {"corotational", "neo_hookean"}) {
     ASSERT_TRUE(recovers(material));
     std::vector<Problem> starts = {deformed(material, {1, 1, 0}), deformed(material, {5, 1, 1})};
     if (std::string(material) == "corotational")
       for (const Problem& more :
-           {deformed(material, {1, 1, -1}), deformed(material, Point::Ones(), 1), deformed(material, Point::Ones(), 2)})
+           {deformed(material, {1, 1, -1}), deformed(material, Point::Ones(), 1),
+            deformed(material, Point::Ones(), 2)})
         starts.push_back(more);
     for (std::size_t i = 0; i < starts.size(); ++i) {
       SCOPED_TRACE(material + (" " + std::to_string(i)));
@@ -110,7 +116,8 @@ TEST(InvertedStarts, AreRefusedWhereTheyAreNotAllowed) {
   EXPECT_EQ(refusal_of(p), "");
   p.body.material.allow_inversion.reset();
   const std::string said = refusal_of(p);
-  for (const char* part : {"body.initial", "48 of 48 elements", "J = -1", "body.material.allow_inversion: true"})
+  for (const char* part :
+       {"body.initial", "48 of 48 elements", "J = -1", "body.material.allow_inversion: true"})
     EXPECT_NE(said.find(part), std::string::npos) << said;
   p.body.initial.stretch = {1, -1, -1};  // turned about x
   EXPECT_EQ(refusal_of(p), "");
@@ -167,7 +174,8 @@ template <class B>
 class Retry : public testing::Test {};
 TYPED_TEST_SUITE(Retry, EachBackend);
 
-/// Let go a little squashed, in macro steps above the limit whose halves are below it: motion grows until a step is bad.
+/// Let go a little squashed, in macro steps above the limit whose halves are below it: motion grows
+/// until a step is bad.
 Problem squashed(int halvings, const std::string& cycle = "single") {
   Problem p = cube_levels(cycle == "single" ? 1 : 2, 3, cycle);
   p.body.initial.stretch = {1, 1, 0.95};
@@ -230,7 +238,8 @@ TYPED_TEST(Retry, GivesUpAtItsLimit) {
   const auto bad = simulation.step_checked();
   ASSERT_TRUE(bad);
   EXPECT_EQ(bad->kind, "non_finite");
-  EXPECT_EQ(simulation.counters().at("step_halvings"), simulation.counters().at("rejected_steps") - 1);
+  EXPECT_EQ(simulation.counters().at("step_halvings"),
+            simulation.counters().at("rejected_steps") - 1);
 }
 
 TYPED_TEST(Retry, OfCyclesAndOfSeveralStepsAtOnce) {
@@ -283,13 +292,18 @@ TYPED_TEST(Retry, ContinuesBitForBitFromASavedState) {
 TEST(FailureOptions, AreChecked) {
   const auto refused = [](const Problem& p) { return refusal([&] { Simulation<Host>{p}; }); };
   EXPECT_NE(
-      refused(squashed(11)).find("integration.on_failure.halvings is 11; expected a whole number in [0, 10], or auto"),
+      refused(squashed(11))
+          .find(
+              "integration.on_failure.halvings is 11; expected a whole number in [0, 10], or auto"),
       std::string::npos);
   EXPECT_NE(refused(squashed(-2)).find("integration.on_failure.halvings"), std::string::npos);
   for (const char* cycle : {"him", "auto"}) {
     Problem p = squashed(2, cycle);
-    p.integration.macro_step.reset(), p.integration.allow_unstable = false;  // which auto does not take either
-    EXPECT_NE(refused(p).find("on_failure.halvings is 2, but cycle " + std::string(cycle)), std::string::npos) << cycle;
+    // which auto does not take either
+    p.integration.macro_step.reset(), p.integration.allow_unstable = false;
+    EXPECT_NE(refused(p).find("on_failure.halvings is 2, but cycle " + std::string(cycle)),
+              std::string::npos)
+        << cycle;
   }
 }
 

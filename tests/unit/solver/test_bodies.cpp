@@ -79,7 +79,8 @@ double deepest(const Problem& p, const Simulation<Host>& s) {
     TriangleSurface one;
     for (std::size_t i = 0; i < points; ++i) one.vertices.push_back(x[first + i]);
     for (const auto& t : p.body.surface->triangles)
-      if (static_cast<std::size_t>(t[0]) >= first && static_cast<std::size_t>(t[0]) < first + points) {
+      if (static_cast<std::size_t>(t[0]) >= first &&
+          static_cast<std::size_t>(t[0]) < first + points) {
         one.triangles.push_back(t);
         for (int& v : one.triangles.back()) v -= static_cast<int>(first);
       }
@@ -91,11 +92,14 @@ double deepest(const Problem& p, const Simulation<Host>& s) {
   return depth;
 }
 
-// --- Joined -----------------------------------------------------------------------------------------------------------------
+// --- Joined
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Bodies, SelectInThemselvesAndKeepTheirMaterials) {
-  Body soft = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2}), hard = block({0.2, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2});
-  soft.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};  // the bottom of hard, too, were it asked
+  Body soft = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2}),
+       hard = block({0.2, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2});
+  // the bottom of hard, too, were it asked
+  soft.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
   soft.regions["top"].where = Box{{0, 0, 0.05}, {1, 1, 1}};
   soft.regions["top"].density = 500;
   hard.material.young_modulus = 80e3, hard.damping.mass = 3;
@@ -112,14 +116,16 @@ TEST(Bodies, SelectInThemselvesAndKeepTheirMaterials) {
   const auto v = s.velocities(), x = s.positions();
   EXPECT_EQ(largest({v.begin(), v.begin() + 27}), 0);
   for (std::size_t a = 27; a < 54; ++a)
-    EXPECT_LE((v[a] - Point(0, 0, 2).cross(x[a] - Point(0.35, 0.05, 0.05))).norm(), round_off<double>(10));
+    EXPECT_LE((v[a] - Point(0, 0, 2).cross(x[a] - Point(0.35, 0.05, 0.05))).norm(),
+              round_off<double>(10));
 }
 
 // A mesh whose elements all have regions of their own, of which the body says nothing.
 TEST(Bodies, KeepTheRegionsOfTheirMeshes) {
   Body body = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2});
   body.levels[0].region_names = {"left", "right"};
-  for (std::size_t e = 0; e < body.levels[0].tets.size(); ++e) body.levels[0].region.push_back(e % 2 == 0 ? 0 : 1);
+  for (std::size_t e = 0; e < body.levels[0].tets.size(); ++e)
+    body.levels[0].region.push_back(e % 2 == 0 ? 0 : 1);
   body.regions["right"].density = 500;
   Problem p;
   p.body = join_bodies({{"a", body}});
@@ -129,7 +135,8 @@ TEST(Bodies, KeepTheRegionsOfTheirMeshes) {
 }
 
 TEST(Bodies, MoveAsEachWouldAlone) {
-  Body one = block({0, 0, 0}, {0.1, 0.1, 0.1}, {3, 3, 3}), other = block({0, 0, 0.3}, {0.1, 0.1, 0.1}, {2, 3, 3});
+  Body one = block({0, 0, 0}, {0.1, 0.1, 0.1}, {3, 3, 3}),
+       other = block({0, 0, 0.3}, {0.1, 0.1, 0.1}, {2, 3, 3});
   one.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
   other.initial.angular_velocity = {3, 0, 5};
   Problem both, single;
@@ -153,11 +160,20 @@ TEST(Bodies, RefuseWhatASimulationHasOnce) {
               join_bodies({{"a", a}, {"b", b}});
             }).find("bodies.b.material.model is corotational"),
             std::string::npos);
-  EXPECT_NE(refusal([&] { join_bodies({{"a", a}, {"a", a}}); }).find("two bodies"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              join_bodies({{"a", a}, {"a", a}});
+            }).find("two bodies"),
+            std::string::npos);
   b = a, b.initial.random = 1;
-  EXPECT_NE(refusal([&] { join_bodies({{"a", a}, {"b", b}}); }).find("bodies.b.initial.random"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              join_bodies({{"a", a}, {"b", b}});
+            }).find("bodies.b.initial.random"),
+            std::string::npos);
   b = a, b.fixed = {Box{{5, 5, 5}, {6, 6, 6}}};
-  EXPECT_NE(refusal([&] { join_bodies({{"a", a}, {"b", b}}); }).find("bodies.b.fixed.0"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              join_bodies({{"a", a}, {"b", b}});
+            }).find("bodies.b.fixed.0"),
+            std::string::npos);
 }
 
 TEST(Bodies, SayWhereTheyOverlap) {
@@ -171,7 +187,8 @@ TEST(Bodies, SayWhereTheyOverlap) {
   EXPECT_EQ(refusal([&] { Simulation<Host> s(p); }), "");
   const Body one = block({0, 0, 0}, {0.1, 0.1, 0.1}, {2, 2, 2});
   p = {}, p.body = join_bodies({{"one", one}, {"same", one}});
-  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("bodies.same overlaps bodies.one"), std::string::npos);
+  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("bodies.same overlaps bodies.one"),
+            std::string::npos);
 }
 
 TEST(Bodies, RefuseWhatCannotTouch) {
@@ -183,9 +200,11 @@ TEST(Bodies, RefuseWhatCannotTouch) {
   EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("that of a body"), std::string::npos);
 }
 
-// --- Known answers ----------------------------------------------------------------------------------------------------------
+// --- Known answers
+// ----------------------------------------------------------------------------------------------------------
 
-// Momenta to rounding whatever the integrator; no energy is gained; what flew at each other flies apart.
+// Momenta to rounding whatever the integrator; no energy is gained; what flew at each other flies
+// apart.
 TEST(Bodies, CollideWithTheMomentaTheyHad) {
   for (const std::string integrator : {"symplectic_euler", "central_difference", "rk4"}) {
     Problem p = collision();
@@ -202,7 +221,8 @@ TEST(Bodies, CollideWithTheMomentaTheyHad) {
       const Momenta now = momenta(s, mass);
       EXPECT_LE((now.linear - before.linear).norm(), round_off<double>(2000, size)) << integrator;
       const double turned = (now.angular - before.angular).norm();
-      EXPECT_TRUE(integrator == "rk4" || turned <= round_off<double>(2000, 0.1 * size)) << integrator << " " << turned;
+      EXPECT_TRUE(integrator == "rk4" || turned <= round_off<double>(2000, 0.1 * size))
+          << integrator << " " << turned;
     }
     EXPECT_LE(most, 1.02 * energy) << integrator;
     EXPECT_LE(depth, 0.05 * mean_edge_length(p.body.levels[0])) << integrator;
@@ -225,7 +245,8 @@ TEST(Bodies, StandOnEachOther) {
   p.contact.friction = 0.5;
   Simulation<Host> s(p);
   while (s.time() < 0.5) advance(s, 20);
-  const double weight = 9.81 * 1000 * 0.06 * 0.06 * 0.06, all = weight + 9.81 * 1000 * 0.1 * 0.1 * 0.05;
+  const double weight = 9.81 * 1000 * 0.06 * 0.06 * 0.06,
+               all = weight + 9.81 * 1000 * 0.1 * 0.1 * 0.05;
   const auto w = s.wrenches();
   ASSERT_EQ(w.size(), 3u);
   EXPECT_EQ(w[2].obstacle, "upper");
@@ -247,7 +268,8 @@ TEST(Bodies, TouchInEveryCycle) {
   }
 }
 
-// --- Folds ------------------------------------------------------------------------------------------------------------------
+// --- Folds
+// ------------------------------------------------------------------------------------------------------------------
 
 /// A strip bent to a U whose legs, 1 mm apart, stand along z.
 Problem fold() {
@@ -261,11 +283,14 @@ Problem fold() {
     else if (s > leg + arc)
       x = {r, y, s - leg - arc};
     else
-      x = {-r * std::cos((s - leg) / arc * std::numbers::pi), y, -r * std::sin((s - leg) / arc * std::numbers::pi)};
+      x = {-r * std::cos((s - leg) / arc * std::numbers::pi), y,
+           -r * std::sin((s - leg) / arc * std::numbers::pi)};
   }
   for (auto& t : mesh.tets)
-    if (tet_volume(mesh.vertices[static_cast<std::size_t>(t[0])], mesh.vertices[static_cast<std::size_t>(t[1])],
-                   mesh.vertices[static_cast<std::size_t>(t[2])], mesh.vertices[static_cast<std::size_t>(t[3])]) < 0)
+    if (tet_volume(mesh.vertices[static_cast<std::size_t>(t[0])],
+                   mesh.vertices[static_cast<std::size_t>(t[1])],
+                   mesh.vertices[static_cast<std::size_t>(t[2])],
+                   mesh.vertices[static_cast<std::size_t>(t[3])]) < 0)
       std::swap(t[2], t[3]);
   Problem p = body_of({mesh}, "neo_hookean");
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
@@ -307,7 +332,8 @@ TEST(SelfContact, KeepsAFoldApart) {
   }
 }
 
-// --- How it is computed ---------------------------------------------------------------------------------------------------------
+// --- How it is computed
+// ---------------------------------------------------------------------------------------------------------
 
 #if defined(KOKKOS_ENABLE_OPENMP)
 TEST(Bodies, GiveTheSameBitsForOneThreadAndTwo) {

@@ -30,7 +30,8 @@ TEST(CoreWait, TwoThreadsOnOneCoreWaitForEachOther) {
   const CoreWait wait;
   std::optional<double> share;
   {
-    std::jthread other([] { work_for(std::chrono::milliseconds(300)); });  // on the same core, as its parent is
+    // on the same core, as its parent is
+    std::jthread other([] { work_for(std::chrono::milliseconds(300)); });
     work_for(std::chrono::milliseconds(250));
     share = wait.share(2);
   }
@@ -65,18 +66,21 @@ std::vector<int> taken(int all, int looks, double waited, const Pace& pace) {
 }  // namespace
 
 TEST(ThreadChoice, StaysWithAllThreadsThatHaveCores) {
-  for (const int threads : taken(8, 100, 0.01, [](int n) { return 1.0 / n; })) EXPECT_EQ(threads, 8);
+  for (const int threads : taken(8, 100, 0.01, [](int n) { return 1.0 / n; }))
+    EXPECT_EQ(threads, 8);
 }
 
 TEST(ThreadChoice, OneCoreThatIsTakenHoldsUpTwoThreads) {
-  const std::vector<int> threads = taken(2, 300, 0.3, [](int n) { return n == 2 ? 15e-3 : 3.3e-3; });
+  const std::vector<int> threads =
+      taken(2, 300, 0.3, [](int n) { return n == 2 ? 15e-3 : 3.3e-3; });
   EXPECT_EQ(threads[0], 2);
   EXPECT_GT(std::count(threads.begin() + 2, threads.end(), 1), 0.95 * 298);  // the rest are trials
   EXPECT_GT(std::count(threads.begin() + 2, threads.end(), 2), 1);
 }
 
 TEST(ThreadChoice, OneOfSixteenCoresIsLeftToOthers) {
-  const std::vector<int> threads = taken(16, 300, 0.1, [](int n) { return n == 16 ? 2.0 / 16 : 1.0 / n; });
+  const std::vector<int> threads =
+      taken(16, 300, 0.1, [](int n) { return n == 16 ? 2.0 / 16 : 1.0 / n; });
   EXPECT_GT(std::count(threads.begin(), threads.end(), 15), 0.8 * 300);
 }
 

@@ -46,7 +46,8 @@ template <class B>
 class Cavities : public testing::Test {};
 TYPED_TEST_SUITE(Cavities, EachBackend);
 
-// In any homogeneous deformation F the cavity has det F times its volume, wherever it went: the forces are those of that pressure
+// In any homogeneous deformation F the cavity has det F times its volume, wherever it went: the
+// forces are those of that pressure
 TYPED_TEST(Cavities, HaveThePressureOfTheirFluid) {
   using Real = typename TypeParam::Real;
   Problem p = balloon(1.5);
@@ -137,15 +138,17 @@ TEST(Cavity, IsFilledInImplicitSteps) {
       advance(simulation, 50);
       const CavityState full = simulation.cavities().at(0);
       EXPECT_NEAR(full.volume, 1.3 * hole * hole * hole, 1e-3 * full.volume) << matrix << newton;
-      EXPECT_NEAR(full.pressure, 1e4 * K * (1.3 - full.volume / (hole * hole * hole)), 1e-6 * full.pressure);
+      EXPECT_NEAR(full.pressure, 1e4 * K * (1.3 - full.volume / (hole * hole * hole)),
+                  1e-6 * full.pressure);
       if (newton > 1) {
         EXPECT_EQ(simulation.counters().at("newton_misses"), 0);
       }
     }
 }
 
-// A fluid much stiffer than its thin wall: linearised at the start of a step, before the wall gives way, its pressure takes more
-// stiffness away than the wall has. Linearly implicit steps come to the same rest as explicit ones
+// A fluid much stiffer than its thin wall: linearised at the start of a step, before the wall gives
+// way, its pressure takes more stiffness away than the wall has. Linearly implicit steps come to
+// the same rest as explicit ones
 TEST(Cavity, IsFilledInLinearlyImplicitSteps) {
   Tube tube;
   tube.radius = 0.004, tube.wall = 0.001, tube.length = 0.03, tube.bend = 0;
@@ -177,10 +180,11 @@ TEST(Cavity, OfAPipeHasRimsThatAreFixed) {
   tube.around = 12, tube.across = 1, tube.along = 5;
   Problem p = body_of({tube_mesh(tube)}, "neo_hookean");
   p.body.loads = {{GroupSelection{"lumen"}, EnclosedVolume{1.2, K}, {}}};
-  EXPECT_NE(refusal([&] {
-              Simulation<Host>{p};
-            }).find("body.loads.0.enclosed_volume: its triangles on level 0 have a rim, and vertex"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal([&] {
+        Simulation<Host>{p};
+      }).find("body.loads.0.enclosed_volume: its triangles on level 0 have a rim, and vertex"),
+      std::string::npos);
   p.body.fixed = {GroupSelection{"inlet"}, GroupSelection{"outlet"}};
   const double area = 6 * std::sin(std::numbers::pi / 6) * 1e-4;
   EXPECT_NEAR(Simulation<Host>(p).cavities().at(0).volume, 0.1 * area, 1e-15);
@@ -192,22 +196,25 @@ TEST(Cavity, IsRefusedWhereThereIsNone) {
     change(p);
     return refusal([&] { Simulation<Host>{p}; });
   };
-  EXPECT_NE(
-      refused([](Problem& p) {
-        p.body.loads[0].where = Box{{-1, -1, -1}, {1, 1, 1}};
-      }).find("body.loads.0.enclosed_volume: the volume on the outer side of its triangles on level 0 is -0.0016"),
-      std::string::npos);
-  EXPECT_NE(
-      refused([](Problem& p) {
-        p.integration.integrator = {"v_cycle_euler"};
-      }).find("integration.integrator is v_cycle_euler, whose matrix has no room for body.loads.0.enclosed_volume"),
-      std::string::npos);
+  EXPECT_NE(refused([](Problem& p) {
+              p.body.loads[0].where = Box{{-1, -1, -1}, {1, 1, 1}};
+            })
+                .find("body.loads.0.enclosed_volume: the volume on the outer side of its triangles "
+                      "on level 0 is -0.0016"),
+            std::string::npos);
+  EXPECT_NE(refused([](Problem& p) { p.integration.integrator = {"v_cycle_euler"}; })
+                .find("integration.integrator is v_cycle_euler, whose matrix has no room for "
+                      "body.loads.0.enclosed_volume"),
+            std::string::npos);
   EXPECT_NE(refused([](Problem& p) {
               p.integration.integrator = {"newmark"}, p.integration.implicit.solver = "direct";
-            }).find("integration.implicit.solver is direct, whose matrix has no room for body.loads.0.enclosed_volume"),
+            })
+                .find("integration.implicit.solver is direct, whose matrix has no room for "
+                      "body.loads.0.enclosed_volume"),
             std::string::npos);
-  EXPECT_NE(refused([](Problem& p) { p.integration.cycle = "him"; }).find("integration.cycle is him"),
-            std::string::npos);
+  EXPECT_NE(
+      refused([](Problem& p) { p.integration.cycle = "him"; }).find("integration.cycle is him"),
+      std::string::npos);
   EXPECT_NE(refused([](Problem& p) {
               std::get<EnclosedVolume>(p.body.loads[0].load).ratio = 0;
             }).find("body.loads.0.enclosed_volume.ratio"),

@@ -30,7 +30,9 @@ std::vector<int> all_of(const TetMesh& mesh) {
   return all;
 }
 
-std::vector<char> none_of(const TetMesh& mesh) { return std::vector<char>(mesh.vertices.size(), 0); }
+std::vector<char> none_of(const TetMesh& mesh) {
+  return std::vector<char>(mesh.vertices.size(), 0);
+}
 
 std::vector<double> mass_of(const TetMesh& mesh) {
   return level_constants(body_of({mesh}).body, mesh, Point::Zero(), 0).mass;
@@ -49,7 +51,9 @@ TetMesh fork() {
     auto& made = cut.tets.emplace_back(t);
     for (int& v : made) {
       int& there = number[at(v)];
-      if (there < 0) there = static_cast<int>(cut.vertices.size()), cut.vertices.push_back(whole.vertices[at(v)]);
+      if (there < 0)
+        there = static_cast<int>(cut.vertices.size()),
+        cut.vertices.push_back(whole.vertices[at(v)]);
       v = there;
     }
   }
@@ -99,14 +103,16 @@ TEST(EdgeWalk, FindsTheShortestWays) {
     shrank = false;
     for (int v = 0; v < graph.vertices(); ++v)
       for (int k = graph.first[at(v)]; k < graph.first[at(v + 1)]; ++k)
-        if (const double d = shortest[at(v)] + graph.length[at(k)]; d < shortest[at(graph.neighbour[at(k)])])
+        if (const double d = shortest[at(v)] + graph.length[at(k)];
+            d < shortest[at(graph.neighbour[at(k)])])
           shortest[at(graph.neighbour[at(k)])] = d, shrank = true;
   }
   EdgeWalk walk(graph);
   std::vector<double> all(shortest.size(), 1e9), near = all;
   walk.from(0, reach, [&](int v, double d) { all[at(v)] = d; });
   walk.from(
-      0, reach, [&](int v) { return std::max(0.0, straight(v) - radius); }, [&](int v, double d) { near[at(v)] = d; });
+      0, reach, [&](int v) { return std::max(0.0, straight(v) - radius); },
+      [&](int v, double d) { near[at(v)] = d; });
   int reached = 0, left_out = 0;
   for (std::size_t v = 0; v < shortest.size(); ++v) {
     EXPECT_EQ(all[v], shortest[v] <= reach ? shortest[v] : 1e9);
@@ -153,7 +159,8 @@ TEST(PointGraph, JoinsPointsWhereTheirSurroundingsMeet) {
 TEST(SparseProduct, IsThatOfTheFullMatrices) {
   const TetMesh mesh = irregular_beam();
   RowMatrix A = ring_smoothing(mesh);
-  A.prune([](Eigen::Index row, Eigen::Index, double) { return row % 3 != 1; });  // some rows are empty
+  // some rows are empty
+  A.prune([](Eigen::Index row, Eigen::Index, double) { return row % 3 != 1; });
   const RowMatrix B = RowMatrix(A.transpose()), C = product(A, B);
   const Eigen::MatrixXd full = Eigen::MatrixXd(A) * Eigen::MatrixXd(B);
   EXPECT_LE((Eigen::MatrixXd(C) - full).norm(), 1e-14 * full.norm());
@@ -165,14 +172,17 @@ TEST(SparseProduct, IsThatOfTheFullMatrices) {
 TEST(MovingLeastSquares, ReproduceLinearFields) {
   for (const TetMesh& mesh : {irregular_beam(), blob_mesh(Point::Zero(), 0.12, 8)}) {
     const EdgeGraph graph = edge_graph(mesh);
-    const std::vector<int> points = farthest_points(graph, static_cast<int>(mesh.vertices.size() / 5));
-    const RowMatrix P = moving_least_squares(graph, all_of(mesh), points, point_graph(graph, points).spacing, 1.8);
+    const std::vector<int> points =
+        farthest_points(graph, static_cast<int>(mesh.vertices.size() / 5));
+    const RowMatrix P =
+        moving_least_squares(graph, all_of(mesh), points, point_graph(graph, points).spacing, 1.8);
     const auto field = [](const Point& x) { return 3 + x.dot(Point(1, -2, 0.5)); };
     for (Eigen::Index a = 0; a < P.rows(); ++a) {
       double sum = 0, value = 0;
       for (RowMatrix::InnerIterator entry(P, a); entry; ++entry) {
         sum += entry.value();
-        value += entry.value() * field(mesh.vertices[at(points[static_cast<std::size_t>(entry.col())])]);
+        value +=
+            entry.value() * field(mesh.vertices[at(points[static_cast<std::size_t>(entry.col())])]);
       }
       EXPECT_NEAR(sum, 1, 2e-3);  // weights below 1e-4 are left out
       EXPECT_NEAR(value, field(mesh.vertices[static_cast<std::size_t>(a)]), 6e-3);
@@ -185,7 +195,8 @@ TEST(MovingLeastSquares, KeepApartWhatIsNotConnected) {
   const TetMesh mesh = fork();
   const EdgeGraph graph = edge_graph(mesh);
   const std::vector<int> points = farthest_points(graph, 150);
-  const RowMatrix P = moving_least_squares(graph, all_of(mesh), points, point_graph(graph, points).spacing, 1.8);
+  const RowMatrix P =
+      moving_least_squares(graph, all_of(mesh), points, point_graph(graph, points).spacing, 1.8);
   const auto upper = [&](int v) { return mesh.vertices[at(v)][2] > 0.055; };
   int looked_at = 0;
   for (Eigen::Index a = 0; a < P.rows(); ++a) {
@@ -225,9 +236,10 @@ TEST(SliverSpace, LetsSliversFollowAndNothingElse) {
   std::vector<double> carried(slivers->kept.size(), 0.0);
   for (Eigen::Index a = 0; a < slivers->up.rows(); ++a)
     for (RowMatrix::InnerIterator entry(slivers->up, a); entry; ++entry)
-      carried[static_cast<std::size_t>(entry.col())] += entry.value() * mass[static_cast<std::size_t>(a)];
-  EXPECT_NEAR(std::accumulate(carried.begin(), carried.end(), 0.0), std::accumulate(mass.begin(), mass.end(), 0.0),
-              1e-9);
+      carried[static_cast<std::size_t>(entry.col())] +=
+          entry.value() * mass[static_cast<std::size_t>(a)];
+  EXPECT_NEAR(std::accumulate(carried.begin(), carried.end(), 0.0),
+              std::accumulate(mass.begin(), mass.end(), 0.0), 1e-9);
   for (const double m : carried) EXPECT_GT(m, 0);
 }
 
@@ -235,11 +247,13 @@ TEST(SpaceSizes, EndWithAFewHundredInEvenSteps) {
   EXPECT_TRUE(space_sizes(100).empty());
   EXPECT_EQ(space_sizes(400), std::vector<int>{100});
   for (const int vertices : {2'000, 5'000, 20'000, 200'000, 1'000'000}) {
-    const std::vector<int> sizes = space_sizes(vertices), touched = space_sizes(vertices, him_sizes_with_contact);
+    const std::vector<int> sizes = space_sizes(vertices),
+                           touched = space_sizes(vertices, him_sizes_with_contact);
     EXPECT_EQ(sizes.back(), std::clamp(vertices / 25, 100, 300)) << vertices;
     EXPECT_EQ(touched.back(), 300) << vertices << ": what touches is detail";
     EXPECT_LE(sizes.front(), vertices / 4 + 1) << vertices;
-    for (std::size_t i = 1; i < sizes.size(); ++i) EXPECT_LE(sizes[i - 1], 5.1 * sizes[i]) << vertices;
+    for (std::size_t i = 1; i < sizes.size(); ++i)
+      EXPECT_LE(sizes[i - 1], 5.1 * sizes[i]) << vertices;
   }
 }
 
@@ -249,15 +263,17 @@ TEST(MassSpaces, AnswerATranslationAsOne) {
     const std::vector<TetMesh>& meshes = problem.body.levels;
     const auto mass = mass_of(meshes[0]);
     if (meshes.size() == 1)
-      for (const CoarseSpace& space :
-           coarse_spaces(meshes[0], none_of(meshes[0]), mass, stiffness_of(meshes[0]), {.sizes = {200, 60}}))
+      for (const CoarseSpace& space : coarse_spaces(meshes[0], none_of(meshes[0]), mass,
+                                                    stiffness_of(meshes[0]), {.sizes = {200, 60}}))
         transfers.push_back(space.up);
     for (std::size_t i = 1; i < meshes.size(); ++i)
-      transfers.push_back(transfer_matrix(meshes[i - 1], none_of(meshes[i - 1]), meshes[i], none_of(meshes[i]),
-                                          embed(meshes[i - 1].vertices, meshes[i], Outside::extrapolate), true));
+      transfers.push_back(
+          transfer_matrix(meshes[i - 1], none_of(meshes[i - 1]), meshes[i], none_of(meshes[i]),
+                          embed(meshes[i - 1].vertices, meshes[i], Outside::extrapolate), true));
     const MassSpace space = mass_spaces(transfers, mass).front();
     const Eigen::Index n = space.mass.rows();
-    const Eigen::Map<const Eigen::ArrayXd> E(space.scale.data(), n), D(space.inverse_diagonal.data(), n);
+    const Eigen::Map<const Eigen::ArrayXd> E(space.scale.data(), n),
+        D(space.inverse_diagonal.data(), n);
     const Eigen::VectorXd momentum = space.mass * Eigen::VectorXd::Ones(n);
     const Eigen::VectorXd x = (E * momentum.array()).matrix(), lumped = (D * x.array()).matrix();
     const Eigen::ArrayXd answer = E * D * (2 * x - space.mass * lumped).array();
@@ -272,8 +288,8 @@ double him_error(const Problem& problem, double duration, double over_critical =
   p.integration.cycle = "single";
   Simulation<Host> single(p);
   p.integration.cycle = "him";
-  const double asked =
-      over_critical > 0 ? over_critical * single.levels()[0].critical_step : Simulation<Host>(p).macro_step();
+  const double asked = over_critical > 0 ? over_critical * single.levels()[0].critical_step
+                                         : Simulation<Host>(p).macro_step();
   p.integration.macro_step = duration / std::ceil(duration / asked);
   Simulation<Host> stepped(p);
   EXPECT_GT(stepped.macro_step(), 6 * single.macro_step());
@@ -282,7 +298,8 @@ double him_error(const Problem& problem, double duration, double over_critical =
     while (one->time() < duration * (1 - 1e-9))
       if (const auto bad = one->step_checked()) return ADD_FAILURE() << bad->text(), 1.0;
   }
-  const auto u = displacements(stepped, p.body.levels[0]), truth = displacements(single, p.body.levels[0]);
+  const auto u = displacements(stepped, p.body.levels[0]),
+             truth = displacements(single, p.body.levels[0]);
   const auto difference = minus(u, truth);
   return std::sqrt(dot(difference, difference) / dot(truth, truth));
 }
@@ -303,10 +320,11 @@ TEST(Him, NeedsOneMeshOnly) {
     EXPECT_LE(him_error(sagging({irregular_beam()}, element), 0.1), 0.02) << element;
 }
 
-// Slivers of the finest mesh do not slow the rest of it above coarser meshes that are given either: without a space for them
-// the errors are 1.5 and 2.5 %
+// Slivers of the finest mesh do not slow the rest of it above coarser meshes that are given either:
+// without a space for them the errors are 1.5 and 2.5 %
 TEST(Him, LetsSliversFollowAboveGivenMeshes) {
-  const TetMesh regular = box_mesh(beam_box, {20, 5, 5}), coarser = jittered_box(beam_box, {5, 2, 2});
+  const TetMesh regular = box_mesh(beam_box, {20, 5, 5}),
+                coarser = jittered_box(beam_box, {5, 2, 2});
   const TetMesh slivers = with_slivers(jittered_box(beam_box, {20, 5, 5}, 0.2), 0.003);
   const Simulation<Host> him(sagging({slivers, coarser}, "linear"));
   const auto& levels = him.levels();
@@ -322,12 +340,13 @@ TEST(Him, LetsSliversFollowAboveGivenMeshes) {
 }
 
 TEST(LevelsBelow, AreAsGivenWhereNothingIsASliver) {
-  const std::vector<TetMesh> meshes = {box_mesh(beam_box, {8, 4, 4}), jittered_box(beam_box, {5, 3, 3})};
+  const std::vector<TetMesh> meshes = {box_mesh(beam_box, {8, 4, 4}),
+                                       jittered_box(beam_box, {5, 3, 3})};
   const std::vector<char> none[] = {none_of(meshes[0]), none_of(meshes[1])};
   const std::vector<RestLevel> levels = {{meshes[0], none[0]}, {meshes[1], none[1]}};
   const auto transfer = [&](bool slivers) {
-    const LevelsBelow below =
-        levels_below(levels, mass_of(meshes[0]), stiffness_of(meshes[0]), {.sizes = {}, .slivers = slivers}, true);
+    const LevelsBelow below = levels_below(levels, mass_of(meshes[0]), stiffness_of(meshes[0]),
+                                           {.sizes = {}, .slivers = slivers}, true);
     EXPECT_EQ(below.transfers.size(), 1u);
     return below.transfers.front();
   };
@@ -350,7 +369,8 @@ TEST(Him, ScalesTheSpacesOfGivenMeshes) {
   EXPECT_TRUE(spaces.back().scale.empty()) << "the last one has no use for it";
   const MassSpace& space = spaces.front();
   const Eigen::Index n = space.mass.rows();
-  const Eigen::Map<const Eigen::ArrayXd> E(space.scale.data(), n), D(space.inverse_diagonal.data(), n);
+  const Eigen::Map<const Eigen::ArrayXd> E(space.scale.data(), n),
+      D(space.inverse_diagonal.data(), n);
   const Eigen::VectorXd momentum = space.mass * Eigen::VectorXd::Ones(n);
   const Eigen::VectorXd x = (E * momentum.array()).matrix(), lumped = (D * x.array()).matrix();
   EXPECT_LE((E * D * (2 * x - space.mass * lumped).array() - 1).abs().maxCoeff(), 0.02);
@@ -377,9 +397,11 @@ TEST(Coarsen, RefusesWhatItCannotDo) {
   const auto refused = [&] { return refusal([&] { validate(p); }); };
   EXPECT_EQ(refused(), "");
   p.integration.cycle = "rsv";
-  EXPECT_NE(refused().find("cycle rsv integrates its coarser levels"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("cycle rsv integrates its coarser levels"), std::string::npos)
+      << refused();
   p.integration.cycle = "him", p.body.coarsen = {150, 150};
-  EXPECT_NE(refused().find("expected fewer points from level to level"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("expected fewer points from level to level"), std::string::npos)
+      << refused();
   p.body.coarsen = {29};
   EXPECT_NE(refused().find("expected a whole number >= 30"), std::string::npos) << refused();
   p.body.coarsen = {100000};

@@ -22,7 +22,8 @@ Eigen::MatrixXd dense_matrix(const BlockRows& K) {
   const auto n = static_cast<Eigen::Index>(3 * K.size());
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < K.size(); ++i)
-    for (const auto& [j, block] : K[i]) full.block<3, 3>(static_cast<Eigen::Index>(3 * i), 3 * j) = block;
+    for (const auto& [j, block] : K[i])
+      full.block<3, 3>(static_cast<Eigen::Index>(3 * i), 3 * j) = block;
   return full;
 }
 
@@ -48,10 +49,12 @@ TEST(BlockRows, AreTheStiffnessOfLinearElements) {
   Problem p = body_of({jittered_box(decimetre, {3, 3, 3})}, "linear");
   p.integration.macro_step = 1e-9;
   LevelProbe<Host> probe(p);
-  const Lame<double> lame = lame_constants(p.body.material.young_modulus, p.body.material.poisson_ratio);
+  const Lame<double> lame =
+      lame_constants(p.body.material.young_modulus, p.body.material.poisson_ratio);
   const Eigen::MatrixXd expected = probe.stiffness_matrix(probe.zero());
-  EXPECT_LE((dense_matrix(rest_stiffness(p.body.levels[0], {{lame.lambda, lame.mu}})) - expected).norm(),
-            1e-12 * expected.norm());
+  EXPECT_LE(
+      (dense_matrix(rest_stiffness(p.body.levels[0], {{lame.lambda, lame.mu}})) - expected).norm(),
+      1e-12 * expected.norm());
 }
 
 struct CoarseStiffnessOf {
@@ -79,14 +82,16 @@ TEST(CoarseStiffness, HasWhatIsLinearInLargerCells) {
   const Eigen::MatrixXd left_out = large.expected - large.found;
   EXPECT_GT(left_out.norm(), 1e-9 * large.expected.norm());
   EXPECT_LE(left_out.norm(), 0.1 * large.expected.norm());
-  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(left_out).eigenvalues()[0], -1e-12 * large.expected.norm());
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(left_out).eigenvalues()[0],
+            -1e-12 * large.expected.norm());
 }
 
 TEST(GalerkinProduct, IsOfBothHalves) {
   const TetMesh mesh = jittered_box(decimetre, {5, 5, 5});
   const RowMatrix P = from_some_points(mesh),
                   A = product(RowMatrix(ring_smoothing(mesh).transpose()), ring_smoothing(mesh));
-  const Eigen::MatrixXd expected = Eigen::MatrixXd(P).transpose() * Eigen::MatrixXd(A) * Eigen::MatrixXd(P),
+  const Eigen::MatrixXd expected = Eigen::MatrixXd(P).transpose() * Eigen::MatrixXd(A) *
+                                   Eigen::MatrixXd(P),
                         found = galerkin_product(A, P);
   EXPECT_LE((found - expected).norm(), 1e-13 * expected.norm());
   EXPECT_EQ(found, found.transpose().eval());

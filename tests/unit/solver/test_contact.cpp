@@ -26,7 +26,8 @@ Problem cube_over(double gap, std::optional<double> friction = {}) {
   Problem p = body_of({box_mesh(decimetre, {3, 3, 3})}, "corotational");
   TriangleSurface surface;
   surface.vertices =
-      p.body.levels[0].vertices;  // every mesh vertex is a contact point; the sides' and inner ones never touch
+      p.body.levels[0]
+          .vertices;  // every mesh vertex is a contact point; the sides' and inner ones never touch
   const auto at = [](int x, int y, int z) { return x + 4 * (y + 4 * z); };
   for (int z : {0, 3})
     for (int x = 0; x < 3; ++x)
@@ -61,7 +62,8 @@ TYPED_TEST(ContactOn, SurfacePointsOutsideTurnWithTheBody) {
   const std::vector<Point> x = simulation.surface_positions();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Point& X = p.body.surface->vertices[i];
-    EXPECT_LT((x[i] - Point(-X[1], X[0], X[2])).norm(), round_off<typename TypeParam::Real>(64, radius));
+    EXPECT_LT((x[i] - Point(-X[1], X[0], X[2])).norm(),
+              round_off<typename TypeParam::Real>(64, radius));
   }
 }
 
@@ -69,7 +71,8 @@ TYPED_TEST(ContactOn, StiffnessIsYoungsModulusTimesAreaOverEdge) {
   Problem p = cube_over(0);
   p.contact.stiffness_scale = 3, p.contact.damping_scale = 0.5;
   LevelProbe<TypeParam> probe(p);
-  const double area = 0.02 / 64, edge = mean_edge_length(p.body.levels[0]), k = 3 * 64 * 20e3 * area / edge;
+  const double area = 0.02 / 64, edge = mean_edge_length(p.body.levels[0]),
+               k = 3 * 64 * 20e3 * area / edge;
   EXPECT_NEAR(probe.at(0).contact()->stiffness(), k, round_off<double>(50, k));
   const double d = 0.5 * std::sqrt(k * 1000 * area * edge);
   EXPECT_NEAR(probe.at(0).contact()->damping(), d, round_off<double>(50, d));
@@ -82,8 +85,10 @@ TYPED_TEST(ContactOn, ForceOnASunkenBodyIsThePenalty) {
   const auto& contact = *probe.at(0).contact();
   const double k = contact.stiffness(), depth = 0.002;
   std::vector<Point> down(probe.vertices(), Point(0, 0, -depth));
-  EXPECT_LE((sum(probe.force(down)) - Point(0, 0, 16 * k * depth)).norm(), round_off<Real>(2000, k * depth));
-  EXPECT_LE(sum(probe.force(std::vector<Point>(probe.vertices(), Point(0, 0, 1e-4)))).norm(), round_off<Real>(500, 1));
+  EXPECT_LE((sum(probe.force(down)) - Point(0, 0, 16 * k * depth)).norm(),
+            round_off<Real>(2000, k * depth));
+  EXPECT_LE(sum(probe.force(std::vector<Point>(probe.vertices(), Point(0, 0, 1e-4)))).norm(),
+            round_off<Real>(500, 1));
 }
 
 TYPED_TEST(ContactOn, MovingObstacleIsWhereItsVelocityTakesIt) {
@@ -144,7 +149,9 @@ TEST(Contact, FrictionStopsASlidingBlock) {
     p.body.damping.mass = 0;
     Simulation<Host> simulation(p);
     simulation.set_state(u, std::vector<Point>(u.size(), Point(0.6, 0, 0)));
-    const auto mean = [&] { return sum(simulation.velocities())[0] / static_cast<double>(u.size()); };
+    const auto mean = [&] {
+      return sum(simulation.velocities())[0] / static_cast<double>(u.size());
+    };
     advance(simulation, 100);
     EXPECT_NEAR(mean(), 0.6 - 0.2 * 10 * simulation.time(), 2e-3) << integrator;
     advance(simulation, 200);  // it sticks, and rings by the stiffness of its elements
@@ -169,10 +176,12 @@ TEST(Contact, SlopeBelowTheFrictionAngleHoldsAndAboveDoesNot) {
     return sum(v)[0] / static_cast<double>(v.size());
   };
   EXPECT_NEAR(slid(0.4), 0, 3e-3);
-  EXPECT_NEAR(slid(0.1), 10 * (std::sin(0.2) - 0.1 * std::cos(0.2)) * (1 - std::exp(-5 * 0.5)) / 5, 1e-3);
+  EXPECT_NEAR(slid(0.1), 10 * (std::sin(0.2) - 0.1 * std::cos(0.2)) * (1 - std::exp(-5 * 0.5)) / 5,
+              1e-3);
 }
 
-// A body thrown at the floor with steps far above the explicit limit neither blows up nor sinks through it.
+// A body thrown at the floor with steps far above the explicit limit neither blows up nor sinks
+// through it.
 TEST(Contact, ImplicitStepsSurviveAFastImpact) {
   for (int newton : {1, 10})
     for (double speed : {1.0, 10.0}) {
@@ -235,7 +244,8 @@ template <class B>
 class MovingObstacles : public testing::Test {};
 TYPED_TEST_SUITE(MovingObstacles, EachBackend);
 
-// A plate that comes up under a body at rest takes it along, with every shape, without a false alarm of the energy check.
+// A plate that comes up under a body at rest takes it along, with every shape, without a false
+// alarm of the energy check.
 TYPED_TEST(MovingObstacles, OfEveryShapePushTheBody) {
   const TriangleSurface plate =
       boundary_surface(box_mesh({{-0.1, -0.1, -0.08}, {0.2, 0.2, -0.001}}, {1, 1, 1})).surface;
@@ -257,8 +267,10 @@ TYPED_TEST(MovingObstacles, OfEveryShapePushTheBody) {
     EXPECT_GT(height, 0.05 + 0.03);
     double lowest = 1;
     for (const Point& x : simulation.surface_positions()) lowest = std::min(lowest, x[2]);
-    EXPECT_GT(lowest, 0.04);                                              // pushed ahead, not run through
-    EXPECT_LT(std::abs(mean(simulation.positions())[0] - 0.05), 1.2e-3);  // 1.03e-3 in the bowl: the mesh leans one way
+    // pushed ahead, not run through
+    EXPECT_GT(lowest, 0.04);
+    // 1.03e-3 in the bowl: the mesh leans one way
+    EXPECT_LT(std::abs(mean(simulation.positions())[0] - 0.05), 1.2e-3);
   }
 }
 
@@ -272,15 +284,18 @@ TEST(MovingObstacles, DragByFriction) {
   while (simulation.time() < 0.4) advance(simulation, 1);
   double speed = 0;
   int steps = 0;
-  for (; simulation.time() < 0.8; ++steps) advance(simulation, 1), speed += mean(simulation.velocities())[0];
+  for (; simulation.time() < 0.8; ++steps)
+    advance(simulation, 1), speed += mean(simulation.velocities())[0];
   EXPECT_NEAR(speed / steps, 0.1, 0.01);  // it sticks, and rings
 }
 
-// One obstacle's sine under implicit steps: the body's side that it pushes is never farther in than a fraction of an edge.
+// One obstacle's sine under implicit steps: the body's side that it pushes is never farther in than
+// a fraction of an edge.
 TEST(MovingObstacles, MeetImplicitStepsInTime) {
   Problem p = block_with_surface();
   p.body.fixed = {Box{{0.1, 0, 0}, {0.1, 0.1, 0.1}}};
-  p.contact.obstacles.push_back({PlaneOptions{{-0.001, 0, 0}, {1, 0, 0}}, {}, SineMotion{{0.01, 0, 0}, 2, 0}});
+  p.contact.obstacles.push_back(
+      {PlaneOptions{{-0.001, 0, 0}, {1, 0, 0}}, {}, SineMotion{{0.01, 0, 0}, 2, 0}});
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.005;
   Simulation<Host> simulation(p);
@@ -318,11 +333,13 @@ TEST(Contact, RefusesNumbersOfNoVertex) {
   Problem p = block_with_surface();
   p.contact.obstacles = {{SphereOptions{{0.05, 0.05, -0.21}, 0.2}, {}, {}}};
   p.body.surface->triangles[3][1] = static_cast<int>(p.body.surface->vertices.size());
-  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("body.surface triangle's vertex"), std::string::npos);
+  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("body.surface triangle's vertex"),
+            std::string::npos);
   p = block_with_surface();
   p.body.levels[0].vertex_sets["base"] = {0, -1};
   p.body.fixed = {GroupSelection{"base"}};
-  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("group 'base' has vertex -1 of"), std::string::npos);
+  EXPECT_NE(refusal([&] { Simulation<Host> s(p); }).find("group 'base' has vertex -1 of"),
+            std::string::npos);
 }
 
 }  // namespace

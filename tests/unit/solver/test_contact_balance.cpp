@@ -24,9 +24,13 @@ struct Method {
   std::string name;  // of an integrator, or him
   double step;       // [s]; 0: automatic
 };
-const std::vector<Method> explicit_methods = {{"symplectic_euler", 0}, {"central_difference", 0}, {"him", 1e-3}},
-                          implicit_methods = {
-                              {"implicit_euler", 5e-3}, {"bdf2", 5e-3}, {"sdirk2", 5e-3}, {"newmark", 5e-3}};
+const std::vector<Method> explicit_methods = {{"symplectic_euler", 0},
+                                              {"central_difference", 0},
+                                              {"him", 1e-3}},
+                          implicit_methods = {{"implicit_euler", 5e-3},
+                                              {"bdf2", 5e-3},
+                                              {"sdirk2", 5e-3},
+                                              {"newmark", 5e-3}};
 
 Problem by(Problem p, const Method& m) {
   if (m.name == "him")
@@ -49,7 +53,8 @@ Problem block(double angle = 0) {
   return p;
 }
 
-// --- Momentum ---------------------------------------------------------------------------------------------------------------
+// --- Momentum
+// ---------------------------------------------------------------------------------------------------------------
 
 constexpr double stiffness = 300, damping = 8, mass_of_tool = 0.2;
 // knots between steps
@@ -59,7 +64,8 @@ const std::vector<PathMotion::Knot> knots = {
 Point asked_place(double time) {
   if (time <= knots.front().time) return knots.front().displacement;
   for (std::size_t i = 1; i < knots.size(); ++i)
-    if (const double part = (time - knots[i - 1].time) / (knots[i].time - knots[i - 1].time); part <= 1)
+    if (const double part = (time - knots[i - 1].time) / (knots[i].time - knots[i - 1].time);
+        part <= 1)
       return (1 - part) * knots[i - 1].displacement + part * knots[i].displacement;
   return knots.back().displacement;
 }
@@ -75,8 +81,8 @@ Problem under_a_tool() {
   return p;
 }
 
-/// What floor, weight and the tool's spring do not explain of the momentum of body and tool in a step, and of the body's alone with both
-/// forces; the largest of a run, over the largest force.
+/// What floor, weight and the tool's spring do not explain of the momentum of body and tool in a
+/// step, and of the body's alone with both forces; the largest of a run, over the largest force.
 struct Unexplained {
   double of_both = 0, of_body = 0, force = 0;
   long misses = 0;
@@ -105,7 +111,8 @@ Unexplained unexplained(const Problem& p) {
                 spring = stiffness * (x - tool.displacement - T * tool.velocity) +
                          damping * (asked_speed(s.time() + T) - tool.velocity);
     const Point by_tool = mass_of_tool * (tool.velocity - tool_before) / T;
-    found.of_body = std::max(found.of_body, (gained - wrenches[0].force - wrenches[1].force).norm());
+    found.of_body =
+        std::max(found.of_body, (gained - wrenches[0].force - wrenches[1].force).norm());
     found.of_both = std::max(found.of_both, (gained + by_tool - wrenches[0].force - spring).norm());
     for (const Wrench& w : wrenches) found.force = std::max(found.force, w.force.norm());
     before = after, tool_before = tool.velocity;
@@ -125,7 +132,8 @@ TEST(ContactBalance, ExplicitStepsKeepTheMomentumOfBodyAndTool) {
   }
 }
 
-// A step ends where what is unbalanced is 0.003 of the forces there are; that much the sum of forces may be off.
+// A step ends where what is unbalanced is 0.003 of the forces there are; that much the sum of
+// forces may be off.
 TEST(ContactBalance, ImplicitStepsKeepItToWhatTheyLeaveUnbalanced) {
   for (const Method& m : implicit_methods) {
     Problem p = by(under_a_tool(), m);
@@ -138,7 +146,8 @@ TEST(ContactBalance, ImplicitStepsKeepItToWhatTheyLeaveUnbalanced) {
   }
 }
 
-// Pressed alone, without friction, an implicit step finds the forces to what its linear solves leave.
+// Pressed alone, without friction, an implicit step finds the forces to what its linear solves
+// leave.
 TEST(ContactBalance, ImpulsesAreThoseOfTheMethod) {
   for (const Method& m : {Method{"implicit_euler", 5e-3},
                           {"bdf2", 5e-3},
@@ -148,7 +157,8 @@ TEST(ContactBalance, ImpulsesAreThoseOfTheMethod) {
     Problem p = by(block(), m);
     p.contact.obstacles[0].friction.reset();
     p.body.damping = {};
-    p.body.initial.position = Point(0.05, 0.05, 0.025 - 1e-4);  // all of the bottom presses from the start
+    // all of the bottom presses from the start
+    p.body.initial.position = Point(0.05, 0.05, 0.025 - 1e-4);
     Simulation<Host> s(p);
     const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
     Point before = Point::Zero();
@@ -156,18 +166,22 @@ TEST(ContactBalance, ImpulsesAreThoseOfTheMethod) {
       advance(s, 1);
       Point after = Point::Zero(), weight = Point::Zero();
       const auto v = s.velocities();
-      for (std::size_t a = 0; a < mass.size(); ++a) after += mass[a] * v[a], weight += mass[a] * p.gravity;
+      for (std::size_t a = 0; a < mass.size(); ++a)
+        after += mass[a] * v[a], weight += mass[a] * p.gravity;
       const Point force = s.wrenches()[0].force;
       EXPECT_GT(force[2], 0.1) << m.name;
-      EXPECT_LE(((after - before) / s.macro_step() - weight - force).norm(), 1e-6 * force.norm()) << m.name << " " << n;
+      EXPECT_LE(((after - before) / s.macro_step() - weight - force).norm(), 1e-6 * force.norm())
+          << m.name << " " << n;
       before = after;
     }
   }
 }
 
-// --- Work of friction -------------------------------------------------------------------------------------------------------
+// --- Work of friction
+// -------------------------------------------------------------------------------------------------------
 
-// On a slope of 30 degrees it is the force along it times the way; on a gentle one the block sticks, and it is next to nothing.
+// On a slope of 30 degrees it is the force along it times the way; on a gentle one the block
+// sticks, and it is next to nothing.
 TEST(ContactBalance, FrictionTakesItsForceTimesTheWay) {
   for (const Method& m : {Method{"symplectic_euler", 0},
                           {"rk4", 0},

@@ -42,14 +42,16 @@ TEST(ContactInHollows, HasTheCurvatureThatIsConcave) {
   const V at{x[0], x[1], x[2]};
   const Point n = x.normalized(), along = Point::UnitY(), across = Point(x[0], 0, x[2]);
   const Eigen::Matrix3d of_bowl = (Eigen::Matrix3d::Identity() - n * n.transpose()) / x.norm();
-  EXPECT_LE((concavity_at(Bowl::shape<double>({{0, 0, 0}, 0.1, 0.1}), at) - of_bowl).norm(), 1e-4 * of_bowl.norm());
+  EXPECT_LE((concavity_at(Bowl::shape<double>({{0, 0, 0}, 0.1, 0.1}), at) - of_bowl).norm(),
+            1e-4 * of_bowl.norm());
   const Point round = across.cross(along).normalized();
   const Eigen::Matrix3d of_trough = round * round.transpose() / across.norm();
   EXPECT_LE((concavity_at(Trough{0.1}, at) - of_trough).norm(), 1e-4 * of_trough.norm());
   EXPECT_EQ(concavity_at(Sphere::shape<double>({{0, 0, 0}, 0.1}), at).norm(), 0);
 }
 
-/// A soft ball that is pressed into a frictionless bowl by its weight, and turns about the bowl's axis.
+/// A soft ball that is pressed into a frictionless bowl by its weight, and turns about the bowl's
+/// axis.
 Problem turning_in_a_bowl(const std::string& integrator, double macro_step) {
   Problem p = body_of({ball_mesh({0, 0, 0}, 0.05, 6)}, "neo_hookean");
   p.body.material = complete({"neo_hookean", 5e3, 0.4, 1000});
@@ -69,7 +71,8 @@ double spin_kept(const Problem& p) {
   const auto spin = [&] {
     const auto x = s.positions(), v = s.velocities();
     double sum = 0;
-    for (std::size_t a = 0; a < mass.size(); ++a) sum += mass[a] * (x[a][0] * v[a][1] - x[a][1] * v[a][0]);
+    for (std::size_t a = 0; a < mass.size(); ++a)
+      sum += mass[a] * (x[a][0] * v[a][1] - x[a][1] * v[a][0]);
     return sum;
   };
   const double before = spin();
@@ -77,9 +80,11 @@ double spin_kept(const Problem& p) {
   return spin() / before;
 }
 
-// Nothing makes a torque about the axis. With the normals of the step's start, one linear solve a step gives 1.25 and 1.15 of it.
+// Nothing makes a torque about the axis. With the normals of the step's start, one linear solve a
+// step gives 1.25 and 1.15 of it.
 TEST(ContactInHollows, DoesNotSpinABodyUp) {
-  for (const auto& [integrator, macro_step] : {std::pair("implicit_euler", 0.008), std::pair("bdf2", 0.004)}) {
+  for (const auto& [integrator, macro_step] :
+       {std::pair("implicit_euler", 0.008), std::pair("bdf2", 0.004)}) {
     SCOPED_TRACE(integrator);
     const double kept = spin_kept(turning_in_a_bowl(integrator, macro_step));
     EXPECT_LE(kept, 1.002);
@@ -87,7 +92,8 @@ TEST(ContactInHollows, DoesNotSpinABodyUp) {
   }
 }
 
-// The force by which the axes of `him` act back is that of momenta with contact's force in them: without it 3.9 of it.
+// The force by which the axes of `him` act back is that of momenta with contact's force in them:
+// without it 3.9 of it.
 TEST(ContactInHollows, DoesNotDriveTheAxesOfHim) {
   Problem p = turning_in_a_bowl("symplectic_euler", 0);
   p.integration.cycle = "him", p.integration.macro_step.reset();

@@ -18,13 +18,15 @@
 #include "support/tolerance.hpp"
 #include "support/watch.hpp"
 
-// Contact that is implicit in explicit steps: it bounds no step, keeps what it must, and says what obstacles do.
+// Contact that is implicit in explicit steps: it bounds no step, keeps what it must, and says what
+// obstacles do.
 namespace {
 
 using namespace plica;
 using namespace plica::test;
 
-const std::vector<std::string> explicit_integrators = {"symplectic_euler", "central_difference", "euler", "rk2", "rk4"};
+const std::vector<std::string> explicit_integrators = {"symplectic_euler", "central_difference",
+                                                       "euler", "rk2", "rk4"};
 
 Point mean(const std::vector<Point>& field) {
   Point sum = Point::Zero();
@@ -34,7 +36,8 @@ Point mean(const std::vector<Point>& field) {
 
 /// A block over the plane z = 0, its boundary as surface.
 Problem block(double gap, int cells = 4) {
-  Problem p = body_of({box_mesh({{0, 0, gap}, {0.1, 0.1, 0.1 + gap}}, {cells, cells, cells})}, "corotational");
+  Problem p = body_of({box_mesh({{0, 0, gap}, {0.1, 0.1, 0.1 + gap}}, {cells, cells, cells})},
+                      "corotational");
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   p.contact.obstacles.push_back({PlaneOptions{}, {}, {}});
   return p;
@@ -42,7 +45,8 @@ Problem block(double gap, int cells = 4) {
 
 double along_x(const Simulation<Host>& s) { return mean(s.velocities())[0]; }
 
-// --- Steps ------------------------------------------------------------------------------------------------------------------
+// --- Steps
+// ------------------------------------------------------------------------------------------------------------------
 
 TEST(ContactInSteps, BoundsNoStep) {
   for (const std::string& integrator : explicit_integrators) {
@@ -71,8 +75,8 @@ TEST(ContactInSteps, TheCriticalStepDoesNotDependOnThePoints) {
   EXPECT_EQ(steps[0], steps[2]);
 }
 
-// A block thrown at the floor at 0.95 of the limit of its elements, with contact from soft to all but rigid: the energy stays what
-// was put in.
+// A block thrown at the floor at 0.95 of the limit of its elements, with contact from soft to all
+// but rigid: the energy stays what was put in.
 TEST(ContactInSteps, StayStableAtTheLimitOfTheElements) {
   for (const std::string& integrator : explicit_integrators)
     for (const double scale : {0.1, 1.0, 100.0, 1e6})
@@ -109,11 +113,13 @@ TEST(ContactInSteps, OfFloatAndDoubleAgree) {
   EXPECT_NEAR(height(Backend<float, Host::Exec>{}), height(Host{}), 1e-4);
 }
 
-// --- Depths -----------------------------------------------------------------------------------------------------------------
+// --- Depths
+// -----------------------------------------------------------------------------------------------------------------
 
 Problem ball(int cells, int subdivisions) {
   Problem p =
-      body_of({box_mesh({{-0.055, -0.055, -0.055}, {0.055, 0.055, 0.055}}, {cells, cells, cells})}, "neo_hookean");
+      body_of({box_mesh({{-0.055, -0.055, -0.055}, {0.055, 0.055, 0.055}}, {cells, cells, cells})},
+              "neo_hookean");
   p.body.material = {"neo_hookean", 50e3, 0.4, 1000};
   p.body.damping.mass = 5;
   p.body.surface = sphere_surface({0, 0, 0}, 0.05, subdivisions);
@@ -158,14 +164,16 @@ TEST(ContactDepth, UnderAToolPressedInByAnEdgeIsBelowSevenPercentOfIt) {
   for (const auto& [a, b, c] : p.body.surface->triangles)
     for (int i = 0; i <= 10; ++i)
       for (int j = 0; i + j <= 10; ++j) {
-        const Point place = 0.1 * (i * x[index_of(a)] + j * x[index_of(b)] + (10 - i - j) * x[index_of(c)]);
+        const Point place =
+            0.1 * (i * x[index_of(a)] + j * x[index_of(b)] + (10 - i - j) * x[index_of(c)]);
         most = std::max(most, radius - (place - start + Point(0, 0, edge)).norm());
       }
   EXPECT_GT(most, 0);
   EXPECT_LT(most, 0.07 * edge);
 }
 
-// --- Motion -----------------------------------------------------------------------------------------------------------------
+// --- Motion
+// -----------------------------------------------------------------------------------------------------------------
 
 // Where a bounce is in the end: the shorter the step, the nearer to that of very short ones.
 TEST(ContactInSteps, ABounceConverges) {
@@ -183,13 +191,15 @@ TEST(ContactInSteps, ABounceConverges) {
       return simulation.positions();
     };
     const auto exact = end(16), rough = end(1), finer = end(4);
-    const double way = 0.03, first = largest_difference(rough, exact), second = largest_difference(finer, exact);
+    const double way = 0.03, first = largest_difference(rough, exact),
+                 second = largest_difference(finer, exact);
     EXPECT_LT(first, 0.1 * way) << integrator;
     EXPECT_LT(second, 0.4 * first + 1e-5) << integrator;
   }
 }
 
-// On a slope of angle a a block gains g (sin a - mu cos a) where tan a is above mu; else it stays, after the first jolt.
+// On a slope of angle a a block gains g (sin a - mu cos a) where tan a is above mu; else it stays,
+// after the first jolt.
 TEST(ContactInSteps, SlipOnASlopeAboveTheFrictionAngleOnly) {
   for (const char* integrator : {"symplectic_euler", "central_difference", "rk4"}) {
     const auto gains = [&](double slope) {
@@ -204,7 +214,8 @@ TEST(ContactInSteps, SlipOnASlopeAboveTheFrictionAngleOnly) {
       advance(simulation, static_cast<int>(0.2 / simulation.macro_step()));
       return (along_x(simulation) - speed) / (simulation.time() - start);
     };
-    const double angle = std::atan(0.3), pull = 10 * (std::sin(1.2 * angle) - 0.3 * std::cos(1.2 * angle));
+    const double angle = std::atan(0.3),
+                 pull = 10 * (std::sin(1.2 * angle) - 0.3 * std::cos(1.2 * angle));
     EXPECT_LT(gains(0.95 * angle), 0.02 * pull) << integrator;
     EXPECT_NEAR(gains(1.2 * angle), pull, 0.06 * pull) << integrator;
   }
@@ -225,18 +236,22 @@ TEST(ContactInSteps, HoldACornerBetweenTwoPlanes) {
   EXPECT_GT(lowest[2], -0.02 * edge);
 }
 
-// --- him --------------------------------------------------------------------------------------------------------------------
+// --- him
+// --------------------------------------------------------------------------------------------------------------------
 
-// At an impact in steps several times as long as one that the finest mesh would take, elastic, kinetic and contact energy together
-// never are more than gravity and the fall have put in.
+// At an impact in steps several times as long as one that the finest mesh would take, elastic,
+// kinetic and contact energy together never are more than gravity and the fall have put in.
 TEST(ContactInSteps, OfHimAddNoEnergyAtAnImpact) {
   struct Case {
     std::vector<TetMesh> levels;
     double poisson, speed;
   };
-  const std::vector<TetMesh> cubes = {jittered_box(decimetre, {6, 6, 6}), jittered_box(decimetre, {4, 4, 4})},
-                             balls = {ball_mesh(Point::Zero(), 0.05, 8), ball_mesh(Point::Zero(), 0.05, 5)};
-  for (const Case& one : {Case{cubes, 0.3, 0.2}, Case{cubes, 0.45, 0.2}, Case{balls, 0.3, 0.5}, Case{balls, 0.45, 1}}) {
+  const std::vector<TetMesh> cubes = {jittered_box(decimetre, {6, 6, 6}),
+                                      jittered_box(decimetre, {4, 4, 4})},
+                             balls = {ball_mesh(Point::Zero(), 0.05, 8),
+                                      ball_mesh(Point::Zero(), 0.05, 5)};
+  for (const Case& one : {Case{cubes, 0.3, 0.2}, Case{cubes, 0.45, 0.2}, Case{balls, 0.3, 0.5},
+                          Case{balls, 0.45, 1}}) {
     Problem p = body_of(one.levels, "neo_hookean");
     p.body.material.young_modulus = 20e3, p.body.material.poisson_ratio = one.poisson;
     p.integration.cycle = "him";
@@ -273,7 +288,8 @@ TEST(ContactInSteps, ForcesAreThoseOfTheLastWholeStep) {
   EXPECT_EQ(simulation.wrenches()[0].force, force);
 }
 
-// Mass damping takes its part of a force by contact as of any other: what rests is borne by its weight, whatever the step.
+// Mass damping takes its part of a force by contact as of any other: what rests is borne by its
+// weight, whatever the step.
 TEST(ContactInSteps, WithHimBearsTheWeightOfADampedBody) {
   Problem p = block(0);
   p.body.damping.mass = 40;
@@ -295,8 +311,9 @@ TEST(ContactInSteps, EnergyThatNobodyPutInIsNoticed) {
   EXPECT_EQ(budget.warning(), "") << "contact's is no motion";
   budget.look(2, {.kinetic = 1, .elastic = 1.5, .potential = -1});
   EXPECT_NEAR(budget.growth(), 0.25, 1e-12);
-  EXPECT_NE(budget.warning().find("at 2 s the body had 0.5 J that nobody put in, 0.25 of all that was"),
-            std::string::npos)
+  EXPECT_NE(
+      budget.warning().find("at 2 s the body had 0.5 J that nobody put in, 0.25 of all that was"),
+      std::string::npos)
       << budget.warning();
   budget.look(3, {.kinetic = 3, .elastic = 1, .potential = -1}, 2);  // a tool has pushed it
   EXPECT_NEAR(budget.growth(), 0.125, 1e-12) << "of all that was put in, also later";
@@ -313,9 +330,11 @@ TEST(ContactInSteps, RoundingIsNoEnergyOfNothing) {
   EXPECT_NE(budget.warning(), "");
 }
 
-// --- Wrenches ---------------------------------------------------------------------------------------------------------------
+// --- Wrenches
+// ---------------------------------------------------------------------------------------------------------------
 
-// What obstacles and weight do to a body is the change of its momentum, in every macro step, to rounding.
+// What obstacles and weight do to a body is the change of its momentum, in every macro step, to
+// rounding.
 template <class B>
 class Wrenches : public testing::Test {};
 TYPED_TEST_SUITE(Wrenches, EachBackend);
@@ -325,12 +344,14 @@ TYPED_TEST(Wrenches, AreTheChangeOfMomentum) {
   for (const char* cycle : {"single", "him"})
     for (const char* integrator : {"symplectic_euler", "central_difference", "rk4"}) {
       if (cycle == std::string("him") && integrator != std::string("symplectic_euler")) continue;
-      Problem p = body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {3, 3, 3})}, "neo_hookean");
+      Problem p = body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {3, 3, 3})},
+                          "neo_hookean");
       p.integration.cycle = cycle, p.integration.integrator = {integrator};
       p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.05, 2);
       p.gravity = {0, 0, -9.81};
       p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.002}, {0, 0, 1}}, 0.3, {}});
-      p.contact.obstacles.push_back({SphereOptions{{-0.048, 0.05, 0.05}, 0.05}, 0.1, Point(0.1, 0, 0), "ball"});
+      p.contact.obstacles.push_back(
+          {SphereOptions{{-0.048, 0.05, 0.05}, 0.05}, 0.1, Point(0.1, 0, 0), "ball"});
       Simulation<TypeParam> simulation(p);
       const auto mass = lumped_masses(p.body.levels[0], {p.body.material.density});
       const auto now = [&] {
@@ -351,7 +372,8 @@ TYPED_TEST(Wrenches, AreTheChangeOfMomentum) {
         const Point by = wrenches[0].force + wrenches[1].force;
         // in float, what is left of the vertices' momenta in their sum
         const double rounding = round_off<Real>(400, 1.0) / simulation.macro_step();
-        EXPECT_LE((gained - by - 1.0 * p.gravity).norm(), rounding + round_off<Real>(100, by.norm()))
+        EXPECT_LE((gained - by - 1.0 * p.gravity).norm(),
+                  rounding + round_off<Real>(100, by.norm()))
             << cycle << ", " << integrator << ", step " << n;
         pushed = std::max(pushed, by.norm());
         before = after;

@@ -23,12 +23,15 @@ using namespace plica;
 using namespace plica::test;
 
 double largest_eigenvalue_of(const Eigen::MatrixXd& S) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 /// radius / w_max, of a dense matrix
 double dense_limit(LevelProbe<Host>& probe, double radius) {
-  return radius / std::sqrt(largest_eigenvalue_of(probe.scaled_by_mass(probe.stiffness_matrix(probe.zero()))));
+  return radius / std::sqrt(largest_eigenvalue_of(
+                      probe.scaled_by_mass(probe.stiffness_matrix(probe.zero()))));
 }
 
 /// Within 2 % of the dense limit, and never above it.
@@ -37,9 +40,10 @@ void expect_limit(const Problem& problem, double radius) {
   const double predicted = probe.built.reports[0].critical_step, dense = dense_limit(probe, radius);
   EXPECT_LE(predicted, 1.001 * dense);
   EXPECT_GE(predicted, 0.98 * dense);
-  EXPECT_LE(
-      probe.built.reports[0].element_bound * radius / 2,
-      1.001 * radius / std::sqrt(largest_eigenvalue_of(probe.scaled_by_mass(probe.stiffness_matrix(probe.zero())))));
+  EXPECT_LE(probe.built.reports[0].element_bound * radius / 2,
+            1.001 * radius /
+                std::sqrt(largest_eigenvalue_of(
+                    probe.scaled_by_mass(probe.stiffness_matrix(probe.zero())))));
 }
 
 /// Its surface touches: contact is implicit in the step, and the limit is that of the elements.
@@ -109,7 +113,9 @@ TEST(CriticalStep, NamesTheElementsThatSetIt) {
   // a step that is refused for it says so, one of a sound mesh does not
   p.integration.macro_step = 2 * sound.critical_step, p.integration.substeps = {1};
   const std::string text = refusal([&] { Simulation<Host>{p}; });
-  EXPECT_NE(text.find("element " + std::to_string(worst.element) + " (region right)"), std::string::npos) << text;
+  EXPECT_NE(text.find("element " + std::to_string(worst.element) + " (region right)"),
+            std::string::npos)
+      << text;
 }
 
 TEST(CriticalStep, NearTheIncompressibleLimit) {
@@ -120,7 +126,8 @@ TEST(CriticalStep, NearTheIncompressibleLimit) {
 
 TEST(CriticalStep, WithContact) {
   using Scales = std::array<double, 2>;
-  for (const auto& [stiffness, damping] : {Scales{1, 0}, Scales{1, 1}, Scales{0.1, 20}, Scales{30, 20}}) {
+  for (const auto& [stiffness, damping] :
+       {Scales{1, 0}, Scales{1, 1}, Scales{0.1, 20}, Scales{30, 20}}) {
     SCOPED_TRACE(std::to_string(stiffness) + " " + std::to_string(damping));
     expect_limit(touching_cube(stiffness, damping), 2);
   }
@@ -143,10 +150,12 @@ TEST(CriticalStep, EigenvaluesOfAnIndefiniteStiffness) {
     std::vector<Point> u;
     for (const Point& x : probe.problem.body.levels[0].vertices) u.push_back((size - 1) * x);
     const Eigen::MatrixXd S = probe.scaled_by_mass(probe.stiffness_matrix(u));
-    const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues();
+    const auto eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues();
     ASSERT_LT(eigenvalues.minCoeff(), -1e-3 * eigenvalues.maxCoeff()) << size;
     const Level<Host>& level = probe.at(0);
-    const double found = largest_eigenvalue<Host>({}, {level, probe.at(0).elasticity(), device_field<Host>(u)});
+    const double found =
+        largest_eigenvalue<Host>({}, {level, probe.at(0).elasticity(), device_field<Host>(u)});
     EXPECT_GE(found, 0.99 * eigenvalues.maxCoeff()) << size;
     EXPECT_LE(found, 1.003 * eigenvalues.maxCoeff()) << size;
   }
@@ -159,7 +168,8 @@ TEST(CriticalStep, OfEulerIsDampingOverSquaredFrequency) {
   p.integration.macro_step = 1e-6;
   p.body.damping.mass = 5;
   LevelProbe<Host> probe(p);
-  const double w2 = largest_eigenvalue_of(probe.scaled_by_mass(probe.stiffness_matrix(probe.zero())));
+  const double w2 =
+      largest_eigenvalue_of(probe.scaled_by_mass(probe.stiffness_matrix(probe.zero())));
   EXPECT_NEAR(probe.built.reports[0].critical_step, 5 / w2, 1e-3 * 5 / w2);
   p.body.damping.mass = 0;
   EXPECT_EQ(LevelProbe<Host>(p).built.reports[0].critical_step, 0);
@@ -210,7 +220,8 @@ TEST(Shares, SumToOneInEveryDistribution) {
       IntegrationOptions o = options(distribution, shift, 1e-3);
       o.shares = {0.1, 0.2, 0.3, 0.4};
       const auto share = plan_steps(o, levels).share;
-      EXPECT_NEAR(std::accumulate(share.begin(), share.end(), 0.0), 1, round_off<double>(8)) << distribution;
+      EXPECT_NEAR(std::accumulate(share.begin(), share.end(), 0.0), 1, round_off<double>(8))
+          << distribution;
       for (double w : share) EXPECT_GT(w, 0);
     }
 }
@@ -223,7 +234,8 @@ TEST(Shares, AreWhatTheirNamesSay) {
   EXPECT_NEAR(plan_steps(options("equal", 0, 1e-3), levels).share[2], 0.25, round_off<double>(2));
 }
 
-// The paper's hybrid cycle: equation 1 on cubes of 17, 15, 12 and 10 cells, half of it moved, shares 23 ms as 17 + 6.
+// The paper's hybrid cycle: equation 1 on cubes of 17, 15, 12 and 10 cells, half of it moved,
+// shares 23 ms as 17 + 6.
 TEST(Shares, MovedToTheCoarsestAreThePapersTable2) {
   const auto share = plan_steps(options("inverse_elements", 0.5, 0.023), levels).share;
   EXPECT_NEAR(share[3] * 23, 17.03, 0.005);
@@ -231,20 +243,25 @@ TEST(Shares, MovedToTheCoarsestAreThePapersTable2) {
 }
 
 TEST(Shares, OfOneLevelAreAll) {
-  EXPECT_EQ(plan_steps(options("inverse_elements", 0.5, 1e-4), {levels[0]}).share, std::vector<double>{1.0});
+  EXPECT_EQ(plan_steps(options("inverse_elements", 0.5, 1e-4), {levels[0]}).share,
+            std::vector<double>{1.0});
 }
 
 TEST(Shares, RefusesCustomOnesThatDoNotFit) {
   IntegrationOptions o = options("custom", 0, 1e-3);
   o.shares = {0.1, 0.2, 0.3, 0.41};
-  EXPECT_NE(refusal_of(o).find("the shares must add up to 1, got 1.01"), std::string::npos) << refusal_of(o);
+  EXPECT_NE(refusal_of(o).find("the shares must add up to 1, got 1.01"), std::string::npos)
+      << refusal_of(o);
   o.shares = {0.1, 0.2, 0.3, 0.4 + 1e-11};
-  EXPECT_NE(refusal_of(o).find("add up to 1, got 1.00000000001"), std::string::npos) << refusal_of(o);
+  EXPECT_NE(refusal_of(o).find("add up to 1, got 1.00000000001"), std::string::npos)
+      << refusal_of(o);
   o.shares = {0.5, 0.5};
-  EXPECT_NE(refusal_of(o).find("one for each level (4 in body.levels), got a list of 2"), std::string::npos)
+  EXPECT_NE(refusal_of(o).find("one for each level (4 in body.levels), got a list of 2"),
+            std::string::npos)
       << refusal_of(o);
   o.shares = {0.5, 0.6, -0.2, 0.1};
-  EXPECT_NE(refusal_of(o).find("integration.distribution is -0.2; expected a number > 0"), std::string::npos)
+  EXPECT_NE(refusal_of(o).find("integration.distribution is -0.2; expected a number > 0"),
+            std::string::npos)
       << refusal_of(o);
   o.distribution = "equall";
   EXPECT_NE(refusal_of(o).find("did you mean 'equal'?"), std::string::npos) << refusal_of(o);
@@ -262,7 +279,8 @@ TEST(Shares, RefusesCriticalOnesWithoutALimit) {
     EXPECT_NE(refusal_of(o, bad).find("equal"), std::string::npos) << refusal_of(o, bad);
   }
   auto all = none;
-  for (auto& level : all) level.critical_step = 0, level.integrator = "euler", level.is_explicit = true;
+  for (auto& level : all)
+    level.critical_step = 0, level.integrator = "euler", level.is_explicit = true;
   EXPECT_NE(refusal_of(o, all), "");
   o.distribution = "equal";
   EXPECT_EQ(refusal_of(o, all), "");
@@ -273,13 +291,15 @@ TEST(Shares, RefusesCriticalOnesWithoutALimit) {
 TEST(Substeps, AutomaticOnesKeepTheLimit) {
   IntegrationOptions o = options("equal", 0, 0.02);
   const StepPlan plan = plan_steps(o, levels);
-  EXPECT_EQ(plan.substeps, (std::vector<int>{6, 6, 4, 1}));  // ceil(5 ms / (0.9 * limit)); implicit: one
+  // ceil(5 ms / (0.9 * limit)); implicit: one
+  EXPECT_EQ(plan.substeps, (std::vector<int>{6, 6, 4, 1}));
   o.safety = 1;
   EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{5, 5, 4, 1}));
   o.substeps = {7, 8, 9, 2};
   EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{7, 8, 9, 2}));
-  EXPECT_EQ(refusal_of(options("equal", 0, 1e6)),
-            "integration.macro_step asks for 277777778 sub-steps on one level; expected at most 1000000");
+  EXPECT_EQ(
+      refusal_of(options("equal", 0, 1e6)),
+      "integration.macro_step asks for 277777778 sub-steps on one level; expected at most 1000000");
 }
 
 TEST(MacroStep, AutomaticIsNineTenthsOfTheTightestLevel) {
@@ -289,15 +309,17 @@ TEST(MacroStep, AutomaticIsNineTenthsOfTheTightestLevel) {
   EXPECT_EQ(plan_steps(o, levels).substeps, (std::vector<int>{1, 1, 1, 1}));
   o.substeps = {4, 1, 1, 1};
   EXPECT_NEAR(plan_steps(o, levels).macro_step, 0.9 * 1.1e-3 / 0.3, round_off<double>(8, 1e-3));
-  EXPECT_NE(refusal_of(IntegrationOptions{}, {levels[3]}).find("give it in seconds"), std::string::npos);
+  EXPECT_NE(refusal_of(IntegrationOptions{}, {levels[3]}).find("give it in seconds"),
+            std::string::npos);
 }
 
 TEST(MacroStep, AboveTheLimitIsRefusedWithNumbersAndRemedy) {
   IntegrationOptions o = options("equal", 0, 0.008);
   o.substeps = {1};
   const std::string text = refusal_of(o);
-  for (const char* part : {"level 0", "symplectic_euler", "0.002 s", "2 times", "critical step 0.001 s", "substeps: 2",
-                           "implicit", "allow_unstable: true"})
+  for (const char* part :
+       {"level 0", "symplectic_euler", "0.002 s", "2 times", "critical step 0.001 s", "substeps: 2",
+        "implicit", "allow_unstable: true"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " not in: " << text;
   o.allow_unstable = true;
   EXPECT_EQ(refusal_of(o), "");

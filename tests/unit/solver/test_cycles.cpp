@@ -61,8 +61,8 @@ TYPED_TEST(CyclesOn, SingleIgnoresTheCoarseLevels) {
   EXPECT_TRUE(same_bits(state_after<TypeParam>(p, 10), with));
 }
 
-// Without forces every level flies on at the same speed: no part of the motion is lost or counted twice. (Few steps: cycles
-// that are unstable on their own multiply rounding errors.)
+// Without forces every level flies on at the same speed: no part of the motion is lost or counted
+// twice. (Few steps: cycles that are unstable on their own multiply rounding errors.)
 TYPED_TEST(CyclesOn, FreeFlightIsUniformMotion) {
   using Real = typename TypeParam::Real;
   for (const std::string& cycle : sharing_cycles())
@@ -75,8 +75,10 @@ TYPED_TEST(CyclesOn, FreeFlightIsUniformMotion) {
       const Point want = simulation.time() * p.body.initial.velocity;
       const auto u = displacements(simulation, p.body.levels[0]), v = simulation.velocities();
       const std::vector<Point> all(u.size(), want), speed(v.size(), p.body.initial.velocity);
-      EXPECT_LE(largest_difference(u, all), round_off<Real>(2000, 0.1)) << cycle << " " << distribution;
-      EXPECT_LE(largest_difference(v, speed), round_off<Real>(20000)) << cycle << " " << distribution;
+      EXPECT_LE(largest_difference(u, all), round_off<Real>(2000, 0.1))
+          << cycle << " " << distribution;
+      EXPECT_LE(largest_difference(v, speed), round_off<Real>(20000))
+          << cycle << " " << distribution;
     }
 }
 
@@ -110,20 +112,24 @@ TYPED_TEST(CyclesOn, FreeFallIsTheExactSequenceOfSteps) {
   }
 }
 
-// Barycentric rows sum to 1 whatever the meshes: a translation crosses levels that do not overlap fully.
+// Barycentric rows sum to 1 whatever the meshes: a translation crosses levels that do not overlap
+// fully.
 TYPED_TEST(CyclesOn, TranslationIsExactOnLevelsThatOverlapInPart) {
   using Real = typename TypeParam::Real;
   for (const char* outside : {"clamp", "extrapolate"})
     for (const std::string& cycle : names(cycles())) {
-      const bool corrected = cycle == "fas";  // hands masses down, which pile up here: what rounding stirs up grows
+      // hands masses down, which pile up here: what rounding stirs up grows
+      const bool corrected = cycle == "fas";
       if ((corrected || cycle == "him") && outside == std::string("extrapolate")) continue;
-      Problem p = body_of({jittered_box(decimetre, {4, 4, 4}), ball_mesh({0.05, 0.05, 0.05}, 0.05, 4)});
+      Problem p =
+          body_of({jittered_box(decimetre, {4, 4, 4}), ball_mesh({0.05, 0.05, 0.05}, 0.05, 4)});
       p.integration.cycle = cycle, p.integration.outside = outside;
       p.body.initial.velocity = {0, 0, -3};
       Simulation<TypeParam> simulation(p);
       advance(simulation, corrected ? 5 : 50);
       for (const Point& u : displacements(simulation, p.body.levels[0]))
-        EXPECT_LE((u - Point(0, 0, -3 * simulation.time())).norm(), round_off<Real>(2000, 0.3)) << cycle << outside;
+        EXPECT_LE((u - Point(0, 0, -3 * simulation.time())).norm(), round_off<Real>(2000, 0.3))
+            << cycle << outside;
     }
 }
 
@@ -137,7 +143,8 @@ TYPED_TEST(CyclesOn, OutsideRulesAgreeOnLevelsThatOverlapFully) {
   };
   const auto clamped = after("clamp");
   for (const char* outside : {"extrapolate", "keep"})
-    EXPECT_LE(largest_difference(after(outside), clamped), round_off<typename TypeParam::Real>(1e4)) << outside;
+    EXPECT_LE(largest_difference(after(outside), clamped), round_off<typename TypeParam::Real>(1e4))
+        << outside;
 }
 
 // The restriction of a variation telescopes: with nothing fixed, `rv` is `rsv` that never switches.
@@ -149,12 +156,14 @@ TYPED_TEST(CyclesOn, SwitchingNeverIsVariationAndAlwaysIsState) {
     return state_after<TypeParam>(p, 20);
   };
   EXPECT_TRUE(same_bits(after("rsv", 1e6), after("rv", 1)));
-  EXPECT_LE(largest_difference(after("rsv", 1e-30), after("rs", 1)), round_off<typename TypeParam::Real>(1e4));
+  EXPECT_LE(largest_difference(after("rsv", 1e-30), after("rs", 1)),
+            round_off<typename TypeParam::Real>(1e4));
 }
 
 TYPED_TEST(CyclesOn, EveryOneHoldsALoadedBeam) {
   for (const std::string& cycle : names(cycles())) {
-    Problem p = body_of({box_mesh(beam_box, {12, 4, 4}), box_mesh(beam_box, {8, 3, 3})}, "corotational");
+    Problem p =
+        body_of({box_mesh(beam_box, {12, 4, 4}), box_mesh(beam_box, {8, 3, 3})}, "corotational");
     p.gravity = {0, 0, -9.81};
     p.body.damping.mass = 20;
     p.body.fixed = {left_face()};
@@ -170,7 +179,8 @@ TYPED_TEST(CyclesOn, EveryOneHoldsALoadedBeam) {
         }
       EXPECT_GT(largest(u), 0.1) << cycle;
     }
-    if (cycle == "rv" || cycle == "rsv_sv") {  // what they hand up grows on a loaded body: by and by, and not unnoticed
+    // what they hand up grows on a loaded body: by and by, and not unnoticed
+    if (cycle == "rv" || cycle == "rsv_sv") {
       std::optional<Diagnosis> bad;
       for (int n = 0; n < 1500 && !bad; ++n) simulation.step(), bad = simulation.check();
       ASSERT_TRUE(bad) << cycle;
@@ -185,7 +195,8 @@ template <class B>
 class CycleMatrix : public testing::Test {};
 TYPED_TEST_SUITE(CycleMatrix, EachBackend);
 
-/// Nested: the coarsest level is one cell, every finer one halves the edges. Otherwise 6, 5, 4 ... cells, moved at random.
+/// Nested: the coarsest level is one cell, every finer one halves the edges. Otherwise 6, 5, 4 ...
+/// cells, moved at random.
 Problem cube(int levels, bool nested) {
   Problem p = cube_levels(levels, 6, "single");
   for (int i = 0; nested && i < levels; ++i) {
@@ -205,7 +216,8 @@ template <class Act>
 void for_each_hierarchy(const Act& act) {
   for (const bool nested : {true, false})
     for (int levels = 1; levels <= 5; ++levels) {
-      SCOPED_TRACE(std::string(nested ? "nested, " : "not nested, ") + std::to_string(levels) + " levels");
+      SCOPED_TRACE(std::string(nested ? "nested, " : "not nested, ") + std::to_string(levels) +
+                   " levels");
       act(cube(levels, nested));
     }
 }
@@ -218,7 +230,8 @@ TYPED_TEST(CycleMatrix, TranslatesExactly) {
     for (const std::string& cycle : names(cycles())) {
       p.integration.cycle = cycle;
       Simulation<TypeParam> simulation(p);
-      const auto meshes = std::ranges::count_if(simulation.levels(), [](const LevelReport& l) { return l.tets > 0; });
+      const auto meshes = std::ranges::count_if(simulation.levels(),
+                                                [](const LevelReport& l) { return l.tets > 0; });
       EXPECT_EQ(meshes, cycle == "single" ? 1 : std::ssize(p.body.levels));
       advance(simulation, 5);
       const Point want = simulation.time() * p.body.initial.velocity;
@@ -244,11 +257,15 @@ TYPED_TEST(CycleMatrix, StaysSoundInContact) {
       p.integration.cycle = cycle;
       Simulation<TypeParam> simulation(p);
       double touched = 0;
-      for (int n = 0; n < 10; ++n) advance(simulation, 1), touched = std::max(touched, simulation.energies().contact);
+      for (int n = 0; n < 10; ++n)
+        advance(simulation, 1), touched = std::max(touched, simulation.energies().contact);
       EXPECT_GT(touched, 0) << cycle;
-      EXPECT_LT(largest(displacements(simulation, p.body.levels[0])), 0.5 * simulation.time()) << cycle;
+      EXPECT_LT(largest(displacements(simulation, p.body.levels[0])), 0.5 * simulation.time())
+          << cycle;
       if (cycle == "single") single = simulation.positions();
-      EXPECT_TRUE(p.body.levels.size() > 1 || cycle == "him" || same_bits(simulation.positions(), single)) << cycle;
+      EXPECT_TRUE(p.body.levels.size() > 1 || cycle == "him" ||
+                  same_bits(simulation.positions(), single))
+          << cycle;
     }
   });
 }
@@ -262,14 +279,17 @@ TYPED_TEST_SUITE(CorrectedCycle, EachBackend);
 double mass_of(const Problem& p) {
   double volume = 0;
   for (const auto& t : p.body.levels[0].tets) {
-    const auto x = [&](std::size_t k) { return p.body.levels[0].vertices[static_cast<std::size_t>(t[k])]; };
+    const auto x = [&](std::size_t k) {
+      return p.body.levels[0].vertices[static_cast<std::size_t>(t[k])];
+    };
     volume += tet_volume(x(0), x(1), x(2), x(3));
   }
   return volume * p.body.material.density;
 }
 
 Problem hanging(const std::string& cycle) {
-  Problem p = body_of({jittered_box(beam_box, {12, 3, 3}), jittered_box(beam_box, {7, 2, 2})}, "corotational");
+  Problem p = body_of({jittered_box(beam_box, {12, 3, 3}), jittered_box(beam_box, {7, 2, 2})},
+                      "corotational");
   p.body.material.young_modulus = 200e3;
   p.body.fixed = {left_face()};
   p.gravity = {0, 0, -9.81};
@@ -308,8 +328,11 @@ TYPED_TEST(CorrectedCycle, KeepsLinearMomentum) {
   const auto momentum = [&](const std::vector<Point>& v) {
     Point sum = Point::Zero();
     for (const auto& t : p.body.levels[0].tets) {
-      const auto x = [&](std::size_t k) { return p.body.levels[0].vertices[static_cast<std::size_t>(t[k])]; };
-      for (int a : t) sum += 250 * tet_volume(x(0), x(1), x(2), x(3)) * v[static_cast<std::size_t>(a)];
+      const auto x = [&](std::size_t k) {
+        return p.body.levels[0].vertices[static_cast<std::size_t>(t[k])];
+      };
+      for (int a : t)
+        sum += 250 * tet_volume(x(0), x(1), x(2), x(3)) * v[static_cast<std::size_t>(a)];
     }
     return sum;
   };

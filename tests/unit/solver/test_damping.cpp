@@ -10,14 +10,16 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Damping by mass and by stiffness: its forces, what it does to motion, and what it takes from the explicit limits.
+// Damping by mass and by stiffness: its forces, what it does to motion, and what it takes from the
+// explicit limits.
 namespace {
 
 using namespace plica;
 using namespace plica::test;
 
 Problem two_halves(const std::string& material) {
-  Problem p = body_of({with_regions(jittered_box(decimetre, {3, 3, 3}), 0.05, "left", "right")}, material);
+  Problem p =
+      body_of({with_regions(jittered_box(decimetre, {3, 3, 3}), 0.05, "left", "right")}, material);
   p.body.regions["left"] = {}, p.body.regions["right"] = {};
   return p;
 }
@@ -27,7 +29,8 @@ template <class Test>
 void for_each_element(Problem p, const Test& test) {
   p.body.damping.stiffness = 2e-3;
   for (const char* pressure : {"", "plain", "smoothed"}) {
-    if (p.body.material.model == "linear" && std::string(pressure) == "smoothed") continue;  // refused
+    // refused
+    if (p.body.material.model == "linear" && std::string(pressure) == "smoothed") continue;
     SCOPED_TRACE(p.body.material.model + " " + pressure);
     Problem one = p;
     one.body.element = {*pressure ? "nodal" : "linear"};
@@ -39,15 +42,18 @@ void for_each_element(Problem p, const Test& test) {
 /// Turned, stretched by up to a half, and each vertex moved at random besides.
 std::vector<Point> deformed(const TetMesh& mesh) {
   std::mt19937 random(4);
-  const Eigen::Matrix3d F =
-      random_rotation(random) * Eigen::Vector3d(1.5, 0.8, 0.9).asDiagonal() * random_rotation(random);
-  return along(affine_field(mesh, F, {0.01, -0.02, 0.03}), 1, random_field(mesh.vertices.size(), 0.004, 1));
+  const Eigen::Matrix3d F = random_rotation(random) * Eigen::Vector3d(1.5, 0.8, 0.9).asDiagonal() *
+                            random_rotation(random);
+  return along(affine_field(mesh, F, {0.01, -0.02, 0.03}), 1,
+               random_field(mesh.vertices.size(), 0.004, 1));
 }
 
 /// The velocity w x (X + u) + v.
-std::vector<Point> turning(const TetMesh& mesh, const std::vector<Point>& u, const Point& w, const Point& v) {
+std::vector<Point> turning(const TetMesh& mesh, const std::vector<Point>& u, const Point& w,
+                           const Point& v) {
   std::vector<Point> velocity;
-  for (std::size_t a = 0; a < u.size(); ++a) velocity.emplace_back(w.cross(mesh.vertices[a] + u[a]) + v);
+  for (std::size_t a = 0; a < u.size(); ++a)
+    velocity.emplace_back(w.cross(mesh.vertices[a] + u[a]) + v);
   return velocity;
 }
 
@@ -64,7 +70,9 @@ TYPED_TEST(Damping, ByStiffnessIsItsPartOfTheStiffnessAtRest) {
     const auto v = random_field(probe.vertices(), 1, 2), zero = probe.zero();
     const auto Kv = probe.stiffness(zero, v), Dv = probe.damping(zero, v);
     for (std::size_t a = 0; a < v.size(); ++a)
-      EXPECT_LE((Dv[a] - 2e-3 * Kv[a]).norm(), round_off<typename TypeParam::Real>(100, largest(Dv))) << material;
+      EXPECT_LE((Dv[a] - 2e-3 * Kv[a]).norm(),
+                round_off<typename TypeParam::Real>(100, largest(Dv)))
+          << material;
   }
 }
 
@@ -74,7 +82,8 @@ TYPED_TEST(Damping, LeavesABodyThatTurnsAlone) {
       LevelProbe<TypeParam> probe(p);
       const TetMesh& mesh = p.body.levels[0];
       const auto u = deformed(mesh);
-      const auto elastic = probe.force(u), turned = probe.force(u, turning(mesh, u, {20, -30, 40}, {1, 2, -3}));
+      const auto elastic = probe.force(u),
+                 turned = probe.force(u, turning(mesh, u, {20, -30, 40}, {1, 2, -3}));
       const double strained = largest(probe.damping(u, random_field(u.size(), 5, 2)));
       EXPECT_GT(strained, 1);
       EXPECT_LE(largest_difference(turned, elastic),
@@ -91,12 +100,13 @@ TEST(StiffnessDamping, TakesEnergyInEveryState) {
       LevelProbe<Host> probe(p);
       const auto u = deformed(p.body.levels[0]);
       for (const double size : {0.0, 0.03}) {
-        const Eigen::MatrixXd D = probe.damping_matrix(along(u, 1, random_field(u.size(), size, 3)));
+        const Eigen::MatrixXd D =
+            probe.damping_matrix(along(u, 1, random_field(u.size(), size, 3)));
         const double most = D.cwiseAbs().maxCoeff();
         EXPECT_LE((D - D.transpose()).cwiseAbs().maxCoeff(), round_off<double>(1e4, most));
-        const Eigen::VectorXd powers =
-            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (D + D.transpose()), Eigen::EigenvaluesOnly)
-                .eigenvalues();
+        const Eigen::VectorXd powers = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                           0.5 * (D + D.transpose()), Eigen::EigenvaluesOnly)
+                                           .eigenvalues();
         EXPECT_GE(powers[0], -round_off<double>(1e4, most));
         EXPECT_TRUE(p.body.element[0] == "nodal" || powers[6] > 1e-4 * most) << powers[6] / most;
       }
@@ -122,11 +132,13 @@ TEST(StiffnessDamping, IsInTheSystemsOfImplicitSteps) {
       const auto Dx = damped.damping(u, x);
       for (const bool positive : {false, true}) {
         const auto q = product(damped, positive);
-        EXPECT_LE(largest_difference(q, along(product(undamped, positive), weights.b, Dx)), 1e-11 * largest(q));
+        EXPECT_LE(largest_difference(q, along(product(undamped, positive), weights.b, Dx)),
+                  1e-11 * largest(q));
       }
       const Eigen::MatrixXd D = damped.damping_matrix(u);
       const Blocks<Host> with("test.with", u.size()), alone("test.alone", u.size());
-      damped.at(0).diagonal(at, weights, false, with), undamped.at(0).diagonal(at, weights, false, alone);
+      damped.at(0).diagonal(at, weights, false, with),
+          undamped.at(0).diagonal(at, weights, false, alone);
       if (p.body.pressure == "smoothed") return;  // these have no blocks of pressures
       for (std::size_t a = 0; a < u.size(); ++a)
         for (std::size_t k = 0; k < 6; ++k) {
@@ -165,7 +177,8 @@ TEST(StiffnessDamping, KeepsTheAngularMomentum) {
           EXPECT_TRUE(pressure > 0 || now < energy) << n << ' ' << energy << ' ' << now;
           energy = now;
         }
-        EXPECT_LE((angular_momentum(simulation, mass) - before).norm(), round_off<double>(5000, before.norm()));
+        EXPECT_LE((angular_momentum(simulation, mass) - before).norm(),
+                  round_off<double>(5000, before.norm()));
       }
     });
 }
@@ -197,7 +210,8 @@ TEST(RegionDamping, IsOfItsElements) {
   EXPECT_GT(largest(f), 0);
 }
 
-// The largest h with lambda_max(h^2 K + h r D) <= r^2, D the stiffness of each region times its own damping.
+// The largest h with lambda_max(h^2 K + h r D) <= r^2, D the stiffness of each region times its own
+// damping.
 TEST(StiffnessDamping, LowersTheLimitAsPredicted) {
   for (const char* integrator : {"symplectic_euler", "central_difference", "rk4"})
     for (const char* element : {"linear", "nodal"}) {
@@ -208,10 +222,12 @@ TEST(StiffnessDamping, LowersTheLimitAsPredicted) {
       p.body.regions["right"].damping.stiffness = 0.5 * undamped;
       LevelProbe<Host> probe(p);
       const double predicted = probe.built.reports[0].critical_step;
-      const Eigen::MatrixXd S = probe.scaled_by_mass(predicted * predicted * probe.stiffness_matrix(probe.zero()) +
-                                                     predicted * radius * probe.damping_matrix(probe.zero()));
-      const double top =
-          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+      const Eigen::MatrixXd S =
+          probe.scaled_by_mass(predicted * predicted * probe.stiffness_matrix(probe.zero()) +
+                               predicted * radius * probe.damping_matrix(probe.zero()));
+      const double top = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S, Eigen::EigenvaluesOnly)
+                             .eigenvalues()
+                             .maxCoeff();
       EXPECT_LE(top, 1.001 * radius * radius) << integrator;
       EXPECT_GE(top, 0.95 * radius * radius) << integrator;
       EXPECT_LT(predicted, 0.9 * undamped) << integrator;
@@ -223,12 +239,14 @@ TEST(StiffnessDamping, HoldsNoNodalElementsThatGrow) {
   for (const char* element : {"linear", "nodal"}) {
     Problem p = small_cube("linear");
     p.body.element = {element}, p.body.damping.stiffness = 1e-3;
-    p.integration.integrator = {"euler"}, p.integration.allow_unstable = true, p.integration.macro_step = 1e-4;
+    p.integration.integrator = {"euler"}, p.integration.allow_unstable = true,
+    p.integration.macro_step = 1e-4;
     EXPECT_EQ(Simulation<Host>(p).levels()[0].critical_step > 0, p.body.element[0] == "linear");
   }
 }
 
-// Integrators that grow undamped are stable with damping just below the predicted limit, and not well above it.
+// Integrators that grow undamped are stable with damping just below the predicted limit, and not
+// well above it.
 TEST(Damping, HoldsWhatGrows) {
   for (const char* integrator : {"euler", "rk2"}) {
     Problem p = small_cube("linear");
@@ -260,7 +278,8 @@ TEST(Damping, DecaysAsRayleighSays) {
     std::vector<Point> shape = probe.zero();
     for (std::size_t a = 0; a < shape.size(); ++a)
       for (int k = 0; k < 3; ++k)
-        shape[a][k] = 1e-4 * modes.eigenvectors()(static_cast<Eigen::Index>(3 * a) + k, 8) / std::sqrt(mass[a]);
+        shape[a][k] = 1e-4 * modes.eigenvectors()(static_cast<Eigen::Index>(3 * a) + k, 8) /
+                      std::sqrt(mass[a]);
     p.body.damping = {0.02 * w, 0.02 / w};
     p.integration.integrator = {integrator}, p.integration.allow_unstable = true;
     const double h = 5e-4 * 2 * M_PI / w;

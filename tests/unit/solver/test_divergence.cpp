@@ -53,7 +53,8 @@ TYPED_TEST(Divergence, AboveTheCriticalStepStopsBeforeItIsNotFinite) {
     }
     ASSERT_TRUE(bad);
     EXPECT_TRUE(all_finite(simulation.positions()) && all_finite(simulation.velocities()));
-    EXPECT_TRUE(bad->kind == "energy" || (bad->kind == "inverted" && material == "neo_hookean")) << bad->kind;
+    EXPECT_TRUE(bad->kind == "energy" || (bad->kind == "inverted" && material == "neo_hookean"))
+        << bad->kind;
     EXPECT_EQ(bad->level, 0);
     EXPECT_GE(bad->element, 0);
     EXPECT_LT(bad->J, 0.65);  // 0.50 to 0.62: the energy tells before an element is inside out
@@ -74,8 +75,8 @@ TEST(Diagnosis, HoldsNamesOfAnyLength) {
                     .J = -0.5,
                     .reason = reason,
                     .remedy = "a smaller macro_step"};
-  EXPECT_EQ(d.text(), "an element is inside out: level 1, element 3 (region " + name + ") with J = -0.5; " + reason +
-                          "; try a smaller macro_step");
+  EXPECT_EQ(d.text(), "an element is inside out: level 1, element 3 (region " + name +
+                          ") with J = -0.5; " + reason + "; try a smaller macro_step");
 }
 
 TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
@@ -84,7 +85,8 @@ TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
   p.integration.macro_step = 1e-6;
   Simulation<TypeParam> simulation(p);
   const TetMesh& mesh = p.body.levels[0];
-  // one vertex is pushed through the opposite face of one of its tetrahedra, which comes out the most inverted of all
+  // one vertex is pushed through the opposite face of one of its tetrahedra, which comes out the
+  // most inverted of all
   std::size_t inner = 0;
   while (on_boundary(decimetre, mesh.vertices[inner]) || mesh.vertices[inner][0] < 0.065) ++inner;
   std::vector<Point> u(mesh.vertices.size(), Point::Zero()), v = u;
@@ -100,7 +102,8 @@ TYPED_TEST(Divergence, NamesTheInvertedElementAndItsRegion) {
   EXPECT_LT(bad->J, 0);
   EXPECT_NE(bad->remedy.find("allow_inversion"), std::string::npos);
   for (const Choice& material : materials())
-    EXPECT_EQ(std::regex_search(bad->remedy, std::regex("[ (]" + material.name + "[,)]")), recovers(material.name))
+    EXPECT_EQ(std::regex_search(bad->remedy, std::regex("[ (]" + material.name + "[,)]")),
+              recovers(material.name))
         << bad->remedy;
   // it is one of the inverted elements
   const auto& t = mesh.tets[static_cast<std::size_t>(bad->element)];
@@ -149,7 +152,8 @@ TYPED_TEST(Divergence, FasterThanSoundIsFoundWhereEnergiesAreNotCompared) {
   EXPECT_NE(bad->text().find("edges moved in a sub-step"), std::string::npos) << bad->text();
 }
 
-// A plane holds at any depth, but a point that is further in than the body is large was not pushed there
+// A plane holds at any depth, but a point that is further in than the body is large was not pushed
+// there
 TYPED_TEST(Divergence, APointFarInsideAnObstacleIsLost) {
   Problem p = small_cube();
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
@@ -158,7 +162,8 @@ TYPED_TEST(Divergence, APointFarInsideAnObstacleIsLost) {
     p.integration.integrator = {integrator};
     p.integration.macro_step = 1e-4;
     Simulation<TypeParam> simulation(p);
-    std::vector<Point> u(p.body.levels[0].vertices.size(), Point(0, 0, -0.1)), v(u.size(), Point::Zero());
+    std::vector<Point> u(p.body.levels[0].vertices.size(), Point(0, 0, -0.1)),
+        v(u.size(), Point::Zero());
     simulation.set_state(u, v);
     simulation.step();
     EXPECT_FALSE(simulation.check());
@@ -278,7 +283,8 @@ TYPED_TEST(NoFalseAlarm, OfAStretchedBodyThatIsLetGo) {
   Problem p = small_cube("corotational");
   Simulation<TypeParam> simulation(p);
   std::vector<Point> u, v(p.body.levels[0].vertices.size(), Point::Zero());
-  for (const Point& x : p.body.levels[0].vertices) u.push_back({0.3 * x[0], -0.1 * x[1], -0.1 * x[2]});
+  for (const Point& x : p.body.levels[0].vertices)
+    u.push_back({0.3 * x[0], -0.1 * x[1], -0.1 * x[2]});
   simulation.set_state(u, v);
   advance(simulation, 300);
 }
@@ -330,7 +336,8 @@ TEST(FuzzRun, SeedsAreStepped) {
     for (const auto& entry : std::filesystem::directory_iterator(fuzz::folder / kind / "run")) {
       SCOPED_TRACE(entry.path().string());
       const std::string bytes = load_file(entry.path()).bytes;
-      EXPECT_NO_THROW(fuzz::step(read_mesh(MemoryFile{bytes.starts_with('#') ? "m.vtk" : "m.msh", bytes})));
+      EXPECT_NO_THROW(
+          fuzz::step(read_mesh(MemoryFile{bytes.starts_with('#') ? "m.vtk" : "m.msh", bytes})));
     }
 }
 

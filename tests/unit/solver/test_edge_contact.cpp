@@ -25,7 +25,8 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-// --- Geometry of two edges --------------------------------------------------------------------------------------------------
+// --- Geometry of two edges
+// --------------------------------------------------------------------------------------------------
 
 using Tet = std::array<Point, 4>;
 constexpr std::array<std::array<int, 4>, 6> edges_of_tet{
@@ -41,7 +42,9 @@ Tet random_tet(std::mt19937& random, const Point& centre) {
 }
 
 SurfaceEdge<double> edge_of(const Tet& t, std::size_t i) {
-  const auto x = [&](std::size_t k) { return vec3<double>(t[static_cast<std::size_t>(edges_of_tet[i][k])]); };
+  const auto x = [&](std::size_t k) {
+    return vec3<double>(t[static_cast<std::size_t>(edges_of_tet[i][k])]);
+  };
   return {x(0), x(1), x(2), x(3)};
 }
 
@@ -53,14 +56,16 @@ double overlap(const Tet& first, const Tet& second, const Point& axis) {
   return high - low;
 }
 
-// What two edges of tetrahedra have as their depth is how far these overlap along the normal. And where the way by which they are
-// separated soonest is across two edges, these meet, with that depth: then it is the tetrahedra's own.
+// What two edges of tetrahedra have as their depth is how far these overlap along the normal. And
+// where the way by which they are separated soonest is across two edges, these meet, with that
+// depth: then it is the tetrahedra's own.
 TEST(EdgeContact, DepthIsTheOverlapAlongTheNormal) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> away(-1.2, 1.2);
   int meetings = 0, by_edges = 0;
   for (int n = 0; n < 20000; ++n) {
-    const Tet a = random_tet(random, {0, 0, 0}), b = random_tet(random, {away(random), away(random), away(random)});
+    const Tet a = random_tet(random, {0, 0, 0}),
+              b = random_tet(random, {away(random), away(random), away(random)});
     double least = 1e9, of_edges = 1e9, found = 1e9, sharpest = 0, steepest = 0;
     const auto ask = [&](Point axis, bool edges) {
       const double sine = axis.norm();
@@ -73,7 +78,8 @@ TEST(EdgeContact, DepthIsTheOverlapAlongTheNormal) {
       }
     };
     for (const Tet* t : {&a, &b})
-      for (std::size_t i = 0; i < 4; ++i) ask(((*t)[(i + 1) % 4] - (*t)[i]).cross((*t)[(i + 2) % 4] - (*t)[i]), false);
+      for (std::size_t i = 0; i < 4; ++i)
+        ask(((*t)[(i + 1) % 4] - (*t)[i]).cross((*t)[(i + 2) % 4] - (*t)[i]), false);
     for (std::size_t i = 0; i < 6; ++i)
       for (std::size_t j = 0; j < 6; ++j) {
         const auto e = edge_of(a, i), f = edge_of(b, j);
@@ -81,7 +87,8 @@ TEST(EdgeContact, DepthIsTheOverlapAlongTheNormal) {
         const double before = of_edges;
         ask(point(e.end - e.begin).normalized().cross(point(f.end - f.begin).normalized()), true);
         const Vec3<double> axis = cross(e.end - e.begin, f.end - f.begin);
-        const Vec3<double> up = (dot(axis, f.left - f.begin) < 0 ? 1 : -1) / std::sqrt(dot(axis, axis)) * axis;
+        const Vec3<double> up =
+            (dot(axis, f.left - f.begin) < 0 ? 1 : -1) / std::sqrt(dot(axis, axis)) * axis;
         if (of_edges < before) steepest = std::min(steepness(f, up), steepness(e, -1.0 * up));
         const EdgeGap<double> gap = gap_of_edges(e, f, {});
         if (!gap.meet) continue;
@@ -110,7 +117,8 @@ TEST(EdgeContact, MeetWhereTheyComeThroughEachOther) {
   };
   EXPECT_TRUE(gap_of_edges(e(0.5, 0.1), f, {}).meet);
   EXPECT_FALSE(gap_of_edges(e(1.5, 3), f, {}).meet);
-  const EdgeGap<double> gap = gap_of_edges(e(1.5, 3), f, {-2, 0, -6});  // above x = 0.5 as it comes down to f
+  // above x = 0.5 as it comes down to f
+  const EdgeGap<double> gap = gap_of_edges(e(1.5, 3), f, {-2, 0, -6});
   ASSERT_TRUE(gap.meet);
   EXPECT_NEAR(gap.depth, -3, 1e-12);
   EXPECT_NEAR(gap.other, 0.75, 1e-12);
@@ -137,15 +145,18 @@ TEST(EdgeContact, DistanceOfSegmentsIsTheLeastOfManyPlaces) {
   }
 }
 
-// --- Bodies -----------------------------------------------------------------------------------------------------------------
+// --- Bodies
+// -----------------------------------------------------------------------------------------------------------------
 
 constexpr double ridge = 0.02 / std::numbers::sqrt2;  // of a bar: half its diagonal
 
-/// A bar of 6 cm along x or y that stands on an edge, in three cells: the middle of its ridge is the middle of an edge.
+/// A bar of 6 cm along x or y that stands on an edge, in three cells: the middle of its ridge is
+/// the middle of an edge.
 Body bar(std::size_t along, double height, double speed, double young_modulus = 20e3) {
   TetMesh mesh = box_mesh({{-0.03, -0.01, -0.01}, {0.03, 0.01, 0.01}}, {3, 1, 1});
   for (Point& x : mesh.vertices) {
-    const double across = (x[1] - x[2]) / std::numbers::sqrt2, up = (x[1] + x[2]) / std::numbers::sqrt2 + height;
+    const double across = (x[1] - x[2]) / std::numbers::sqrt2,
+                 up = (x[1] + x[2]) / std::numbers::sqrt2 + height;
     x = along == 0 ? Point(x[0], across, up) : Point(-across, x[0], up);
   }
   Body body = body_of({std::move(mesh)}, "corotational").body;
@@ -158,7 +169,8 @@ Body bar(std::size_t along, double height, double speed, double young_modulus = 
 /// Two bars across each other, the upper one comes down.
 Problem crossing(double speed, const std::string& integrator = "symplectic_euler") {
   Problem p;
-  p.body = join_bodies({{"under", bar(0, -ridge - 5e-4, speed / 2)}, {"over", bar(1, ridge + 5e-4, -speed / 2)}});
+  p.body = join_bodies(
+      {{"under", bar(0, -ridge - 5e-4, speed / 2)}, {"over", bar(1, ridge + 5e-4, -speed / 2)}});
   p.integration.integrator = {integrator};
   return p;
 }
@@ -170,7 +182,8 @@ double depth_in_the_middle(const Problem& p, const Simulation<Host>& s) {
   for (std::size_t a = 0; a < x.size(); ++a) {
     const Point& rest = p.body.levels[0].vertices[a];
     const bool over = a >= x.size() / 2;
-    if (std::abs(rest[over ? 1 : 0]) < 0.011 && std::abs(rest[2]) < 1e-3) (over ? upper : lower) += x[a][2] / 2;
+    if (std::abs(rest[over ? 1 : 0]) < 0.011 && std::abs(rest[2]) < 1e-3)
+      (over ? upper : lower) += x[a][2] / 2;
   }
   return lower - upper;
 }
@@ -180,10 +193,12 @@ struct Momenta {
 };
 
 Momenta momenta_of(const Problem& p, const Simulation<Host>& s) {
-  const std::vector<double> mass = lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
+  const std::vector<double> mass =
+      lumped_masses(p.body.levels[0], region_densities(p.body, p.body.levels[0]));
   Momenta sum;
   const auto x = s.positions(), v = s.velocities();
-  for (std::size_t a = 0; a < mass.size(); ++a) sum.linear += mass[a] * v[a], sum.angular += mass[a] * x[a].cross(v[a]);
+  for (std::size_t a = 0; a < mass.size(); ++a)
+    sum.linear += mass[a] * v[a], sum.angular += mass[a] * x[a].cross(v[a]);
   return sum;
 }
 
@@ -206,7 +221,8 @@ TEST(EdgeContact, TurnsCrossingBarsBack) {
     EXPECT_LE(depth_in_the_middle(p, s), -1e-3) << integrator;
     EXPECT_LE(s.energies().total(), 1.005 * energy) << integrator;
     const Momenta after = momenta_of(p, s);
-    const double kept = integrator == "implicit_euler" ? 1e-3 : 1e-12;  // as far as its systems are solved
+    // as far as its systems are solved
+    const double kept = integrator == "implicit_euler" ? 1e-3 : 1e-12;
     EXPECT_LE((after.linear - before.linear).norm(), kept * size) << integrator;
   }
 }
@@ -235,12 +251,14 @@ TEST(EdgeContact, AddsNothingWhereFacesLieOnEachOther) {
     body.damping.mass = 60;
     return body;
   };
-  p.body = join_bodies({{"lower", block({0, 0, 0}, {4, 4, 2})}, {"upper", block({0.003, 0.005, 0.02}, {3, 3, 2})}});
+  p.body = join_bodies(
+      {{"lower", block({0, 0, 0}, {4, 4, 2})}, {"upper", block({0.003, 0.005, 0.02}, {3, 3, 2})}});
   p.gravity = {0, 0, -9.81};
   p.contact.obstacles.push_back({PlaneOptions{}, 0.5, {}, "floor"});
   Simulation<Host> s(p);
   while (s.time() < 0.3) advance(s, 20);
-  EXPECT_NEAR(s.wrenches()[2].force[2], 9.81 * 1000 * 0.04 * 0.04 * 0.02, 1e-2 * 9.81 * 1000 * 0.04 * 0.04 * 0.02);
+  EXPECT_NEAR(s.wrenches()[2].force[2], 9.81 * 1000 * 0.04 * 0.04 * 0.02,
+              1e-2 * 9.81 * 1000 * 0.04 * 0.04 * 0.02);
   EXPECT_LE(s.energies().kinetic, 1e-7);  // without friction it slides slowly
 }
 

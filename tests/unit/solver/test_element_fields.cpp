@@ -23,22 +23,28 @@ using Matrix = Eigen::Matrix3d;
 constexpr double young = 20e3, poisson = 0.35;
 const Lame<double> law = lame_constants(young, poisson);
 
-/// S = 2 dW/dC of laws of tissue at the isochoric C, with the values that they have where nothing is given.
+/// S = 2 dW/dC of laws of tissue at the isochoric C, with the values that they have where nothing
+/// is given.
 Matrix isochoric_stress(const std::string& material, const Matrix& C) {
   const Matrix I = Matrix::Identity();
   const Point f = Point(2, 2, 1) / 3, s = Point(-2, 1, 2) / 3, n = f.cross(s);
   const double I1 = C.trace(), I2 = (I1 * I1 - (C * C).trace()) / 2, x = I1 - 3, y = I2 - 3;
-  const auto by_invariants = [&](double W1, double W2) -> Matrix { return 2 * W1 * I + 2 * W2 * (I1 * I - C); };
+  const auto by_invariants = [&](double W1, double W2) -> Matrix {
+    return 2 * W1 * I + 2 * W2 * (I1 * I - C);
+  };
   if (material == "mooney_rivlin") return by_invariants(2500, 1000);
-  if (material == "polynomial") return by_invariants(2500 + 2e3 * x + 500 * y, 1000 + 500 * x + 600 * y);
+  if (material == "polynomial")
+    return by_invariants(2500 + 2e3 * x + 500 * y, 1000 + 500 * x + 600 * y);
   if (material == "veronda_westmann") return by_invariants(7000 * std::exp(2 * x), -3500);
   if (material == "arruda_boyce") {
     const double z = I1 / 4;  // I1 / N
-    return by_invariants(
-        5e3 * (0.5 + z / 10 + 11 * z * z / 350 + 19 * z * z * z / 1750 + 519 * std::pow(z, 4) / 134750), 0);
+    return by_invariants(5e3 * (0.5 + z / 10 + 11 * z * z / 350 + 19 * z * z * z / 1750 +
+                                519 * std::pow(z, 4) / 134750),
+                         0);
   }
   if (material == "gent") return by_invariants(2500 / (1 - x / 2), 0);
-  if (material == "transversely_isotropic") return 5e3 * I + 4e3 * (f.dot(C * f) - 1) * f * f.transpose();
+  if (material == "transversely_isotropic")
+    return 5e3 * I + 4e3 * (f.dot(C * f) - 1) * f * f.transpose();
   if (material == "holzapfel_gasser_ogden") {
     Matrix S = 5e3 * I;
     for (const double side : {1.0, -1.0}) {
@@ -58,7 +64,8 @@ Matrix isochoric_stress(const std::string& material, const Matrix& C) {
   if (material == "ogden") {  // sum of c alpha l^(alpha - 2) n n^T
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(C);
     const Eigen::Array3d l2 = eigen.eigenvalues().array();
-    return eigen.eigenvectors() * Point(2400 * l2 - 2000 * l2.pow(-2)).asDiagonal() * eigen.eigenvectors().transpose();
+    return eigen.eigenvectors() * Point(2400 * l2 - 2000 * l2.pow(-2)).asDiagonal() *
+           eigen.eigenvectors().transpose();
   }
   ADD_FAILURE() << "no known stress of " << material;
   return Matrix::Zero();
@@ -66,10 +73,13 @@ Matrix isochoric_stress(const std::string& material, const Matrix& C) {
 
 /// Cauchy's stress in closed form; `R` is the rotation nearest to F.
 Matrix known_stress(const std::string& material, const Matrix& F, const Matrix& R) {
-  const Matrix I = Matrix::Identity(), E = (F.transpose() * F - I) / 2, e = (F + F.transpose()) / 2 - I;
+  const Matrix I = Matrix::Identity(), E = (F.transpose() * F - I) / 2,
+               e = (F + F.transpose()) / 2 - I;
   const double J = F.determinant();
-  if (material == "st_venant_kirchhoff") return F * (2 * law.mu * E + law.lambda * E.trace() * I) * F.transpose() / J;
-  if (material == "linear") return (2 * law.mu * e + law.lambda * e.trace() * I) * F.transpose() / J;
+  if (material == "st_venant_kirchhoff")
+    return F * (2 * law.mu * E + law.lambda * E.trace() * I) * F.transpose() / J;
+  if (material == "linear")
+    return (2 * law.mu * e + law.lambda * e.trace() * I) * F.transpose() / J;
   if (material == "corotational") {
     const Matrix U = R.transpose() * F;
     return R * (2 * law.mu * (U - I) + law.lambda * (U - I).trace() * I) * F.transpose() / J;
@@ -80,7 +90,8 @@ Matrix known_stress(const std::string& material, const Matrix& F, const Matrix& 
     return (bulk / 2 * (J * J - 1) * I + law.mu * (b - b.trace() / 3 * I)) / J;
   }
   const double r = std::cbrt(1 / J);
-  const Matrix tau = r * r * F * isochoric_stress(material, r * r * F.transpose() * F) * F.transpose();
+  const Matrix tau =
+      r * r * F * isochoric_stress(material, r * r * F.transpose() * F) * F.transpose();
   return (tau - tau.trace() / 3 * I) / J + 33e3 / 2 * (J - 1 / J) * I;
 }
 
@@ -91,7 +102,8 @@ double equivalent(const Matrix& sigma) {
 
 template <class B>
 void expect_everywhere(const Matrix& F, double stress, double J, const std::string& material) {
-  Problem p = body_of({with_regions(jittered_box(decimetre, {3, 4, 3}), 0.05, "left", "right")}, material);
+  Problem p =
+      body_of({with_regions(jittered_box(decimetre, {3, 4, 3}), 0.05, "left", "right")}, material);
   p.body.material.poisson_ratio = poisson;
   Simulation<B> simulation(p);
   std::vector<Point> u;
@@ -117,7 +129,8 @@ TYPED_TEST(ElementFieldsOn, KnownDeformations) {
     SCOPED_TRACE(name);
     for (const double stretch : {0.8, 1.3}) {
       const Matrix F = Eigen::Vector3d(stretch, 1, 1).asDiagonal();
-      expect_everywhere<TypeParam>(F, equivalent(known_stress(name, F, Matrix::Identity())), stretch, name);
+      expect_everywhere<TypeParam>(F, equivalent(known_stress(name, F, Matrix::Identity())),
+                                   stretch, name);
     }
     const double shear = 0.4, angle = std::atan(shear / 2);
     Matrix F = Matrix::Identity(), R = Matrix::Identity();
@@ -158,8 +171,10 @@ TYPED_TEST(MaterialPointsOn, FollowLinearFields) {
   ASSERT_EQ(motion.displacement.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_LE((watched.rest()[i] - points[i]).norm(), round_off<double>(20, 0.1));
-    EXPECT_LE((motion.displacement[i] - linear(points[i])).norm(), round_off<typename TypeParam::Real>(20));
-    EXPECT_LE((motion.velocity[i] - linear(2 * points[i])).norm(), round_off<typename TypeParam::Real>(20));
+    EXPECT_LE((motion.displacement[i] - linear(points[i])).norm(),
+              round_off<typename TypeParam::Real>(20));
+    EXPECT_LE((motion.velocity[i] - linear(2 * points[i])).norm(),
+              round_off<typename TypeParam::Real>(20));
   }
 }
 

@@ -46,7 +46,8 @@ TEST(Fibres, OfElementsAreThoseOfTheBodyWhereTheyAreAlike) {
     const auto near = [&](const std::vector<Point>& a, const std::vector<Point>& b) {
       double size = 0;
       for (const Point& f : a) size = std::max(size, f.norm());
-      for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((a[i] - b[i]).norm(), 1e-12 * size) << element;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_LE((a[i] - b[i]).norm(), 1e-12 * size) << element;
     };
     near(one.force(u), each.force(u));
     near(one.stiffness(u, d), each.stiffness(u, d));
@@ -61,7 +62,8 @@ TEST(Fibres, RoundALineTurnWithIt) {
     Problem p = body_of({box_mesh(cube, {4, 4, 4})}, "transversely_isotropic"), q = p;
     p.body.element = {element};
     p.body.material.fibres = FibreOptions{.around = FibreWinding{.angle = 0.5}};
-    const Eigen::Matrix3d R = Eigen::AngleAxisd(turn / 4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(turn / 4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     q = p;
     for (Point& x : q.body.levels[0].vertices) x = R * x;
     LevelProbe<Host> here(p), turned(q);
@@ -76,7 +78,8 @@ TEST(Fibres, RoundALineTurnWithIt) {
 }
 
 TEST(Fibres, OfACoarserLevelAreThoseOfTheNearestElement) {
-  Problem p = body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {2, 2, 2})}, "costa");
+  Problem p =
+      body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {2, 2, 2})}, "costa");
   p.body.material.fibres = FibreOptions{.sheet = Point::UnitZ(), .field = "f"};
   TetMesh& fine = p.body.levels[0];
   const auto middle = [](const TetMesh& mesh, std::size_t t) {
@@ -85,7 +88,8 @@ TEST(Fibres, OfACoarserLevelAreThoseOfTheNearestElement) {
     return Point(sum / 4);
   };
   const auto direction = [](const Point& x) { return Point(1, 10 * x[0], 0).normalized(); };
-  for (std::size_t t = 0; t < fine.tets.size(); ++t) fine.tet_vectors["f"].push_back(2 * direction(middle(fine, t)));
+  for (std::size_t t = 0; t < fine.tets.size(); ++t)
+    fine.tet_vectors["f"].push_back(2 * direction(middle(fine, t)));
   const TetMesh& coarse = p.body.levels[1];
   const auto of_coarse = element_fibres(p.body, coarse, 1);
   ASSERT_EQ(of_coarse.size(), coarse.tets.size());
@@ -97,7 +101,8 @@ TEST(Fibres, OfACoarserLevelAreThoseOfTheNearestElement) {
 
 constexpr double inner = 0.02, outer = 0.05;
 
-/// A quarter of a pipe: the temperature between its walls is the logarithm of the radius, between its ends the angle.
+/// A quarter of a pipe: the temperature between its walls is the logarithm of the radius, between
+/// its ends the angle.
 TetMesh quarter_of_a_pipe(const std::array<int, 3>& cells) {
   TetMesh mesh = box_mesh({{inner, 0, 0}, {outer, turn / 4, 0.03}}, cells);
   for (Point& p : mesh.vertices) p = {p[0] * std::cos(p[1]), p[0] * std::sin(p[1]), p[2]};
@@ -117,7 +122,8 @@ double worst_angle(const Body& body, int level, const std::function<Point(const 
 }
 
 TEST(Fibres, FromOneSetToAnotherFollowTheFlowBetweenThem) {
-  Problem p = body_of({quarter_of_a_pipe({8, 16, 3}), quarter_of_a_pipe({3, 6, 2})}, "transversely_isotropic");
+  Problem p = body_of({quarter_of_a_pipe({8, 16, 3}), quarter_of_a_pipe({3, 6, 2})},
+                      "transversely_isotropic");
   const auto radial = [](const Point& x) { return Point(x[0], x[1], 0).normalized(); };
   const auto around = [](const Point& x) { return Point(-x[1], x[0], 0).normalized(); };
   const Selection first_end = HalfSpaceSelection{Point::Zero(), Point::UnitY()},
@@ -126,25 +132,30 @@ TEST(Fibres, FromOneSetToAnotherFollowTheFlowBetweenThem) {
   EXPECT_LT(worst_angle(p.body, 0, around), 0.1);
   EXPECT_LT(worst_angle(p.body, 1, around), 0.3) << "of the nearest element of level 0";
   TetMesh& fine = p.body.levels[0];
-  for (std::size_t v = 0; v < fine.vertices.size(); ++v) {  // sets that the coarse mesh does not have
+  // sets that the coarse mesh does not have
+  for (std::size_t v = 0; v < fine.vertices.size(); ++v) {
     const double r = fine.vertices[v].head<2>().norm();
     if (r < inner * 1.0001) fine.vertex_sets["inside"].push_back(static_cast<int>(v));
     if (r > outer * 0.9999) fine.vertex_sets["outside"].push_back(static_cast<int>(v));
   }
-  p.body.material.fibres = FibreOptions{.from = GroupSelection{"inside"}, .to = GroupSelection{"outside"}};
+  p.body.material.fibres =
+      FibreOptions{.from = GroupSelection{"inside"}, .to = GroupSelection{"outside"}};
   EXPECT_LT(worst_angle(p.body, 0, radial), 0.15);
   EXPECT_LT(worst_angle(p.body, 1, radial), 0.3);
   Body fields = p.body;
   flows_to_fields(fields, "f");
   EXPECT_FALSE(fields.material.fibres->from);
-  for (const int level : {0, 1}) EXPECT_EQ(worst_angle(fields, level, radial), worst_angle(p.body, level, radial));
+  for (const int level : {0, 1})
+    EXPECT_EQ(worst_angle(fields, level, radial), worst_angle(p.body, level, radial));
   EXPECT_EQ(refusal([&] { Simulation<Host> simulation(p); }), "");
 }
 
-// Straight from face to face, whatever the mesh; where a whole element lies in a set its neighbours say
+// Straight from face to face, whatever the mesh; where a whole element lies in a set its neighbours
+// say
 TEST(Fibres, OfAFlowThroughABoxAreStraight) {
   Problem p = body_of({jittered_box(decimetre, {4, 4, 4})}, "transversely_isotropic");
-  p.body.material.fibres = FibreOptions{.from = Box{{-1, -1, -1}, {1, 1, 0}}, .to = Box{{-1, -1, 0.07}, {1, 1, 1}}};
+  p.body.material.fibres =
+      FibreOptions{.from = Box{{-1, -1, -1}, {1, 1, 0}}, .to = Box{{-1, -1, 0.07}, {1, 1, 1}}};
   EXPECT_LT(worst_angle(p.body, 0, [](const Point&) { return Point(0, 0, 1); }), 0.3);
   p.body.material.fibres->to = Box{{-1, -1, 0.1}, {1, 1, 1}};
   EXPECT_LT(worst_angle(p.body, 0, [](const Point&) { return Point(0, 0, 1); }), 1e-6);
@@ -155,13 +166,19 @@ TEST(Fibres, BetweenSetsThatAreNotThereAreRefused) {
   FibreOptions& o = *p.body.material.fibres;
   const auto refused = [&] { return refusal([&] { Simulation<Host> simulation(p); }); };
   o.from = Box{{-1, -1, -1}, {0, 1, 1}};
-  EXPECT_EQ(refused(), "body.fibres.to is missing; fibres run from one set of vertices to another, expected both");
+  EXPECT_EQ(
+      refused(),
+      "body.fibres.to is missing; fibres run from one set of vertices to another, expected both");
   o.to = GroupSelection{"apex"};
-  EXPECT_NE(refused().find("body.fibres.to: unknown group on level 0 'apex'"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("body.fibres.to: unknown group on level 0 'apex'"), std::string::npos)
+      << refused();
   o.to = Box{{-1, -1, -1}, {1, 0, 1}};
-  EXPECT_NE(refused().find("of level 0 is in `from` as well; expected sets apart"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("of level 0 is in `from` as well; expected sets apart"),
+            std::string::npos)
+      << refused();
   o.to = Box{{5, 5, 5}, {6, 6, 6}};
-  EXPECT_NE(refused().find("body.fibres.to: the box from [5, 5, 5]"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("body.fibres.to: the box from [5, 5, 5]"), std::string::npos)
+      << refused();
   TetMesh& mesh = p.body.levels[0];
   const TetMesh other = box_mesh({{1, 0, 0}, {1.1, 0.1, 0.1}}, {2, 2, 2});
   const int before = static_cast<int>(mesh.vertices.size());
@@ -171,26 +188,29 @@ TEST(Fibres, BetweenSetsThatAreNotThereAreRefused) {
     mesh.tets.push_back(tet);
   }
   o.to = Box{{0.1, -1, -1}, {0.2, 1, 1}};
-  EXPECT_NE(refused().find("touches only one of `from` and `to`, or none"), std::string::npos) << refused();
+  EXPECT_NE(refused().find("touches only one of `from` and `to`, or none"), std::string::npos)
+      << refused();
 }
 
 TEST(Fibres, FromFieldsThatAreNotThereAreRefused) {
   Problem p = fibrous("linear", {.sheet = Point::UnitZ(), .field = "fiber"});
   const auto refused = [&] { return refusal([&] { Simulation<Host> simulation(p); }); };
   EXPECT_EQ(refused(),
-            "body.fibres.field: the mesh of level 0 has no field of vectors; expected 'fiber' among those of its cells "
+            "body.fibres.field: the mesh of level 0 has no field of vectors; expected 'fiber' "
+            "among those of its cells "
             "or points");
   TetMesh& mesh = p.body.levels[0];
   mesh.tet_vectors["fibre"].assign(mesh.tets.size(), Point::UnitX());
-  EXPECT_EQ(
-      refused(),
-      "body.fibres.field: unknown field of vectors of the mesh of level 0 'fiber'; did you mean 'fibre'? (choices: "
-      "fibre)");
+  EXPECT_EQ(refused(),
+            "body.fibres.field: unknown field of vectors of the mesh of level 0 'fiber'; did you "
+            "mean 'fibre'? (choices: "
+            "fibre)");
   p.body.material.fibres->field = "fibre";
   EXPECT_EQ(refused(), "");
   mesh.tet_vectors["fibre"][7].setZero();
   EXPECT_EQ(refused(),
-            "body.fibres.field: field 'fibre' has length 0 at element 7 of level 0; expected a direction at every "
+            "body.fibres.field: field 'fibre' has length 0 at element 7 of level 0; expected a "
+            "direction at every "
             "element");
 }
 

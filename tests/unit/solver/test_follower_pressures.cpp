@@ -12,7 +12,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Pressures that follow the body: their forces, their stiffness, and both in implicit steps. Those of a fluid: test_cavities.cpp.
+// Pressures that follow the body: their forces, their stiffness, and both in implicit steps. Those
+// of a fluid: test_cavities.cpp.
 namespace {
 
 using namespace plica;
@@ -24,7 +25,8 @@ template <class B>
 class FollowerPressures : public testing::Test {};
 TYPED_TEST_SUITE(FollowerPressures, EachBackend);
 
-// Everywhere on the boundary it is -p dV/dx of the body as it is: no sum, work 3 p V, and none of what turns with it.
+// Everywhere on the boundary it is -p dV/dx of the body as it is: no sum, work 3 p V, and none of
+// what turns with it.
 TYPED_TEST(FollowerPressures, FollowTheBody) {
   using Real = typename TypeParam::Real;
   constexpr double pressure = 40;
@@ -44,11 +46,14 @@ TYPED_TEST(FollowerPressures, FollowTheBody) {
     for (std::size_t a = 0; a < f.size(); ++a) work -= f[a].dot(mesh.vertices[a] + u[a]);
     const double at_one = pressure / 2, volume = 1e-3 * F.determinant();
     EXPECT_NEAR(work, 3 * at_one * volume, round_off<Real>(1e4, at_one * volume)) << i;
-    EXPECT_LE(std::accumulate(f.begin(), f.end(), Point(0, 0, 0)).norm(), round_off<Real>(1e4, at_one * 0.06)) << i;
+    EXPECT_LE(std::accumulate(f.begin(), f.end(), Point(0, 0, 0)).norm(),
+              round_off<Real>(1e4, at_one * 0.06))
+        << i;
   }
 }
 
-// On one face it is at first the traction against it; at a quarter turn it still is, where the traction is not
+// On one face it is at first the traction against it; at a quarter turn it still is, where the
+// traction is not
 TEST(FollowerPressure, AtRestIsTractionAgainstTheFace) {
   Problem p = body_of({jittered_box(decimetre, {3, 3, 3})});
   p.body.loads = {{right_face, FollowerPressure{-10}, {}}};
@@ -60,7 +65,8 @@ TEST(FollowerPressure, AtRestIsTractionAgainstTheFace) {
   Eigen::Matrix3d R;
   R << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   const auto turned = follower.force(affine_field(p.body.levels[0], R, Point::Zero()));
-  for (std::size_t a = 0; a < pull.size(); ++a) EXPECT_LE((turned[a] - R * pull[a]).norm(), 1e-12) << a;
+  for (std::size_t a = 0; a < pull.size(); ++a)
+    EXPECT_LE((turned[a] - R * pull[a]).norm(), 1e-12) << a;
 }
 
 /// The stiffness of a pressure on some triangles, at a random state.
@@ -71,7 +77,9 @@ struct FollowerStiffness {
 
   explicit FollowerStiffness(const Selection& where) : with((add_pressure(where), p)) {}
 
-  std::vector<Point> field(double size, unsigned seed) { return random_field(with.vertices(), size, seed); }
+  std::vector<Point> field(double size, unsigned seed) {
+    return random_field(with.vertices(), size, seed);
+  }
   /// K along a field, by differences: forces are quadratic in positions, for which these are exact.
   std::vector<Point> differences(const std::vector<Point>& along) {
     constexpr double h = 1e-3;
@@ -85,7 +93,9 @@ struct FollowerStiffness {
   }
 
  private:
-  void add_pressure(const Selection& where) { p.body.loads = {{where, FollowerPressure{300}, RampCourse{2}}}; }
+  void add_pressure(const Selection& where) {
+    p.body.loads = {{where, FollowerPressure{300}, RampCourse{2}}};
+  }
   std::vector<Point> follower(const std::vector<Point>& along, double ahead) {
     auto x = u;
     for (std::size_t a = 0; a < x.size(); ++a) x[a] += ahead * along[a];
@@ -110,15 +120,17 @@ TEST(FollowerPressure, OfAFreeRimHasTheSymmetricPart) {
   EXPECT_NEAR(dot(d, face.product(e)), (de + ed) / 2, 1e-9 * std::abs(de));
 }
 
-// A pressure that takes more stiffness away than there is: the first solve is undone, and the second one is what counts,
-// with nothing left of it, also of the pressures that nearly incompressible nodal elements carry.
+// A pressure that takes more stiffness away than there is: the first solve is undone, and the
+// second one is what counts, with nothing left of it, also of the pressures that nearly
+// incompressible nodal elements carry.
 TEST(FollowerPressure, ASolveThatIsUndoneIsNoMiss) {
   for (const double nu : {0.3, 0.495}) {
     Problem p = small_cube("neo_hookean");
     p.body.element = {"nodal"}, p.body.material.poisson_ratio = nu;
     p.body.loads = {{Box{{-1, -1, -1}, {1, 1, 1}}, FollowerPressure{3e4}, {}}};
     p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 0.1;
-    p.integration.implicit.solver = "conjugate_gradients", p.integration.implicit.preconditioner = "block_jacobi";
+    p.integration.implicit.solver = "conjugate_gradients",
+    p.integration.implicit.preconditioner = "block_jacobi";
     p.integration.implicit.newton_iterations = 1;
     Simulation<Host> simulation(p);
     simulation.step();

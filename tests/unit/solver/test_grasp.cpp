@@ -35,7 +35,9 @@ Problem cube_and_plate(const GraspOptions& grasp) {
 
 const GraspOptions from_the_start{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = {}};
 
-std::vector<double> masses_of(const Problem& p) { return lumped_masses(p.body.levels[0], {p.body.material.density}); }
+std::vector<double> masses_of(const Problem& p) {
+  return lumped_masses(p.body.levels[0], {p.body.material.density});
+}
 Point momentum(const Simulation<Host>& s, const std::vector<double>& mass) {
   Point sum = Point::Zero();
   const auto v = s.velocities();
@@ -49,7 +51,8 @@ double total(const std::vector<double>& mass) {
   return sum;
 }
 
-// What hangs on the plate pulls by its weight, and its highest points are weight / (points stiffness) below where they were held.
+// What hangs on the plate pulls by its weight, and its highest points are weight / (points
+// stiffness) below where they were held.
 TEST(Grasp, HangsByItsSprings) {
   Problem p = cube_and_plate(from_the_start);
   p.gravity = {0, 0, -9.81};
@@ -67,7 +70,8 @@ TEST(Grasp, HangsByItsSprings) {
     EXPECT_NEAR(w.force[2], weight, 0.002 * weight);
     EXPECT_LT(w.torque.norm(), 0.01 * weight * side);
     double sag = 0;
-    for (const int point : held[0].points) sag += top - s.surface_positions()[static_cast<std::size_t>(point)][2];
+    for (const int point : held[0].points)
+      sag += top - s.surface_positions()[static_cast<std::size_t>(point)][2];
     EXPECT_NEAR(sag * stiffness, weight, 0.01 * weight) << stiffness;
     // the contact energy is that of these springs
     double energy = 0;
@@ -80,9 +84,11 @@ TEST(Grasp, HangsByItsSprings) {
   }
 }
 
-// The grip of a plate that goes up holds where it is stronger than the weight's part on each spring, and slips off where it is not.
+// The grip of a plate that goes up holds where it is stronger than the weight's part on each
+// spring, and slips off where it is not.
 TEST(Grasp, TearsAtItsStrength) {
-  for (const auto& [integrator, step] : {std::pair{"symplectic_euler", 2e-4}, {"implicit_euler", 1e-3}})
+  for (const auto& [integrator, step] :
+       {std::pair{"symplectic_euler", 2e-4}, {"implicit_euler", 1e-3}})
     for (const double part : {4.0, 0.5}) {
       SCOPED_TRACE(integrator + std::string(" ") + std::to_string(part));
       Problem p = cube_and_plate(from_the_start);
@@ -99,7 +105,8 @@ TEST(Grasp, TearsAtItsStrength) {
     }
 }
 
-// Pulled, pushed and moved aside the top goes with the plate, and a plate without grasp would leave it where it is.
+// Pulled, pushed and moved aside the top goes with the plate, and a plate without grasp would leave
+// it where it is.
 TEST(Grasp, CarriesItsPointsInAllDirections) {
   for (const Point& way : {Point(0, 0, 0.02), Point(0.02, 0, 0), Point(0, -0.02, 0)}) {
     Problem p = cube_and_plate(from_the_start);
@@ -109,18 +116,20 @@ TEST(Grasp, CarriesItsPointsInAllDirections) {
     while (s.time() < 0.6) advance(s, 1);
     for (const int point : held_points(s)) {
       const auto i = static_cast<std::size_t>(point);
-      EXPECT_LE((s.surface_positions()[i] - p.body.surface->vertices[i] - way).norm(), 0.01 * way.norm());
+      EXPECT_LE((s.surface_positions()[i] - p.body.surface->vertices[i] - way).norm(),
+                0.01 * way.norm());
     }
     EXPECT_LT(s.wrenches()[0].force.norm(), 0.02);  // it rests: nothing else acts on it
   }
 }
 
-// All momentum that the body gets is the plate's force times the step, in every step, while it holds and when it lets go; and where
-// the plate has mass, what one gets the other loses.
+// All momentum that the body gets is the plate's force times the step, in every step, while it
+// holds and when it lets go; and where the plate has mass, what one gets the other loses.
 TEST(Grasp, KeepsTheMomentum) {
   for (const char* integrator : {"symplectic_euler", "central_difference", "rk2", "rk4", "euler"})
     for (const bool massive : {false, true}) {
-      Problem p = cube_and_plate({.from = {0.004}, .until = {0.02}, .reach = 1e-3, .stiffness = {}});
+      Problem p =
+          cube_and_plate({.from = {0.004}, .until = {0.02}, .reach = 1e-3, .stiffness = {}});
       p.integration.integrator = {integrator};
       p.integration.allow_unstable = true;  // without damping rk2 and euler let motion grow
       p.integration.macro_step = 1e-4;
@@ -134,9 +143,11 @@ TEST(Grasp, KeepsTheMomentum) {
       for (int n = 0; n < 260; ++n) {
         advance(s, 1);
         const Point now = momentum(s, mass), force = s.wrenches()[0].force;
-        EXPECT_LE((now - before - force * 1e-4).norm(), round_off<double>(4000, start.norm())) << integrator << n;
+        EXPECT_LE((now - before - force * 1e-4).norm(), round_off<double>(4000, start.norm()))
+            << integrator << n;
         const Point of_plate = massive ? Point(0.6 * s.tools()[0].velocity) : Point(start - now);
-        EXPECT_LE((now + of_plate - start).norm(), round_off<double>(4000, start.norm())) << integrator << n;
+        EXPECT_LE((now + of_plate - start).norm(), round_off<double>(4000, start.norm()))
+            << integrator << n;
         const bool holds = n >= 40 && n < 200;
         EXPECT_EQ(held_points(s).size(), holds ? 25u : 0u) << n;
         EXPECT_TRUE(holds || force == Point(0, 0, 0)) << n;
@@ -146,8 +157,9 @@ TEST(Grasp, KeepsTheMomentum) {
     }
 }
 
-// The angular momentum about the scene's origin changes by the torque of the wrench, which is about the plate's centre, and by the force
-// there: by leapfrog to rounding, since forces are those of the places at the start of a step.
+// The angular momentum about the scene's origin changes by the torque of the wrench, which is about
+// the plate's centre, and by the force there: by leapfrog to rounding, since forces are those of
+// the places at the start of a step.
 TEST(Grasp, TurnsTheBodyByItsTorque) {
   Problem p = cube_and_plate(from_the_start);
   const Point centre(side / 2, side / 2, top + 0.0105), speed(0.1, 0.05, 0);
@@ -169,7 +181,9 @@ TEST(Grasp, TurnsTheBodyByItsTorque) {
     advance(s, 1);
     const Point now = turning();
     const Wrench w = s.wrenches()[0];
-    EXPECT_LE((now - before - 2e-4 * (w.torque + about.cross(w.force))).norm(), round_off<double>(4000, size)) << n;
+    EXPECT_LE((now - before - 2e-4 * (w.torque + about.cross(w.force))).norm(),
+              round_off<double>(4000, size))
+        << n;
     before = now, most = std::max(most, w.torque.norm());
   }
   EXPECT_GT(most, 0.01);
@@ -181,13 +195,15 @@ TEST(Grasp, ThinToolsHoldPoints) {
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}};
   p.body.damping.mass = 40;
   ObstacleOptions& needle = p.contact.obstacles[0];
-  needle.shape = CapsuleOptions{{-0.01, side / 2, top + 1e-3}, {side + 0.01, side / 2, top + 1e-3}, 0.5e-3};
+  needle.shape =
+      CapsuleOptions{{-0.01, side / 2, top + 1e-3}, {side + 0.01, side / 2, top + 1e-3}, 0.5e-3};
   needle.motion = PathMotion{{{0, {0, 0, 0}}, {0.1, {0, 0, 0.004}}}};
   Simulation<Host> s(p);
   while (s.time() < 0.5) advance(s, 1);
   ASSERT_EQ(held_points(s).size(), 5u);  // of the line below it
   for (const int point : held_points(s))
-    EXPECT_NEAR(s.surface_positions()[static_cast<std::size_t>(point)][2], top + 0.004, 0.05 * 0.004);
+    EXPECT_NEAR(s.surface_positions()[static_cast<std::size_t>(point)][2], top + 0.004,
+                0.05 * 0.004);
   EXPECT_GT(s.wrenches()[0].force[2], 0.1);
 }
 
@@ -201,8 +217,8 @@ double most_energy(Simulation<Host>& s, int steps) {
   return most;
 }
 
-// The springs bound no step: at 0.95 of the limit of the elements, however stiff they are, energy does not grow. Of the linear law, whose
-// limit is that of any state.
+// The springs bound no step: at 0.95 of the limit of the elements, however stiff they are, energy
+// does not grow. Of the linear law, whose limit is that of any state.
 TEST(Grasp, BoundsNoStep) {
   Problem p = cube_and_plate(from_the_start);
   p.body.material = complete({"linear", 20e3, 0.35, 1000});
@@ -228,7 +244,8 @@ TEST(Grasp, BoundsNoStep) {
 
 // Several times in turns, and by a program in between.
 TEST(Grasp, ClosesAndOpensInTurns) {
-  Simulation<Host> s(cube_and_plate({.from = {0.01, 0.03}, .until = {0.02}, .reach = 1e-3, .stiffness = {}}));
+  Simulation<Host> s(
+      cube_and_plate({.from = {0.01, 0.03}, .until = {0.02}, .reach = 1e-3, .stiffness = {}}));
   const auto held_at = [&](double time) {
     while (s.time() < time) advance(s, 1);
     return held_points(s).size();
@@ -275,7 +292,8 @@ TEST(Grasp, GoesOnFromASavedState) {
   for (const char* cycle : {"single", "him"}) {
     Problem p = pulled();
     p.integration.cycle = cycle;
-    if (p.integration.cycle == "him") p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
+    if (p.integration.cycle == "him")
+      p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
     Simulation<Host> s(p), other(p);
     advance(s, 100);
     ASSERT_EQ(held_points(s).size(), 25u);
@@ -293,7 +311,8 @@ TEST(Grasp, GoesBackWithTheState) {
   Problem p = pulled();
   p.integration.on_failure.halvings = 3;
   Simulation<Host> s(p), other(p);
-  for (int round = 0; round < 2; ++round) {  // over the step that closes, then over that which opens
+  // over the step that closes, then over that which opens
+  for (int round = 0; round < 2; ++round) {
     advance(s, round == 0 ? 20 : 129), advance(other, round == 0 ? 20 : 129);
     s.step();  // without a check, and so not kept
     EXPECT_EQ(held_points(s).size(), round == 0 ? 25u : 0u);
@@ -305,7 +324,8 @@ TEST(Grasp, GoesBackWithTheState) {
   EXPECT_TRUE(same_bits(s.positions(), other.positions()));
 }
 
-// Cycles hold the same points on every level. (Cycle rv lets motion grow, also where the top is moved by given motions.)
+// Cycles hold the same points on every level. (Cycle rv lets motion grow, also where the top is
+// moved by given motions.)
 TEST(Grasp, HoldsOnEveryLevel) {
   for (const char* cycle : {"rs", "rsv", "fas", "him"}) {
     Problem p = cube_and_plate(from_the_start);
@@ -331,7 +351,8 @@ TEST(Grasp, HoldsWhatIsChosen) {
   ObstacleOptions second = p.contact.obstacles[0];
   second.name = "second";
   p.contact.obstacles.push_back(second);
-  p.contact.obstacles[0].grasp->where = Box{{0, 0, 0}, {side / 2, side, side}};  // more than is in reach
+  // more than is in reach
+  p.contact.obstacles[0].grasp->where = Box{{0, 0, 0}, {side / 2, side, side}};
   p.contact.obstacles[1].grasp->where = NearestSelection{{side, side, top}};
   const auto chosen = [&](const auto& inside) {
     std::vector<int> points;
@@ -346,30 +367,37 @@ TEST(Grasp, HoldsWhatIsChosen) {
   ASSERT_EQ(held.size(), 2u);
   EXPECT_EQ(held[0].points.size(), 15u);
   EXPECT_EQ(held[0].points, chosen([](const Point& x) { return x[0] < side / 2 + 1e-9; }));
-  EXPECT_EQ(held[1].points, chosen([](const Point& x) { return x[0] > side - 1e-9 && x[1] > side - 1e-9; }));
+  EXPECT_EQ(held[1].points,
+            chosen([](const Point& x) { return x[0] > side - 1e-9 && x[1] > side - 1e-9; }));
 }
 
 TEST(Grasp, IsRefusedWhereItCannotBe) {
   const auto why = [](const Problem& p) { return refusal([&] { Simulation<Host>{p}; }); };
   const auto with = [&](const GraspOptions& grasp) { return why(cube_and_plate(grasp)); };
-  EXPECT_NE(with({.from = {0.1}, .until = {0.1}}).find("grasp.until is 0.1 s; expected a time after 0.1 s"),
+  EXPECT_NE(with({.from = {0.1}, .until = {0.1}})
+                .find("grasp.until is 0.1 s; expected a time after 0.1 s"),
             std::string::npos);
-  EXPECT_NE(with({.from = {0.1, 0.2}, .until = {0.3}}).find("grasp.from is 0.2 s"), std::string::npos);
+  EXPECT_NE(with({.from = {0.1, 0.2}, .until = {0.3}}).find("grasp.from is 0.2 s"),
+            std::string::npos);
   EXPECT_NE(with({.from = {}, .until = {0.3}}).find("grasp.until has 1 times"), std::string::npos);
   EXPECT_NE(with({.from = {-1}}).find("grasp.from.0"), std::string::npos);
   EXPECT_NE(with({.from = {}, .until = {}, .reach = -1}).find("grasp.reach"), std::string::npos);
-  EXPECT_NE(with({.from = {}, .until = {}, .reach = 0, .stiffness = 0}).find("grasp.stiffness"), std::string::npos);
+  EXPECT_NE(with({.from = {}, .until = {}, .reach = 0, .stiffness = 0}).find("grasp.stiffness"),
+            std::string::npos);
   Problem p = cube_and_plate(from_the_start);
   p.contact.obstacles[0].grasp->where = Box{{1, 1, 1}, {2, 2, 2}};
   EXPECT_NE(
-      why(p).find("contact.obstacles.0.grasp.where: the box from [1, 1, 1] to [2, 2, 2] m selects no point of the "
+      why(p).find("contact.obstacles.0.grasp.where: the box from [1, 1, 1] to [2, 2, 2] m selects "
+                  "no point of the "
                   "surface, which reaches from [0, 0, 0] to [0.06, 0.06, 0.06] m at the start"),
       std::string::npos);
   p.contact.obstacles[0].grasp->where = GroupSelection{"top"};
-  EXPECT_NE(why(p).find("contact.obstacles.0.grasp.where: a surface has no groups and regions"), std::string::npos);
+  EXPECT_NE(why(p).find("contact.obstacles.0.grasp.where: a surface has no groups and regions"),
+            std::string::npos);
   p.contact.obstacles[0].grasp.reset();
   Simulation<Host> s(p);
-  EXPECT_EQ(refusal([&] { s.grasp(0); }), "obstacle plate cannot hold anything; expected contact.obstacles.0.grasp");
+  EXPECT_EQ(refusal([&] { s.grasp(0); }),
+            "obstacle plate cannot hold anything; expected contact.obstacles.0.grasp");
   EXPECT_TRUE(s.held().empty());
 }
 

@@ -26,10 +26,12 @@ TEST(InverseMass, IsSymmetricPositiveAndBoundedByTheMass) {
     EXPECT_LE((A - A.transpose()).norm(), 1e-12 * A.norm());
     Eigen::VectorXd root(A.rows());
     const auto m = pieces.probe.mass();
-    for (Eigen::Index k = 0; k < root.size(); ++k) root[k] = std::sqrt(m[static_cast<std::size_t>(k / 3)]);
+    for (Eigen::Index k = 0; k < root.size(); ++k)
+      root[k] = std::sqrt(m[static_cast<std::size_t>(k / 3)]);
     const Eigen::MatrixXd scaled = root.asDiagonal() * A * root.asDiagonal();
     const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+            .eigenvalues();
     EXPECT_GT(values.minCoeff(), 1e-3);
     EXPECT_LE(values.maxCoeff(), 1 + 1e-6);  // nothing gets lighter
     // a push that moves the body as a whole: close to its own mass
@@ -165,7 +167,8 @@ TEST(Him, KeepsTheEquilibriumOfTheFinestLevel) {
   EXPECT_GT(largest(hanging), 0.1);
   him.set_state(hanging, std::vector<Point>(hanging.size(), Point::Zero()));
   advance(him, 200);
-  EXPECT_LE(largest_difference(displacements(him, p.body.levels[0]), hanging), 1e-11 * largest(hanging));
+  EXPECT_LE(largest_difference(displacements(him, p.body.levels[0]), hanging),
+            1e-11 * largest(hanging));
 }
 
 TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
@@ -194,15 +197,18 @@ TEST(Him, IsCloserToTheFinestLevelThanACoarserOne) {
   Problem coarse = p;
   coarse.body.levels = {p.body.levels[1]};
   p.integration.cycle = "him";
-  const double error = std::abs(fall(p, 4e-3) / exact - 1), coarser = std::abs(fall(coarse, 5e-4) / exact - 1);
+  const double error = std::abs(fall(p, 4e-3) / exact - 1),
+               coarser = std::abs(fall(coarse, 5e-4) / exact - 1);
   EXPECT_LE(error, 2e-3);
   EXPECT_GE(coarser, 20 * error);
 }
 
-// A block on a slope, 30 degrees: with little friction it slides, with much it all but stays, as the finest level has it.
+// A block on a slope, 30 degrees: with little friction it slides, with much it all but stays, as
+// the finest level has it.
 TEST(Him, SlidesAndHoldsAsTheFinestLevelDoes) {
   const auto way = [](const std::string& cycle, double friction) {
-    Problem p = body_of({box_mesh(decimetre, {6, 6, 6}), box_mesh(decimetre, {4, 4, 4})}, "neo_hookean");
+    Problem p =
+        body_of({box_mesh(decimetre, {6, 6, 6}), box_mesh(decimetre, {4, 4, 4})}, "neo_hookean");
     p.body.material.young_modulus = 50e3;
     p.body.surface = boundary_surface(p.body.levels[0]).surface;
     p.gravity = {4.905, 0, -8.496};
@@ -222,7 +228,8 @@ TEST(Him, SlidesAndHoldsAsTheFinestLevelDoes) {
   EXPECT_LT(holds, 0.4 * slides);
 }
 
-// The critical step of level 0 is its own, as every other cycle has it; contact changes neither that nor what the cycle goes by.
+// The critical step of level 0 is its own, as every other cycle has it; contact changes neither
+// that nor what the cycle goes by.
 TEST(Him, ReportsTheCriticalStepOfTheLevel) {
   Problem p = him_beam(true, "neo_hookean");
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
@@ -236,11 +243,13 @@ TEST(Him, ReportsTheCriticalStepOfTheLevel) {
   EXPECT_EQ(levels[0].critical_step, single.levels()[0].critical_step);
   EXPECT_NEAR(levels[0].detail_step, levels[0].critical_step, 0.02 * levels[0].critical_step);
   EXPECT_GT(levels[1].detail_step, levels[0].detail_step);
-  for (std::size_t i = 1; i < levels.size(); ++i) EXPECT_EQ(levels[i].critical_step, 0) << "it is not integrated";
+  for (std::size_t i = 1; i < levels.size(); ++i)
+    EXPECT_EQ(levels[i].critical_step, 0) << "it is not integrated";
   EXPECT_EQ(single.levels()[0].detail_step, 0);
 }
 
-// Where the body stiffens beyond what its inertia was fitted to, that is fitted anew, and the run goes on soundly.
+// Where the body stiffens beyond what its inertia was fitted to, that is fitted anew, and the run
+// goes on soundly.
 TEST(Him, LosesNoStabilityUnnoticed) {
   Problem p = him_beam(true, "st_venant_kirchhoff");
   p.body.fixed = {left_face()};
@@ -273,7 +282,8 @@ TEST(Him, RefusesWhatItCannotDo) {
   refuses([](Problem& p) { p.integration.integrator = {"implicit_euler"}; },
           "implicit_euler, but cycle him steps level 0");
   refuses([](Problem& p) { p.integration.substeps = {4}; }, "substeps is 4, but cycle him");
-  refuses([](Problem& p) { p.integration.distribution = "equal"; }, "distribution is equal, but cycle him");
+  refuses([](Problem& p) { p.integration.distribution = "equal"; },
+          "distribution is equal, but cycle him");
   refuses([](Problem& p) { p.integration.shift_to_coarsest = 0.5; }, "shift_to_coarsest");
   refuses([](Problem& p) { p.integration.outside = "keep"; }, "outside is keep");
   refuses([](Problem& p) { p.integration.him.sigma = 1; }, "him.sigma");

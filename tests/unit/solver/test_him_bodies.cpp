@@ -32,7 +32,8 @@ Body held_beam() {
 /// A free block of two meshes, stiffer, which turns.
 Body free_block() {
   const Box box{{0, 0.5, 0}, {0.1, 0.7, 0.1}};
-  Body body = body_of({jittered_box(box, {5, 10, 5}), jittered_box(box, {2, 4, 2})}, "neo_hookean").body;
+  Body body =
+      body_of({jittered_box(box, {5, 10, 5}), jittered_box(box, {2, 4, 2})}, "neo_hookean").body;
   body.material.young_modulus = 60e3;
   body.initial.angular_velocity = {0, 0, 2};
   body.surface = boundary_surface(body.levels[0]).surface;
@@ -63,8 +64,10 @@ std::vector<double> masses_of(const Body& body) {
 // The fit's tolerance is 1 % of an eigenvalue, and scales are 4 % apart
 TEST(HimOfBodies, MovesEachAsAlone) {
   const Body beam = held_beam(), block = free_block();
-  const std::vector<Point> together = displacement_after(him_of(join_bodies({{"beam", beam}, {"block", block}})), 100);
-  const std::vector<Point> one = displacement_after(him_of(beam), 100), other = displacement_after(him_of(block), 100);
+  const std::vector<Point> together =
+      displacement_after(him_of(join_bodies({{"beam", beam}, {"block", block}})), 100);
+  const std::vector<Point> one = displacement_after(him_of(beam), 100),
+                           other = displacement_after(him_of(block), 100);
   ASSERT_EQ(together.size(), one.size() + other.size());
   const auto middle = together.begin() + static_cast<std::ptrdiff_t>(one.size());
   const double moved = largest(one), turned = largest(other);
@@ -100,7 +103,8 @@ TEST(HimOfBodies, GivesEachItsOwnSpaces) {
   const Simulation<Host> simulation(him_of(join_bodies({{"beam", beam}, {"block", block}})));
   const auto& levels = simulation.levels();
   ASSERT_EQ(levels.size(), 5u);  // meshes, slivers of the beam, the block's second mesh, and spaces
-  EXPECT_EQ(levels[0].vertices, static_cast<int>(beam.levels[0].vertices.size() + block.levels[0].vertices.size()));
+  EXPECT_EQ(levels[0].vertices,
+            static_cast<int>(beam.levels[0].vertices.size() + block.levels[0].vertices.size()));
   EXPECT_EQ(levels[1].kind, LevelKind::slivers);
   EXPECT_EQ(levels[2].kind, LevelKind::mesh);
   EXPECT_EQ(levels[3].vertices, 150);
@@ -108,7 +112,8 @@ TEST(HimOfBodies, GivesEachItsOwnSpaces) {
   EXPECT_EQ(simulation.him()->coarsest, 40);
 }
 
-// --- Below given meshes -----------------------------------------------------------------------------------------------------
+// --- Below given meshes
+// -----------------------------------------------------------------------------------------------------
 
 Problem sagging_beam(std::vector<TetMesh> meshes) {
   Problem p = body_of(std::move(meshes), "neo_hookean");
@@ -116,9 +121,11 @@ Problem sagging_beam(std::vector<TetMesh> meshes) {
   return him_of(std::move(p.body));
 }
 
-// A coarsest mesh too large for a dense matrix gets a space below it, and moves as the finest mesh with spaces of its own.
+// A coarsest mesh too large for a dense matrix gets a space below it, and moves as the finest mesh
+// with spaces of its own.
 TEST(HimBelowMeshes, MakesASpaceWhereTheCoarsestIsLarge) {
-  const TetMesh fine = jittered_box(beam_box, {24, 6, 6}), coarse = jittered_box(beam_box, {18, 5, 5});
+  const TetMesh fine = jittered_box(beam_box, {24, 6, 6}),
+                coarse = jittered_box(beam_box, {18, 5, 5});
   ASSERT_GT(coarse.vertices.size(), 600u);
   const Problem p = sagging_beam({fine, coarse});
   const Simulation<Host> simulation(p);
@@ -144,7 +151,8 @@ TEST(HimBelowMeshes, MakesTheSpacesThatAreAskedFor) {
   EXPECT_EQ(simulation.levels()[3].vertices, 30);
 }
 
-// --- The automatic step -----------------------------------------------------------------------------------------------------
+// --- The automatic step
+// -----------------------------------------------------------------------------------------------------
 
 TEST(HimStep, SaysWhereTheAutomaticOneWasHalved) {
   Problem p = him_beam(false, "neo_hookean");
@@ -152,15 +160,18 @@ TEST(HimStep, SaysWhereTheAutomaticOneWasHalved) {
   p.body.element = {"nodal"};
   const auto said = [&](const Problem& problem) {
     const Simulation<Host> simulation(problem);
-    const auto sentences = him_advice(problem, *simulation.him(), simulation.levels(), simulation.macro_step());
+    const auto sentences =
+        him_advice(problem, *simulation.him(), simulation.levels(), simulation.macro_step());
     return sentences.empty() ? "" : sentences.front();
   };
   EXPECT_EQ(said(him_beam_alone("neo_hookean")), "");
   HimReport halved = *Simulation<Host>(p).him();
   halved.usual_step = 0.004;
   const std::string sentence = him_advice(p, halved, {}, 0.001).front();
-  EXPECT_NE(sentence.find("no inertia fits the automatic macro step of 0.004 s, and it was halved to 0.001 s"),
-            std::string::npos)
+  EXPECT_NE(
+      sentence.find(
+          "no inertia fits the automatic macro step of 0.004 s, and it was halved to 0.001 s"),
+      std::string::npos)
       << sentence;
   p.integration.macro_step = 1e-4;
   EXPECT_EQ(Simulation<Host>(p).him()->usual_step, 0) << "it was given";

@@ -9,7 +9,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// What the cycle him conserves: the energy p.A(x) p/2 + V(x) and a free body's momenta, to what steps leave of them.
+// What the cycle him conserves: the energy p.A(x) p/2 + V(x) and a free body's momenta, to what
+// steps leave of them.
 namespace {
 
 using namespace plica;
@@ -34,7 +35,9 @@ struct HimRun {
     ASSERT_FALSE(built.stepper->lost_stability(*built.hierarchy, 0));
   }
   std::vector<Point> field(const Vectors<B>& x) { return to_host<B>(built.hierarchy->exec(), x); }
-  std::vector<Point> momenta() { return field(dynamic_cast<const HimStepper<B>&>(*built.stepper).momenta()); }
+  std::vector<Point> momenta() {
+    return field(dynamic_cast<const HimStepper<B>&>(*built.stepper).momenta());
+  }
 
   struct Sums {
     Point momentum = Point::Zero(), moment = Point::Zero(), moment_of_mass = Point::Zero();
@@ -46,7 +49,8 @@ struct HimRun {
     const auto u = field(level().state.u), v = field(level().state.v), p = momenta();
     for (std::size_t a = 0; a < p.size(); ++a) {
       const Point x = built.meshes[0].vertices[a] + u[a] + 0.5 * built.macro_step * v[a];
-      s.momentum += mass[a] * v[a], s.moment += x.cross(p[a]), s.moment_of_mass += mass[a] * x.cross(v[a]);
+      s.momentum += mass[a] * v[a], s.moment += x.cross(p[a]),
+          s.moment_of_mass += mass[a] * x.cross(v[a]);
       s.kinetic += 0.5 * p[a].dot(v[a]);
     }
     const Energies e = meter.all(time);
@@ -90,8 +94,10 @@ TYPED_TEST(HimOnEachBackend, KeepsTheMomentaOfAFreeBody) {
   }
   const auto after = run.sums();
   const double size = before.moment.norm();
-  EXPECT_LE((after.momentum - before.momentum).norm(), round_off<Real>(4000, before.momentum.norm()));
-  EXPECT_LE((after.moment - before.moment).norm(), 1e-4 * size);  // as exactly as the axes' force is found
+  EXPECT_LE((after.momentum - before.momentum).norm(),
+            round_off<Real>(4000, before.momentum.norm()));
+  // as exactly as the axes' force is found
+  EXPECT_LE((after.moment - before.moment).norm(), 1e-4 * size);
   EXPECT_LE(wavers, 0.05 * size);
   EXPECT_GT((run.field(run.level().state.u)[0]).norm(), 1);  // it did turn
 }
@@ -122,10 +128,12 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
       InverseMass<Host>& A = *pieces.inverse_mass;
       const auto n = pieces.levels[0].vertices.size();
       const auto inverse_mass = pieces.probe.inverse_mass();
-      std::vector<Point> u(n), along = random_field(n, 0.01, 2), momentum = random_field(n, 1e-3, 3);
+      std::vector<Point> u(n), along = random_field(n, 0.01, 2),
+                               momentum = random_field(n, 1e-3, 3);
       for (std::size_t a = 0; a < n; ++a) {
         const Point& x = pieces.levels[0].vertices[a];
-        u[a] = {0.05 * std::sin(9 * x[0]), 0.4 * x[0] * x[0], 0.02 * std::sin(40 * x[1]) + 0.3 * x[0] * x[0]};
+        u[a] = {0.05 * std::sin(9 * x[0]), 0.4 * x[0] * x[0],
+                0.02 * std::sin(40 * x[1]) + 0.3 * x[0] * x[0]};
         if (!(inverse_mass[a] > 0)) u[a] = along[a] = momentum[a] = Point::Zero();
       }
       const Vectors<Host> v("v", n), p = device_field<Host>(momentum);
@@ -159,7 +167,8 @@ TEST(Him, AxesActBackByTheGradientOfTheKineticEnergy) {
         A.apply({}, pushed, v);
         const auto want = to_host<Host>({}, v);
         A.apply({}, p, v);
-        const double by_push = largest_difference(want, to_host<Host>({}, v));  // the share of which is kept in float
+        // the share of which is kept in float
+        const double by_push = largest_difference(want, to_host<Host>({}, v));
         EXPECT_GT(largest_difference(to_host<Host>({}, pushed), momentum),
                   1e-5 * largest(momentum));  // a push that shows
         EXPECT_LE(largest_difference(to_host<Host>({}, at_once), want),
@@ -189,7 +198,8 @@ TYPED_TEST(HimOnEachBackend, ContinuesASavedRunBitForBit) {
   EXPECT_TRUE(same_bits(whole.velocities(), second.velocities()));
 }
 
-// A state that is read and put back goes on as it would have: velocities that were made from momenta give those again.
+// A state that is read and put back goes on as it would have: velocities that were made from
+// momenta give those again.
 TEST(Him, GoesOnFromAStateThatIsPutBack) {
   Problem p = spinning();
   p.integration.him.dissipation = 0;

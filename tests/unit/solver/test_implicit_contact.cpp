@@ -17,7 +17,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Contact in the linear systems of implicit levels: obstacles and points, held points, thin tools, bodies.
+// Contact in the linear systems of implicit levels: obstacles and points, held points, thin tools,
+// bodies.
 namespace {
 
 using namespace plica;
@@ -31,7 +32,8 @@ Body cube(const Point& at, std::array<int, 3> cells) {
   return body;
 }
 
-Problem implicit(Problem p, const std::string& integrator = "implicit_euler", int newton_iterations = 1) {
+Problem implicit(Problem p, const std::string& integrator = "implicit_euler",
+                 int newton_iterations = 1) {
   p.integration.integrator = {integrator};
   p.integration.macro_step = h;
   p.integration.implicit.newton_iterations = newton_iterations;
@@ -61,13 +63,16 @@ Problem in_a_bowl() {
 Problem held() {
   Problem p;
   p.body = cube({0, 0, 0}, {3, 3, 3});
-  ObstacleOptions plate{BlockOptions{{side / 2, side / 2, side + 0.0105}, {0.2, 0.2, 0.02}}, {}, {}};
-  plate.name = "plate", plate.grasp = GraspOptions{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = 300};
+  ObstacleOptions plate{
+      BlockOptions{{side / 2, side / 2, side + 0.0105}, {0.2, 0.2, 0.02}}, {}, {}};
+  plate.name = "plate",
+  plate.grasp = GraspOptions{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = 300};
   p.contact.obstacles = {plate};
   return implicit(p);
 }
 
-/// A cube and needles that are a little inside its top: in the middle of a triangle, and on an edge.
+/// A cube and needles that are a little inside its top: in the middle of a triangle, and on an
+/// edge.
 Problem under_needles() {
   Problem p;
   p.body = cube({0, 0, 0}, {3, 3, 3});
@@ -82,18 +87,20 @@ Problem under_needles() {
 /// A cube a little inside another one of other cells.
 Problem stacked(const std::vector<AttachmentOptions>& attachments = {}) {
   Problem p;
-  p.body =
-      join_bodies({{"lower", cube({0, 0, 0}, {3, 3, 3})}, {"upper", cube({0.013, 0.007, side - slip}, {4, 3, 2})}});
+  p.body = join_bodies({{"lower", cube({0, 0, 0}, {3, 3, 3})},
+                        {"upper", cube({0.013, 0.007, side - slip}, {4, 3, 2})}});
   p.contact.attachments = attachments;
   return implicit(p);
 }
 
-/// Two bars of one cell each that stand on an edge across each other, the edges a little inside each other in their middle.
+/// Two bars of one cell each that stand on an edge across each other, the edges a little inside
+/// each other in their middle.
 Problem crossing() {
   const auto bar = [](std::size_t along, double height) {
     Body body = cube({-side / 2, -side / 2, -side / 2}, {1, 1, 1});
     for (Point& x : body.levels[0].vertices) {
-      const double across = (x[1] - x[2]) / std::numbers::sqrt2, up = (x[1] + x[2]) / std::numbers::sqrt2 + height;
+      const double across = (x[1] - x[2]) / std::numbers::sqrt2,
+                   up = (x[1] + x[2]) / std::numbers::sqrt2 + height;
       x = along == 0 ? Point(x[0], across, up) : Point(-across, x[0], up);
     }
     body.surface = boundary_surface(body.levels[0]).surface;
@@ -105,7 +112,9 @@ Problem crossing() {
   return implicit(p);
 }
 
-Problem attached() { return stacked({{.body = "upper", .to = "lower", .reach = 2 * slip, .stiffness = 300}}); }
+Problem attached() {
+  return stacked({{.body = "upper", .to = "lower", .reach = 2 * slip, .stiffness = 300}});
+}
 
 /// A level whose contact at rest is linearised.
 struct Linearised {
@@ -113,16 +122,20 @@ struct Linearised {
   ImplicitWeights weights{h * h, h};
   std::vector<Point> u, v;
 
-  Linearised(const Problem& p, const Point& velocity) : probe(p), u(probe.zero()), v(probe.vertices(), velocity) {
-    if (p.contact.obstacles.size() == 1 && p.contact.obstacles[0].grasp) level().response().grasp({}, level(), 0, 0);
+  Linearised(const Problem& p, const Point& velocity)
+      : probe(p), u(probe.zero()), v(probe.vertices(), velocity) {
+    if (p.contact.obstacles.size() == 1 && p.contact.obstacles[0].grasp)
+      level().response().grasp({}, level(), 0, 0);
     if (level().contact()) begin();
     linearise(u, v);
   }
-  /// The step begins so far before the state that its velocities lead there; caps are those of the state.
+  /// The step begins so far before the state that its velocities lead there; caps are those of the
+  /// state.
   void begin() {
     auto start = u;
     for (std::size_t a = 0; a < u.size(); ++a) start[a] -= h * v[a];
-    level().response().begin_stage({}, level(), {device_field<Host>(start), device_field<Host>(v)}, 0, {.span = h});
+    level().response().begin_stage({}, level(), {device_field<Host>(start), device_field<Host>(v)},
+                                   0, {.span = h});
     level().response().update_caps({}, level(), state());
   }
   void linearise(const std::vector<Point>& at, const std::vector<Point>& speed) {
@@ -137,7 +150,8 @@ struct Linearised {
   std::vector<Point> difference(const std::vector<Point>& direction, double e) {
     const auto force = [&](double t) {
       auto x = u, speed = v;
-      for (std::size_t a = 0; a < x.size(); ++a) speed[a] += t * direction[a], x[a] += h * t * direction[a];
+      for (std::size_t a = 0; a < x.size(); ++a)
+        speed[a] += t * direction[a], x[a] += h * t * direction[a];
       linearise(x, speed);
       return to_host<Host>({}, level().f);
     };
@@ -192,20 +206,24 @@ void expect_blocks(Linearised& it, const StageSystem<Host>& system) {
       unit[a][k] = 1;
       const Point column = it.product(unit)[a];
       SymMat3<double> block;
-      ASSERT_TRUE(invert_positive(block_at<Host>(system.inverse_diagonal(), static_cast<int>(a)), block));
+      ASSERT_TRUE(
+          invert_positive(block_at<Host>(system.inverse_diagonal(), static_cast<int>(a)), block));
       for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(block[SymMat3<double>::place(3 * i + k)], column[i], 1e-12 * column.norm()) << a;
+        EXPECT_NEAR(block[SymMat3<double>::place(3 * i + k)], column[i], 1e-12 * column.norm())
+            << a;
     }
 }
 
-// The vertex blocks are those of the product, and so is the assembled matrix with what it has no room for.
+// The vertex blocks are those of the product, and so is the assembled matrix with what it has no
+// room for.
 TEST(ImplicitContact, HasOneSystem) {
   for (const ContactCase& c : cases()) {
     SCOPED_TRACE(c.name);
     Linearised it(c.problem, {0.001, -0.002, 0});
     StageSystem<Host> by_products(it.level(), false), assembled(it.level(), true);
     const auto direction = random_field(it.probe.vertices(), 1, 2);
-    for (auto* system : {&by_products, &assembled}) system->prepare(it.level(), it.state(), it.weights, false);
+    for (auto* system : {&by_products, &assembled})
+      system->prepare(it.level(), it.state(), it.weights, false);
     const auto want = it.product(direction);
     expect_blocks(it, by_products), expect_blocks(it, assembled);
     const Vectors<Host> q("test.q", direction.size());
@@ -214,14 +232,16 @@ TEST(ImplicitContact, HasOneSystem) {
   }
 }
 
-// --- Steps ------------------------------------------------------------------------------------------------------------------
+// --- Steps
+// ------------------------------------------------------------------------------------------------------------------
 
 struct Method {
   const char* integrator;
   int newton_iterations;
 };
-constexpr Method methods[] = {{"implicit_euler", 1}, {"implicit_euler", 20}, {"newmark", 20},
-                              {"bdf2", 1},           {"sdirk2", 20},         {"generalized_alpha", 20}};
+constexpr Method methods[] = {{"implicit_euler", 1}, {"implicit_euler", 20},
+                              {"newmark", 20},       {"bdf2", 1},
+                              {"sdirk2", 20},        {"generalized_alpha", 20}};
 
 Point momentum(const Simulation<Host>& s, const std::vector<double>& mass) {
   Point sum = Point::Zero();
@@ -260,15 +280,16 @@ TEST(ImplicitContact, TurnsCollidingBodies) {
   }
 }
 
-// A single tetrahedron, the lightest of bodies, meets the floor in long steps: whatever the friction, energy is never more than was put
-// in, and it comes to rest.
+// A single tetrahedron, the lightest of bodies, meets the floor in long steps: whatever the
+// friction, energy is never more than was put in, and it comes to rest.
 TEST(ImplicitContact, TakesNoEnergyFromFriction) {
   for (const double step : {1e-3, 4e-3, 8e-3})
     for (const double friction : {0.0, 0.3, 1.0})
       for (const Point& velocity : {Point(0, 0, -1), Point(0.5, 0.2, -0.3)}) {
         SCOPED_TRACE(std::to_string(step) + " s, friction " + std::to_string(friction));
         TetMesh mesh;
-        mesh.vertices = {{0.02, 0, 0.001}, {-0.01, 0.017, 0.001}, {-0.01, -0.017, 0.003}, {0, 0, 0.04}};
+        mesh.vertices = {
+            {0.02, 0, 0.001}, {-0.01, 0.017, 0.001}, {-0.01, -0.017, 0.003}, {0, 0, 0.04}};
         mesh.tets = {{0, 1, 2, 3}};
         Problem p = body_of({mesh}, "neo_hookean");
         p.body.material.young_modulus = 1e5;
@@ -279,7 +300,8 @@ TEST(ImplicitContact, TakesNoEnergyFromFriction) {
         p = implicit(p);
         p.integration.macro_step = step;
         Simulation<Host> s(p);
-        const double start = s.energies().total(), size = s.energies().kinetic + 9.81 * 0.04 * s.levels()[0].mass;
+        const double start = s.energies().total(),
+                     size = s.energies().kinetic + 9.81 * 0.04 * s.levels()[0].mass;
         while (s.time() < 0.5) {
           advance(s, 1);
           ASSERT_LE(s.energies().total(), start + 1e-3 * size) << s.time();
@@ -287,7 +309,8 @@ TEST(ImplicitContact, TakesNoEnergyFromFriction) {
       }
 }
 
-// A block on a slope below the friction angle stays for ever, by every integrator and with long steps.
+// A block on a slope below the friction angle stays for ever, by every integrator and with long
+// steps.
 TEST(ImplicitContact, SticksOnASlope) {
   for (const Method& m : methods) {
     if (m.integrator == std::string("newmark") || m.integrator == std::string("generalized_alpha"))
@@ -301,7 +324,8 @@ TEST(ImplicitContact, SticksOnASlope) {
     p.integration.macro_step = 5e-3;
     Simulation<Host> s(p);
     while (s.time() < 2) advance(s, 1);
-    const bool two_stages = m.integrator == std::string("sdirk2");  // what they leave unsolved differs
+    // what they leave unsolved differs
+    const bool two_stages = m.integrator == std::string("sdirk2");
     EXPECT_LT(largest(s.velocities()), two_stages ? 1e-6 : 1e-7);
     const double weight = 9.81 * s.levels()[0].mass;
     EXPECT_NEAR(s.wrenches()[0].force[2], std::cos(0.17) * weight, 1e-4 * weight);
@@ -334,7 +358,8 @@ TEST(ImplicitContact, StopsNeedles) {
   p.body.fixed = {HalfSpaceSelection{{0, 0, 1e-6}, {0, 0, 1}}};
   p.body.damping.mass = 30;
   for (auto& o : p.contact.obstacles) o.motion = PathMotion{{{0, {0, 0, 0}}, {0.1, {0, 0, -0.01}}}};
-  const auto force = [&](const std::string& rule, const std::string& integrator, int newton_iterations) {
+  const auto force = [&](const std::string& rule, const std::string& integrator,
+                         int newton_iterations) {
     Problem of = implicit(p, integrator, newton_iterations);
     of.contact.whole_surface = rule;
     Simulation<Host> s(of);
@@ -352,15 +377,19 @@ TEST(ImplicitContact, StopsNeedles) {
 // Factorisations and V-cycles need all of the system in a matrix.
 TEST(ImplicitContact, IsRefusedWhereAMatrixHasNoRoom) {
   const auto said = [](Problem p, const std::string& what) {
-    const std::string by_factors = "integration.implicit.solver is direct, whose matrix has no room for " + what;
+    const std::string by_factors =
+        "integration.implicit.solver is direct, whose matrix has no room for " + what;
     p.integration.implicit.solver = "direct";
     EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find(by_factors), std::string::npos) << what;
     p.integration.implicit.solver = "auto", p.integration.integrator = {"v_cycle_euler"};
-    EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find("integration.integrator is v_cycle_euler, whose matrix"),
+    EXPECT_NE(refusal([&] {
+                Simulation<Host>{p};
+              }).find("integration.integrator is v_cycle_euler, whose matrix"),
               std::string::npos)
         << what;
     p.integration.integrator = {"implicit_euler"};
-    EXPECT_EQ(Simulation<Host>(p).levels()[0].linear_solver.find("direct"), std::string::npos) << what;
+    EXPECT_EQ(Simulation<Host>(p).levels()[0].linear_solver.find("direct"), std::string::npos)
+        << what;
   };
   said(stacked(), "contact.bodies");
   said(attached(), "contact.bodies");
@@ -372,7 +401,8 @@ TEST(ImplicitContact, IsRefusedWhereAMatrixHasNoRoom) {
   EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }), "");
 }
 
-// Where something touches, motion that these integrators let ring on makes forces of tools alternate.
+// Where something touches, motion that these integrators let ring on makes forces of tools
+// alternate.
 TEST(ImplicitContact, DoubtsWhatRingsOn) {
   Problem p = small_cube();
   p.body.surface = boundary_surface(p.body.levels[0]).surface;

@@ -38,7 +38,8 @@ double energy_left(Problem p, int steps) {
 
 TEST(Integrators, KeepTheEnergyTheySayTheyKeep) {
   EXPECT_NEAR(energy_left(ringing("central_difference", 0.3), 2000), 1, 0.05);  // wavers
-  for (const double step : {0.3, 30.0}) EXPECT_NEAR(energy_left(ringing("newmark", step), 200), 1, 1e-8) << step;
+  for (const double step : {0.3, 30.0})
+    EXPECT_NEAR(energy_left(ringing("newmark", step), 200), 1, 1e-8) << step;
   Problem p = ringing("generalized_alpha", 30);
   p.integration.implicit.rho_infinity = 1;
   EXPECT_NEAR(energy_left(p, 200), 1, 1e-9);
@@ -50,12 +51,14 @@ TEST(Integrators, DampWhatIsTooFastForTheStep) {
   for (const double rho : {0.2, 0.5, 0.9}) {
     Problem p = ringing("generalized_alpha", 1e4);
     p.integration.implicit.rho_infinity = rho;
-    const double a = energy_left(p, 10), b = energy_left(p, 20);  // n rho^n in amplitude: a double root
+    // n rho^n in amplitude: a double root
+    const double a = energy_left(p, 10), b = energy_left(p, 20);
     EXPECT_NEAR(std::log(b / a) / 10, 2 * std::log(rho), 0.2) << rho;
   }
 }
 
-/// Where a clamped beam that starts stretched is after steps that grow and shrink as halved ones do; `parts` of each.
+/// Where a clamped beam that starts stretched is after steps that grow and shrink as halved ones
+/// do; `parts` of each.
 std::vector<Point> after_changing_steps(const std::string& integrator, int parts) {
   Problem p = body_of({jittered_box(beam_box, {4, 2, 2})}, "neo_hookean");
   p.body.fixed = {left_face()};
@@ -89,7 +92,8 @@ TEST(Integrators, FollowGivenMotionExactly) {
   for (const std::string& integrator : names(integrators())) {
     Problem p = small_cube("linear", 2);
     p.body.prescribed = {{left_face(), SineMotion{Point(0.01, 0, 0), 5, 0}}};
-    p.integration.integrator = {integrator}, p.integration.macro_step = 1e-3, p.integration.allow_unstable = true;
+    p.integration.integrator = {integrator}, p.integration.macro_step = 1e-3,
+    p.integration.allow_unstable = true;
     Simulation<Host> simulation(p);
     for (int n = 0; n < 20; ++n) simulation.step();
     const double want = 0.01 * std::sin(2 * M_PI * 5 * simulation.time());
@@ -101,12 +105,14 @@ TEST(Integrators, FollowGivenMotionExactly) {
   }
 }
 
-// A body at rest under given motion and gravity must not care which integrator carries it: falling is exact for order 2.
+// A body at rest under given motion and gravity must not care which integrator carries it: falling
+// is exact for order 2.
 TEST(Integrators, FallFreely) {
   for (const std::string& integrator : names(integrators())) {
     Problem p = small_cube("corotational", 2);
     p.gravity = {0, 0, -10};
-    p.integration.integrator = {integrator}, p.integration.macro_step = 1e-3, p.integration.allow_unstable = true;
+    p.integration.integrator = {integrator}, p.integration.macro_step = 1e-3,
+    p.integration.allow_unstable = true;
     p.integration.implicit.relative_residual = 1e-12;
     Simulation<Host> simulation(p);
     for (int n = 0; n < 50; ++n) simulation.step();
@@ -117,8 +123,8 @@ TEST(Integrators, FallFreely) {
   }
 }
 
-// Every integrator on every level of every cycle that shares the step: a fall, from which the clamped side holds back and a step
-// of first order is off by a tenth.
+// Every integrator on every level of every cycle that shares the step: a fall, from which the
+// clamped side holds back and a step of first order is off by a tenth.
 TEST(Integrators, WorkInCycles) {
   for (const std::string& cycle : sharing_cycles())
     for (const std::string& integrator : names(integrators())) {
@@ -129,7 +135,8 @@ TEST(Integrators, WorkInCycles) {
       Simulation<Host> simulation(p);
       for (int n = 0; n < 40; ++n) simulation.step();
       EXPECT_FALSE(simulation.check()) << cycle << " " << integrator;
-      EXPECT_NEAR(largest(displacements(simulation, p.body.levels[0])), 0.5 * 9.81 * 0.02 * 0.02, 4e-4)
+      EXPECT_NEAR(largest(displacements(simulation, p.body.levels[0])), 0.5 * 9.81 * 0.02 * 0.02,
+                  4e-4)
           << cycle << " " << integrator;
     }
 }
@@ -139,7 +146,8 @@ TEST(Integrators, AreRestoredBitForBit) {
   for (const std::string& integrator : names(integrators())) {
     Problem p = small_cube("neo_hookean", 2);
     p.gravity = {0, 0, -9.81}, p.body.fixed = {left_face()};
-    p.integration.integrator = {integrator}, p.integration.macro_step = 2e-4, p.integration.allow_unstable = true;
+    p.integration.integrator = {integrator}, p.integration.macro_step = 2e-4,
+    p.integration.allow_unstable = true;
     Simulation<Host> one(p), two(p);
     for (int n = 0; n < 5; ++n) one.step();
     two.restore(one.save());
@@ -163,8 +171,8 @@ std::vector<Point> at_end(const std::string& integrator, double step, double dam
   p.body.fixed = {left_face()};
   const TetMesh& mesh = p.body.levels[0];
   std::vector<Point> u(mesh.vertices.size(), Point::Zero()), v(mesh.vertices.size(), Point::Zero());
-  for (std::size_t a = 0; a < u.size(); ++a)  // smooth, and no acceleration at the start at the clamped face
-    v[a] = mesh.vertices[a][0] * Point(0.5, 1, -2);
+  // smooth, and no acceleration at the start at the clamped face
+  for (std::size_t a = 0; a < u.size(); ++a) v[a] = mesh.vertices[a][0] * Point(0.5, 1, -2);
   Simulation<Host> simulation(p);
   simulation.set_state(u, v);
   advance(simulation, static_cast<int>(std::lround(0.016 / step)));
@@ -174,7 +182,8 @@ std::vector<Point> at_end(const std::string& integrator, double step, double dam
 /// Halving this step [s] shows the order that the integrator states, as a number and in words.
 template <class Kind>
 void expect_order(double step) {
-  EXPECT_NE(std::string(Kind::summary).find("order " + std::to_string(Kind::order)), std::string::npos);
+  EXPECT_NE(std::string(Kind::summary).find("order " + std::to_string(Kind::order)),
+            std::string::npos);
   constexpr double damping = 20;
   const auto reference = at_end("rk4", 2.5e-5, damping);
   const double coarse = largest_difference(at_end(Kind::name, step, damping), reference),
@@ -192,10 +201,12 @@ TEST(Order, Bdf2) { expect_order<Bdf2>(1e-4); }
 TEST(Order, GeneralizedAlpha) { expect_order<GeneralizedAlpha>(1e-4); }
 TEST(Order, Rk4) { expect_order<Rk4>(4e-4); }
 
-// A body that falls freely does not deform: every vertex follows its integrator's solution of u'' = g - c u'.
+// A body that falls freely does not deform: every vertex follows its integrator's solution of u'' =
+// g - c u'.
 
 /// One step of u, v for one vertex; the reference in long double.
-using Stepper = void (*)(long double& u, long double& v, long double h, long double g, long double c);
+using Stepper = void (*)(long double& u, long double& v, long double h, long double g,
+                         long double c);
 
 void symplectic(long double& u, long double& v, long double h, long double g, long double c) {
   v = (v + h * g) / (1 + h * c);
@@ -223,7 +234,8 @@ struct Case {
 const Case cases[] = {{"symplectic_euler", symplectic},
                       {"euler", forward},
                       {"rk4", runge_kutta},
-                      {"implicit_euler", symplectic}};  // linear in v: backward Euler is the same here
+                      // linear in v: backward Euler is the same here
+                      {"implicit_euler", symplectic}};
 
 template <class B>
 class FreeFall : public testing::Test {};
@@ -303,7 +315,8 @@ std::vector<double> masses(const TetMesh& mesh, double density) {
   std::vector<double> m(mesh.vertices.size(), 0);
   for (const auto& t : mesh.tets) {
     const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-    for (int v : t) m[static_cast<std::size_t>(v)] += density * tet_volume(x(0), x(1), x(2), x(3)) / 4;
+    for (int v : t)
+      m[static_cast<std::size_t>(v)] += density * tet_volume(x(0), x(1), x(2), x(3)) / 4;
   }
   return m;
 }
@@ -341,7 +354,8 @@ TYPED_TEST(Momentum, OfAFreeBodyStays) {
     }
 }
 
-// Explicit symplectic steps conserve angular momentum about a fixed point too (central internal forces).
+// Explicit symplectic steps conserve angular momentum about a fixed point too (central internal
+// forces).
 TEST(Momentum, AngularStaysUnderSymplecticEuler) {
   Problem p = small_cube();
   const TetMesh& mesh = p.body.levels[0];

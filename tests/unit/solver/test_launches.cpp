@@ -12,8 +12,8 @@
 #include "support/bodies.hpp"
 #include "support/device_memory.hpp"
 
-// What a device is asked for in one macro step: kernels, and nothing that makes the host wait. Kokkos's callbacks report it on any
-// backend, so that this is known without a GPU.
+// What a device is asked for in one macro step: kernels, and nothing that makes the host wait.
+// Kokkos's callbacks report it on any backend, so that this is known without a GPU.
 namespace plica::test {
 
 namespace {
@@ -24,7 +24,9 @@ struct Asked {
 };
 Asked* asked_now = nullptr;
 
-void on_launch(const char* name, std::uint32_t, std::uint64_t*) { asked_now->launches.emplace_back(name); }
+void on_launch(const char* name, std::uint32_t, std::uint64_t*) {
+  asked_now->launches.emplace_back(name);
+}
 void on_fence(const char* name, std::uint32_t, std::uint64_t*) {
   if (std::string(name).rfind("Kokkos::Tools", 0) == 0) return;  // of the callbacks themselves
   asked_now->waits.push_back("fence " + std::string(name));
@@ -32,8 +34,8 @@ void on_fence(const char* name, std::uint32_t, std::uint64_t*) {
 void on_allocation(Kokkos_Profiling_SpaceHandle, const char* name, const void*, std::uint64_t) {
   asked_now->waits.push_back("allocation " + std::string(name));
 }
-void on_copy(Kokkos_Profiling_SpaceHandle, const char*, const void*, Kokkos_Profiling_SpaceHandle, const char*,
-             const void*, std::uint64_t) {
+void on_copy(Kokkos_Profiling_SpaceHandle, const char*, const void*, Kokkos_Profiling_SpaceHandle,
+             const char*, const void*, std::uint64_t) {
   asked_now->launches.emplace_back("copy");
 }
 
@@ -114,11 +116,12 @@ TEST(Launches, AStepIsFewAndNeverWaits) {
 
 TEST(Launches, TakingHoldAndLettingGoNeverWait) {
   using B = Backend<double, Kokkos::DefaultExecutionSpace>;
-  Simulation<B> simulation(problem_of({"single", "symplectic_euler", "linear", 1, Method::holding, 0}));
+  Simulation<B> simulation(
+      problem_of({"single", "symplectic_euler", "linear", 1, Method::holding, 0}));
   simulation.step();
   Kokkos::fence("before");
-  const Asked asked =
-      asked_by([&] { simulation.release(0), simulation.step(), simulation.grasp(0), simulation.step(); });
+  const Asked asked = asked_by(
+      [&] { simulation.release(0), simulation.step(), simulation.grasp(0), simulation.step(); });
   EXPECT_TRUE(asked.waits.empty()) << lines(asked.waits);
 }
 

@@ -35,15 +35,17 @@ Problem everything() {
   p.body.surface = sphere_surface({0.05, 0.05, 0.05}, 0.045, 1);
   p.body.loads = {{Box{{0.1, 0, 0}, {0.1, 0.1, 0.1}}, Traction{{1, 0, 0}}, {}}};
   p.contact.obstacles.push_back({PlaneOptions{{0, 0, -0.01}, {0, 0, 1}}, 0.3, {}});
-  p.contact.obstacles.push_back({SurfaceOptions{sphere_surface({0.05, 0.05, 0.3}, 0.05, 1), 8}, {}, {}});
+  p.contact.obstacles.push_back(
+      {SurfaceOptions{sphere_surface({0.05, 0.05, 0.3}, 0.05, 1), 8}, {}, {}});
   p.integration.integrator = {"symplectic_euler", "symplectic_euler", "implicit_euler"};
   p.integration.implicit.solver = "conjugate_gradients";
   return p;
 }
 
 const std::vector<std::string> optional_parts = {
-    "contact", "surface", "prescribe", "restrict", "interpol", "start", "previous", "drift",     "implicit", "cg",
-    "stage",   "damped",  "flags",     "invert",   "rk4",      "load",  "grid",     "viscosity", "remember", "lost"};
+    "contact", "surface",  "prescribe", "restrict",  "interpol", "start", "previous",
+    "drift",   "implicit", "cg",        "stage",     "damped",   "flags", "invert",
+    "rk4",     "load",     "grid",      "viscosity", "remember", "lost"};
 
 TYPED_TEST(LeftOut, MinimalSceneHasNothingOptional) {
   Problem p = small_cube();
@@ -76,7 +78,8 @@ TYPED_TEST(LeftOut, StepOfTheMinimalSceneIsThreeKernels) {
   const Watch watch;
   simulation.step();
   simulation.step();
-  const Counts want = {{"plica::elastic_force", 8}, {"plica::gather_forces", 8}, {"plica::symplectic_euler", 8}};
+  const Counts want = {
+      {"plica::elastic_force", 8}, {"plica::gather_forces", 8}, {"plica::symplectic_euler", 8}};
   EXPECT_EQ(watch.launches, want);
   EXPECT_EQ(watch.allocations, Counts{});
 }
@@ -171,9 +174,11 @@ TYPED_TEST(Asynchronous, NothingInAnExplicitStepWaits) {
         simulation.step();
         simulation.read_positions(x);
         simulation.read_velocities(v);
-        if (step == 2 && cycle.name != "him") simulation.write_state(x, v);  // him solves for momenta
+        // him solves for momenta
+        if (step == 2 && cycle.name != "him") simulation.write_state(x, v);
       }
-      EXPECT_TRUE(watch.fences.empty()) << watch.fences.begin()->first << " in " << cycle.name << ", " << integrator;
+      EXPECT_TRUE(watch.fences.empty())
+          << watch.fences.begin()->first << " in " << cycle.name << ", " << integrator;
       EXPECT_TRUE(watch.allocations.empty()) << watch.allocations.begin()->first;
       EXPECT_GT(watch.launches.at("plica::read_positions"), 0);
       EXPECT_GT(asked, 0);
@@ -200,11 +205,12 @@ TYPED_TEST(Asynchronous, BodiesOnTheirOwnInstancesAreWhatTheyAreAlone) {
     p.integration.macro_step = 2e-3;
     return p;
   };
-  const std::vector<Exec> instances = Kokkos::Experimental::partition_space(Exec(), std::vector<int>{1, 1});
+  const std::vector<Exec> instances =
+      Kokkos::Experimental::partition_space(Exec(), std::vector<int>{1, 1});
   std::vector<std::unique_ptr<Simulation<TypeParam>>> together;
   for (int body = 0; body < bodies; ++body)
-    together.push_back(
-        std::make_unique<Simulation<TypeParam>>(problem(body), instances[static_cast<std::size_t>(body)]));
+    together.push_back(std::make_unique<Simulation<TypeParam>>(
+        problem(body), instances[static_cast<std::size_t>(body)]));
   std::vector<std::thread> threads;
   for (auto& simulation : together)
     threads.emplace_back([&simulation] {
@@ -215,7 +221,8 @@ TYPED_TEST(Asynchronous, BodiesOnTheirOwnInstancesAreWhatTheyAreAlone) {
     Simulation<TypeParam> alone(problem(body));
     advance(alone, steps);
     EXPECT_FALSE(together[static_cast<std::size_t>(body)]->check());
-    EXPECT_TRUE(same_bits(together[static_cast<std::size_t>(body)]->positions(), alone.positions())) << body;
+    EXPECT_TRUE(same_bits(together[static_cast<std::size_t>(body)]->positions(), alone.positions()))
+        << body;
   }
 }
 

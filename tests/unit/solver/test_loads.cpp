@@ -76,10 +76,12 @@ TYPED_TEST(Loads, AFreeBodyIsAcceleratedByForceOverMass) {
     Simulation<TypeParam> simulation(p);
     for (int n = 0; n < 100; ++n) simulation.step();
     const Point want = 0.1 * Point(2, 0, -1) / simulation.levels()[0].mass;  // 1 kg
-    const bool implicit = std::string(integrator) == "implicit_euler";       // to the residual of its solves
+    // to the residual of its solves
+    const bool implicit = std::string(integrator) == "implicit_euler";
     // by its masses: all vertices alike, so that the body does not even deform
     for (const Point& v : simulation.velocities())
-      EXPECT_LE((v - want).norm(), implicit ? 1e-6 : round_off<typename TypeParam::Real>(3000)) << v.transpose();
+      EXPECT_LE((v - want).norm(), implicit ? 1e-6 : round_off<typename TypeParam::Real>(3000))
+          << v.transpose();
     EXPECT_FALSE(simulation.check());
   }
 }
@@ -99,7 +101,8 @@ TYPED_TEST(Loads, GiveTheirImpulseWhereverTheyAct) {
     const auto v = simulation.velocities();
     double momentum = 0;
     for (std::size_t a = 0; a < v.size(); ++a) momentum += mass[a] * v[a][1];
-    EXPECT_NEAR(momentum, 0.2 * (0.01 + 0.02), 0.2 * 5e-4);  // half the ramp, then all of it; to the step's order
+    // half the ramp, then all of it; to the step's order
+    EXPECT_NEAR(momentum, 0.2 * (0.01 + 0.02), 0.2 * 5e-4);
   }
 }
 
@@ -136,10 +139,13 @@ TEST(Loads, WithoutEffectAreRefused) {
     b.fixed = {right_face};
     b.loads = {{right_face, Traction{{1, 0, 0}}, {}}};
   });
-  EXPECT_NE(held.find("body.loads.0: all 16 vertices it acts on, on level 0, are fixed or prescribed"),
-            std::string::npos)
+  EXPECT_NE(
+      held.find("body.loads.0: all 16 vertices it acts on, on level 0, are fixed or prescribed"),
+      std::string::npos)
       << held;
-  const std::string point = refusal_after([](Body& b) { b.loads = {{NearestSelection{}, Traction{{1, 0, 0}}, {}}}; });
+  const std::string point = refusal_after([](Body& b) {
+    b.loads = {{NearestSelection{}, Traction{{1, 0, 0}}, {}}};
+  });
   EXPECT_NE(point.find("no boundary triangle"), std::string::npos) << point;
 }
 
@@ -172,7 +178,8 @@ Scalars<B> masses(const Problem& p, int level) {
   for (const auto& t : mesh.tets) {
     const auto x = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
     for (int v : t)
-      host(v) += static_cast<typename B::Real>(p.body.material.density * tet_volume(x(0), x(1), x(2), x(3)) / 4);
+      host(v) += static_cast<typename B::Real>(p.body.material.density *
+                                               tet_volume(x(0), x(1), x(2), x(3)) / 4);
   }
   Kokkos::deep_copy(mass, host);
   return mass;
@@ -195,8 +202,9 @@ TYPED_TEST(CallersForces, LikeGravityDoAsGravityDoes) {
       std::vector<Scalars<TypeParam>> mass;
       for (int level : {0, 1, 2}) mass.push_back(masses<TypeParam>(p, level));
       alone.set_external_forces([&](const ForceRequest<TypeParam>& r) {
-        enqueue<TypeParam>(r.exec, r.force.extent(0),
-                           Weight<TypeParam>{r.force, mass[static_cast<std::size_t>(r.level)], {0, 0, -10}});
+        enqueue<TypeParam>(
+            r.exec, r.force.extent(0),
+            Weight<TypeParam>{r.force, mass[static_cast<std::size_t>(r.level)], {0, 0, -10}});
       });
       p.gravity = {0, 0, -10};
       Simulation<TypeParam> heavy(p);
@@ -257,7 +265,8 @@ TYPED_TEST(CallersForces, OnTheSurfaceDoAsAnObstacleDoes) {
   p.body.initial.velocity = {0, 0, -0.5};
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   p.integration.distribution = "equal";
-  p.integration.macro_step = 1e-4;  // so short that it does not matter whether contact is implicit in it
+  // so short that it does not matter whether contact is implicit in it
+  p.integration.macro_step = 1e-4;
   p.contact.stiffness_scale = 1.0 / 64;
   const double height = -1e-3;
   Problem with_plane = p;
@@ -282,8 +291,10 @@ TYPED_TEST(CallersForces, OnTheSurfaceDoAsAnObstacleDoes) {
   advance(own, 600);
   EXPECT_EQ(levels, (std::set<int>{0, 1}));
   EXPECT_GT(obstacle.energies().contact, 1e-2);
-  // an obstacle is solved implicitly, the caller's own law is taken where the step starts: they differ by its share of a step
-  EXPECT_LE(largest_difference(own.positions(), obstacle.positions()), 5e-5 + round_off<Real>(4000, 0.1));
+  // an obstacle is solved implicitly, the caller's own law is taken where the step starts: they
+  // differ by its share of a step
+  EXPECT_LE(largest_difference(own.positions(), obstacle.positions()),
+            5e-5 + round_off<Real>(4000, 0.1));
 }
 
 /// Every vertex is tied to where it was at rest.
@@ -294,13 +305,15 @@ struct Tie {
   bool into_the_solve;
   KOKKOS_INLINE_FUNCTION void operator()(int a) const {
     for (int i = 0; i < 3; ++i) {
-      r.force(a, i) -= k * (r.displacement(a, i) + static_cast<typename B::Real>(r.ahead) * r.velocity(a, i));
+      r.force(a, i) -=
+          k * (r.displacement(a, i) + static_cast<typename B::Real>(r.ahead) * r.velocity(a, i));
       if (into_the_solve) r.stiffness(a, i) += k;
     }
   }
 };
 
-// a spring far stiffer than the step can follow: linearly implicit Euler damps it only if it knows it
+// a spring far stiffer than the step can follow: linearly implicit Euler damps it only if it knows
+// it
 TYPED_TEST(CallersForces, ThatAreStiffEnterTheImplicitSolve) {
   for (const bool into_the_solve : {true, false}) {
     Problem p = small_cube();
@@ -323,7 +336,8 @@ TYPED_TEST(CallersForces, ThatAreStiffEnterTheImplicitSolve) {
 TYPED_TEST(CallersForces, OnASurfaceThatIsNotThereAreRefused) {
   Simulation<TypeParam> simulation(small_cube());
   const Vectors<TypeParam> f("f", 12);
-  simulation.set_external_forces([&](const ForceRequest<TypeParam>& r) { r.add_surface_forces(f); });
+  simulation.set_external_forces(
+      [&](const ForceRequest<TypeParam>& r) { r.add_surface_forces(f); });
   EXPECT_THROW(simulation.step(), InputError);
 }
 

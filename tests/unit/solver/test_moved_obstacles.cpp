@@ -87,8 +87,8 @@ TEST(StartInObstacles, IsSaidOrRefused) {
   const double edge = mean_edge_length(p.body.levels[0]);
   const std::vector<std::string> found = starts_in(0.6 * edge);
   ASSERT_EQ(found.size(), 1);
-  EXPECT_TRUE(
-      found[0].starts_with("contact.obstacles.0: the body starts inside it, " + number(0.6 * edge, 3) + " m deep"))
+  EXPECT_TRUE(found[0].starts_with("contact.obstacles.0: the body starts inside it, " +
+                                   number(0.6 * edge, 3) + " m deep"))
       << found[0];
   EXPECT_EQ(refusal([&] { starts_in(100); }),
             "contact.obstacles.0 contains the whole body at the start; expected a body outside");
@@ -104,7 +104,8 @@ TEST(StartInObstacles, WithinTheBodyIsRefused) {
     return refusal([&] { starts_in_obstacles(p); });
   };
   EXPECT_EQ(starts_at(middle),
-            "contact.obstacles.0 is inside the body at the start, where contact does not find it; expected it outside");
+            "contact.obstacles.0 is inside the body at the start, where contact does not find it; "
+            "expected it outside");
   EXPECT_EQ(starts_at(box.max + 0.2 * size), "");
   p.body.initial.position = box.max + 0.2 * size;
   EXPECT_NE(starts_at(box.max + 0.2 * size), "") << "where the body starts";
@@ -123,11 +124,14 @@ std::string refusal_of(Problem& p, const ShapeOptions& shape) {
   return refusal([&] { starts_in_obstacles(p); });
 }
 
-// Elements reach beyond the surface, as lattices do, or it beyond them: contact knows the surface alone.
+// Elements reach beyond the surface, as lattices do, or it beyond them: contact knows the surface
+// alone.
 TEST(StartInObstacles, TheSurfaceSaysWhatIsWithin) {
   Problem p = within(decimetre, {3, 3, 3});
   const Point middle(0.05, 0.05, 0.05), corner(0.012, 0.012, 0.012), above(0.05, 0.05, 0.107);
-  const auto refused = [&](const Point& centre) { return refusal_of(p, SphereOptions{centre, 0.003}) != ""; };
+  const auto refused = [&](const Point& centre) {
+    return refusal_of(p, SphereOptions{centre, 0.003}) != "";
+  };
   EXPECT_TRUE(refused(middle) && refused(corner));
   EXPECT_FALSE(refused(above));
   p.body.surface = sphere_surface(middle, 0.04, 2);
@@ -146,8 +150,10 @@ TEST(StartInObstacles, WhatLooksOutAtAnEndIsNotWithin) {
   const auto refused = [&](const ShapeOptions& shape) { return refusal_of(p, shape) != ""; };
   constexpr double thin = 0.002;
   EXPECT_TRUE(refused(CapsuleOptions{middle - 0.1 * x, middle + 0.1 * x, thin}));
-  EXPECT_FALSE(refused(CapsuleOptions{middle - 0.3 * x, middle + 0.3 * x, thin})) << "a needle through it";
-  EXPECT_FALSE(refused(CapsuleOptions{middle - 0.1 * x, middle + 0.2 * x, thin})) << "one that sticks in it";
+  EXPECT_FALSE(refused(CapsuleOptions{middle - 0.3 * x, middle + 0.3 * x, thin}))
+      << "a needle through it";
+  EXPECT_FALSE(refused(CapsuleOptions{middle - 0.1 * x, middle + 0.2 * x, thin}))
+      << "one that sticks in it";
   EXPECT_TRUE(refused(CylinderOptions{middle - 0.1 * x, middle + 0.1 * x, thin}));
   EXPECT_FALSE(refused(ConeOptions{middle - 0.3 * x, middle + 0.3 * x, thin, 0}));
   EXPECT_TRUE(refused(BlockOptions{middle, {0.2, thin, thin}, Point::Zero()}));
@@ -160,10 +166,12 @@ TEST(StartInObstacles, WhatLooksOutAtAnEndIsNotWithin) {
 
 TEST(StartInObstacles, AnAnchorThatHoldsTheBodyIsTaken) {
   Problem p = within({{0, 0, 0}, {0.1, 0.1, 0.004}}, {4, 4, 1});
-  const SphereOptions anchor{{0.0125, 0.0125, 0.002}, 0.001};  // the nearest points are 17 mm from it
+  // the nearest points are 17 mm from it
+  const SphereOptions anchor{{0.0125, 0.0125, 0.002}, 0.001};
   EXPECT_NE(refusal_of(p, anchor), "");
   const auto with_reach = [&](double reach) {
-    p.contact.obstacles[0].grasp = GraspOptions{.from = {0}, .until = {}, .reach = reach, .stiffness = {}};
+    p.contact.obstacles[0].grasp =
+        GraspOptions{.from = {0}, .until = {}, .reach = reach, .stiffness = {}};
     return refusal([&] { starts_in_obstacles(p); });
   };
   EXPECT_EQ(with_reach(0.02), "");
@@ -172,12 +180,14 @@ TEST(StartInObstacles, AnAnchorThatHoldsTheBodyIsTaken) {
 
 TEST(MovedObstacles, AreDoubtedWhereTheyAreTooLight) {
   Problem p = small_cube();
-  const double mass = 1000 * 0.1 * 0.1 * 0.1 / static_cast<double>(p.body.levels[0].vertices.size());
+  const double mass =
+      1000 * 0.1 * 0.1 * 0.1 / static_cast<double>(p.body.levels[0].vertices.size());
   p.body.material.density = 1000;
   p.contact.obstacles = {{SphereOptions{{0, 0, 1}, 0.01}, {}, {}}};
   const auto said = [&](double factor) {
     p.contact.obstacles[0].mass = factor * mass;
-    return std::ranges::count_if(doubts(p), [](const std::string& s) { return s.find("0.mass") != std::string::npos; });
+    return std::ranges::count_if(
+        doubts(p), [](const std::string& s) { return s.find("0.mass") != std::string::npos; });
   };
   EXPECT_EQ(said(0.9), 1);
   EXPECT_EQ(said(1.1), 0);

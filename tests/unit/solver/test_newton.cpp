@@ -16,7 +16,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Implicit steps by Newton's method: what they solve, how far, and what becomes of those they do not.
+// Implicit steps by Newton's method: what they solve, how far, and what becomes of those they do
+// not.
 namespace {
 
 using namespace plica;
@@ -51,12 +52,14 @@ TEST(Newton, PotentialIsThatOfTheBalance) {
   const auto at = [&](double t) {
     auto x = u, v = u;
     const auto base_u = to_host<Host>({}, base.u), base_v = to_host<Host>({}, base.v);
-    for (std::size_t i = 0; i < n; ++i) x[i] += t * change[i], v[i] = base_v[i] + b / a * (x[i] - base_u[i]);
+    for (std::size_t i = 0; i < n; ++i)
+      x[i] += t * change[i], v[i] = base_v[i] + b / a * (x[i] - base_u[i]);
     level.state = {device_field<Host>(x), device_field<Host>(v)};
     level.linearise(level.state, 0, {a, b}, 0, level.f);
     reduce<Host, 7, StagePotential<Host>, Sums<7>>(
         {}, "test", static_cast<int>(n),
-        StagePotential<Host>{{level.model, base, level.state, a, b}, level.f, dead, device_field<Host>(change), 0},
+        StagePotential<Host>{
+            {level.model, base, level.state, a, b}, level.f, dead, device_field<Host>(change), 0},
         blocks, result);
     return std::array<double, 2>{result(0) + probe.elastic_energy(x), result(2)};
   };
@@ -74,7 +77,8 @@ TEST(Newton, MeetsItsTolerance) {
   }
 }
 
-// A pull so sudden that full steps overshoot: the search shortens them, and the step is solved all the same.
+// A pull so sudden that full steps overshoot: the search shortens them, and the step is solved all
+// the same.
 TEST(Newton, SearchesAlongItsDirection) {
   Problem p = hanging("neo_hookean", 0.5);
   p.gravity = {0, 0, -200};
@@ -96,8 +100,10 @@ TEST(Newton, HalvesStepsItCannotSolve) {
   advance(solved, 10), advance(halved, 10);
   EXPECT_GT(halved.counters().at("step_halvings"), 0);
   EXPECT_EQ(halved.time(), solved.time());
-  const auto a = displacements(halved, p.body.levels[0]), b = displacements(solved, p.body.levels[0]);
-  EXPECT_LE(largest_difference(a, b), 0.1 * largest(b));  // first order: smaller steps lose less energy
+  const auto a = displacements(halved, p.body.levels[0]),
+             b = displacements(solved, p.body.levels[0]);
+  // first order: smaller steps lose less energy
+  EXPECT_LE(largest_difference(a, b), 0.1 * largest(b));
 }
 
 /// It falls on the ground.
@@ -130,7 +136,8 @@ TEST(Newton, HalvingCompletesWhatAcceptingCompletes) {
   EXPECT_FALSE(halved.check());
 }
 
-// A fall that touches ground in steps as long as the impact: contact sets in without a jump, so that every step is solved.
+// A fall that touches ground in steps as long as the impact: contact sets in without a jump, so
+// that every step is solved.
 TEST(Newton, SolvesAnImpact) {
   Simulation<Host> simulation(falling_liver());
   advance(simulation, 25);
@@ -138,11 +145,14 @@ TEST(Newton, SolvesAnImpact) {
   EXPECT_GT(simulation.counters().at("newton_iterations"), 25);
 }
 
-// An organ that swings by its own length under its weight, in steps of 40 critical ones. One linear solve a step turns it inside out.
+// An organ that swings by its own length under its weight, in steps of 40 critical ones. One linear
+// solve a step turns it inside out.
 TEST(Newton, HoldsAnOrganThatSwings) {
   Problem p = body_of({read_mesh(PLICA_SOURCE_DIR "/meshes/data/organs/liver.vtk")}, "neo_hookean");
-  p.body.element = {"nodal"}, p.body.material.young_modulus = 3e3, p.body.material.poisson_ratio = 0.4;
-  p.body.fixed = {Box{{-1, -1, -1}, {-0.05, 1, 1}}}, p.body.damping.mass = 2, p.gravity = {9.81, 0, 0};
+  p.body.element = {"nodal"}, p.body.material.young_modulus = 3e3,
+  p.body.material.poisson_ratio = 0.4;
+  p.body.fixed = {Box{{-1, -1, -1}, {-0.05, 1, 1}}}, p.body.damping.mass = 2,
+  p.gravity = {9.81, 0, 0};
   p.integration.macro_step = 20e-3;
   for (const char* integrator : {"implicit_euler", "bdf2"}) {
     p.integration.integrator = {integrator};
@@ -171,8 +181,10 @@ TEST(Newton, AcceptsNoStepThatExplodes) {
       const Energies after = simulation.energies();
       const auto v1 = simulation.velocities();
       double change = 0;
-      for (std::size_t a = 0; a < mass.size(); ++a) change += mass[a] * (v1[a] - v0[a]).squaredNorm() / 2;
-      EXPECT_LE(after.total() - after.kinetic + change, before + 1e-9 * std::abs(before)) << step << " " << n;
+      for (std::size_t a = 0; a < mass.size(); ++a)
+        change += mass[a] * (v1[a] - v0[a]).squaredNorm() / 2;
+      EXPECT_LE(after.total() - after.kinetic + change, before + 1e-9 * std::abs(before))
+          << step << " " << n;
     }
   }
 }
@@ -186,12 +198,15 @@ TEST(Newton, StoppingEndsTheRun) {
   EXPECT_NE(bad->text().find("a step was not solved"), std::string::npos) << bad->text();
 }
 
-/// A clamped beam that is let go stretched by 2 % swings for 5 s: the largest change of its energy over that at the start.
-double energy_error(const std::string& integrator, const std::string& material, int newton_iterations) {
+/// A clamped beam that is let go stretched by 2 % swings for 5 s: the largest change of its energy
+/// over that at the start.
+double energy_error(const std::string& integrator, const std::string& material,
+                    int newton_iterations) {
   Problem p = body_of({jittered_box(beam_box, {8, 2, 2})}, material);
   p.body.fixed = {left_face()}, p.body.initial.stretch = {1.02, 1, 1};
   p.integration.integrator = {integrator}, p.integration.macro_step = 0.01;
-  p.integration.implicit.rho_infinity = 1, p.integration.implicit.newton_iterations = newton_iterations;
+  p.integration.implicit.rho_infinity = 1,
+  p.integration.implicit.newton_iterations = newton_iterations;
   Simulation<Host> simulation(p);
   const double start = simulation.energies().total();
   double error = 0;
@@ -204,7 +219,8 @@ double energy_error(const std::string& integrator, const std::string& material, 
 
 TEST(Newton, IsIteratedWhereASolveIsNoFixedWork) {
   ImplicitOptions options;
-  for (const char* integrator : {"implicit_euler", "bdf2", "sdirk2", "newmark", "generalized_alpha"})
+  for (const char* integrator :
+       {"implicit_euler", "bdf2", "sdirk2", "newmark", "generalized_alpha"})
     EXPECT_EQ(newton_iterations(options, integrator), 20) << integrator;
   EXPECT_EQ(newton_iterations(options, "v_cycle_euler"), 1);
   options.iterations = 25;

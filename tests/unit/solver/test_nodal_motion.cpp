@@ -18,7 +18,8 @@ using namespace plica::test;
 /// An irregular clamped beam under gravity, of nodal elements.
 Problem sagging_beam(int levels = 1, double poisson = 0.45) {
   std::vector<TetMesh> meshes;
-  for (int i = 0; i < levels; ++i) meshes.push_back(jittered_box(beam_box, {12 - 4 * i, 3 - i, 3 - i}));
+  for (int i = 0; i < levels; ++i)
+    meshes.push_back(jittered_box(beam_box, {12 - 4 * i, 3 - i, 3 - i}));
   Problem p = body_of(std::move(meshes), "neo_hookean");
   p.body.element = {"nodal"};
   p.body.material.poisson_ratio = poisson;
@@ -45,7 +46,8 @@ TEST(NodalMotion, EveryIntegratorFollowsTheSameMotion) {
     SCOPED_TRACE(integrator);
     if (integrator == "euler") continue;  // grows visibly in a hundred steps
     Problem p = body;
-    p.integration.integrator = {integrator}, p.integration.allow_unstable = true;  // as others do, invisibly
+    // as others do, invisibly
+    p.integration.integrator = {integrator}, p.integration.allow_unstable = true;
     EXPECT_LE(largest_difference(after(p, 2e-4), want), 0.06 * largest(want));
   }
 }
@@ -62,7 +64,8 @@ TEST(NodalMotion, EveryCycleRunsOnLevelsOfEitherElement) {
       Simulation<Host> simulation(p);
       EXPECT_EQ(simulation.levels()[0].element, element.front());
       while (simulation.time() < 0.02) advance(simulation, 1);
-      const double sag = largest(displacements(simulation, p.body.levels[0]));  // long steps, and what cycles do wrong
+      // long steps, and what cycles do wrong
+      const double sag = largest(displacements(simulation, p.body.levels[0]));
       EXPECT_GT(sag, 0.5 * largest(want));
       EXPECT_LT(sag, 5 * largest(want));
     }
@@ -88,7 +91,8 @@ TEST(NodalMotion, MultigridPreconditionsImplicitSteps) {
   const auto iterations = [](const std::string& preconditioner) {
     Problem p = sagging_beam(2);
     p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 10e-3;
-    p.integration.implicit.preconditioner = preconditioner, p.integration.implicit.relative_residual = 1e-8;
+    p.integration.implicit.preconditioner = preconditioner,
+    p.integration.implicit.relative_residual = 1e-8;
     p.integration.implicit.newton_iterations = 1;
     Simulation<Host> simulation(p);
     advance(simulation, 5);
@@ -119,21 +123,26 @@ Problem incompressible_beam(const std::string& integrator, double step) {
   return p;
 }
 
-// of long steps that bend: with the pressures of the volumes in its tangent each of these blew up or was not solved
+// of long steps that bend: with the pressures of the volumes in its tangent each of these blew up
+// or was not solved
 TEST(NodalMotion, ImplicitStepsOfNearlyIncompressibleBodiesAreSolved) {
-  for (const std::string integrator : {"implicit_euler", "newmark", "bdf2", "sdirk2", "generalized_alpha"}) {
+  for (const std::string integrator :
+       {"implicit_euler", "newmark", "bdf2", "sdirk2", "generalized_alpha"}) {
     for (const int most : {1, 20}) {
-      if (integrator == "newmark" && most == 1) continue;  // its explicit half does not know what is carried
+      // its explicit half does not know what is carried
+      if (integrator == "newmark" && most == 1) continue;
       SCOPED_TRACE(integrator + ", at most " + std::to_string(most) + " of Newton's iterations");
       Problem p = incompressible_beam(integrator, 10e-3);
       p.integration.implicit.newton_iterations = most;
       Simulation<Host> simulation(p);
       advance(simulation, 15);
       // of a linear system, or the part of the forces that is unbalanced
-      EXPECT_LE(simulation.worst_residual(), most == 1 ? p.integration.implicit.relative_residual : 3e-3);
+      EXPECT_LE(simulation.worst_residual(),
+                most == 1 ? p.integration.implicit.relative_residual : 3e-3);
       const auto counts = simulation.counters();
       EXPECT_EQ(counts.at("cg_misses"), 0);
-      EXPECT_LE(counts.at("cg_iterations"), 1000 * counts.at("linear_solves"));  // 424 to 525, by block-Jacobi
+      // 424 to 525, by block-Jacobi
+      EXPECT_LE(counts.at("cg_iterations"), 1000 * counts.at("linear_solves"));
       EXPECT_EQ(counts.at("pressure_updates"), counts.at("linear_solves"));
       if (most == 1) continue;
       EXPECT_EQ(counts.at("newton_misses"), 0);
@@ -153,7 +162,8 @@ TEST(NodalMotion, AtRestNearlyIncompressibleBodiesAreWhereExplicitStepsLeaveThem
   const auto want = at_rest("symplectic_euler", 6e-5, 1);
   for (const int newtons : {1, 20}) {
     SCOPED_TRACE(newtons);
-    EXPECT_LE(largest_difference(at_rest("implicit_euler", 20e-3, newtons), want), 1e-3 * largest(want));
+    EXPECT_LE(largest_difference(at_rest("implicit_euler", 20e-3, newtons), want),
+              1e-3 * largest(want));
   }
 }
 
@@ -171,25 +181,29 @@ TEST(NodalMotion, WhatNeedsAMatrixIsRefused) {
   for (const bool direct : {true, false}) {
     Problem p = sagging_beam();
     p.integration.integrator = {"implicit_euler"}, p.integration.macro_step = 1e-3;
-    (direct ? p.integration.implicit.solver : p.integration.implicit.matrix) = direct ? "direct" : "assembled";
+    (direct ? p.integration.implicit.solver : p.integration.implicit.matrix) =
+        direct ? "direct" : "assembled";
     try {
       Simulation<Host> simulation(p);
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("nodal elements, whose matrix is not assembled"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("nodal elements, whose matrix is not assembled"),
+                std::string::npos)
           << error.what();
     }
   }
 }
 
-// the cycle is one of lambda = 2 mu at most, so its answer to a change of volume is thousands of times too large
+// the cycle is one of lambda = 2 mu at most, so its answer to a change of volume is thousands of
+// times too large
 TEST(NodalMotion, SmoothedPressuresAreNotSolvedByOneCycle) {
   Problem p = incompressible_beam("v_cycle_euler", 10e-3);
   try {
     Simulation<Host> simulation(p);
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("expected implicit_euler"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("expected implicit_euler"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -207,7 +221,8 @@ TEST(NodalMotion, AnInvertedVertexIsNamed) {
   EXPECT_EQ(bad->element, -1);
   EXPECT_GE(bad->vertex, 0);
   EXPECT_LT(bad->J, 0);
-  EXPECT_NE(bad->text().find("around a vertex are inside out: level 0, vertex"), std::string::npos) << bad->text();
+  EXPECT_NE(bad->text().find("around a vertex are inside out: level 0, vertex"), std::string::npos)
+      << bad->text();
 }
 
 TEST(NodalMotion, SavedStatesGoOnBitForBit) {

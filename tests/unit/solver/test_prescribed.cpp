@@ -40,7 +40,8 @@ void expect_there(const Simulation<B>& simulation, const Problem& p, int level, 
   for (std::size_t a = 0; a < u.size(); ++a)
     if (mesh.vertices[a][0] == 0) {
       ++found;
-      EXPECT_LE((u[a] - time * speed).norm(), round_off<typename B::Real>(50, 0.1)) << "level " << level;
+      EXPECT_LE((u[a] - time * speed).norm(), round_off<typename B::Real>(50, 0.1))
+          << "level " << level;
       EXPECT_LE((v[a] - speed).norm(), round_off<typename B::Real>(2)) << "level " << level;
     }
   EXPECT_GT(found, 3);
@@ -61,8 +62,8 @@ TYPED_TEST(Prescribed, IsExactForEveryIntegrator) {
   }
 }
 
-/// Lets three levels share macro steps, and looks at each at the time at which its share ends: expect(simulation, problem, level,
-/// time).
+/// Lets three levels share macro steps, and looks at each at the time at which its share ends:
+/// expect(simulation, problem, level, time).
 template <class B, class Change, class Expect>
 void expect_at_own_times(const Change& change, const Expect& expect) {
   constexpr double t = 4e-4;
@@ -114,7 +115,8 @@ TEST(Prescribed, PullsTheBodyAlong) {
     p.integration.substeps = {0};
     Simulation<Host> simulation(p);
     advance(simulation, 1500);
-    for (const Point& v : simulation.velocities()) EXPECT_LE((v - speed).norm(), 1e-5) << integrator;
+    for (const Point& v : simulation.velocities())
+      EXPECT_LE((v - speed).norm(), 1e-5) << integrator;
   }
 }
 
@@ -129,13 +131,15 @@ void expect_on_path(const Simulation<B>& simulation, const Problem& p, int level
   for (std::size_t a = 0; a < u.size(); ++a)
     if (mesh.vertices[a][0] == 0)
       for (int k = 0; k < 3; ++k) {
-        EXPECT_NEAR(u[a][k], at.displacement[k], round_off<typename B::Real>(4, 0.1)) << "level " << level;
+        EXPECT_NEAR(u[a][k], at.displacement[k], round_off<typename B::Real>(4, 0.1))
+            << "level " << level;
         EXPECT_NEAR(v[a][k], at.velocity[k], round_off<typename B::Real>(4)) << "level " << level;
       }
 }
 
 const SineMotion shake{{0.002, 0, -0.001}, 7, 0.3};
-const PathMotion there_and_back{{{0.003, {0, 0, 0}}, {0.0203, {0.004, 0, 0.002}}, {0.033, {0, 0.001, 0}}}};
+const PathMotion there_and_back{
+    {{0.003, {0, 0, 0}}, {0.0203, {0.004, 0, 0.002}}, {0.033, {0, 0.001, 0}}}};
 
 TYPED_TEST(Prescribed, FollowsItsPathUnderEveryIntegrator) {
   for (const Motion& motion : {Motion(shake), Motion(there_and_back)})
@@ -195,12 +199,14 @@ std::string refusal_of(const Problem& p) {
 TEST(Prescribed, AVertexHasOneMotion) {
   Problem p = pulled(small_cube());
   p.body.fixed = {left_face()};
-  EXPECT_NE(refusal_of(p).find("body.fixed.0: vertex 0 of level 0 is prescribed by body.prescribed.0 too"),
+  EXPECT_NE(refusal_of(p).find(
+                "body.fixed.0: vertex 0 of level 0 is prescribed by body.prescribed.0 too"),
             std::string::npos)
       << refusal_of(p);
   p.body.fixed.clear();
   p.body.prescribed.push_back({Box{{0, 0, 0}, {1, 0, 1}}, Point(1, 0, 0)});
-  EXPECT_NE(refusal_of(p).find("body.prescribed.1: vertex 0 of level 0 is prescribed by body.prescribed.0 too"),
+  EXPECT_NE(refusal_of(p).find(
+                "body.prescribed.1: vertex 0 of level 0 is prescribed by body.prescribed.0 too"),
             std::string::npos)
       << refusal_of(p);
 }
@@ -208,7 +214,8 @@ TEST(Prescribed, AVertexHasOneMotion) {
 // Regions of a mesh with constants of their own.
 
 Problem two_halves() {
-  Problem p = body_of({with_regions(box_mesh(decimetre, {4, 4, 4}), 0.05, "stiff", "soft")}, "linear");
+  Problem p =
+      body_of({with_regions(box_mesh(decimetre, {4, 4, 4}), 0.05, "stiff", "soft")}, "linear");
   p.body.regions["stiff"].young_modulus = 2e6;
   p.body.regions["stiff"].poisson_ratio = 0.1;
   return p;
@@ -237,12 +244,15 @@ TYPED_TEST(Regions, PatchesDoNotSpanThem) {
   const Problem p = two_halves();
   LevelProbe<TypeParam> probe(p);
   const auto& patches = probe.at(0).model.patches;
-  const auto host = [](const auto& view) { return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view); };
+  const auto host = [](const auto& view) {
+    return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+  };
   const auto first = host(patches.first_pack), element = host(patches.element);
   std::vector<int> seen(p.body.levels[0].tets.size(), 0);
   for (int patch = 0; patch < patches.count; ++patch) {
     int region = -1;
-    for (int slot = first(patch) * TypeParam::lanes; slot < first(patch + 1) * TypeParam::lanes; ++slot) {
+    for (int slot = first(patch) * TypeParam::lanes; slot < first(patch + 1) * TypeParam::lanes;
+         ++slot) {
       if (element(slot) < 0) continue;
       const auto e = static_cast<std::size_t>(element(slot));
       ++seen[e];
@@ -255,7 +265,8 @@ TYPED_TEST(Regions, PatchesDoNotSpanThem) {
 
 // In series under one load each half stretches by its own modulus.
 TEST(Regions, SoftHalfTakesTheStretch) {
-  Problem p = body_of({with_regions(box_mesh(beam_box, {8, 2, 2}), 0.2, "stiff", "soft")}, "linear");
+  Problem p =
+      body_of({with_regions(box_mesh(beam_box, {8, 2, 2}), 0.2, "stiff", "soft")}, "linear");
   p.body.material.poisson_ratio = 0;
   p.body.regions["stiff"].young_modulus = 80e3;
   p.body.fixed = {left_face()};
@@ -290,7 +301,8 @@ TEST(Regions, GroupsSelectVertices) {
   const auto again = [&] { LevelProbe<Host>{p}; };
   EXPECT_NE(refusal(again).find("did you mean 'soft'?"), std::string::npos) << refusal(again);
   p.body.fixed = {Box{{1, 1, 1}, {2, 2, 2}}};
-  EXPECT_NE(refusal(again).find("selects no vertex on level 0"), std::string::npos) << refusal(again);
+  EXPECT_NE(refusal(again).find("selects no vertex on level 0"), std::string::npos)
+      << refusal(again);
 }
 
 }  // namespace

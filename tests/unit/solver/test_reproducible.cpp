@@ -38,7 +38,8 @@ Problem busy_in_him() {
   return p;
 }
 
-/// The coarsest level has no multigrid; the others are solved by it, the middle one by one cycle a step.
+/// The coarsest level has no multigrid; the others are solved by it, the middle one by one cycle a
+/// step.
 Problem busy_with_matrices() {
   Problem p = busy();
   p.integration.integrator = {"implicit_euler", "v_cycle_euler", "implicit_euler"};
@@ -99,7 +100,8 @@ class Reproducible : public testing::Test {};
 TYPED_TEST_SUITE(Reproducible, EachBackend);
 
 TYPED_TEST(Reproducible, FromRunToRun) {
-  EXPECT_TRUE(same_bits(result<TypeParam>(typename TypeParam::Exec()), result<TypeParam>(typename TypeParam::Exec())));
+  EXPECT_TRUE(same_bits(result<TypeParam>(typename TypeParam::Exec()),
+                        result<TypeParam>(typename TypeParam::Exec())));
 }
 
 #if defined(KOKKOS_ENABLE_OPENMP)
@@ -111,7 +113,8 @@ void expect_one_thread_is_two() {
   ASSERT_EQ(one.concurrency(), 1);
   ASSERT_EQ(two.concurrency(), 2);
   for (const Problem& problem : {busy(), busy_in_him(), busy_with_matrices()})
-    EXPECT_TRUE(same_bits(result<B>(one, problem), result<B>(two, problem))) << problem.integration.cycle;
+    EXPECT_TRUE(same_bits(result<B>(one, problem), result<B>(two, problem)))
+        << problem.integration.cycle;
 }
 TEST(Threads, OneTwoAndFourLetABodyStickWithTheSameBits) {
   using B = Backend<double, Kokkos::OpenMP>;
@@ -127,7 +130,8 @@ TEST(Threads, OneTwoAndFourLetABodyStickWithTheSameBits) {
       EXPECT_TRUE(same_bits(alone.positions(), together.positions())) << method << " " << threads;
       EXPECT_TRUE(same_bits(alone.velocities(), together.velocities())) << method << " " << threads;
       EXPECT_EQ(alone.friction_work(), together.friction_work()) << method << " " << threads;
-      EXPECT_EQ(alone.wrenches()[0].force, together.wrenches()[0].force) << method << " " << threads;
+      EXPECT_EQ(alone.wrenches()[0].force, together.wrenches()[0].force)
+          << method << " " << threads;
     }
   }
 }
@@ -152,7 +156,8 @@ Problem thrown(const std::string& cycle, const std::string& integrator) {
   p.body.initial.angular_velocity = {0, 3, 1};
   p.body.prescribed = {{left_face(), SteadyMotion(Point(0, 0.1, 0))}};
   p.gravity = {0, 0, -9.81};
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, SteadyMotion(Point(0, 0, 0.01))});
+  p.contact.obstacles.push_back(
+      {PlaneOptions{{0, 0, 0.006}, {0, 0, 1}}, 0.3, SteadyMotion(Point(0, 0, 0.01))});
   p.integration.integrator = {integrator};
   p.integration.macro_step = integrator == "implicit_euler" ? 2e-3 : 5e-4;
   if (cycle != "him") p.integration.distribution = "equal";
@@ -284,7 +289,8 @@ TEST(SavedState, OfAnotherSimulationIsRefused) {
   EXPECT_EQ(refusal_of(simulation, from(other)), start + "the size of level 1's state.u differs");
   EXPECT_EQ(refusal_of(simulation, from(thrown("rs", "symplectic_euler"))),
             start + "the size of level 0's start.u differs");
-  EXPECT_EQ(refusal_of(simulation, Simulation<HostFloat>(problem).save()), start + "the precision differs");
+  EXPECT_EQ(refusal_of(simulation, Simulation<HostFloat>(problem).save()),
+            start + "the precision differs");
 }
 
 TEST(SavedState, CutShortOrTooLongIsRefused) {
@@ -292,7 +298,8 @@ TEST(SavedState, CutShortOrTooLongIsRefused) {
   advance(simulation, 2);
   const SavedState saved = simulation.save();
   for (std::size_t size = 0; size < saved.bytes.size(); size += 1 + saved.bytes.size() / 50)
-    EXPECT_EQ(refusal_of(simulation, {{saved.bytes.begin(), saved.bytes.begin() + static_cast<std::ptrdiff_t>(size)}}),
+    EXPECT_EQ(refusal_of(simulation, {{saved.bytes.begin(),
+                                       saved.bytes.begin() + static_cast<std::ptrdiff_t>(size)}}),
               "the saved state is damaged: it ends early");
   SavedState longer = saved;
   longer.bytes.resize(longer.bytes.size() + 3);

@@ -15,8 +15,9 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Steps that become shorter: explicit ones whose number is automatic, of a body that stiffens beyond the limit it has at rest; implicit ones
-// in which the surface turns about the places where a tool touches it.
+// Steps that become shorter: explicit ones whose number is automatic, of a body that stiffens
+// beyond the limit it has at rest; implicit ones in which the surface turns about the places where
+// a tool touches it.
 namespace {
 
 using namespace plica;
@@ -30,7 +31,8 @@ Problem pressed_liver() {
   p.body.fixed = {HalfSpaceSelection{{0, 0, 0}, {1, 0, 0}}};
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   p.gravity = {0, 0, -9.81};
-  p.contact.obstacles.push_back({SphereOptions{{0.06, 0, 0.047}, 8e-3}, {}, SineMotion{{0, 0, -12e-3}, 2, 0}});
+  p.contact.obstacles.push_back(
+      {SphereOptions{{0.06, 0, 0.047}, 8e-3}, {}, SineMotion{{0, 0, -12e-3}, 2, 0}});
   return p;
 }
 
@@ -65,8 +67,8 @@ TEST(ShorterSteps, AreGivenBackWhereTheBodyIsCalm) {
     Problem p = small_cube("neo_hookean", 6);
     p.body.damping.mass = 20;
     p.body.fixed = {left_face()};
-    p.body.prescribed = {
-        {Box{{0.1, -1, -1}, {1, 1, 1}}, PathMotion{{{0, {0, 0, 0}}, {0.2, {-0.05, 0, 0}}, {0.4, {0, 0, 0}}}}}};
+    p.body.prescribed = {{Box{{0.1, -1, -1}, {1, 1, 1}},
+                          PathMotion{{{0, {0, 0, 0}}, {0.2, {-0.05, 0, 0}}, {0.4, {0, 0, 0}}}}}};
     p.integration.cycle = cycle;
     Simulation<Host> simulation(p);
     const long whole = forces_of_a_step(simulation);
@@ -88,7 +90,8 @@ Problem crushed_cube() {
   Problem p = small_cube("neo_hookean", 6);
   p.body.damping.mass = 20;
   p.body.fixed = {left_face()};
-  p.body.prescribed = {{Box{{0.1, -1, -1}, {1, 1, 1}}, PathMotion{{{0, {0, 0, 0}}, {0.4, {-0.08, 0, 0}}}}}};
+  p.body.prescribed = {
+      {Box{{0.1, -1, -1}, {1, 1, 1}}, PathMotion{{{0, {0, 0, 0}}, {0.4, {-0.08, 0, 0}}}}}};
   p.integration.cycle = "him";
   return p;
 }
@@ -130,8 +133,8 @@ TEST(ShorterSteps, OfHimTellWhatIsTakenAgain) {
   EXPECT_GT(replaced, 1);
 }
 
-/// A tube that is blown up slowly, whose wall stiffens beyond the limit at rest; the largest kinetic energy that a caller sees, looking
-/// at every tenth step [J].
+/// A tube that is blown up slowly, whose wall stiffens beyond the limit at rest; the largest
+/// kinetic energy that a caller sees, looking at every tenth step [J].
 double most_motion(double safety, long& halvings) {
   Tube tube;
   tube.radius = 0.004, tube.wall = 0.001, tube.length = 0.03, tube.bend = 0;
@@ -159,12 +162,15 @@ TEST(ShorterSteps, AreTakenBeforeLostStabilityShows) {
   EXPECT_LT(most, 16 * steady);
 }
 
-// Steps that are taken again see obstacles that a caller moves step by step where they were the first time.
+// Steps that are taken again see obstacles that a caller moves step by step where they were the
+// first time.
 TEST(ShorterSteps, AreTakenAgainWithObstaclesWhereTheyWere) {
   Problem p = pressed_liver();
   p.contact.obstacles[0].motion = {};
   Simulation<Host> s(p);
-  const auto way = [](double time) { return Point(0, 0, -12e-3 * std::sin(4 * std::numbers::pi * time)); };
+  const auto way = [](double time) {
+    return Point(0, 0, -12e-3 * std::sin(4 * std::numbers::pi * time));
+  };
   while (s.time() < 0.1) {
     s.move_obstacle(0, way(s.time() + s.macro_step()));
     ASSERT_FALSE(s.step_checked());
@@ -193,7 +199,8 @@ TEST(ShorterSteps, GoOnAfterACheckpoint) {
 }
 
 /// The force [N] of a rod that is pressed 13 mm into an organ and held there.
-double force_of_a_held_rod(const std::string& integrator, std::optional<double> step, long* halvings = nullptr) {
+double force_of_a_held_rod(const std::string& integrator, std::optional<double> step,
+                           long* halvings = nullptr) {
   Problem p = body_of({jittered(blob_mesh({0, 0, 0}, 0.16, 8), 0.2)}, "neo_hookean");
   p.body.element = {"nodal"};
   p.body.material.young_modulus = 50e3, p.body.material.poisson_ratio = 0.45;
@@ -201,7 +208,8 @@ double force_of_a_held_rod(const std::string& integrator, std::optional<double> 
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   p.body.damping.mass = 20;
   const PathMotion path{{{0, {0, 0, 0}}, {0.1, {0, 0, -0.03}}, {1, {0, 0, -0.03}}}};
-  p.contact.obstacles.push_back({CapsuleOptions{{-0.01, 0.005, 0.06}, {-0.01, 0.005, 0.2}, 8e-3}, 0.3, path});
+  p.contact.obstacles.push_back(
+      {CapsuleOptions{{-0.01, 0.005, 0.06}, {-0.01, 0.005, 0.2}, 8e-3}, 0.3, path});
   p.integration.integrator = {integrator}, p.integration.macro_step = step;
   Simulation<Host> s(p);
   while (s.time() < 0.25)
@@ -210,7 +218,8 @@ double force_of_a_held_rod(const std::string& integrator, std::optional<double> 
   return -s.wrenches()[0].force[2];
 }
 
-// With steps that stay as long as they are, the surface would turn to and fro about those places for ever and creep along the rod.
+// With steps that stay as long as they are, the surface would turn to and fro about those places
+// for ever and creep along the rod.
 TEST(ShorterSteps, AreTakenWhereContactWasNotForeseen) {
   long halvings = 0;
   const double by_explicit = force_of_a_held_rod("symplectic_euler", {}),

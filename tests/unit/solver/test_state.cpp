@@ -37,14 +37,16 @@ TYPED_TEST(BodyState, StartsWhereAndAsFastAsItIsTold) {
     for (std::size_t a = 0; a < x.size(); ++a) {
       const Point arm = mesh.vertices[a] - Point(0.05, 0.05, 0.05);
       EXPECT_LE((x[a] - arm - Point(1, 2, 3)).norm(), round_off<Real>(8, 4));
-      EXPECT_LE((v[a] - Point(0.1, 0.2, 0.3) - Point(0, 0, 2).cross(arm)).norm(), round_off<Real>(20));
+      EXPECT_LE((v[a] - Point(0.1, 0.2, 0.3) - Point(0, 0, 2).cross(arm)).norm(),
+                round_off<Real>(20));
     }
   }
   const auto surface = simulation.surface_positions(), speed = simulation.surface_velocities();
   for (std::size_t i = 0; i < surface.size(); ++i) {
     const Point arm = p.body.surface->vertices[i] - Point(0.05, 0.05, 0.05);
     EXPECT_LE((surface[i] - arm - Point(1, 2, 3)).norm(), round_off<Real>(8, 4));
-    EXPECT_LE((speed[i] - Point(0.1, 0.2, 0.3) - Point(0, 0, 2).cross(arm)).norm(), round_off<Real>(20));
+    EXPECT_LE((speed[i] - Point(0.1, 0.2, 0.3) - Point(0, 0, 2).cross(arm)).norm(),
+              round_off<Real>(20));
   }
 }
 
@@ -86,14 +88,17 @@ TYPED_TEST(BodyState, SetIsReadBackAndReachesTheCoarseLevels) {
     Eigen::Matrix3d A;
     A << 0.1, 0.02, 0, -0.02, 0.05, 0.01, 0, 0, -0.1;
     std::vector<Point> u, v;
-    for (const Point& x : p.body.levels[0].vertices) u.push_back(A * x), v.push_back(Point(1, 2, 3) + A * x);
+    for (const Point& x : p.body.levels[0].vertices)
+      u.push_back(A * x), v.push_back(Point(1, 2, 3) + A * x);
     simulation.set_state(u, v);
-    EXPECT_LE(largest_difference(displacements(simulation, p.body.levels[0]), u), round_off<Real>(4, 0.2));
+    EXPECT_LE(largest_difference(displacements(simulation, p.body.levels[0]), u),
+              round_off<Real>(4, 0.2));
     EXPECT_LE(largest_difference(simulation.velocities(), v), round_off<Real>(4, 4));
     if (std::string(cycle) == "single") continue;
     const auto coarse = displacements(simulation, p.body.levels[1], 1);
     for (std::size_t a = 0; a < coarse.size(); ++a)
-      EXPECT_LE((coarse[a] - A * p.body.levels[1].vertices[a]).norm(), round_off<Real>(8, 0.2)) << cycle;
+      EXPECT_LE((coarse[a] - A * p.body.levels[1].vertices[a]).norm(), round_off<Real>(8, 0.2))
+          << cycle;
   }
 }
 
@@ -105,8 +110,9 @@ TYPED_TEST(BodyState, SetOfAWrongLengthIsRefused) {
   EXPECT_THROW(simulation.set_state(moved, few), InputError);
   EXPECT_TRUE(same_bits(simulation.positions(), before)) << "nothing has changed";
   moved[2][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusal([&] { simulation.set_state(before, moved); }).find("velocities 2 is not finite"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal([&] { simulation.set_state(before, moved); }).find("velocities 2 is not finite"),
+      std::string::npos);
 }
 
 TYPED_TEST(BodyState, ReportsWhatWasDecided) {
@@ -142,7 +148,8 @@ TEST(Implicit, ReachesItsResidualOrCountsAMiss) {
   p.body.initial.angular_velocity = {0, 0, 10};
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.02;
-  p.integration.implicit.solver = "conjugate_gradients", p.integration.implicit.newton_iterations = 1;
+  p.integration.implicit.solver = "conjugate_gradients",
+  p.integration.implicit.newton_iterations = 1;
   for (double tolerance : {1e-3, 1e-9}) {
     p.integration.implicit.relative_residual = tolerance;
     Simulation<Host> simulation(p);
@@ -163,8 +170,8 @@ TEST(Implicit, ReachesItsResidualOrCountsAMiss) {
   EXPECT_EQ(exactly.counters().at("cg_misses"), 0);
 }
 
-// Newton's method to convergence solves the step's own equation M (v - v0) = h (f(u0 + h v) - c M v); a linear material
-// takes one iteration.
+// Newton's method to convergence solves the step's own equation M (v - v0) = h (f(u0 + h v) - c M
+// v); a linear material takes one iteration.
 void expect_step_solved(const std::string& material, int newton_iterations) {
   SCOPED_TRACE(material);
   Problem p = small_cube(material);
@@ -173,8 +180,9 @@ void expect_step_solved(const std::string& material, int newton_iterations) {
   p.body.damping.mass = 3;
   p.integration.integrator = {"implicit_euler"};
   p.integration.macro_step = 0.01;
-  p.integration.implicit = {
-      .relative_residual = 1e-11, .newton_iterations = newton_iterations, .newton_tolerance = 1e-12};
+  p.integration.implicit = {.relative_residual = 1e-11,
+                            .newton_iterations = newton_iterations,
+                            .newton_tolerance = 1e-12};
   Simulation<Host> simulation(p);
   advance(simulation, 5);
   const auto v0 = simulation.velocities();
@@ -185,14 +193,17 @@ void expect_step_solved(const std::string& material, int newton_iterations) {
   const auto m = probe.mass(), inverse = probe.inverse_mass();
   for (std::size_t a = 0; a < v.size(); ++a)
     if (inverse[a] > 0) {
-      EXPECT_LE((m[a] * (v[a] - v0[a]) - 0.01 * (f[a] - 3 * m[a] * v[a])).norm(), 1e-8 * 0.01 * 9.81) << a;
+      EXPECT_LE((m[a] * (v[a] - v0[a]) - 0.01 * (f[a] - 3 * m[a] * v[a])).norm(),
+                1e-8 * 0.01 * 9.81)
+          << a;
     }
 }
 
 TEST(Implicit, NewtonSolvesTheStep) { expect_step_solved("neo_hookean", 20); }
 TEST(Implicit, OneIterationSolvesALinearStep) { expect_step_solved("linear", 1); }
 
-// Velocity fields at the start: a twist and parts, wherever the body is placed; and levels that are not of one body.
+// Velocity fields at the start: a twist and parts, wherever the body is placed; and levels that are
+// not of one body.
 
 std::vector<Point> start_velocity(const Problem& p) { return Simulation<Host>(p).velocities(); }
 
@@ -226,7 +237,8 @@ TEST(InitialVelocity, AllPartsAddUpAndWhatIsFixedStays) {
 
 TEST(InitialVelocity, APartHasAVertexOfTheFinestLevel) {
   Problem p = cube_levels(2, 4, "rs");
-  p.body.initial.parts.push_back({BallSelection{{0.025, 0.1, 0.1}, 0.003}, {0, 0, 1}});  // none of level 1 is there
+  // none of level 1 is there
+  p.body.initial.parts.push_back({BallSelection{{0.025, 0.1, 0.1}, 0.003}, {0, 0, 1}});
   EXPECT_NO_THROW(start_velocity(p));
   p.body.initial.parts.push_back({BallSelection{{0.03, 0.1, 0.1}, 0.003}, {0, 0, 1}});
   const std::string text = refusal([&] { start_velocity(p); });
@@ -234,16 +246,19 @@ TEST(InitialVelocity, APartHasAVertexOfTheFinestLevel) {
 }
 
 TEST(LevelsOfOneBody, MustOverlap) {
-  Problem p = body_of({box_mesh(decimetre, {4, 4, 4}), box_mesh({{0.4, 0, 0}, {0.5, 0.1, 0.1}}, {2, 2, 2})});
+  Problem p = body_of(
+      {box_mesh(decimetre, {4, 4, 4}), box_mesh({{0.4, 0, 0}, {0.5, 0.1, 0.1}}, {2, 2, 2})});
   EXPECT_NO_THROW(Simulation<Host>{p});  // `single` does not look at the second
   p.integration.cycle = "rs";
   EXPECT_EQ(refusal([&] { Simulation<Host>{p}; }),
-            "body.levels: levels 0 and 1 do not overlap, they are 0.3 m apart; expected meshes of one body");
+            "body.levels: levels 0 and 1 do not overlap, they are 0.3 m apart; expected meshes of "
+            "one body");
   p.body.levels[1] = box_mesh({{0.02, 0, 0}, {0.12, 0.1, 0.1}}, {2, 2, 2});  // mostly
   EXPECT_NO_THROW(Simulation<Host>{p});
 }
 
-// A wrong scale or place of a coarse level is an error with the numbers; what round bodies differ by is at most a warning.
+// A wrong scale or place of a coarse level is an error with the numbers; what round bodies differ
+// by is at most a warning.
 TEST(LevelsOfOneBody, HaveOneSizeAndPlace) {
   Problem p = body_of({box_mesh(decimetre, {4, 4, 4}), box_mesh(decimetre, {2, 2, 2})});
   p.integration.cycle = "rs";
@@ -253,16 +268,20 @@ TEST(LevelsOfOneBody, HaveOneSizeAndPlace) {
     p.body.levels[1] = coarse;
     return refusal([&] { Simulation<Host>{p}; });
   };
-  EXPECT_EQ(
-      refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2})),
-      "body.levels: level 1 is not the body of level 0: 100 x 100 x 100 m, 1e+06 m^3, 1e+09 kg, centroid [50, 50, "
-      "50] instead of 0.1 x 0.1 x 0.1 m, 0.001 m^3, 1 kg, centroid [0.05, 0.05, 0.05]; is the file of level 1 in "
-      "mm? Then its scale is 0.001");
-  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {1e-3, 1e-3, 1e-3}}, {2, 2, 2})).find("the file of level 0 in cm?"),
+  EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2})),
+            "body.levels: level 1 is not the body of level 0: 100 x 100 x 100 m, 1e+06 m^3, 1e+09 "
+            "kg, centroid [50, 50, "
+            "50] instead of 0.1 x 0.1 x 0.1 m, 0.001 m^3, 1 kg, centroid [0.05, 0.05, 0.05]; is "
+            "the file of level 1 in "
+            "mm? Then its scale is 0.001");
+  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {1e-3, 1e-3, 1e-3}}, {2, 2, 2}))
+                .find("the file of level 0 in cm?"),
             std::string::npos);
-  EXPECT_NE(refused(box_mesh({{0.05, 0, 0}, {0.15, 0.1, 0.1}}, {2, 2, 2})).find("must lie at the same place"),
+  EXPECT_NE(refused(box_mesh({{0.05, 0, 0}, {0.15, 0.1, 0.1}}, {2, 2, 2}))
+                .find("must lie at the same place"),
             std::string::npos);
-  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.04}}, {2, 2, 2})).find("0.1 x 0.1 x 0.04 m"), std::string::npos);
+  EXPECT_NE(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.04}}, {2, 2, 2})).find("0.1 x 0.1 x 0.04 m"),
+            std::string::npos);
   p.integration.cycle = "single";  // does not look at the second
   EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {100, 100, 100}}, {2, 2, 2})), "");
   EXPECT_TRUE(other_doubts(p).empty());
@@ -270,7 +289,8 @@ TEST(LevelsOfOneBody, HaveOneSizeAndPlace) {
   EXPECT_EQ(refused(box_mesh({{0, 0, 0}, {0.1, 0.1, 0.08}}, {2, 2, 2})), "");
   ASSERT_EQ(other_doubts(p).size(), 1);
   EXPECT_EQ(other_doubts(p)[0],
-            "body.levels: level 1 differs from level 0: 0.1 x 0.1 x 0.08 m, 0.0008 m^3, 0.8 kg, centroid [0.05, 0.05, "
+            "body.levels: level 1 differs from level 0: 0.1 x 0.1 x 0.08 m, 0.0008 m^3, 0.8 kg, "
+            "centroid [0.05, 0.05, "
             "0.04] instead of 0.1 x 0.1 x 0.1 m, 0.001 m^3, 1 kg, centroid [0.05, 0.05, 0.05]");
 }
 
@@ -296,8 +316,8 @@ TYPED_TEST_SUITE(DeviceArrays, EachBackend);
 template <class View>
 std::vector<Point> host_copy(const View& view) {
   Kokkos::fence();
-  const Kokkos::View<typename View::value_type**, Kokkos::LayoutRight, typename View::memory_space> packed(
-      "packed", view.extent(0), 3);
+  const Kokkos::View<typename View::value_type**, Kokkos::LayoutRight, typename View::memory_space>
+      packed("packed", view.extent(0), 3);
   Kokkos::deep_copy(packed, Kokkos::subview(view, Kokkos::ALL, Kokkos::pair<int, int>(0, 3)));
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), packed);
   std::vector<Point> points;
@@ -324,12 +344,14 @@ TYPED_TEST(DeviceArrays, OfEveryLayoutAndPrecisionAreFilled) {
     const auto n = simulation.positions(level).size();
     const Kokkos::View<float* [3], Kokkos::LayoutRight, Memory> right("right", n);
     const Kokkos::View<double* [3], Kokkos::LayoutLeft, Memory> left("left", n);
-    const Kokkos::View<double**, Kokkos::LayoutRight, Memory> wide("wide", n, 8);  // part of a structure of 8 numbers
+    // part of a structure of 8 numbers
+    const Kokkos::View<double**, Kokkos::LayoutRight, Memory> wide("wide", n, 8);
     const auto columns = Kokkos::subview(wide, Kokkos::ALL, Kokkos::pair<int, int>(2, 5));
     simulation.read_positions(right, level);
     simulation.read_velocities(left, level);
     simulation.read_positions(columns, level);
-    EXPECT_LE(largest_difference(host_copy(right), simulation.positions(level)), round_off<float>(4, 3));
+    EXPECT_LE(largest_difference(host_copy(right), simulation.positions(level)),
+              round_off<float>(4, 3));
     EXPECT_EQ(host_copy(left), simulation.velocities(level));
     EXPECT_LE(largest_difference(host_copy(columns), simulation.positions(level)),
               round_off<typename TypeParam::Real>(4, 3));
@@ -340,11 +362,14 @@ TYPED_TEST(DeviceArrays, HoldTheSurface) {
   Simulation<TypeParam> simulation(thrown_cube<TypeParam>());
   advance(simulation, 3);
   const auto n = simulation.surface_positions().size();
-  const Kokkos::View<float*[3], Kokkos::LayoutRight, typename TypeParam::Memory> x("x", n), v("v", n);
+  const Kokkos::View<float*[3], Kokkos::LayoutRight, typename TypeParam::Memory> x("x", n),
+      v("v", n);
   simulation.read_surface_positions(x);
   simulation.read_surface_velocities(v);
-  EXPECT_LE(largest_difference(host_copy(x), simulation.surface_positions()), round_off<float>(4, 3));
-  EXPECT_LE(largest_difference(host_copy(v), simulation.surface_velocities()), round_off<float>(4, 3));
+  EXPECT_LE(largest_difference(host_copy(x), simulation.surface_positions()),
+            round_off<float>(4, 3));
+  EXPECT_LE(largest_difference(host_copy(v), simulation.surface_velocities()),
+            round_off<float>(4, 3));
 }
 
 // what is written continues as if it had been set from the host
@@ -361,7 +386,8 @@ TYPED_TEST(DeviceArrays, ReplaceTheState) {
     source.read_velocities(v);
     auto moved = host_copy(u);
     from_host.set_state(moved, source.velocities());
-    from_device.write_state(Kokkos::View<const double* [3], Kokkos::LayoutLeft, typename TypeParam::Memory>(x), v);
+    from_device.write_state(
+        Kokkos::View<const double* [3], Kokkos::LayoutLeft, typename TypeParam::Memory>(x), v);
     advance(from_host, 4);
     advance(from_device, 4);
     const double scale = 2e-3;  // of the differences that round-off of positions a metre away makes
@@ -383,7 +409,8 @@ TYPED_TEST(DeviceArrays, OfAnotherSizeAreRefused) {
   EXPECT_THROW(simulation.write_state(Vectors<TypeParam>("x", before.size()), few), InputError);
   EXPECT_EQ(simulation.positions(), before);
   EXPECT_THROW(simulation.read_positions(simulation.velocity(1), 2), InputError);
-  const Kokkos::View<float**, typename TypeParam::Memory> flat("flat", simulation.positions().size(), 2);
+  const Kokkos::View<float**, typename TypeParam::Memory> flat("flat",
+                                                               simulation.positions().size(), 2);
   EXPECT_THROW(simulation.read_positions(flat), InputError);
 }
 

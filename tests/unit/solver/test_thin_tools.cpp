@@ -28,9 +28,11 @@ using namespace plica::test;
 
 Vec3<double> vec(const Point& p) { return {p[0], p[1], p[2]}; }
 
-// --- Where a triangle is deepest --------------------------------------------------------------------------------------------
+// --- Where a triangle is deepest
+// --------------------------------------------------------------------------------------------
 
-// Nowhere else on a triangle is it deeper, for solids of any place and direction: against a fine grid.
+// Nowhere else on a triangle is it deeper, for solids of any place and direction: against a fine
+// grid.
 TEST(DeepestOnTriangle, IsNowhereElse) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -38,7 +40,9 @@ TEST(DeepestOnTriangle, IsNowhereElse) {
   for (int n = 0; n < 300; ++n) {
     const Vec3<double> a = vec(point()), b = vec(point()), c = vec(point());
     const auto compare = [&](const auto& shape) {
-      const auto at = [&](double s, double q) { return shape(a + s * ((b - a) + q * (c - b))).distance; };
+      const auto at = [&](double s, double q) {
+        return shape(a + s * ((b - a) + q * (c - b))).distance;
+      };
       double least = 1e9;
       for (int i = 0; i <= 60; ++i)
         for (int j = 0; j <= 60; ++j) least = std::min(least, at(i / 60.0, j / 60.0));
@@ -53,7 +57,8 @@ TEST(DeepestOnTriangle, IsNowhereElse) {
   }
 }
 
-// --- Tools ------------------------------------------------------------------------------------------------------------------
+// --- Tools
+// ------------------------------------------------------------------------------------------------------------------
 
 constexpr double edge = 0.01, top = 0.04;
 
@@ -76,11 +81,13 @@ ShapeOptions needle(const Point& tip, double radius) {
   return CapsuleOptions{low, low + Point(0, 0, 0.1), radius};
 }
 
-/// Three places of one triangle of the top: in its middle, in the middle of its longest edge, on a point.
-const Point in_face(0.04 + edge / 3, 0.04 + edge / 3, top), on_edge(0.04 + edge / 2, 0.04 + edge / 2, top),
-    on_point(0.04, 0.04, top);
+/// Three places of one triangle of the top: in its middle, in the middle of its longest edge, on a
+/// point.
+const Point in_face(0.04 + edge / 3, 0.04 + edge / 3, top),
+    on_edge(0.04 + edge / 2, 0.04 + edge / 2, top), on_point(0.04, 0.04, top);
 
-Point pushed(Problem p, const ObstacleOptions& tool, double time, const std::string& rule = "auto") {
+Point pushed(Problem p, const ObstacleOptions& tool, double time,
+             const std::string& rule = "auto") {
   p.contact.obstacles = {tool};
   p.contact.whole_surface = rule;
   Simulation<Host> simulation(p);
@@ -88,8 +95,9 @@ Point pushed(Problem p, const ObstacleOptions& tool, double time, const std::str
   return simulation.wrenches()[0].force;
 }
 
-// A needle of a tenth of an edge comes down by half an edge where no point is. It must be stopped: the block pushes it as it would
-// on a point, where the block is a little stiffer or softer, and not as without.
+// A needle of a tenth of an edge comes down by half an edge where no point is. It must be stopped:
+// the block pushes it as it would on a point, where the block is a little stiffer or softer, and
+// not as without.
 TEST(ThinTools, DoNotPassBetweenPoints) {
   const Point want = pushed(block(), lowered(needle(on_point, 0.1 * edge), 0.5 * edge, 0.05), 0.1);
   for (const Point& place : {in_face, on_edge}) {
@@ -101,17 +109,20 @@ TEST(ThinTools, DoNotPassBetweenPoints) {
   }
 }
 
-// A ball of one and a half edges, pressed in by an edge by implicit steps of many critical ones: the force comes to rest, at the same value by
-// any step, and is near that of explicit steps.
+// A ball of one and a half edges, pressed in by an edge by implicit steps of many critical ones:
+// the force comes to rest, at the same value by any step, and is near that of explicit steps.
 TEST(ThinTools, PushSteadilyInLongSteps) {
   Problem p = block();
   p.body.material.poisson_ratio = 0.45;
-  p.contact.obstacles = {lowered(SphereOptions{in_face + Point(0, 0, 1.5 * edge), 1.5 * edge}, edge, 0.1)};
+  p.contact.obstacles = {
+      lowered(SphereOptions{in_face + Point(0, 0, 1.5 * edge), 1.5 * edge}, edge, 0.1)};
   p.contact.stiffness_scale = 2;
   const double want = pushed(p, p.contact.obstacles[0], 0.4).norm();
   std::vector<double> at_rest;
-  const std::vector<std::pair<std::string, double>> cases{
-      {"implicit_euler", 0.004}, {"implicit_euler", 0.01}, {"implicit_euler", 0.016}, {"bdf2", 0.01}};
+  const std::vector<std::pair<std::string, double>> cases{{"implicit_euler", 0.004},
+                                                          {"implicit_euler", 0.01},
+                                                          {"implicit_euler", 0.016},
+                                                          {"bdf2", 0.01}};
   for (const auto& [integrator, step] : cases) {
     p.integration.integrator = {integrator}, p.integration.macro_step = step;
     Simulation<Host> s(p);
@@ -130,13 +141,14 @@ TEST(ThinTools, PushSteadilyInLongSteps) {
   EXPECT_NEAR(at_rest.back(), at_rest.front(), 0.02 * at_rest.front());
 }
 
-// Sweeps leave contact softer the longer the step. A step that ends early keeps to a whole one's forces: what is at rest in whole steps is
-// not pushed out.
+// Sweeps leave contact softer the longer the step. A step that ends early keeps to a whole one's
+// forces: what is at rest in whole steps is not pushed out.
 TEST(ThinTools, PushNoHarderInAStepThatEndsEarly) {
   Problem p = block();
   p.body.element = {"nodal"};
   p.body.material.poisson_ratio = 0.45;
-  p.contact.obstacles = {lowered(SphereOptions{in_face + Point(0, 0, 1.5 * edge), 1.5 * edge}, edge, 0.1)};
+  p.contact.obstacles = {
+      lowered(SphereOptions{in_face + Point(0, 0, 1.5 * edge), 1.5 * edge}, edge, 0.1)};
   p.contact.stiffness_scale = 10;
   Simulation<Host> s(p);
   const auto fastest = [&] {
@@ -174,19 +186,23 @@ TEST(ThinTools, StopTheBodyInEveryCycle) {
     double lowest = top;
     for (const Point& x : s.surface_positions())
       if ((x - in_face).norm() < edge) lowest = std::min(lowest, x[2]);
-    EXPECT_LT(lowest, top - 0.4 * edge) << cycle;  // the needle took the corners of its triangle along
+    // the needle took the corners of its triangle along
+    EXPECT_LT(lowest, top - 0.4 * edge) << cycle;
   }
 }
 
 // Where a tool is flat and wide, nothing is added to what points do.
 TEST(ThinTools, AddNothingToFlatTools) {
-  const auto tool = lowered(BlockOptions{{0.04, 0.04, top + 0.01}, {0.2, 0.2, 0.02}, {0, 0, 0}}, 0.3 * edge, 0.05);
-  const Point points = pushed(block(), tool, 0.1, "never"), whole = pushed(block(), tool, 0.1, "always");
+  const auto tool = lowered(BlockOptions{{0.04, 0.04, top + 0.01}, {0.2, 0.2, 0.02}, {0, 0, 0}},
+                            0.3 * edge, 0.05);
+  const Point points = pushed(block(), tool, 0.1, "never"),
+              whole = pushed(block(), tool, 0.1, "always");
   EXPECT_LT(points[2], -1);
   EXPECT_EQ(points, whole);
 }
 
-// A ball as wide as three edges is pressed in by more than its radius. Points alone are pushed aside until it is between them.
+// A ball as wide as three edges is pressed in by more than its radius. Points alone are pushed
+// aside until it is between them.
 TEST(ThinTools, BluntOnesStayOutsideToo) {
   Problem p = block();
   p.body.material.poisson_ratio = 0.49;
@@ -222,7 +238,8 @@ TEST(ThinTools, TellHowDeepTheyAre) {
 TEST(ThinTools, AreSeenWhereTheyCameThroughTheSurface) {
   Problem p = block();
   const Point inside(0.041, 0.042, top / 2), outside(0.041, 0.042, 2 * top);
-  p.contact.obstacles = {{SphereOptions{outside, 0.3 * edge}, {}, {}}, {SphereOptions{outside, 0.3 * edge}, {}, {}}};
+  p.contact.obstacles = {{SphereOptions{outside, 0.3 * edge}, {}, {}},
+                         {SphereOptions{outside, 0.3 * edge}, {}, {}}};
   Simulation<Host> s(p);
   EXPECT_TRUE(obstacles_inside(s, p, s.contact_depths()).empty());
   s.set_obstacle_motion(1, PathMotion{{{0, inside - outside}}});
@@ -249,7 +266,8 @@ TriangleSurface cut(TriangleSurface surface, int times) {
     TriangleSurface finer{surface.vertices, {}};
     std::map<std::pair<int, int>, int> between;
     const auto middle = [&](int a, int b) {
-      const auto [at, added] = between.emplace(std::minmax(a, b), static_cast<int>(finer.vertices.size()));
+      const auto [at, added] =
+          between.emplace(std::minmax(a, b), static_cast<int>(finer.vertices.size()));
       const auto x = [&](int v) { return surface.vertices[static_cast<std::size_t>(v)]; };
       if (added) finer.vertices.push_back((x(a) + x(b)) / 2);
       return at->second;
@@ -264,13 +282,15 @@ TriangleSurface cut(TriangleSurface surface, int times) {
   return surface;
 }
 
-// What the whole surface gives is what very many points give on the same mesh: they leave nothing between them.
+// What the whole surface gives is what very many points give on the same mesh: they leave nothing
+// between them.
 TEST(ThinTools, AreTouchedAsByManyPoints) {
   const auto compare = [](const ShapeOptions& shape, double way, int cuts, double tolerance) {
     const auto tool = lowered(shape, way, 0.05);
     Problem fine = block();
     fine.body.surface = cut(*fine.body.surface, cuts);
-    const Point want = pushed(fine, tool, 0.2, "never"), whole = pushed(block(), tool, 0.2, "always");
+    const Point want = pushed(fine, tool, 0.2, "never"),
+                whole = pushed(block(), tool, 0.2, "always");
     EXPECT_NEAR(whole[2], want[2], tolerance * std::abs(want[2]));
   };
   compare(SphereOptions{on_point + Point(0, 0, 3 * edge), 3 * edge}, 0.5 * edge, 2, 0.08);
@@ -279,12 +299,14 @@ TEST(ThinTools, AreTouchedAsByManyPoints) {
 
 /// Thrown at two needles.
 Problem thrown(const char* cycle) {
-  Problem p = body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {3, 3, 3})}, "neo_hookean");
+  Problem p = body_of({jittered_box(decimetre, {5, 5, 5}), jittered_box(decimetre, {3, 3, 3})},
+                      "neo_hookean");
   p.integration.cycle = cycle;
   p.body.surface = boundary_surface(p.body.levels[0]).surface;
   p.body.initial.velocity = {0, 0, -0.15};
   for (const Point& at : {Point(0.033, 0.047, 0), Point(0.065, 0.053, 0)})
-    p.contact.obstacles.push_back({CapsuleOptions{at - Point(0, 0, 0.053), at - Point(0, 0, 0.003), 0.002}, 0.3, {}});
+    p.contact.obstacles.push_back(
+        {CapsuleOptions{at - Point(0, 0, 0.053), at - Point(0, 0, 0.003), 0.002}, 0.3, {}});
   return p;
 }
 
@@ -312,7 +334,8 @@ TYPED_TEST(ThinWrenches, AreTheChangeOfMomentum) {
       const auto wrenches = simulation.wrenches();
       const Point by = wrenches[0].force + wrenches[1].force;
       const double rounding = round_off<Real>(400, 1.0) / simulation.macro_step();
-      EXPECT_LE((gained - by).norm(), rounding + round_off<Real>(100, by.norm())) << cycle << ", step " << n;
+      EXPECT_LE((gained - by).norm(), rounding + round_off<Real>(100, by.norm()))
+          << cycle << ", step " << n;
       most = std::max(most, wrenches[0].force.norm());
       before = after;
     }
@@ -337,7 +360,8 @@ TEST(ThinTools, GiveTheSameBitsForAnyNumberOfThreads) {
     };
     const auto one = result(1);
     for (int threads = 2; threads <= std::min(3, Kokkos::OpenMP().concurrency()); ++threads)
-      EXPECT_TRUE(same_bits(one, result(threads))) << p.integration.cycle << ", " << threads << " threads";
+      EXPECT_TRUE(same_bits(one, result(threads)))
+          << p.integration.cycle << ", " << threads << " threads";
   }
 }
 #endif

@@ -14,7 +14,8 @@
 #include "support/simulate.hpp"
 #include "support/tolerance.hpp"
 
-// Obstacles with mass and inertia: torques turn them, and a coupling pulls them to the attitude of their turn.
+// Obstacles with mass and inertia: torques turn them, and a coupling pulls them to the attitude of
+// their turn.
 namespace {
 
 using namespace plica;
@@ -66,7 +67,8 @@ TEST(ToolsThatTurn, FollowTheirTurnAsTheSpringLetsThem) {
 TEST(ToolsThatTurn, GoRoundThePointOfTheirTurn) {
   Problem p = block_and_rod();
   ObstacleOptions& rod = p.contact.obstacles[0];
-  rod.turn = Turn{Point::UnitZ(), Point(-0.06, 0.04, 1), Point::Zero(), PathTurn{{{0, 0}, {0.2, 0.8}}}};
+  rod.turn =
+      Turn{Point::UnitZ(), Point(-0.06, 0.04, 1), Point::Zero(), PathTurn{{{0, 0}, {0.2, 0.8}}}};
   rod.coupling = {1000, {}, 1.0, {}};
   Simulation<Host> s(p);
   while (s.time() < 0.4) advance(s, 10);
@@ -76,7 +78,8 @@ TEST(ToolsThatTurn, GoRoundThePointOfTheirTurn) {
   EXPECT_NEAR(tool.displacement[1], 0.06 * std::sin(0.8), 1e-4);
 }
 
-/// A free one, pushed at its end as a soft body comes by: what the body loses of linear and angular momentum it gets.
+/// A free one, pushed at its end as a soft body comes by: what the body loses of linear and angular
+/// momentum it gets.
 Problem pushed_at_its_end(const std::string& integrator) {
   Problem p = block_and_rod();
   p.body.initial.velocity = {0, 0.2, 0.5};
@@ -89,7 +92,8 @@ Problem pushed_at_its_end(const std::string& integrator) {
 
 TEST(ToolsThatTurn, KeepLinearAndAngularMomentum) {
   // implicit steps keep them as far as they are solved
-  for (const auto& [integrator, solved] : {std::pair{"symplectic_euler", 1e-9}, {"implicit_euler", 2e-3}}) {
+  for (const auto& [integrator, solved] :
+       {std::pair{"symplectic_euler", 1e-9}, {"implicit_euler", 2e-3}}) {
     SCOPED_TRACE(integrator);
     const Problem p = pushed_at_its_end(integrator);
     const ObstacleOptions& rod = p.contact.obstacles[0];
@@ -101,7 +105,8 @@ TEST(ToolsThatTurn, KeepLinearAndAngularMomentum) {
       Point linear = *rod.mass * tool.velocity,
             angular = Point(origin + tool.displacement).cross(linear) + spin_of(rod, tool);
       const auto x = s.positions(), v = s.velocities();
-      for (std::size_t a = 0; a < v.size(); ++a) linear += mass[a] * v[a], angular += mass[a] * x[a].cross(v[a]);
+      for (std::size_t a = 0; a < v.size(); ++a)
+        linear += mass[a] * v[a], angular += mass[a] * x[a].cross(v[a]);
       return std::pair{linear, angular};
     };
     const auto start = momenta();
@@ -133,7 +138,8 @@ TEST(ToolsThatTurn, SpinFreely) {
   ASSERT_TRUE(s.wrenches()[0].force.isZero());
   EXPECT_LT((spin_of(rod, after) - L).norm(), 1e-10 * L.norm());
   EXPECT_NEAR(spin_of(rod, after).dot(after.angular_velocity) / 2, energy, 0.01 * energy);
-  EXPECT_GT((rotation_vector(rotation_by(after.rotation) * rotation_by(-before.rotation))).norm(), 0.1);
+  EXPECT_GT((rotation_vector(rotation_by(after.rotation) * rotation_by(-before.rotation))).norm(),
+            0.1);
 }
 
 TEST(ToolsThatTurn, GoOnFromASavedState) {
@@ -163,7 +169,8 @@ TEST(ToolsThatTurn, AreRefusedWhereTheyCannotBe) {
   expect(why([](auto& o) { o.inertia = {1e-4, 1e-4, 3e-4}; }), "none larger than the sum");
   expect(why([](auto& o) { o.inertia = {1e-4, 1e-4, -1e-4}; }), "positive");
   expect(why([](auto& o) { o.inertia = {}, o.turn = Turn{}; }), "contact.obstacles.0.inertia");
-  expect(why([](auto& o) { o.inertia = {}, o.coupling.angular_stiffness = 1; }), "contact.obstacles.0.inertia");
+  expect(why([](auto& o) { o.inertia = {}, o.coupling.angular_stiffness = 1; }),
+         "contact.obstacles.0.inertia");
   expect(why([](auto& o) { o.coupling.angular_stiffness = 1e6; }), "least moment of inertia");
 }
 

@@ -43,8 +43,10 @@ double largest_difference(const std::vector<Point>& a, const std::vector<Point>&
 /// A plate above the cube holds its top, and turns about a hinge beside it.
 Problem carried(const Turn& turn) {
   Problem p = cube();
-  ObstacleOptions plate{BlockOptions{{side / 2, side / 2, side + 0.0105}, {0.2, 0.2, 0.02}, {0, 0, 0}}, {}, {}};
-  plate.name = "plate", plate.grasp = GraspOptions{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = {}};
+  ObstacleOptions plate{
+      BlockOptions{{side / 2, side / 2, side + 0.0105}, {0.2, 0.2, 0.02}, {0, 0, 0}}, {}, {}};
+  plate.name = "plate",
+  plate.grasp = GraspOptions{.from = {0}, .until = {}, .reach = 1e-3, .stiffness = {}};
   plate.turn = turn;
   p.contact.obstacles = {plate};
   p.integration.macro_step = 2e-4;
@@ -60,7 +62,8 @@ TEST(TurnedByTools, CarryAndTurnWhatTheyHold) {
     Problem p = carried(quarter);
     p.body.damping.mass = 20;
     p.integration.cycle = cycle;
-    if (p.integration.cycle != "single") p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
+    if (p.integration.cycle != "single")
+      p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
     Simulation<Host> s(p);
     while (s.time() < 0.8) advance(s, 1);
     ASSERT_EQ(s.held()[0].points.size(), 25u);
@@ -73,7 +76,8 @@ TEST(TurnedByTools, CarryAndTurnWhatTheyHold) {
   }
 }
 
-// Angular momentum changes by the wrench's torque about the plate's centre, which turns with it: by leapfrog to rounding.
+// Angular momentum changes by the wrench's torque about the plate's centre, which turns with it: by
+// leapfrog to rounding.
 TEST(TurnedByTools, TorqueIsTheChangeOfAngularMomentum) {
   Problem p = carried({{1, 2, 0}, hinge, {0, 0, 0}, SineTurn{0.5, 4, 0.3}});
   p.contact.obstacles[0].motion = SteadyMotion{Point(0.1, 0, 0)};
@@ -92,13 +96,16 @@ TEST(TurnedByTools, TorqueIsTheChangeOfAngularMomentum) {
     advance(s, 1);
     const Point now = turning();
     const Wrench w = s.wrenches()[0];
-    EXPECT_LE((now - before - 2e-4 * (w.torque + at.cross(w.force))).norm(), round_off<double>(20000, 0.01)) << n;
+    EXPECT_LE((now - before - 2e-4 * (w.torque + at.cross(w.force))).norm(),
+              round_off<double>(20000, 0.01))
+        << n;
     before = now, most = std::max(most, w.torque.norm());
   }
   EXPECT_GT(most, 0.01);
 }
 
-// The work of the plate, its force times the way of its centre and its torque times its angle, is the energy that the body gets.
+// The work of the plate, its force times the way of its centre and its torque times its angle, is
+// the energy that the body gets.
 TEST(TurnedByTools, WorkIsTheEnergyOfTheBody) {
   Problem p = carried({{1, 2, 0}, hinge, {0, 0, 0}, SineTurn{0.3, 4, 0}});
   p.contact.damping_scale = 0;
@@ -123,7 +130,8 @@ TEST(TurnedByTools, GoOnFromASavedState) {
   for (const char* cycle : {"single", "him"}) {
     Problem p = carried({{1, 2, 0}, hinge, {0, 0, 0.1}, SineTurn{0.3, 4, 0}});
     p.integration.cycle = cycle;
-    if (p.integration.cycle == "him") p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
+    if (p.integration.cycle == "him")
+      p.body.levels.push_back(box_mesh({{0, 0, 0}, {side, side, side}}, {2, 2, 2}));
     Simulation<Host> s(p), other(p);
     advance(s, 100);
     const SavedState saved = s.save();
@@ -134,9 +142,11 @@ TEST(TurnedByTools, GoOnFromASavedState) {
   }
 }
 
-// --- By a program -----------------------------------------------------------------------------------------------------------
+// --- By a program
+// -----------------------------------------------------------------------------------------------------------
 
-// Turned step by step to the angles of a path, with a displacement beside it, it goes as by the path.
+// Turned step by step to the angles of a path, with a displacement beside it, it goes as by the
+// path.
 TEST(TurnedByTools, GoByAProgramAsByAPath) {
   const Point velocity(0.02, 0, 0.01), along = Point(1, 2, 0).normalized();
   Problem by_path = carried({{1, 2, 0}, hinge, {0, 0, 0}, SteadyTurn{2}}), by_program = by_path;

@@ -27,16 +27,19 @@ struct Bad {
   std::vector<std::string> says;
 };
 
-const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+const double nan = std::numeric_limits<double>::quiet_NaN(),
+             infinite = std::numeric_limits<double>::infinity();
 
 const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.body.levels.clear(); }, {"body.levels", "at least one mesh"}},
     {[](Problem& p) { p.body.levels[0].tets.clear(); }, {"level 0 has no tetrahedron"}},
-    {[](Problem& p) { p.body.material.model = "neohookean"; }, {"neohookean", "did you mean 'neo_hookean'?"}},
+    {[](Problem& p) { p.body.material.model = "neohookean"; },
+     {"neohookean", "did you mean 'neo_hookean'?"}},
     {[](Problem& p) { p.body.material.young_modulus = -1; },
      {"body.material.young_modulus is -1 Pa", "expected a pressure (Pa) > 0"}},
     {[](Problem& p) { p.body.material.young_modulus = nan; }, {"body.material.young_modulus is"}},
-    {[](Problem& p) { p.body.material.poisson_ratio = 0.5; }, {"body.material.poisson_ratio is 0.5", "in [0, 0.5)"}},
+    {[](Problem& p) { p.body.material.poisson_ratio = 0.5; },
+     {"body.material.poisson_ratio is 0.5", "in [0, 0.5)"}},
     {[](Problem& p) { p.body.material.density = 0; }, {"body.material.density is 0"}},
     {[](Problem& p) { p.body.material.density = infinite; }, {"body.material.density is inf"}},
     {[](Problem& p) { p.body.regions["fat"]; }, {"unknown region 'fat'"}},
@@ -64,20 +67,26 @@ const std::vector<Bad> bad_problems = {
     {[](Problem& p) { p.integration.distribution = "equl"; }, {"did you mean 'equal'?"}},
     {[](Problem& p) { p.integration.integrator = {"rk44"}; }, {"did you mean 'rk4'?"}},
     {[](Problem& p) { p.integration.integrator = {}; },
-     {"integration.integrator: expected one for all or one for each level (1 in body.levels), got a list of 0"}},
+     {"integration.integrator: expected one for all or one for each level (1 in body.levels), got "
+      "a list of 0"}},
     {[](Problem& p) {
        p.integration.substeps = {1, 2, 3};
      },
-     {"integration.substeps: expected one for all or one for each level (1 in body.levels), got a list of 3"}},
+     {"integration.substeps: expected one for all or one for each level (1 in body.levels), got a "
+      "list of 3"}},
     {[](Problem& p) { p.integration.substeps = {-1}; }, {"integration.substeps is -1"}},
     {[](Problem& p) { p.integration.macro_step = 0; }, {"integration.macro_step is 0"}},
-    {[](Problem& p) { p.integration.shift_to_coarsest = 1; }, {"integration.shift_to_coarsest is 1"}},
+    {[](Problem& p) { p.integration.shift_to_coarsest = 1; },
+     {"integration.shift_to_coarsest is 1"}},
     {[](Problem& p) { p.integration.safety = 1.1; }, {"integration.safety is 1.1"}},
     {[](Problem& p) { p.integration.switch_threshold = 0; }, {"integration.switch_threshold is 0"}},
     {[](Problem& p) { p.integration.outside = "clip"; }, {"clip", "clamp"}},
-    {[](Problem& p) { p.integration.implicit.relative_residual = 1; }, {"integration.implicit.relative_residual is 1"}},
-    {[](Problem& p) { p.integration.implicit.max_iterations = 0; }, {"integration.implicit.max_iterations is 0"}},
-    {[](Problem& p) { p.integration.implicit.newton_iterations = -1; }, {"newton_iterations is -1"}},
+    {[](Problem& p) { p.integration.implicit.relative_residual = 1; },
+     {"integration.implicit.relative_residual is 1"}},
+    {[](Problem& p) { p.integration.implicit.max_iterations = 0; },
+     {"integration.implicit.max_iterations is 0"}},
+    {[](Problem& p) { p.integration.implicit.newton_iterations = -1; },
+     {"newton_iterations is -1"}},
     {[](Problem& p) {
        p.contact.obstacles.push_back({SphereOptions{}, {}, {}});
      },
@@ -110,11 +119,13 @@ TEST(Validate, ChecksTheMeshesOfACaller) {
   };
   EXPECT_EQ(after([](TetMesh& m) { m.tets[3][0] = 100000; }),
             "body.levels: level 0: tetrahedron 3 has vertex 100000 of 64");
-  EXPECT_EQ(after([](TetMesh& m) { m.tets[3][0] = -1; }), "body.levels: level 0: tetrahedron 3 has vertex -1 of 64");
+  EXPECT_EQ(after([](TetMesh& m) { m.tets[3][0] = -1; }),
+            "body.levels: level 0: tetrahedron 3 has vertex -1 of 64");
   EXPECT_EQ(after([](TetMesh& m) { m.vertices[5][1] = nan; }),
             "body.levels: level 0: vertex 5 is not at a finite place");
-  EXPECT_EQ(after([](TetMesh& m) { std::swap(m.tets[7][0], m.tets[7][1]); }),
-            "body.levels: level 0: tetrahedron 7 is flat or inside out; expected a positive volume");
+  EXPECT_EQ(
+      after([](TetMesh& m) { std::swap(m.tets[7][0], m.tets[7][1]); }),
+      "body.levels: level 0: tetrahedron 7 is flat or inside out; expected a positive volume");
   EXPECT_EQ(after([](TetMesh& m) { m.vertices.emplace_back(9, 9, 9); }),
             "body.levels: level 0: no tetrahedron has vertex 64");
   EXPECT_EQ(after([](TetMesh& m) { m.region = {0}; }),
@@ -131,7 +142,8 @@ TEST(Validate, DoubtsLevelsThatDoNotCoarsen) {
   p.body.levels[1] = p.body.levels[0];
   ASSERT_EQ(other_doubts(p).size(), 1);
   EXPECT_EQ(other_doubts(p)[0],
-            "body.levels: level 1 is not coarser than level 0: 384 tetrahedra after 384; expected the finest first");
+            "body.levels: level 1 is not coarser than level 0: 384 tetrahedra after 384; expected "
+            "the finest first");
   std::swap(p.body.levels[0], p.body.levels[2]);
   EXPECT_EQ(other_doubts(p).size(), 2);  // 2, 4 and 4 cells a side
 }
@@ -140,8 +152,9 @@ TEST(Validate, DoubtsPathsThatStartElsewhere) {
   Problem p = small_cube();
   p.body.prescribed = {{left_face(), PathMotion{{{0.1, {0, 0, 1e-3}}}}}};
   ASSERT_EQ(other_doubts(p).size(), 1);
-  EXPECT_EQ(other_doubts(p)[0],
-            "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
+  EXPECT_EQ(
+      other_doubts(p)[0],
+      "body.prescribed.0.path does not start at [0, 0, 0]: the vertices jump there at the start");
 }
 
 TEST(Validate, ChecksMotionsLoadsAndSelections) {
@@ -154,9 +167,12 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
   EXPECT_EQ(motion(PathMotion{{{0, {0, 0, 0}}, {1, {0, 0, 1}}}}), "");
   EXPECT_EQ(motion(PathMotion{}), "body.prescribed.0.path is empty; expected at least one time");
   EXPECT_EQ(motion(PathMotion{{{0.5, {0, 0, 0}}, {0.5, {0, 0, 1}}}}),
-            "body.prescribed.0.path.1.time is 0.5 s; expected a time after that of the entry before, 0.5 s");
-  EXPECT_EQ(motion(PathMotion{{{-1, {0, 0, 0}}}}), "body.prescribed.0.path.0.time is -1 s; expected a time (s) >= 0");
-  EXPECT_EQ(motion(PathMotion{{{0, {nan, 0, 0}}}}).substr(0, 41), "body.prescribed.0.path.0.displacement is ");
+            "body.prescribed.0.path.1.time is 0.5 s; expected a time after that of the entry "
+            "before, 0.5 s");
+  EXPECT_EQ(motion(PathMotion{{{-1, {0, 0, 0}}}}),
+            "body.prescribed.0.path.0.time is -1 s; expected a time (s) >= 0");
+  EXPECT_EQ(motion(PathMotion{{{0, {nan, 0, 0}}}}).substr(0, 41),
+            "body.prescribed.0.path.0.displacement is ");
   EXPECT_EQ(motion(SineMotion{{1, 0, 0}, 0, 0}),
             "body.prescribed.0.sine.frequency is 0 1/s; expected a rate (1/s) > 0");
   const auto load = [&](const LoadOptions& o) {
@@ -166,13 +182,16 @@ TEST(Validate, ChecksMotionsLoadsAndSelections) {
   };
   EXPECT_EQ(load({all, Traction{{1, 0, 0}}, {}}), "");
   EXPECT_EQ(load({all, Traction{{nan, 0, 0}}, {}}).substr(0, 25), "body.loads.0.traction is ");
-  EXPECT_EQ(load({all, TotalForce{}, RampCourse{0}}), "body.loads.0.ramp is 0 s; expected a time (s) > 0");
+  EXPECT_EQ(load({all, TotalForce{}, RampCourse{0}}),
+            "body.loads.0.ramp is 0 s; expected a time (s) > 0");
   PolygonCourse backwards;
   backwards.knots.resize(2);
   backwards.knots[0].time = 1;
-  EXPECT_EQ(load({all, TotalForce{}, backwards}),
-            "body.loads.0.course.1.time is 0 s; expected a time after that of the entry before, 1 s");
-  EXPECT_NE(load({BallSelection{{0, 0, 0}, -1}, TotalForce{}, {}}).find("body.loads.0.sphere.radius is -1"),
+  EXPECT_EQ(
+      load({all, TotalForce{}, backwards}),
+      "body.loads.0.course.1.time is 0 s; expected a time after that of the entry before, 1 s");
+  EXPECT_NE(load({BallSelection{{0, 0, 0}, -1}, TotalForce{}, {}})
+                .find("body.loads.0.sphere.radius is -1"),
             std::string::npos);
   EXPECT_NE(load({HalfSpaceSelection{{0, 0, 0}, {0, 0, 0}}, TotalForce{}, {}})
                 .find("body.loads.0.plane.normal is [0, 0, 0]; expected a direction"),
@@ -205,11 +224,14 @@ TEST(Validate, ASurfaceObstacleIsClosedAndLooksOutwards) {
   open.triangles.pop_back();
   EXPECT_NE(with(open).find("of its edges 3 are open"), std::string::npos) << with(open);
   std::swap(mixed.triangles[0][0], mixed.triangles[0][1]);
-  EXPECT_NE(with(mixed).find("3 between triangles that face different sides"), std::string::npos) << with(mixed);
+  EXPECT_NE(with(mixed).find("3 between triangles that face different sides"), std::string::npos)
+      << with(mixed);
   for (auto& t : inside_out.triangles) std::swap(t[0], t[1]);
-  EXPECT_NE(with(inside_out).find("contact.obstacles.0.surface, as an enclosed volume, is -"), std::string::npos);
+  EXPECT_NE(with(inside_out).find("contact.obstacles.0.surface, as an enclosed volume, is -"),
+            std::string::npos);
   wild.triangles[0][0] = 42;
-  EXPECT_NE(with(wild).find("triangle's vertex is 42; expected a whole number in [0, 41]"), std::string::npos)
+  EXPECT_NE(with(wild).find("triangle's vertex is 42; expected a whole number in [0, 41]"),
+            std::string::npos)
       << with(wild);
 }
 
@@ -222,8 +244,9 @@ TEST(Validate, ObstaclesHaveNamesThatDiffer) {
   };
   EXPECT_EQ(with("", ""), "");
   EXPECT_EQ(with("tool", "floor"), "");
-  EXPECT_NE(with("tool", "tool").find("contact.obstacles.1.name is 'tool', as is that of obstacle 0"),
-            std::string::npos);
+  EXPECT_NE(
+      with("tool", "tool").find("contact.obstacles.1.name is 'tool', as is that of obstacle 0"),
+      std::string::npos);
   EXPECT_NE(with("", "obstacle_0").find("expected names that differ"), std::string::npos);
   EXPECT_NE(with("a,b", "").find("expected no comma"), std::string::npos);
 }
@@ -242,11 +265,15 @@ TEST(Validate, ChecksObstacles) {
   EXPECT_NE(with({BowlOptions{{0, 0, 0}, 1, 1.5}, {}, {}}).find("rim is 1.5"), std::string::npos);
   EXPECT_NE(with({PlaneOptions{}, -0.1, {}}).find("friction is -0.1"), std::string::npos);
   EXPECT_EQ(with({CapsuleOptions{{0, 0, 0}, {0, 0, 1}, 0.05}, {}, {}}), "");
-  EXPECT_NE(with({CapsuleOptions{{0, 0, 1}, {0, 0, 1}, 1}, {}, {}}).find(".capsule.to, as a distance from .from, is 0"),
+  EXPECT_NE(with({CapsuleOptions{{0, 0, 1}, {0, 0, 1}, 1}, {}, {}})
+                .find(".capsule.to, as a distance from .from, is 0"),
             std::string::npos);
-  EXPECT_NE(with({CylinderOptions{{0, 0, 0}, {0, 0, 1}, 0}, {}, {}}).find("cylinder.radius is 0"), std::string::npos);
-  EXPECT_NE(with({BlockOptions{{0, 0, 0}, {1, -1, 1}, {0, 0, 0}}, {}, {}}).find("box.size is -1"), std::string::npos);
-  EXPECT_NE(with({PlaneOptions{}, {}, Point(nan, 0, 0)}).find("contact.obstacles.0.velocity"), std::string::npos);
+  EXPECT_NE(with({CylinderOptions{{0, 0, 0}, {0, 0, 1}, 0}, {}, {}}).find("cylinder.radius is 0"),
+            std::string::npos);
+  EXPECT_NE(with({BlockOptions{{0, 0, 0}, {1, -1, 1}, {0, 0, 0}}, {}, {}}).find("box.size is -1"),
+            std::string::npos);
+  EXPECT_NE(with({PlaneOptions{}, {}, Point(nan, 0, 0)}).find("contact.obstacles.0.velocity"),
+            std::string::npos);
 }
 
 const Selecting who{"body.fixed.2", 1};
@@ -264,10 +291,14 @@ void expect_chosen(const TetMesh& mesh, const Selection& selection, const Wanted
 }
 
 TEST(Selection, ByShape) {
-  expect_chosen(cube, Box{{0, 0, 0}, {0.1, 0.05, 0.1}}, [](const Point& p) { return p[1] <= 0.05 + 1e-9; });
-  expect_chosen(cube, BallSelection{{0, 0, 0}, 0.06}, [](const Point& p) { return p.norm() <= 0.06; });
-  expect_chosen(cube, HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}}, [](const Point& p) { return p[2] == 0; });
-  expect_chosen(cube, HalfSpaceSelection{{0, 0, 0.1}, {0, 0, -5}}, [](const Point& p) { return p[2] == 0.1; });
+  expect_chosen(cube, Box{{0, 0, 0}, {0.1, 0.05, 0.1}},
+                [](const Point& p) { return p[1] <= 0.05 + 1e-9; });
+  expect_chosen(cube, BallSelection{{0, 0, 0}, 0.06},
+                [](const Point& p) { return p.norm() <= 0.06; });
+  expect_chosen(cube, HalfSpaceSelection{{0, 0, 0}, {0, 0, 1}},
+                [](const Point& p) { return p[2] == 0; });
+  expect_chosen(cube, HalfSpaceSelection{{0, 0, 0.1}, {0, 0, -5}},
+                [](const Point& p) { return p[2] == 0.1; });
   expect_chosen(cube, HalfSpaceSelection{{0.1, 0, 0}, {1, 1, 0}},
                 [](const Point& p) { return p[0] + p[1] < 0.1 + 1e-9; });
 }
@@ -277,18 +308,23 @@ TEST(Selection, NearestIsOneVertexOnEveryLevel) {
     const TetMesh mesh = box_mesh(decimetre, {cells, cells, cells});
     const auto chosen = select_vertices(mesh, NearestSelection{{0.09, 0.02, 0.3}}, who);
     ASSERT_EQ(chosen.size(), 1u);
-    const double own = (mesh.vertices[static_cast<std::size_t>(chosen[0])] - Point(0.09, 0.02, 0.3)).norm();
-    for (const Point& p : mesh.vertices) EXPECT_LE(own, (p - Point(0.09, 0.02, 0.3)).norm() + 1e-15);
+    const double own =
+        (mesh.vertices[static_cast<std::size_t>(chosen[0])] - Point(0.09, 0.02, 0.3)).norm();
+    for (const Point& p : mesh.vertices)
+      EXPECT_LE(own, (p - Point(0.09, 0.02, 0.3)).norm() + 1e-15);
   }
 }
 
 TEST(Selection, OfNothingSaysWhereTheMeshIs) {
-  for (const Selection& nothing : {Selection(Box{{1, 1, 1}, {2, 2, 2}}), Selection(BallSelection{{1, 1, 1}, 0.1}),
-                                   Selection(HalfSpaceSelection{{0, 0, -1}, {0, 0, 1}})}) {
+  for (const Selection& nothing :
+       {Selection(Box{{1, 1, 1}, {2, 2, 2}}), Selection(BallSelection{{1, 1, 1}, 0.1}),
+        Selection(HalfSpaceSelection{{0, 0, -1}, {0, 0, 1}})}) {
     const std::string text = refusal([&] { select_vertices(cube, nothing, who); });
     EXPECT_NE(text.find("body.fixed.2: the "), std::string::npos) << text;
-    EXPECT_NE(text.find("selects no vertex on level 1, which reaches from [0, 0, 0] to [0.1, 0.1, 0.1] m"),
-              std::string::npos)
+    EXPECT_NE(
+        text.find(
+            "selects no vertex on level 1, which reaches from [0, 0, 0] to [0.1, 0.1, 0.1] m"),
+        std::string::npos)
         << text;
   }
 }
@@ -297,12 +333,18 @@ TEST(Selection, UnknownNamesGetTheNearest) {
   TetMesh mesh = with_regions(cube, 0.05, "liver", "tumour");
   mesh.vertex_sets["left side"] = {0, 1};
   EXPECT_EQ(select_vertices(mesh, GroupSelection{"left side"}, who), (std::vector<int>{0, 1}));
-  EXPECT_EQ(select_vertices(mesh, GroupSelection{"liver"}, who), select_vertices(mesh, RegionSelection{"liver"}, who));
-  EXPECT_NE(refusal([&] { select_vertices(mesh, GroupSelection{"left sid"}, who); }).find("did you mean 'left side'?"),
+  EXPECT_EQ(select_vertices(mesh, GroupSelection{"liver"}, who),
+            select_vertices(mesh, RegionSelection{"liver"}, who));
+  EXPECT_NE(refusal([&] {
+              select_vertices(mesh, GroupSelection{"left sid"}, who);
+            }).find("did you mean 'left side'?"),
             std::string::npos);
-  const std::string set = refusal([&] { select_vertices(mesh, RegionSelection{"left side"}, who); });
+  const std::string set =
+      refusal([&] { select_vertices(mesh, RegionSelection{"left side"}, who); });
   EXPECT_NE(set.find("unknown region on level 1 'left side'"), std::string::npos) << set;
-  EXPECT_NE(refusal([&] { select_elements(mesh, GroupSelection{"left side"}, who); }).find("unknown region"),
+  EXPECT_NE(refusal([&] {
+              select_elements(mesh, GroupSelection{"left side"}, who);
+            }).find("unknown region"),
             std::string::npos);
 }
 
@@ -312,7 +354,8 @@ TEST(Selection, TrianglesNeedAllTheirVertices) {
   for (const auto& t : top)
     for (int v : t) EXPECT_EQ(cube.vertices[static_cast<std::size_t>(v)][2], 0.1);
   const std::string text = refusal([&] { select_triangles(cube, NearestSelection{}, who); });
-  EXPECT_NE(text.find("selects 1 vertices on level 1, but no boundary triangle"), std::string::npos) << text;
+  EXPECT_NE(text.find("selects 1 vertices on level 1, but no boundary triangle"), std::string::npos)
+      << text;
 }
 
 TEST(Regions, AreAddedBySelection) {
@@ -326,7 +369,9 @@ TEST(Regions, AreAddedBySelection) {
   for (std::size_t e = 0; e < mesh.tets.size(); ++e) {
     Point centroid = Point::Zero();
     for (int v : mesh.tets[e]) centroid += mesh.vertices[static_cast<std::size_t>(v)] / 4;
-    const int want = centroid[2] <= 0.05 ? 2 : (centroid - Point(0.1, 0.1, 0.1)).norm() <= 0.04 ? 1 : 0;
+    const int want = centroid[2] <= 0.05                                ? 2
+                     : (centroid - Point(0.1, 0.1, 0.1)).norm() <= 0.04 ? 1
+                                                                        : 0;
     EXPECT_EQ(mesh.region[e], want);
     ++count[static_cast<std::size_t>(mesh.region[e])];
   }
@@ -343,10 +388,12 @@ TEST(Regions, BySelectionMustNotOverlapOrHideTheMeshsOwn) {
   EXPECT_NE(overlap.find("belongs to region 'a' as well"), std::string::npos) << overlap;
   regions.erase("b");
   mesh = with_regions(cube, 0.05, "a", "rest");
-  EXPECT_NE(refusal([&] { add_regions(mesh, regions, 0); }).find("has a region of that name"), std::string::npos);
+  EXPECT_NE(refusal([&] { add_regions(mesh, regions, 0); }).find("has a region of that name"),
+            std::string::npos);
 }
 
-// The same body, whether the mesh or a selection says where the stiff half is; and a region can be selected in its turn.
+// The same body, whether the mesh or a selection says where the stiff half is; and a region can be
+// selected in its turn.
 TEST(Regions, BySelectionActLikeTheMeshsOwn) {
   const auto body = [](bool selected) {
     TetMesh mesh = box_mesh(beam_box, {8, 2, 2});
@@ -367,17 +414,19 @@ TEST(Regions, BySelectionActLikeTheMeshsOwn) {
 }
 
 TEST(Validate, DoubtsElementsThatAreTooStiff) {
-  const auto said = [](const std::string& element, double poisson, const std::array<int, 3>& cells) {
+  const auto said = [](const std::string& element, double poisson,
+                       const std::array<int, 3>& cells) {
     Problem p = body_of({box_mesh({{0, 0, 0}, {1, 0.05, 0.05}}, cells)});
     p.body.element = {element}, p.body.material.poisson_ratio = poisson;
     const auto all = doubts(p);
     return all.empty() ? std::string() : all.front();
   };
-  EXPECT_EQ(
-      said("linear", 0.45, {80, 4, 4}),
-      "body.element: level 0 has linear elements, about 3.9 across its thickness, at nu 0.45; a slender beam of these "
-      "bends 0.61 of what it should, of nodal elements 0.97: expected body.element: nodal");
-  EXPECT_NE(said("linear", 0.3, {40, 2, 2}).find("bends 0.4"), std::string::npos) << "for its few elements";
+  EXPECT_EQ(said("linear", 0.45, {80, 4, 4}),
+            "body.element: level 0 has linear elements, about 3.9 across its thickness, at nu "
+            "0.45; a slender beam of these "
+            "bends 0.61 of what it should, of nodal elements 0.97: expected body.element: nodal");
+  EXPECT_NE(said("linear", 0.3, {40, 2, 2}).find("bends 0.4"), std::string::npos)
+      << "for its few elements";
   EXPECT_EQ(said("linear", 0.3, {180, 9, 9}), "");
   EXPECT_EQ(said("nodal", 0.45, {40, 2, 2}), "");
   EXPECT_NE(said("nodal", 0.45, {20, 1, 1}).find("expected a finer mesh"), std::string::npos);
@@ -388,7 +437,8 @@ TEST(Validate, ElementsArePerLevelAndKnown) {
   p.body.element = {"linear", "nodal"};
   EXPECT_NO_THROW(validate(p));
   p.body.element = {"linear", "nodal", "nodal"};
-  EXPECT_NE(refusal_of(p).find("expected one name, or one for each of 2 levels"), std::string::npos);
+  EXPECT_NE(refusal_of(p).find("expected one name, or one for each of 2 levels"),
+            std::string::npos);
   p.body.element = {"nodl"};
   EXPECT_NE(refusal_of(p).find("did you mean 'nodal'"), std::string::npos);
   p.body.element = {"nodal"}, p.body.stabilisation = 0.1;

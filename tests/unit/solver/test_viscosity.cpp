@@ -7,7 +7,8 @@
 #include "support/bodies.hpp"
 #include "support/simulate.hpp"
 
-// Relaxation by Prony series: what it does to a body, and when it goes on. Known answers are in drivers/study/verify/viscosity.cpp.
+// Relaxation by Prony series: what it does to a body, and when it goes on. Known answers are in
+// drivers/study/verify/viscosity.cpp.
 namespace {
 
 using namespace plica;
@@ -15,7 +16,8 @@ using namespace plica::test;
 
 const std::vector<PronyTerm> terms = {{0.3, 1e-3}, {0.4, 0.05}};
 
-Problem viscous(const std::string& cycle, const std::string& integrator, const std::string& element = "nodal") {
+Problem viscous(const std::string& cycle, const std::string& integrator,
+                const std::string& element = "nodal") {
   Problem p = cube_levels(cycle == "single" ? 1 : 2, 4, cycle);
   p.body.material = complete({"neo_hookean", 20e3, 0.4, 1000});
   p.body.material.prony = terms;
@@ -75,9 +77,11 @@ TYPED_TEST(Viscosity_, GoesBackWithTheState) {
   // the state that it has
   Simulation<TypeParam> other(viscous("single", "symplectic_euler"));
   advance(other, 3);
-  other.set_state(displacements(other, viscous("single", "symplectic_euler").body.levels[0]), other.velocities());
+  other.set_state(displacements(other, viscous("single", "symplectic_euler").body.levels[0]),
+                  other.velocities());
   advance(other, 4);
-  for (std::size_t a = 0; a < first.size(); ++a) EXPECT_LE((other.positions()[a] - first[a]).norm(), 1e-7);
+  for (std::size_t a = 0; a < first.size(); ++a)
+    EXPECT_LE((other.positions()[a] - first[a]).norm(), 1e-7);
 }
 
 // Two halves that share no vertex: each relaxes by its own terms
@@ -121,7 +125,8 @@ TYPED_TEST(Viscosity_, OfARegionIsItsOwn) {
 // A body that nothing holds back is as stiff as its series says: softer steps, longer oscillations
 TYPED_TEST(Viscosity_, RelaxesTheStressThatIsReported) {
   for (const char* element : {"linear", "nodal"}) {
-    Problem p = body_of({box_mesh(decimetre, {2, 2, 1})}, "neo_hookean");  // all vertices on two faces
+    // all vertices on two faces
+    Problem p = body_of({box_mesh(decimetre, {2, 2, 1})}, "neo_hookean");
     p.body.element = {element}, p.body.material.prony = terms;
     const Box low{{-1, -1, -1}, {1, 1, 0.01}}, high{{-1, -1, 0.09}, {1, 1, 1}};
     p.body.fixed = {low};
@@ -132,8 +137,10 @@ TYPED_TEST(Viscosity_, RelaxesTheStressThatIsReported) {
     EXPECT_GT(start, 1000);
     for (int n = 1; n <= 20; ++n) {
       advance(simulation, 1);
-      const double t = 1e-2 * n, left = 1 - 0.3 * (1 - std::exp(-t / 1e-3)) - 0.4 * (1 - std::exp(-t / 0.05));
-      EXPECT_NEAR(simulation.element_fields().von_mises[0] / start, left, 1e-5) << n << " " << element;
+      const double t = 1e-2 * n,
+                   left = 1 - 0.3 * (1 - std::exp(-t / 1e-3)) - 0.4 * (1 - std::exp(-t / 0.05));
+      EXPECT_NEAR(simulation.element_fields().von_mises[0] / start, left, 1e-5)
+          << n << " " << element;
     }
   }
 }
@@ -149,7 +156,8 @@ TEST(Viscosity, HasTheTangentOfAStep) {
     std::vector<Point> ahead = u, behind = u;
     for (std::size_t a = 0; a < n; ++a) ahead[a] += d[a], behind[a] -= d[a];
     for (const double t : {0.0, 1e-3, 1.0}) {
-      const auto up = probe.force(ahead, none, t), down = probe.force(behind, none, t), Kd = probe.stiffness(u, d);
+      const auto up = probe.force(ahead, none, t), down = probe.force(behind, none, t),
+                 Kd = probe.stiffness(u, d);
       double error = 0, size = 0;
       for (std::size_t a = 0; a < n; ++a) {
         error = std::max(error, (0.5 * (up[a] - down[a]) + Kd[a]).norm());

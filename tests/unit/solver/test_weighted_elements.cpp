@@ -28,8 +28,10 @@ Problem clamped(std::vector<TetMesh> levels, const std::string& element, const s
 }
 
 /// How all elements of half a body move is how all of a whole one do.
-void expect_same_motion(const std::string& element, const std::string& cycle, const std::string& integrator) {
-  Problem whole = clamped({box_mesh(beam_of_20_cm, {8, 2, 2}), box_mesh(beam_of_20_cm, {4, 1, 1})}, element, cycle);
+void expect_same_motion(const std::string& element, const std::string& cycle,
+                        const std::string& integrator) {
+  Problem whole = clamped({box_mesh(beam_of_20_cm, {8, 2, 2}), box_mesh(beam_of_20_cm, {4, 1, 1})},
+                          element, cycle);
   whole.integration.integrator = {integrator};
   whole.integration.macro_step = 1e-3;
   whole.integration.implicit.relative_residual = 1e-12;
@@ -38,7 +40,8 @@ void expect_same_motion(const std::string& element, const std::string& cycle, co
   Simulation<Host> a(whole), b(half);
   const auto &levels_a = a.levels(), &levels_b = b.levels();
   EXPECT_NEAR(levels_b[0].mass, levels_a[0].mass / 2, 1e-12);
-  EXPECT_NEAR(levels_b[0].critical_step, levels_a[0].critical_step, 1e-3 * levels_a[0].critical_step);
+  EXPECT_NEAR(levels_b[0].critical_step, levels_a[0].critical_step,
+              1e-3 * levels_a[0].critical_step);
   EXPECT_EQ(levels_b[0].kind, LevelKind::lattice);
   EXPECT_NEAR(levels_b[0].filled, 0.5, 1e-12);
   advance(a, 40), advance(b, 40);
@@ -58,14 +61,18 @@ void expect_same_motion(const std::string& element, const std::string& cycle, co
 
 TEST(WeightedElements, HalfABodyMovesLikeAWholeOne) {
   for (const char* element : {"linear", "nodal"}) {
-    for (const char* cycle : {"single", "rsv", "him"}) expect_same_motion(element, cycle, "symplectic_euler");
+    for (const char* cycle : {"single", "rsv", "him"})
+      expect_same_motion(element, cycle, "symplectic_euler");
     expect_same_motion(element, "single", "implicit_euler");
   }
 }
 
-const Box clamped_beam{{-0.051, 0, 0}, {0.201, 0.05, 0.05}};  // 28 cells of 9 mm long, between 5 and 6 across
+// 28 cells of 9 mm long, between 5 and 6 across
+const Box clamped_beam{{-0.051, 0, 0}, {0.201, 0.05, 0.05}};
 
-TriangleSurface beam_surface() { return boundary_surface(box_mesh(clamped_beam, {1, 1, 1})).surface; }
+TriangleSurface beam_surface() {
+  return boundary_surface(box_mesh(clamped_beam, {1, 1, 1})).surface;
+}
 
 /// The lowest place of a beam's free end in the first 0.2 s, after half a period [m].
 double deepest_sag(const TetMesh& mesh) {
@@ -78,7 +85,8 @@ double deepest_sag(const TetMesh& mesh) {
   double lowest = 0;
   while (simulation.time() < 0.2) {
     advance(simulation, 1);
-    lowest = std::min(lowest, simulation.surface_positions().back()[2] - p.body.surface->vertices.back()[2]);
+    lowest = std::min(
+        lowest, simulation.surface_positions().back()[2] - p.body.surface->vertices.back()[2]);
   }
   return -lowest;
 }
@@ -96,7 +104,9 @@ TEST(WeightedElements, ALatticeSagsLikeAMeshThatFits) {
 TEST(WeightedElements, DoNotShortenTheStep) {
   for (const char* element : {"linear", "nodal"}) {
     TetMesh mesh = weighted_lattice(beam_surface(), 0.009).mesh;
-    const auto step = [&] { return Simulation<Host>(clamped({mesh}, element, "single")).levels()[0].critical_step; };
+    const auto step = [&] {
+      return Simulation<Host>(clamped({mesh}, element, "single")).levels()[0].critical_step;
+    };
     const double weighted = step();
     mesh.filled.clear();
     EXPECT_GT(weighted, 0.95 * step()) << element;
@@ -109,7 +119,8 @@ TEST(WeightedElements, FacesOfCellsAreNotTheBodys) {
   EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find("body.loads.0: "), std::string::npos);
   p.body.loads = {};
   p.body.levels[0].filled.back() = 0;
-  EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find("is filled to 0; expected a part in (0, 1]"), std::string::npos);
+  EXPECT_NE(refusal([&] { Simulation<Host>{p}; }).find("is filled to 0; expected a part in (0, 1]"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ using namespace plica;
 using namespace plica::test;
 
 Problem sagging(const std::string& error_class) {
-  Problem p = body_of({box_mesh(beam_box, {12, 4, 4}), box_mesh(beam_box, {6, 3, 3})}, "corotational");
+  Problem p =
+      body_of({box_mesh(beam_box, {12, 4, 4}), box_mesh(beam_box, {6, 3, 3})}, "corotational");
   p.body.fixed = {left_face()};
   p.body.material.young_modulus = 3e6;
   p.gravity = {0, 0, -9.81};
@@ -43,11 +44,13 @@ ChoiceOptions run_of(const Problem& p, double steps) {
 constexpr double long_run = 40000;
 
 template <class B = Host>
-CycleChoice choice_of(const Problem& p, const typename B::Exec& exec = {}, double steps = long_run) {
+CycleChoice choice_of(const Problem& p, const typename B::Exec& exec = {},
+                      double steps = long_run) {
   return choose_cycle<B>(p, run_of(p, steps), exec).value();
 }
 
-/// Level 0's displacements at the ends of a trial's quarters from the scene's start, to rk4 at a quarter of the critical step.
+/// Level 0's displacements at the ends of a trial's quarters from the scene's start, to rk4 at a
+/// quarter of the critical step.
 double error_from_the_start(const Problem& p, const CycleChoice& choice) {
   const double critical = choice.macro_step / choice.over_critical, quarter = 32 * critical;
   const auto states = [&](Problem q, double longest) {
@@ -73,7 +76,8 @@ double error_from_the_start(const Problem& p, const CycleChoice& choice) {
 }
 
 TEST(ChooseCycle, TakesALongerStepWhereMoreErrorIsAllowed) {
-  const CycleChoice interactive = choice_of(sagging("interactive")), accurate = choice_of(sagging("accurate"));
+  const CycleChoice interactive = choice_of(sagging("interactive")),
+                    accurate = choice_of(sagging("accurate"));
   EXPECT_EQ(interactive.cycle, "him");
   EXPECT_GT(interactive.macro_step, 2 * accurate.macro_step);
   for (const CycleChoice& choice : {interactive, choice_of(sagging("balanced")), accurate}) {
@@ -87,7 +91,8 @@ TEST(ChooseCycle, TakesALongerStepWhereMoreErrorIsAllowed) {
       EXPECT_TRUE(trial.error || !trial.reason.empty());
       if (!trial.error) continue;
       EXPECT_NEAR(choice.duration, 128 / trial.over_critical * trial.macro_step, 1e-12);
-      if (*trial.error <= choice.allowed && (best == nullptr || trial.run_time < best->run_time)) best = &trial;
+      if (*trial.error <= choice.allowed && (best == nullptr || trial.run_time < best->run_time))
+        best = &trial;
     }
     ASSERT_EQ(best != nullptr, choice.cycle == "him");
     if (best == nullptr) continue;
@@ -138,7 +143,8 @@ TEST(ChooseCycle, DoesWhatTheNamedCycleDoesBitForBit) {
 
 TEST(ChooseCycle, TakesTheFinestLevelAloneWhereThereIsNoOther) {
   Problem p = sagging("interactive");
-  p.body.levels = {box_mesh(bounding_box(p.body.levels[0].vertices), {4, 2, 2})};  // too few to make a level of
+  // too few to make a level of
+  p.body.levels = {box_mesh(bounding_box(p.body.levels[0].vertices), {4, 2, 2})};
   const CycleChoice choice = choice_of(p);
   EXPECT_EQ(choice.cycle, "single");
   EXPECT_NEAR(choice.over_critical, 0.9, 1e-9);
@@ -158,8 +164,10 @@ TEST(ChooseCycle, TakesTheUsualStepWhereNothingMoves) {
 
 TEST(ChooseCycle, PassesByWhatIsRefused) {
   Problem p = sagging("interactive");
-  p.body.levels[1] = box_mesh(beam_box, {20, 10, 10});  // more vertices than the coarsest level may have
-  const CycleChoice choice = choose_cycle<Host>(p, {std::numeric_limits<double>::infinity(), even_clock()}).value();
+  // more vertices than the coarsest level may have
+  p.body.levels[1] = box_mesh(beam_box, {20, 10, 10});
+  const CycleChoice choice =
+      choose_cycle<Host>(p, {std::numeric_limits<double>::infinity(), even_clock()}).value();
   EXPECT_EQ(choice.cycle, "single");
   ASSERT_EQ(choice.trials.size(), 3u) << "level 0 alone, and him at 8 and 4 times";
   for (const CycleTrial& trial : choice.trials) {
@@ -174,7 +182,8 @@ TEST(ChooseCycle, IsTheSameForOneThreadAndTwo) {
   using B = Backend<double, Kokkos::OpenMP>;
   if (Kokkos::OpenMP().concurrency() < 2) GTEST_SKIP() << "one thread";
   const Kokkos::OpenMP one(1), two(2);
-  const CycleChoice a = choice_of<B>(sagging("balanced"), one), b = choice_of<B>(sagging("balanced"), two);
+  const CycleChoice a = choice_of<B>(sagging("balanced"), one),
+                    b = choice_of<B>(sagging("balanced"), two);
   EXPECT_EQ(a.cycle, b.cycle);
   EXPECT_EQ(a.macro_step, b.macro_step);
   ASSERT_EQ(a.trials.size(), b.trials.size());
@@ -191,7 +200,8 @@ TEST(ChooseCycle, TriesNothingWhereTheRunIsCheap) {
   EXPECT_EQ(shorter.cycle, "single");
   EXPECT_TRUE(shorter.trials.empty());
   EXPECT_LE(asked, 1) << "nothing is timed";
-  EXPECT_NE(shorter.reason.find("the run is short: 2000 steps"), std::string::npos) << shorter.reason;
+  EXPECT_NE(shorter.reason.find("the run is short: 2000 steps"), std::string::npos)
+      << shorter.reason;
   EXPECT_EQ(shorter.keys(), "cycle: single, macro_step: auto");
   const CycleChoice longer = choice_of(p, {}, 3500);
   EXPECT_EQ(longer.cycle, "single");
@@ -274,9 +284,12 @@ TEST(ChooseCycle, SaysWhatItWouldTry) {
     const Simulation<Host> alone(level_0_alone(p));
     return trials_ahead(p, steps * alone.macro_step(), alone.levels().front(), alone.macro_step());
   };
-  EXPECT_NE(ahead(sagging("balanced"), 1000).find("takes single: the run is short: 1000 steps"), std::string::npos);
-  EXPECT_NE(ahead(sagging("balanced"), long_run).find("tries him at 8 critical steps"), std::string::npos);
-  EXPECT_NE(ahead(dropped(0.4), long_run).find("shortly before obstacle_0 is first touched"), std::string::npos);
+  EXPECT_NE(ahead(sagging("balanced"), 1000).find("takes single: the run is short: 1000 steps"),
+            std::string::npos);
+  EXPECT_NE(ahead(sagging("balanced"), long_run).find("tries him at 8 critical steps"),
+            std::string::npos);
+  EXPECT_NE(ahead(dropped(0.4), long_run).find("shortly before obstacle_0 is first touched"),
+            std::string::npos);
   Problem named = sagging("balanced");
   named.integration.cycle = "him";
   EXPECT_EQ(ahead(named, long_run), "");
@@ -289,8 +302,9 @@ TEST(ChooseCycle, RefusesWhatItChoosesItself) {
     return refusal([&] { Simulation<Host>(with_choice(p, choose_cycle<Host>(p, {}))); });
   };
   using O = IntegrationOptions;
-  EXPECT_EQ(message([](O& o) { o.macro_step = 1e-3; }),
-            "integration.macro_step is 0.001 s, but cycle auto chooses the macro step; leave it out");
+  EXPECT_EQ(
+      message([](O& o) { o.macro_step = 1e-3; }),
+      "integration.macro_step is 0.001 s, but cycle auto chooses the macro step; leave it out");
   const auto expect_left_out = [&](const char* key, const auto& change) {
     const std::string text = message(change);
     EXPECT_EQ(text.find("integration." + std::string(key) + " is "), 0u) << text;
@@ -302,7 +316,8 @@ TEST(ChooseCycle, RefusesWhatItChoosesItself) {
   expect_left_out("shift_to_coarsest", [](O& o) { o.shift_to_coarsest = 0.5; });
   expect_left_out("allow_unstable", [](O& o) { o.allow_unstable = true; });
   expect_left_out("outside", [](O& o) { o.outside = "keep"; });
-  EXPECT_NE(message([](O& o) { o.error_class = "acurate"; }).find("did you mean 'accurate'"), std::string::npos);
+  EXPECT_NE(message([](O& o) { o.error_class = "acurate"; }).find("did you mean 'accurate'"),
+            std::string::npos);
   EXPECT_NE(message([](O& o) { o.cycle = "atuo"; }).find("did you mean 'auto'"), std::string::npos);
 }
 

@@ -41,11 +41,13 @@ TEST(Arnoldi, FindsTheLargestPairOfAMatrix) {
   const RitzValue all = largest_ritz_value(map, Eigen::VectorXd::Ones(60), 60);
   EXPECT_NEAR(std::abs(all.value), want, 1e-9);
   EXPECT_LE(all.residual, 1e-9);
-  EXPECT_GT(largest_ritz_value(map, Eigen::VectorXd::Ones(60), 3).residual, 1e-3);  // it knows when it is not there
+  // it knows when it is not there
+  EXPECT_GT(largest_ritz_value(map, Eigen::VectorXd::Ones(60), 3).residual, 1e-3);
   Eigen::VectorXd invariant = Eigen::VectorXd::Zero(60);
   invariant.tail(2) << 1, 2;
   EXPECT_NEAR(std::abs(largest_ritz_value(map, invariant, 60).value), want, 1e-13);
-  EXPECT_EQ(std::abs(largest_ritz_value(map, Eigen::VectorXd::Unit(60, 0), 60).value), 0);  // A e_0 = 0
+  // A e_0 = 0
+  EXPECT_EQ(std::abs(largest_ritz_value(map, Eigen::VectorXd::Unit(60, 0), 60).value), 0);
 }
 
 // Symplectic Euler: all eigenvalues on the unit circle below the limit 2/w, one beyond it above.
@@ -72,12 +74,15 @@ TEST(CycleMap, KrylovSpaceAgreesWithDenseEigenvalues) {
         const Map map(clamped(cycle, over, nested));
         const double dense = spectral_radius(map.matrix());
         const CycleGrowth growth = cycle_growth(map, {.macro_steps = 5000});
-        EXPECT_NEAR(growth.radius, dense, growth.converged ? 1e-5 * dense : 3e-3) << cycle << over << nested;
-        EXPECT_LE(std::abs(growth.radius - dense), 10 * growth.uncertainty + 1e-5 * dense) << cycle << over << nested;
+        EXPECT_NEAR(growth.radius, dense, growth.converged ? 1e-5 * dense : 3e-3)
+            << cycle << over << nested;
+        EXPECT_LE(std::abs(growth.radius - dense), 10 * growth.uncertainty + 1e-5 * dense)
+            << cycle << over << nested;
       }
 }
 
-// The rest's state is all there is to a cycle: what it carries beside it from cycle to cycle does not matter.
+// The rest's state is all there is to a cycle: what it carries beside it from cycle to cycle does
+// not matter.
 TEST(CycleMap, IsWhatCyclesDoStepAfterStep) {
   for (const bool nested : {true, false})
     for (const std::string& cycle : sharing_cycles()) {
@@ -132,7 +137,8 @@ TEST(CycleMap, LeavesOutWhatIsNotLinearAndKeepsTheStep) {
   p.gravity = {0, 0, -9.81};
   p.body.material.model = "neo_hookean";
   p.body.surface = TriangleSurface{{{0.4, 0, 0}, {0.4, 0.1, 0}, {0.4, 0, 0.1}}, {{0, 1, 2}}};
-  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.05}, {0, 0, 1}}, 0.2, {}});  // touching, and it moves
+  // touching, and it moves
+  p.contact.obstacles.push_back({PlaneOptions{{0, 0, 0.05}, {0, 0, 1}}, 0.2, {}});
   p.contact.obstacles[0].motion = SteadyMotion{Point(0, 0, 1)};
   p.body.loads.push_back({Box{{0.3, 0, 0}, {0.4, 1, 1}}, TotalForce{Point(1, 2, 3)}, {}});
   p.body.prescribed.push_back({left_face(), SteadyMotion{Point(1, 0, 0)}});

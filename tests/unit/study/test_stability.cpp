@@ -65,16 +65,18 @@ void expect_agreement(const Problem& p, std::vector<std::string> methods, double
 TEST(LargestStable, BracketsAndBisects) {
   for (const double limit : {0.02, 0.5, 0.99, 1.0, 1.01, 3.0, 60.0}) {
     int runs = 0;
-    const LargestStep found =
-        largest_stable({1, 0.01, 100, 1.01, 1e-3}, [&](double step) { return ++runs, step <= limit; });
+    const LargestStep found = largest_stable({1, 0.01, 100, 1.01, 1e-3},
+                                             [&](double step) { return ++runs, step <= limit; });
     EXPECT_EQ(found.kind, Kind::limited) << limit;
     EXPECT_LE(found.step, limit);
     EXPECT_GE(found.step, limit / 1.001);
     EXPECT_LE(runs, 30) << limit;
   }
-  EXPECT_EQ(largest_stable({1, 0.5, 100, 1.1, 0.01}, [](double) { return true; }).kind, Kind::unlimited);
+  EXPECT_EQ(largest_stable({1, 0.5, 100, 1.1, 0.01}, [](double) { return true; }).kind,
+            Kind::unlimited);
   EXPECT_EQ(largest_stable({1, 0.5, 100, 1.1, 0.01}, [](double) { return true; }).step, 100);
-  EXPECT_EQ(largest_stable({1, 0.5, 100, 1.1, 0.01}, [](double) { return false; }).kind, Kind::growing);
+  EXPECT_EQ(largest_stable({1, 0.5, 100, 1.1, 0.01}, [](double) { return false; }).kind,
+            Kind::growing);
 }
 
 TEST(Stability, LevelsAloneAreAsPredicted) {
@@ -95,7 +97,8 @@ TEST(Stability, CyclesWithALimitAreAsPredicted) {
 }
 
 TEST(Stability, CyclesWithoutOneGrow) {
-  const StabilityResult result = stability(beam(), asked({"cycle/rv/equal", "cycle/rsv/equal", "cycle/fas/equal"}));
+  const StabilityResult result =
+      stability(beam(), asked({"cycle/rv/equal", "cycle/rsv/equal", "cycle/fas/equal"}));
   for (const StabilityRow& row : result.rows) {
     EXPECT_EQ(row.status, "growing") << row.label();
     EXPECT_EQ(*row.predicted, 0);
@@ -103,11 +106,13 @@ TEST(Stability, CyclesWithoutOneGrow) {
     EXPECT_FALSE(row.ratio);
   }
   EXPECT_EQ(*result.rows[0].measured, 0) << "and a run shows it";
-  EXPECT_NEAR(*result.rows[0].growth_per_second, *result.rows[1].growth_per_second, 1e-9) << "one map, linearised";
+  EXPECT_NEAR(*result.rows[0].growth_per_second, *result.rows[1].growth_per_second, 1e-9)
+      << "one map, linearised";
 }
 
 TEST(Stability, ForwardEulerGrowsUndampedAndImplicitLevelsDoNot) {
-  const StabilityResult result = stability(beam(), asked({"single/euler", "single/implicit_euler"}));
+  const StabilityResult result =
+      stability(beam(), asked({"single/euler", "single/implicit_euler"}));
   EXPECT_EQ(result.rows[0].status, "growing");
   EXPECT_EQ(*result.rows[0].predicted, 0);
   EXPECT_EQ(*result.rows[0].measured, 0);
@@ -120,7 +125,8 @@ TEST(Stability, ForwardEulerGrowsUndampedAndImplicitLevelsDoNot) {
 TEST(Stability, ABodyThatStiffensHasASmallerLimitThanAtRest) {
   Problem p = clamped_beam().problem;
   p.body.material.model = "st_venant_kirchhoff";
-  p.body.initial.parts = {{HalfSpaceSelection{{0.3, 0, 0}, -Point::UnitX()}, {8, 0, 0}}};  // pulls the end out
+  // pulls the end out
+  p.body.initial.parts = {{HalfSpaceSelection{{0.3, 0, 0}, -Point::UnitX()}, {8, 0, 0}}};
   const StabilityResult result = stability(p, asked({"single/symplectic_euler"}));
   const StabilityRow& row = result.rows.at(0);
   EXPECT_NEAR(*row.ratio, 1, 0.02) << "small motions know nothing of it";
@@ -138,7 +144,8 @@ TEST(Stability, ABodyThatStiffensHasASmallerLimitThanAtRest) {
 
 TEST(Stability, StopsWhereItIsToldAndListsWhatItLeftOut) {
   StudyOptions o = asked({"single/symplectic_euler", "single/rk4"});
-  const StabilityResult stopped = stability(beam(), o, [](const StabilityProgress& p) { return p.done == 0; });
+  const StabilityResult stopped =
+      stability(beam(), o, [](const StabilityProgress& p) { return p.done == 0; });
   EXPECT_TRUE(stopped.stopped);
   EXPECT_EQ(stopped.rows.size(), 1U);
   EXPECT_EQ(stopped.left_out, std::vector<std::string>{"single/rk4"});
@@ -153,7 +160,8 @@ TEST(Stability, UnknownMethodsGetTheNearest) {
   EXPECT_THROW(stability(beam(), asked({"single/euller"})), InputError);
 }
 
-// The far end of every line of the matrix of stiff and extreme cases; `plica stability --matrix` runs all of it.
+// The far end of every line of the matrix of stiff and extreme cases; `plica stability --matrix`
+// runs all of it.
 
 class Matrix : public testing::TestWithParam<std::string> {};
 
@@ -164,8 +172,8 @@ TEST_P(Matrix, EveryCaseEndsAsItMust) {
   ASSERT_GT(mine.size(), 20U);
   const MatrixResult result = run_matrix(mine, {});
   for (const MatrixRow& row : result.rows)
-    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected " << row.expected
-                        << ". " << row.detail;
+    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected "
+                        << row.expected << ". " << row.detail;
 }
 
 std::vector<std::string> materials_and_nodal() {
@@ -177,7 +185,8 @@ std::vector<std::string> materials_and_nodal() {
 INSTANTIATE_TEST_SUITE_P(Materials, Matrix, testing::ValuesIn(materials_and_nodal()),
                          [](const auto& end) { return end.param; });
 
-// The body turns far within few steps: a cycle that is fitted to the last system, and not to this one, throws it away.
+// The body turns far within few steps: a cycle that is fitted to the last system, and not to this
+// one, throws it away.
 TEST(Matrix, OneVCycleFollowsABodyThatTurns) {
   int cases = 0;
   for (const MatrixCase& one : stability_matrix(MatrixSize::whole)) {
@@ -185,7 +194,8 @@ TEST(Matrix, OneVCycleFollowsABodyThatTurns) {
         !(one.name.find("x gravity") != std::string::npos || one.name.starts_with("flattened")))
       continue;
     const MatrixRow row = run_case(one);
-    EXPECT_TRUE(row.ok) << row.name << ": " << row.outcome << "; expected " << row.expected << ". " << row.detail;
+    EXPECT_TRUE(row.ok) << row.name << ": " << row.outcome << "; expected " << row.expected << ". "
+                        << row.detail;
     ++cases;
   }
   EXPECT_EQ(cases, 24);
@@ -195,25 +205,28 @@ TEST(Matrix, TissuesEndAsTheyMust) {
   std::set<std::string> tissue_names;
   for (const MatrixCase& one : tissue_cases()) {
     const MatrixRow row = run_case(one);
-    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected " << row.expected
-                        << ". " << row.detail;
+    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected "
+                        << row.expected << ". " << row.detail;
     EXPECT_TRUE(row.why.empty()) << row.name << " has one right outcome";
     tissue_names.insert(one.problem.body.material.tissue);
   }
-  EXPECT_EQ(tissue_names.size(), tissues().size() + 1) << "all of them, and materials that are none";
+  EXPECT_EQ(tissue_names.size(), tissues().size() + 1)
+      << "all of them, and materials that are none";
 }
 
 TEST(Matrix, BodiesInOtherWordsMoveAlike) {
   for (const auto& run : invariance_cases(MatrixSize::small)) {
     const MatrixRow row = run();
-    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected " << row.expected;
+    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << "; expected "
+                        << row.expected;
   }
 }
 
 TEST(Matrix, OrgansWithToolsComeToTheirEnd) {
   for (const auto& run : organ_cases(MatrixSize::small)) {
     const MatrixRow row = run();
-    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << ". " << row.detail;
+    EXPECT_TRUE(row.ok) << row.name << ", " << row.method << ": " << row.outcome << ". "
+                        << row.detail;
   }
 }
 
@@ -224,7 +237,8 @@ TEST(Matrix, NoCaseIsThereTwice) {
   EXPECT_GT(seen.size(), 1000U);
 }
 
-// A case has one outcome, or says why two are right; where every outcome is, there is nothing to check.
+// A case has one outcome, or says why two are right; where every outcome is, there is nothing to
+// check.
 TEST(Matrix, MoreThanOneOutcomeHasAReason) {
   std::size_t several = 0;
   const auto all = stability_matrix();
@@ -245,10 +259,12 @@ TEST(Matrix, MoreThanOneOutcomeHasAReason) {
 TEST(Matrix, AWrongOutcomeIsSeen) {
   const auto all = stability_matrix(MatrixSize::small);
   const auto find = [&](const std::string& text) {
-    return *std::ranges::find_if(all, [&](const MatrixCase& one) { return one.expected.text() == text; });
+    return *std::ranges::find_if(
+        all, [&](const MatrixCase& one) { return one.expected.text() == text; });
   };
   MatrixCase completes = find("completed"), stops = find("stopped"), refused = find("refused");
-  for (MatrixCase* one : {&completes, &stops, &refused}) EXPECT_TRUE(run_case(*one).ok) << one->name;
+  for (MatrixCase* one : {&completes, &stops, &refused})
+    EXPECT_TRUE(run_case(*one).ok) << one->name;
   std::swap(completes.expected, stops.expected);
   refused.expected = completes.expected;
   const MatrixResult result = run_matrix({completes, stops, refused}, {});
@@ -261,10 +277,11 @@ TEST(Matrix, AWrongOutcomeIsSeen) {
 
 TEST(Matrix, StopsWhereItIsTold) {
   const auto all = stability_matrix(MatrixSize::small);
-  const MatrixResult result = run_matrix({all[0], all[1]}, {}, [](const MatrixResult&, std::size_t of) {
-    EXPECT_EQ(of, 2U);
-    return false;
-  });
+  const MatrixResult result =
+      run_matrix({all[0], all[1]}, {}, [](const MatrixResult&, std::size_t of) {
+        EXPECT_EQ(of, 2U);
+        return false;
+      });
   EXPECT_TRUE(result.stopped);
   EXPECT_EQ(result.rows.size(), 1U);
   EXPECT_EQ(result.left_out, 1U);

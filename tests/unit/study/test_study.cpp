@@ -39,12 +39,13 @@ std::vector<const StudyRow*> rows_of(const StudyResult& result, const std::strin
 
 TEST(StudyMethods, AreNamedAfterWhatThereIs) {
   const auto methods = study_methods(beam());
-  for (const char* name :
-       {"single/symplectic_euler", "single/implicit_euler", "single/rk4", "coarse/1", "cycle/rsv", "cycle/auto"})
+  for (const char* name : {"single/symplectic_euler", "single/implicit_euler", "single/rk4",
+                           "coarse/1", "cycle/rsv", "cycle/auto"})
     EXPECT_NE(std::ranges::find(methods, name), methods.end()) << name;
   for (const char* name : {"coarse/0", "coarse/2", "cycle/single"})
     EXPECT_EQ(std::ranges::find(methods, name), methods.end()) << name;
-  for (const std::string& name : study_methods(beam(1))) EXPECT_TRUE(name.starts_with("single/")) << name;
+  for (const std::string& name : study_methods(beam(1)))
+    EXPECT_TRUE(name.starts_with("single/")) << name;
 }
 
 TEST(StudyMethods, UnknownOnesGetTheNearest) {
@@ -56,7 +57,8 @@ TEST(StudyMethods, UnknownOnesGetTheNearest) {
     }
     return std::string("no error");
   };
-  EXPECT_NE(message("cycle/rvs").find("did you mean 'cycle/rsv'"), std::string::npos) << message("cycle/rvs");
+  EXPECT_NE(message("cycle/rvs").find("did you mean 'cycle/rsv'"), std::string::npos)
+      << message("cycle/rvs");
   EXPECT_NE(message("cycle/rsv/critcal").find("did you mean 'critical'"), std::string::npos);
   EXPECT_NE(message("cycle/auto/acurate").find("did you mean 'accurate'"), std::string::npos);
   EXPECT_NE(message("coarse/2").find("unknown method 'coarse/2'"), std::string::npos);
@@ -109,7 +111,8 @@ TEST(Study, CycleAutoIsARowForEachClassThatKeepsItsWord) {
   const StudyResult result = study(beam(), o);
   ASSERT_EQ(result.rows.size(), 3u);
   double before = 0;
-  for (const auto& [error_class, allowed] : {std::pair{"accurate", 0.001}, {"balanced", 0.01}, {"interactive", 0.05}}) {
+  for (const auto& [error_class, allowed] :
+       {std::pair{"accurate", 0.001}, {"balanced", 0.01}, {"interactive", 0.05}}) {
     const auto row = std::ranges::find(result.rows, error_class, &StudyRow::distribution);
     ASSERT_NE(row, result.rows.end()) << error_class;
     ASSERT_EQ(row->status, "completed") << row->reason;
@@ -126,7 +129,8 @@ TEST(Study, AMethodThatIsTheReferenceHasNoError) {
   StudyOptions o = quick({"single/rk4"});
   o.macro_steps = {study(beam(1), o).reference.macro_step};
   const auto result = study(beam(1), o);
-  const auto row = std::ranges::min_element(result.rows, {}, [](const StudyRow& r) { return *r.error; });
+  const auto row =
+      std::ranges::min_element(result.rows, {}, [](const StudyRow& r) { return *r.error; });
   EXPECT_EQ(row->error, 0);
   EXPECT_EQ(row->error_velocity, 0);
   EXPECT_EQ(row->error_worst_vertex, 0);
@@ -172,7 +176,8 @@ TEST(Study, RowsThatDivergeOrRefuseAreThere) {
   const auto refused = study(p, o);
   ASSERT_EQ(refused.rows.size(), 1U);
   EXPECT_EQ(refused.rows[0].status, "refused");
-  EXPECT_NE(refused.rows[0].reason.find("critical step"), std::string::npos) << refused.rows[0].reason;
+  EXPECT_NE(refused.rows[0].reason.find("critical step"), std::string::npos)
+      << refused.rows[0].reason;
   EXPECT_FALSE(refused.rows[0].error || refused.rows[0].work || refused.rows[0].pareto);
 }
 
@@ -231,7 +236,8 @@ TEST(Study, ControlsComeFirst) {
   }
 }
 
-// Whatever is said to be too long: what the others are compared with is there, with a run less if need be.
+// Whatever is said to be too long: what the others are compared with is there, with a run less if
+// need be.
 TEST(Study, TheBaselineIsRunWhileThereIsTime) {
   StudyOptions o = quick({"single/symplectic_euler", "single/implicit_euler", "coarse"});
   o.timed_runs = 3;
@@ -246,8 +252,8 @@ TEST(Study, TheBaselineIsRunWhileThereIsTime) {
   EXPECT_EQ(baseline[0]->status, "completed");
   EXPECT_EQ(baseline[0]->timed_runs, 1) << "its only run is timed";
   EXPECT_TRUE(rows_of(result, "coarse/1").empty());
-  const auto left_out =
-      std::ranges::count_if(result.left_out, [](const LeftOut& l) { return l.key.starts_with("coarse/1"); });
+  const auto left_out = std::ranges::count_if(
+      result.left_out, [](const LeftOut& l) { return l.key.starts_with("coarse/1"); });
   EXPECT_EQ(left_out, 1);
 }
 
@@ -288,7 +294,8 @@ TEST(Pareto, IsWhatNothingBeats) {
     r.status = "completed", r.error = error, r.wall_time = time;
     return r;
   };
-  std::vector<StudyRow> rows = {row(0.1, 1), row(0.01, 2), row(0.05, 3), row(0.1, 1.5), row(0.001, 9), row(0.1, 1)};
+  std::vector<StudyRow> rows = {row(0.1, 1),   row(0.01, 2),  row(0.05, 3),
+                                row(0.1, 1.5), row(0.001, 9), row(0.1, 1)};
   rows.push_back({});
   mark_pareto(rows);
   std::vector<bool> marks;

@@ -15,7 +15,8 @@ using namespace plica;
 using namespace plica::test;
 
 Problem variant_beam() {
-  Problem p = body_of({box_mesh(beam_box, {8, 2, 2}), box_mesh(beam_box, {4, 1, 1})}, "neo_hookean");
+  Problem p =
+      body_of({box_mesh(beam_box, {8, 2, 2}), box_mesh(beam_box, {4, 1, 1})}, "neo_hookean");
   p.body.material.young_modulus = 1e6;
   p.body.fixed = {left_face()};
   p.gravity = {0, 0, -9.81};
@@ -42,12 +43,16 @@ std::vector<std::string> labels(const StudyOptions& options) {
 TEST(StudyVariants, AreOfOneNameOrOfTheFamily) {
   using Labels = std::vector<std::string>;
   EXPECT_EQ(labels(with_variants({"cycle/rs/equal+hybrid"})), Labels({"cycle/rs/equal+hybrid"}));
-  EXPECT_EQ(labels(with_variants({"cycle/rs+low"})),
-            Labels({"cycle/rs/equal+low", "cycle/rs/inverse_elements+low", "cycle/rs/critical+low"}));
-  EXPECT_EQ(labels(with_variants({"cycle/rs/equal"})), Labels({"cycle/rs/equal"})) << "only where it is named";
-  EXPECT_EQ(labels(with_variants({"cycle"})).size(), 5U * 3U * 3U + 2U) << "without, hybrid, low; him, auto";
+  EXPECT_EQ(
+      labels(with_variants({"cycle/rs+low"})),
+      Labels({"cycle/rs/equal+low", "cycle/rs/inverse_elements+low", "cycle/rs/critical+low"}));
+  EXPECT_EQ(labels(with_variants({"cycle/rs/equal"})), Labels({"cycle/rs/equal"}))
+      << "only where it is named";
+  EXPECT_EQ(labels(with_variants({"cycle"})).size(), 5U * 3U * 3U + 2U)
+      << "without, hybrid, low; him, auto";
   EXPECT_EQ(labels(with_variants({"cycle+hybrid"})).size(), 5U * 3U);
-  EXPECT_EQ(labels(with_variants({"cycle", "cycle/rs/equal+low"})).size(), 5U * 3U * 3U + 2U) << "none twice";
+  EXPECT_EQ(labels(with_variants({"cycle", "cycle/rs/equal+low"})).size(), 5U * 3U * 3U + 2U)
+      << "none twice";
 }
 
 TEST(StudyVariants, WrongOnesAreRefusedWithTheNearest) {
@@ -113,7 +118,8 @@ TEST(StudyVariants, AreRun) {
 
 TEST(StudyGrowth, IsThatOfTheLinearisedCycleBesideEachRow) {
   Problem p = variant_beam();
-  StudyOptions o = with_variants({"single/symplectic_euler", "cycle/rs/equal", "cycle/rsv/equal", "cycle/rv/equal"});
+  StudyOptions o = with_variants(
+      {"single/symplectic_euler", "cycle/rs/equal", "cycle/rsv/equal", "cycle/rv/equal"});
   const double critical = study_levels(p)[0].critical_step;
   o.macro_steps = {critical, 8 * critical};
   o.growth = true;
@@ -121,11 +127,14 @@ TEST(StudyGrowth, IsThatOfTheLinearisedCycleBesideEachRow) {
   const auto result = study(p, o);
   for (const StudyRow& row : result.rows) {
     EXPECT_EQ(row.spectral_radius.has_value(), row.method != "single/symplectic_euler") << row.key;
-    EXPECT_EQ(row.spectral_radius.has_value(), row.growth_per_second && row.spectral_radius_uncertainty) << row.key;
+    EXPECT_EQ(row.spectral_radius.has_value(),
+              row.growth_per_second && row.spectral_radius_uncertainty)
+        << row.key;
     if (!row.spectral_radius) continue;
     EXPECT_NEAR(*row.growth_per_second, std::log(*row.spectral_radius) / *row.macro_step,
                 1e-9 * std::abs(*row.growth_per_second));
-    EXPECT_TRUE(grows(row) || *row.macro_step_over_critical < 7) << row.key << " " << *row.spectral_radius;
+    EXPECT_TRUE(grows(row) || *row.macro_step_over_critical < 7)
+        << row.key << " " << *row.spectral_radius;
   }
   const auto of = [&](const std::string& method, std::size_t i) {
     std::vector<const StudyRow*> rows;
@@ -149,7 +158,8 @@ TEST(StudyGrowth, IsFoundForRowsFromBeforeAndLeftOutByTheBudget) {
   const auto bounded = study(p, o, {}, before);
   EXPECT_FALSE(bounded.rows.at(0).spectral_radius);
   ASSERT_EQ(bounded.left_out.size(), 1U);
-  EXPECT_EQ(bounded.left_out[0].key.find("growth of cycle/rs/equal"), 0U) << bounded.left_out[0].key;
+  EXPECT_EQ(bounded.left_out[0].key.find("growth of cycle/rs/equal"), 0U)
+      << bounded.left_out[0].key;
   o.budget = {};
   before.rows[0].reason = "from before";
   const auto after = study(p, o, {}, before);

@@ -42,7 +42,8 @@ TEST(RichardsonLimit, IsExactForOnePower) {
     EXPECT_NEAR(errors_of(limit.trajectory, motion(0, order)).displacement, 0, 1e-12);
     EXPECT_NEAR(errors_of(limit.trajectory, motion(0, order)).velocity, 0, 1e-12);
     EXPECT_NEAR(limit.own_error, 0, 1e-12);
-    EXPECT_NEAR(limit.correction, errors_of(motion(0.1, order), motion(0, order)).displacement, 1e-12);
+    EXPECT_NEAR(limit.correction, errors_of(motion(0.1, order), motion(0, order)).displacement,
+                1e-12);
   }
 }
 
@@ -77,7 +78,8 @@ TEST(RichardsonLimit, SaysWhereItIsNotToBeTrusted) {
 
 TEST(Truth, IsAsUncertainAsWhatItsCheckDoesNotExplain) {
   Truth truth;
-  truth.family.own_error = 0.01, truth.check.own_error = 0.02, truth.difference = 0.025, truth.time_error = 0.001;
+  truth.family.own_error = 0.01, truth.check.own_error = 0.02, truth.difference = 0.025,
+  truth.time_error = 0.001;
   EXPECT_DOUBLE_EQ(truth.error(), 0.011);
   truth.difference = 0.08;
   EXPECT_DOUBLE_EQ(truth.error(), 0.061);
@@ -85,7 +87,8 @@ TEST(Truth, IsAsUncertainAsWhatItsCheckDoesNotExplain) {
 
 constexpr double bar_length = 0.4, bar_modulus = 1e4, bar_density = 1000, bar_load = 0.01;
 
-// A bar that does not contract sideways, held at one end, under a load along it that is there at once
+// A bar that does not contract sideways, held at one end, under a load along it that is there at
+// once
 Problem bar() {
   Problem p = body_of({box_mesh({{0, 0, 0}, {bar_length, 0.1, 0.1}}, {8, 2, 2}),
                        box_mesh({{0, 0, 0}, {bar_length, 0.1, 0.1}}, {4, 1, 1})},
@@ -97,11 +100,13 @@ Problem bar() {
   return p;
 }
 
-// u = sum of a sin(kx) (1 - cos(wt)) over k = (2n - 1) pi / 2L, w = k sqrt(E/rho), a = 2 g / (L k w^2)
+// u = sum of a sin(kx) (1 - cos(wt)) over k = (2n - 1) pi / 2L, w = k sqrt(E/rho), a = 2 g / (L k
+// w^2)
 double exact_on_bar(double x, double t) {
   double u = 0;
   for (int n = 1; n < 400; ++n) {
-    const double k = (2 * n - 1) * std::numbers::pi / (2 * bar_length), w = k * std::sqrt(bar_modulus / bar_density);
+    const double k = (2 * n - 1) * std::numbers::pi / (2 * bar_length),
+                 w = k * std::sqrt(bar_modulus / bar_density);
     u += 2 * bar_load / (bar_length * k * w * w) * std::sin(k * x) * (1 - std::cos(w * t));
   }
   return u;
@@ -112,7 +117,8 @@ Trajectory exact_motion(const Problem& p, const std::vector<double>& times) {
   t.times = times;
   for (const double time : times) {
     auto& u = t.u.emplace_back();
-    for (const Point& x : p.body.levels[0].vertices) u.emplace_back(exact_on_bar(x.x(), time), 0, 0);
+    for (const Point& x : p.body.levels[0].vertices)
+      u.emplace_back(exact_on_bar(x.x(), time), 0, 0);
   }
   return t;
 }
@@ -170,7 +176,8 @@ TEST(Truth, WithoutACoarserMeshNoOrderIsObserved) {
 }
 
 TEST(Truth, RowsHaveTheirErrorInSpaceAndInTime) {
-  StudyOptions o = against_truth({"single/symplectic_euler", "single/implicit_euler", "coarse", "coarse/1/rk4"});
+  StudyOptions o =
+      against_truth({"single/symplectic_euler", "single/implicit_euler", "coarse", "coarse/1/rk4"});
   o.probes["end"] = {bar_length, 0.05, 0.05};
   const StudyResult result = study(bar(), o);
   ASSERT_EQ(result.rows.size(), 12u);
@@ -187,7 +194,8 @@ TEST(Truth, RowsHaveTheirErrorInSpaceAndInTime) {
   const auto row_of = [&](const std::string& method) {
     return *std::ranges::find(result.rows, method, &StudyRow::method);
   };
-  EXPECT_LT(*row_of("single/symplectic_euler").error, *row_of("single/symplectic_euler").space_error);
+  EXPECT_LT(*row_of("single/symplectic_euler").error,
+            *row_of("single/symplectic_euler").space_error);
   EXPECT_GT(*row_of("single/implicit_euler").error, *row_of("single/implicit_euler").space_error);
   EXPECT_LT(*row_of("coarse/1/rk4").error, 0.1 * *row_of("coarse/1").error) << "order 4 against 1";
 }
@@ -198,8 +206,8 @@ TEST(Truth, EveryLevelIsRunByEveryIntegrator) {
   const auto has = [&](const std::string& method) {
     return std::ranges::find(cases, method, &StudyCase::method) != cases.end();
   };
-  for (const char* method : {"single/central_difference", "single/bdf2", "single/v_cycle_euler", "coarse/1",
-                             "coarse/1/rk4", "coarse/1/newmark", "cycle/him"})
+  for (const char* method : {"single/central_difference", "single/bdf2", "single/v_cycle_euler",
+                             "coarse/1", "coarse/1/rk4", "coarse/1/newmark", "cycle/him"})
     EXPECT_TRUE(has(method)) << method;
   for (const char* method : {"single/euler", "coarse/1/rk2", "coarse/1/symplectic_euler"})
     EXPECT_FALSE(has(method)) << method;
@@ -228,7 +236,8 @@ TEST(Truth, WhatTheBudgetCannotBuyIsSaid) {
     study(bar(), o);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("left of the budget"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("left of the budget"), std::string::npos)
+        << error.what();
   }
   o = against_truth({});
   o.truth->refinements = 0;

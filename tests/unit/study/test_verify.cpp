@@ -18,7 +18,8 @@ namespace {
 using namespace plica;
 using namespace plica::test;
 
-VerifyRow row_of(Judged judged, std::optional<double> accepted, double tolerance, std::vector<double> values) {
+VerifyRow row_of(Judged judged, std::optional<double> accepted, double tolerance,
+                 std::vector<double> values) {
   VerifyRow row;
   row.judged = judged, row.accepted = accepted, row.tolerance = tolerance;
   double size = 1;
@@ -42,7 +43,8 @@ TEST(Judge, WhatTheValuesTendTo) {
   EXPECT_NEAR(*row.limit, 10, 1e-9);
   EXPECT_NEAR(*row.order, 2, 1e-9);
   EXPECT_EQ(row_of(Judged::limit, 10.1, 1e-3, {11.28, 10.32, 10.08}).outcome, "not ok");
-  EXPECT_EQ(row_of(Judged::limit, 10, 1, {10.32, 11, 10.08}).outcome, "not ok") << "they tend to nothing";
+  EXPECT_EQ(row_of(Judged::limit, 10, 1, {10.32, 11, 10.08}).outcome, "not ok")
+      << "they tend to nothing";
   EXPECT_EQ(row_of(Judged::limit, 10, 1, {10.3, 10.1}).outcome, "not ok") << "two do not tell";
 }
 
@@ -95,21 +97,26 @@ TEST(Verify, RunsWhatIsAskedForAndStopsWhenTold) {
 }
 
 TEST(LowestEigenvalues, AreTheDenseOnes) {
-  const Eigen::MatrixXd R = Eigen::MatrixXd::Random(80, 80), A = R * R.transpose() + Eigen::MatrixXd::Identity(80, 80);
+  const Eigen::MatrixXd R = Eigen::MatrixXd::Random(80, 80),
+                        A = R * R.transpose() + Eigen::MatrixXd::Identity(80, 80);
   const Eigen::LLT<Eigen::MatrixXd> solver(A);
-  const auto found =
-      lowest_eigenvalues([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return solver.solve(x); }, 80, 5);
+  const auto found = lowest_eigenvalues(
+      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return solver.solve(x); }, 80, 5);
   const Eigen::VectorXd want = symmetric_eigenvalues(A);
   ASSERT_EQ(found.size(), 5U);
-  for (Eigen::Index i = 0; i < 5; ++i) EXPECT_NEAR(found[static_cast<std::size_t>(i)], want[i], 1e-8 * want[i]);
+  for (Eigen::Index i = 0; i < 5; ++i)
+    EXPECT_NEAR(found[static_cast<std::size_t>(i)], want[i], 1e-8 * want[i]);
 }
 
 TEST(LowestEigenvalues, OfASmallMatrixAreAllThereAre) {
   const Eigen::Vector3d values(2, 5, 7);
-  const auto inverse = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x.cwiseQuotient(values); };
+  const auto inverse = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return x.cwiseQuotient(values);
+  };
   const auto all = lowest_eigenvalues(inverse, 3, 5);
   ASSERT_EQ(all.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(all[i], values[static_cast<Eigen::Index>(i)], 1e-12);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(all[i], values[static_cast<Eigen::Index>(i)], 1e-12);
   EXPECT_NEAR(lowest_eigenvalues(inverse, 3, 1).at(0), 2, 1e-9);
 }
 
@@ -124,7 +131,8 @@ TEST(SparseStiffness, IsTheDenseOneWithoutWhatIsHeld) {
   std::vector<int> kept;
   for (const int dof : probe.free())
     if (dof % 3 != 2) kept.push_back(dof);
-  EXPECT_LE((ours - all(kept, kept)).cwiseAbs().maxCoeff(), round_off<double>(100, all.cwiseAbs().maxCoeff()));
+  EXPECT_LE((ours - all(kept, kept)).cwiseAbs().maxCoeff(),
+            round_off<double>(100, all.cwiseAbs().maxCoeff()));
 }
 
 TEST(StaticEquilibrium, BalancesALargeLoad) {

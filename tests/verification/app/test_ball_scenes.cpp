@@ -9,8 +9,8 @@
 
 #include "support/backends.hpp"
 
-// The shipped ball scenes, whole, against the finest level alone at a quarter of its critical step. The bounds say what the
-// paper's cycle is worth on its own scene; bench/tables prints the values.
+// The shipped ball scenes, whole, against the finest level alone at a quarter of its critical step.
+// The bounds say what the paper's cycle is worth on its own scene; bench/tables prints the values.
 namespace {
 
 using namespace plica;
@@ -25,9 +25,11 @@ struct Motion {
 };
 
 Motion run(const std::string& scene, double over_critical = 0) {
-  app::Scene s = app::load_scene(std::string(PLICA_SOURCE_DIR "/drivers/scenes/") + scene + ".yaml");
+  app::Scene s =
+      app::load_scene(std::string(PLICA_SOURCE_DIR "/drivers/scenes/") + scene + ".yaml");
   if (over_critical > 0)
-    s.problem.integration.macro_step = over_critical * Simulation<Host>(s.problem).levels().front().critical_step;
+    s.problem.integration.macro_step =
+        over_critical * Simulation<Host>(s.problem).levels().front().critical_step;
   Simulation<Host> simulation(s.problem);
   Motion m;
   m.start = simulation.energies();
@@ -42,7 +44,8 @@ Motion run(const std::string& scene, double over_critical = 0) {
     }
     if (simulation.time() > s.duration - 0.2) {
       const double mass = simulation.levels().front().mass;
-      m.residual_speed = std::max(m.residual_speed, std::sqrt(2 * simulation.energies().kinetic / mass));
+      m.residual_speed =
+          std::max(m.residual_speed, std::sqrt(2 * simulation.energies().kinetic / mass));
     }
   }
   m.end = simulation.energies();
@@ -55,7 +58,8 @@ Point centre(const Surface& x) {
   return sum / static_cast<double>(x.size());
 }
 
-/// What is left of a surface's displacement from `rest` without translation and rotation (Kabsch 1976).
+/// What is left of a surface's displacement from `rest` without translation and rotation (Kabsch
+/// 1976).
 Surface shape(const Surface& x, const Surface& rest) {
   const Point c = centre(x), r = centre(rest);
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
@@ -70,11 +74,13 @@ Surface shape(const Surface& x, const Surface& rest) {
 /// The reference's surface at a time, interpolated.
 Surface at(const Motion& m, double time) {
   const auto after = std::min<std::size_t>(
-      static_cast<std::size_t>(std::upper_bound(m.time.begin(), m.time.end(), time) - m.time.begin()),
+      static_cast<std::size_t>(std::upper_bound(m.time.begin(), m.time.end(), time) -
+                               m.time.begin()),
       m.time.size() - 1);
   const double q = std::min(1.0, (time - m.time[after - 1]) / (m.time[after] - m.time[after - 1]));
   Surface x(m.surface[after].size());
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = (1 - q) * m.surface[after - 1][i] + q * m.surface[after][i];
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = (1 - q) * m.surface[after - 1][i] + q * m.surface[after][i];
   return x;
 }
 
@@ -96,8 +102,8 @@ Errors errors(const Motion& run, const Motion& reference) {
   return {std::sqrt(centre_off / centre_all), std::sqrt(shape_off / shape_all)};
 }
 
-void expect_within(const Motion& reference, const std::string& scene, double centre_error, double shape_error,
-                   double speed) {
+void expect_within(const Motion& reference, const std::string& scene, double centre_error,
+                   double shape_error, double speed) {
   SCOPED_TRACE(scene);
   const Motion m = run(scene);
   const Errors e = errors(m, reference);
@@ -105,7 +111,8 @@ void expect_within(const Motion& reference, const std::string& scene, double cen
   EXPECT_LT(e.shape, shape_error);
   EXPECT_GT(e.shape, 1e-4) << "too good to be another run";
   EXPECT_LT(m.residual_speed, speed);
-  const double fall = -reference.end.potential;  // what gravity has put in by the time the ball rests
+  // what gravity has put in by the time the ball rests
+  const double fall = -reference.end.potential;
   EXPECT_LT(m.end.total(), m.start.total() + 0.05 * fall);
   const Point c = centre(m.surface.back());
   EXPECT_LT(std::hypot(c[0], c[1]), 5e-3) << "it rests at the bottom";
